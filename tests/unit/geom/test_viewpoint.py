@@ -117,6 +117,19 @@ def test_what_a_camera_sees_leads_back_to_a_camera_that_sees_it(apart, away, ris
         assert seen.size == pytest.approx(subject.size, rel=0.05)
 
 
+@pytest.mark.parametrize("hfov", [4.0, 20.0, 70.0, 120.0])
+def test_the_first_pose_has_all_subjects_in_its_frame_through_any_lens(hfov: float) -> None:
+    lens = Lens(radians(hfov), 16 / 9, (-pi / 2, radians(30)))
+    subjects = [
+        Wanted((x, y, 3.0), CylinderShape(0.4, 1.8)) for x, y in ((0.0, 0.0), (6.0, 1.0), (-2.0, 5.0))
+    ]
+    for bearing in range(12):
+        pose = first_pose(subjects, lens, ROOM, bearing * pi / 6)
+        assert all(
+            found is not None and found.out == 0.0 for found in (judged(pose, lens, s) for s in subjects)
+        )
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
     """Subjects at random, more asked than can be had: the cost is a minimum, within the bounds."""

@@ -199,6 +199,15 @@ def test_long_triangles_are_halved_and_know_what_they_are_of():
     assert nearest(surface, points).distance == pytest.approx(distances(village, points), abs=1e-9)
 
 
+@pytest.mark.parametrize("longest", [0.5, 3.0, 10.0])
+def test_halves_have_no_edge_that_is_longer_and_are_no_smaller_than_they_must(longest: float):
+    cut = halved(_quad(8.0), longest).triangles
+    edges = np.linalg.norm(cut - np.roll(cut, 1, axis=1), axis=2)
+    assert edges.max() <= longest
+    # A right isosceles triangle is cut into two: its longest edge is divided by the root of two.
+    assert edges.max() > longest / np.sqrt(2) * (1 - 1e-9)
+
+
 def test_halves_cover_their_triangle():
     triangle = _quad(8.0)[:1]
     cut = halved(triangle, 1.0)

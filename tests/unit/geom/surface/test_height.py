@@ -115,6 +115,16 @@ def test_a_way_that_leaves_the_ground_is_told_where_and_by_how_much():
     assert begins == NoGround(0.0, (-3.0, 5.0), pytest.approx(3.0))
 
 
+def test_each_curve_that_begins_elsewhere_is_to_begin_above_ground():
+    land = ground(grid(np.zeros((11, 11))))
+    inside, outside = (pieces(line((2, y, 3), (8, y, 3))) for y in (5, 25))
+    for both in (join([inside, outside]), join([outside, inside])):
+        found = leaves(land, both)
+        assert found is not None
+        assert found.by == pytest.approx(15.0)
+    assert leaves(land, join([inside, inside])) is None
+
+
 def test_a_way_over_a_hole_is_refused_however_small_the_hole_is():
     whole = grid(np.zeros((21, 21)))
     middle = (whole.triangles[..., :2].mean(axis=1) - 10.5).round(1)

@@ -84,3 +84,14 @@ def test_points_are_discs(seed):
         best = np.where((off <= 0.8) & (share > 0), share, np.inf)
         assert found.share[f, i, j] == pytest.approx(best.min(), rel=1e-9)
     assert np.isfinite(found.share).any()
+
+
+def test_a_triangle_without_area_is_no_point():
+    ends = np.array([[5.0, -9.0, 0.0], [5.0, 9.0, 0.0]])
+    towards = Billboards(
+        np.zeros((1, 3)), np.array([[5.0, -9.0, -1.0]]), np.array([[0.0, 18.0, 0.0]]), np.array([[0, 0, 2.0]])
+    )
+    for which in ([0, 0, 1], [0, 1, 0], [1, 0, 0]):
+        assert not np.isfinite(first_hits(surface_of(ends[which][None]), towards, 6, disc=3.0).share).any(), (
+            which
+        )
