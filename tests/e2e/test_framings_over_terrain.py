@@ -10,6 +10,8 @@ from tests.support.few import few
 from tests.support.surfaces import grid
 from tests.support.terrain_missions import SIDE, STEP, under, write
 
+pytestmark = pytest.mark.slow
+
 
 def slope(level: float):
     """Ground that rises by 3 m in 10 to the East, from a level in the middle."""

@@ -15,6 +15,8 @@ from shotc.geom.bernstein import Array
 from shotc.planfile.write import plan_bytes
 from tests.support.terrain_missions import cliff, relief, under, write
 
+pytestmark = pytest.mark.slow
+
 TOWER = "  tower: {at: [120, 60, {above: ground, height: 10}], radius: 2, height: 20}"
 ROUND = "kind: orbit, target: tower, radius: 35, sweep: 150 deg, altitude: {above: ground, height: 6}"
 
