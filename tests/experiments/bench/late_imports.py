@@ -7,6 +7,7 @@ the one that asks for it, the least of some runs. What stands below ``LEAST`` be
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -19,6 +20,8 @@ LEAST = 5.0
 BY_NAME = "by name"
 """What stands in the table for a module whose name is known at run time only."""
 RUNS = 3
+INDENTED = re.compile(r"^ .*\b(?:import |import_module\()", re.MULTILINE)
+"""What every import inside a function has in its text."""
 SCRIPT = """
 import importlib, sys, time
 importlib.import_module(sys.argv[1])
@@ -40,7 +43,10 @@ def late_imports() -> set[LateImport]:
     found = set()
     for path in sorted(PACKAGE.rglob("*.py")):
         file = path.relative_to(PACKAGE).as_posix()
-        functions = [n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.FunctionDef)]
+        text = path.read_text(encoding="utf-8")
+        if not INDENTED.search(text):
+            continue
+        functions = [n for n in ast.walk(ast.parse(text)) if isinstance(n, ast.FunctionDef)]
         found |= {LateImport(name, file) for function in functions for name in _imported(function)}
     return found
 

@@ -90,6 +90,7 @@ def scene(random: np.random.Generator, size: float) -> tuple[Array, list[Solid]]
     return eye, solids
 
 
+@pytest.mark.slow
 def test_shares_are_those_of_many_rays() -> None:
     random, errors, partly = np.random.default_rng(4), [], 0
     for shape in SHAPES:

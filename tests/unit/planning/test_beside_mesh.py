@@ -15,6 +15,9 @@ from tests.support.scenes import arch_wall, cone, house, turned
 from tests.support.surfaces import distances
 from tests.support.tampered_plans import MISSION
 
+pytestmark = pytest.mark.slow
+
+
 HOUSE = house(8.0, 6.0, 4.0, 6.0)
 
 

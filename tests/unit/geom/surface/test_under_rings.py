@@ -9,6 +9,8 @@ from shotc.geom.surface.ground import ground_of, height_at
 from shotc.geom.surface.under_rings import in_ring, lowest_under
 from tests.support.surfaces import grid
 
+pytestmark = pytest.mark.slow
+
 
 def star(random: np.random.Generator, centre: np.ndarray, size: float) -> np.ndarray:
     """A polygon that does not cross itself, counter-clockwise."""
