@@ -12,6 +12,7 @@ LIMIT_STEP_RATIO = 1.2  # times what was missing
 LITTLE_SHARE = 0.02  # share of the room beyond the clearances that is kept where the picture needs the rest
 GAIN_SHARE = 0.9  # of what was open before; a round that leaves more has helped nothing
 HOLD_WEIGHT = 1e5  # more than the picture is worth
+HOLD_STEP_RATIO = 30.0  # times as much, round by round, where the convex path shows more of the targets
 
 
 class Check(NamedTuple):
@@ -65,5 +66,12 @@ def tighter(margins: Margins, check: Check, *, hold: bool) -> Margins:
         reach=FAR_M if lacks else margins.reach,
         limits=margins.limits / (1.0 + LIMIT_STEP_RATIO * check.late),
         comfort=LITTLE_SHARE if check.cropped > 0 else margins.comfort,
-        hold=HOLD_WEIGHT if hold and (lacks or check.hidden > 0) else margins.hold,
+        hold=_hold(margins, check, hold=hold),
     )
+
+
+def _hold(margins: Margins, check: Check, *, hold: bool) -> float:
+    """Return the factor on the price of leaving the convex path."""
+    if hold and check.lack > 0:
+        return HOLD_WEIGHT
+    return min(HOLD_WEIGHT, HOLD_STEP_RATIO * margins.hold) if check.hidden > 0 else margins.hold
