@@ -16,6 +16,8 @@ from tests.support.compiled import compiled
 from tests.support.meshes import box_mesh, ply
 from tests.support.quay_scene import text
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: two-towers

@@ -10,6 +10,8 @@ from shotc.passes.verify import Verify
 from tests.cli.conftest import Run
 from tests.support.film_plans import orbit_plan, orbit_text
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def plan(tmp_path: Path) -> Path:

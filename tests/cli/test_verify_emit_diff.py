@@ -14,6 +14,8 @@ from shotc.planfile.write import seal
 from tests.cli.conftest import GOOD, Run
 from tests.support.film_plans import orbit_plan
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def plan(tmp_path: Path) -> Path:

@@ -9,6 +9,8 @@ import pytest
 
 from shotc.cli import app
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: bad

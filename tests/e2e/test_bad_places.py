@@ -16,6 +16,8 @@ from tests.support.elevation_files import ascii_grid
 from tests.support.meshes import box_mesh, ply
 from tests.support.scene_missions import LAT, LON, feature, geojson, house, square
 
+pytestmark = pytest.mark.slow
+
 MISSION = """\
 shotc: 1
 mission: place

@@ -13,6 +13,8 @@ from shotc.planfile.write import plan_bytes
 from tests.support.scene_missions import found
 from tests.support.terrain_missions import relief, write
 
+pytestmark = pytest.mark.slow
+
 TOWER = "  tower: {at: [120, 60, {above: ground, height: 10}], radius: 2, height: 20}"
 SHOT = "kind: static, at: [80, 20, {above: ground, height: 15}], look_at: tower, timing: {duration: 3}"
 

@@ -18,6 +18,8 @@ from tests.support.film_plans import orbit_plan
 from tests.support.mavlink_flights import plan, retold, straight
 from tests.support.qgc_rules import check_plan
 
+pytestmark = pytest.mark.slow
+
 PLANS = {
     "orbit": orbit_plan,
     "straight": lambda: plan(straight()),

@@ -29,6 +29,8 @@ from tests.support.meshes import box_mesh
 from tests.support.records import replace
 from tests.support.scenes import fine
 
+pytestmark = pytest.mark.slow
+
 BOX = Box(0.0, 0.0, 3.2, 1.8)
 
 

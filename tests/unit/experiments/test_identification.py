@@ -7,6 +7,8 @@ import pytest
 from tests.experiments.papers.identification import filmed, hand_drawn, right, run, towns, within
 from tests.experiments.papers.identified_films import films
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def made():

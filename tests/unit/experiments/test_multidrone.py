@@ -22,6 +22,8 @@ from tests.experiments.papers.multidrone import (
 )
 from tests.experiments.papers.report import text
 
+pytestmark = pytest.mark.slow
+
 DIST, RMSE, ACC, YAW_JERK, PITCH_JERK = range(5)
 both = pytest.mark.parametrize("reading", [REACHED, PRINTED], ids=lambda reading: reading.name)
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from shotc.ir.coverage import coverage
 from tests.experiments.papers.houses import HOUSES, with_houses
 from tests.experiments.papers.missions import missions
 from tests.experiments.villages import flight
 from tests.support.village_films import some_film
+
+pytestmark = pytest.mark.slow
 
 
 def test_a_flight_through_a_village_is_planned_and_proved():

@@ -9,6 +9,8 @@ from shotc.geom.track import Track
 from shotc.geom.track_array import headings
 from shotc.geom.turning import turning
 
+pytestmark = pytest.mark.slow
+
 START, END = 0.5, 20.0
 
 

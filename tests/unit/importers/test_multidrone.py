@@ -14,6 +14,8 @@ from shotc.importers.mission import import_multidrone
 from tests.support.multidrone_files import EARTH, MISSION, POINT, action, imported, mapped, said, shots
 from tests.support.multidrone_originals import ORIGINALS
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(
     ("kind", "params", "wanted"),

@@ -17,6 +17,8 @@ from tests.support.mesh_spaces import with_meshes
 from tests.support.scenes import house, turned
 from tests.support.surfaces import distances
 
+pytestmark = pytest.mark.slow
+
 TEXT = """\
 shotc: 1
 mission: square

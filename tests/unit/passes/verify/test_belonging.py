@@ -14,6 +14,8 @@ from shotc.passes.verify import Verify
 from tests.support.film_plans import orbit_plan
 from tests.support.resealed_plans import Document, resealed
 
+pytestmark = pytest.mark.slow
+
 PLAN = Verify().run(orbit_plan().trajectory, PassContext()).value
 assert PLAN is not None
 DATA = EMITTER.emit(PLAN).artifacts[0].data

@@ -29,6 +29,8 @@ from tests.support.tampered_plans import (
     zone,
 )
 
+pytestmark = pytest.mark.slow
+
 
 def found(ir: TrajectoryIR, constraint: str) -> Claim:
     return next(c for c in judge(ir, CONTEXT).certificate if c.constraint == constraint)

@@ -18,6 +18,8 @@ from tests.support.path_scenes import framed, legs, mission, planned, shot
 from tests.support.records import replace
 from tests.support.scenes import cone, house, turned
 
+pytestmark = pytest.mark.slow
+
 STATUE = Target("statue", (0.0, 0.0, 2.0), CylinderShape(0.8, 4.0), ("targets", "statue"))
 BENCH = Target("bench", (4.0, 0.0, 1.0), CylinderShape(0.8, 2.0), ("targets", "bench"))
 TREE = turned(cone(1.5, 1.0, 5.0), 0.0, (0.0, -12.0))

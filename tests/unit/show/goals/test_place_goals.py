@@ -25,6 +25,8 @@ from tests.support.few import few
 from tests.support.front_passes import placed
 from tests.support.meshes import box_mesh, ply, sphere_mesh
 
+pytestmark = pytest.mark.slow
+
 MIDDLE = (0.0, 0.0, 60.0)
 BALL = Sphere(MIDDLE, 15.0)
 EYE = (0.0, -80.0, 2.0)
