@@ -41,7 +41,7 @@ from shotc.ir.path import (
     leg_of,
 )
 from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
-from shotc.ir.sampling import seen
+from shotc.ir.sampling import projected, seen
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask, aims_at, camera_task_of
 from shotc.planning.clock.bounds import Bound, bounds_of
@@ -144,6 +144,7 @@ __all__ = [
     "placed_at",
     "places",
     "prefers_free_pictures",
+    "projected",
     "quintic_hermite",
     "rejoined",
     "restrict",

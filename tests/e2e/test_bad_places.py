@@ -14,24 +14,17 @@ from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import registry
 from tests.support.elevation_files import ascii_grid
 from tests.support.meshes import box_mesh, ply
-from tests.support.scene_missions import LAT, LON, feature, geojson, house, square
+from tests.support.scene_missions import BEFORE_SHOT, LAT, LON, feature, geojson, house, square
 
 pytestmark = pytest.mark.slow
 
-MISSION = """\
-shotc: 1
-mission: place
-world:
-  origin: {lat: 46.68, lon: 7.68, alt: 500}
-  WORLD
-targets:
-  statue: {at: [60, 0], radius: 1, height: 4}
-drones:
-  cam: {model: x500, home: [0, -40]}
-shots:
+MISSION = (
+    BEFORE_SHOT
+    + """\
   - {id: look, kind: orbit, drone: cam, target: statue, radius: 20, altitude: {above: target, height: 10},
      sweep: 90 deg}
 """
+)
 STATUE = "at: [60, 0], radius: 1, height: 4"
 DEM, SCENE, BUILDINGS = (
     "terrain: {file: a.asc, epsg: 4326}",

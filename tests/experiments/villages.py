@@ -18,7 +18,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import pieces
 from shotc.geom.surface.distance import inf_distance
 from shotc.ir.coverage import HALF_SHARE, coverage
-from shotc.ir.sampling import clock, framed, seen
+from shotc.ir.sampling import clock, framed, projected
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planning.path.lines import Line, straight_line
 from shotc.planning.path.transit import smooth
@@ -92,7 +92,7 @@ def pictures(plan: VerifiedIR) -> tuple[Array, Array]:
     t = clock(of.rate, track.curve.end)
     t = t[framed(track, shot.id, target.name, t)]
     found = coverage(of, (), target.name, track.curve(t)[:, :3], t)
-    return seen(of, track, target.name, t).in_frame, found.share
+    return projected(of, track, target.name, t).in_frame, found.share
 
 
 def say(text: str) -> None:

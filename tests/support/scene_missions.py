@@ -17,7 +17,7 @@ from tests.support.front_passes import EMITTERS, KINDS, loaded
 from tests.support.meshes import box_mesh
 
 LAT, LON = 46.68, 7.68
-TEXT = """\
+BEFORE_SHOT = """\
 shotc: 1
 mission: village
 world:
@@ -28,13 +28,15 @@ targets:
 drones:
   cam: {model: x500, home: [0, -40]}
 shots:
-  - {id: look, kind: static, drone: cam, at: [40, -20, {above: ground, height: 6}], look_at: statue}
 """
+LOOK = (
+    "  - {id: look, kind: static, drone: cam, at: [40, -20, {above: ground, height: 6}], look_at: statue}\n"
+)
 
 
 def text(world: str) -> str:
     """Return a mission whose fifth line is a key of its world."""
-    return TEXT.replace("WORLD", world)
+    return (BEFORE_SHOT + LOOK).replace("WORLD", world)
 
 
 def house() -> np.ndarray:

@@ -14,7 +14,7 @@ from shotc.ir.mission import Composition, Shot
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
 from shotc.ir.phases import KeyframeTime, Reference
-from shotc.ir.sampling import SAME_TIME, references, seen
+from shotc.ir.sampling import SAME_TIME, projected, references
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 NOTICE_SHARE = 0.05
@@ -105,8 +105,7 @@ def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
 def _fault(plan: VerifiedIR, flight: DroneTrajectory, target: str, time: float) -> str:
     others = others_of(bodies(plan.trajectory), flight.drone)
     mission = plan.trajectory.keyframes.mission
-    frames = seen(mission, flight, target, np.array([time]), others)
-    if not frames.in_frame[0]:
+    if not projected(mission, flight, target, np.array([time])).in_frame[0]:
         return "cropped"
     eye = flight.curve(np.array([time]))[:, :3]
     covered = float(coverage(mission, others, target, eye, np.array([time])).share[0])

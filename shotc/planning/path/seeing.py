@@ -79,10 +79,7 @@ class FilmedCurve:
         """Return places that draw each way to where its target is seen, (N, 3), in order; none if it is."""
         places = [np.zeros((0, 3))] * (len(self.at) - 1)
         for k, who in self._ways():
-            if (
-                _repeated(who, len(s := self._samples(k, FINER))).hidden(self.curve(s)[:, None]).max()
-                > MOST_SHARE
-            ):
+            if self._shares(self._samples(k, FINER), who).max() > MOST_SHARE:
                 places[k] = self._led(space, k, who)
         return tuple(places)
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, coverage, flights, others_of, seen
+from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, coverage, flights, others_of, projected
 from shotc_casadi.clock.occluders import occluders_of
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
@@ -107,7 +107,7 @@ def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     t = np.linspace(leg.start, leg.end, max(2, int(RATE_HZ * (leg.end - leg.start))))
     flight = DroneTrajectory(subject.drone.name, leg.curve, (), (), ())
     others = others_of(tuple(flights(subject.path).values()), subject.drone.name)
-    frames = seen(subject.mission, flight, one.target, t)
+    frames = projected(subject.mission, flight, one.target, t)
     covered = coverage(subject.mission, others, one.target, leg.curve(t)[:, :3], t).share
     u, v = one.reference or (0.0, 0.0)
     off = np.nan_to_num(np.hypot(frames.u - u, frames.v - v), nan=np.inf)
