@@ -10,6 +10,7 @@ from shotc.geom.solids import Solid
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
 from shotc.ir.source import MissionSource
 from shotc.ir.target import Target
@@ -19,7 +20,9 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Display, Fleet
     from shotc.ir.terrain import Terrain
 
-ELSEWHERE_IN_PLANS = frozenset({"origins", "files", "source", "terrain", "meshes"})
+ELSEWHERE_IN_PLANS = frozenset(
+    {"origins", "files", "source", "terrain", "meshes", "wind_toward", "rehearsal"}
+)
 """Fields of a mission that a plan does not hold as such: they are made of its text and its files."""
 
 ViewAngles = tuple[float | None, float | None]
@@ -279,6 +282,8 @@ class MissionIR(NamedTuple):
     meshes : scenes and buildings, which stand
     groups : targets that are several bodies in one picture; these are among the targets
     source : what the mission was lowered from
+    wind : its speed, m/s; wind_toward : yaw of the direction in which it blows, rad, None where nobody says
+    rehearsal : what rehearsals are asked; no pass reads it
     """
 
     name: str
@@ -301,6 +306,8 @@ class MissionIR(NamedTuple):
     terrain: "Terrain | None" = None
     meshes: "tuple[ObstacleMesh, ...]" = ()
     groups: tuple[Target, ...] = ()
+    wind_toward: float | None = None
+    rehearsal: Rehearsal | None = None
 
     @property
     def parked(self) -> tuple[Drone, ...]:

@@ -10,6 +10,7 @@ from shotc.spec.faults import fault
 from shotc.spec.fields import Name, Title
 from shotc.spec.fleets import FleetSpec
 from shotc.spec.model import Model, section
+from shotc.spec.rehearse import RehearseSpec
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase
 from shotc.spec.world import TargetSpec, WorldSpec
@@ -59,3 +60,7 @@ class MissionSpec(Model):
     rules: RulesSpec = section("rules for the whole mission")
     shots: tuple[Shot, ...] = Field(default=(), description="what is filmed when, in order")
     output: OutputSpec = section("what is written out")
+    rehearse: RehearseSpec | None = Field(
+        default=None,
+        description="what `shotc simulate` asks of the runs, in which wind; plan and verify do not read it",
+    )

@@ -24,6 +24,7 @@ TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racin
 PACE = 0.75
 RATE = 50.0
 SHOW_RATE = 5.0
+RUNS = 20  # of a rehearsal
 RISE = 10.0  # metres over its pad to which a fleet's drone rises before it goes anywhere
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
 SHOW_EMIT = ("csv", "skyc", "contact-sheet", "rerun")

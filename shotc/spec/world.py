@@ -15,7 +15,6 @@ from shotc.spec.fields import (
     Length,
     Name,
     NonNegativeDuration,
-    NonNegativeSpeed,
     Plan,
     PositiveLength,
     RelativePath,
@@ -25,8 +24,9 @@ from shotc.spec.fields import (
     Velocity,
 )
 from shotc.spec.fieldtypes import Integer
-from shotc.spec.model import Model, OneOf
+from shotc.spec.model import Model, OneOf, section
 from shotc.spec.places import Altitude, Latitude, Longitude
+from shotc.spec.rehearse import WindSpec
 from shotc.units import clip
 
 
@@ -250,7 +250,5 @@ class WorldSpec(Model):
     terrain: TerrainSpec | None = Field(
         default=None, description="ground that rises; the plane z = 0 if silent"
     )
-    wind: NonNegativeSpeed = Field(
-        default=0.0, description="wind to reckon with; taken off the drones' speed"
-    )
+    wind: WindSpec = section("wind to reckon with; its speed is taken off the drones'")
     zones: dict[Name, ZoneSpec] = Field(default={}, description="named volumes to keep in or out of")

@@ -18,6 +18,7 @@ from shotc.passes.resolve.lower.files import Files, Reader, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
+from shotc.passes.resolve.lower.rehearsal import rehearsal, toward
 from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
 from shotc.passes.resolve.lower.show import Show, shown
 from shotc.passes.resolve.lower.slips import check_slips
@@ -152,7 +153,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
     return MissionIR(
         name=spec.mission,
         origin=world.files.origin,
-        wind=spec.world.wind,
+        wind=spec.world.wind.speed,
         zones=world.zones,
         targets=world.targets.bodies,
         drones=tuple(world.drones.values()),
@@ -170,6 +171,8 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         meshes=world.standing.meshes,
         groups=world.targets.groups,
         source=_source(ir, world.read, show),
+        wind_toward=toward(spec.world.wind),
+        rehearsal=rehearsal(spec.rehearse),
     )
 
 

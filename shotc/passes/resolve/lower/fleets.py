@@ -32,7 +32,7 @@ def fleets_of(spec: MissionSpec, put: Put, files: Files) -> tuple[tuple[Fleet, .
             faults.append(pads)
             continue
         fleet = _fleet(name, written, spec, pads)
-        wrong = [*becalmed("fleet", fleet, spec.world.wind, files.origins), *_touching(fleet, files)]
+        wrong = [*becalmed("fleet", fleet, spec.world.wind.speed, files.origins), *_touching(fleet, files)]
         wrong += beyond_model("fleet", written, path, files.origins)
         faults += wrong
         if not has_errors(wrong):
@@ -47,7 +47,7 @@ def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, .
         model=written.model,
         pads=pads,
         rise=written.rise,
-        limits=limits_of(preset, written.limits, spec.world.wind),
+        limits=limits_of(preset, written.limits, spec.world.wind.speed),
         radius=written.radius or preset.radius,
         endurance=written.endurance or preset.endurance,
         apart=_apart(written, spec.rules.separation),

@@ -123,7 +123,7 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
     """Return the drones by name, with presets filled in and wind taken off their speed."""
     found: dict[str, Drone] = {}
     faults: list[Diagnostic] = []
-    wind = spec.world.wind
+    wind = spec.world.wind.speed
     for name, drone in spec.drones.items():
         resolved = resolve_drone(name, drone, put, wind)
         faults += becalmed("drone", resolved, wind, origins)

@@ -1,0 +1,29 @@
+"""Wind and rehearsals as the mission writes them."""
+
+from math import pi
+
+from shotc.geom.camera import yaw_of
+from shotc.ir.rehearsal import Rehearsal, RehearsalPromise, Wind
+from shotc.spec.rehearse import RehearseSpec, WindSpec
+
+
+def toward(wind: WindSpec) -> float | None:
+    """Return the yaw in which the wind blows, rad: away from where it comes from."""
+    return None if wind.from_ is None else yaw_of(wind.from_ + pi)
+
+
+def rehearsal(written: RehearseSpec | None) -> Rehearsal | None:
+    """Return what rehearsals are asked, or None where the mission says nothing of them."""
+    if written is None:
+        return None
+    asked = written.require
+    return Rehearsal(
+        promise=RehearsalPromise(asked.in_frame, asked.mean_error, asked.clearance, asked.stray, asked.of),
+        path=("rehearse",),
+        runs=written.runs,
+        loop=written.loop,
+        wind=None if written.wind is None else Wind(written.wind.speed, toward(written.wind)),
+        gusts=written.gusts,
+        gps=written.gps,
+        wander=written.wander,
+    )

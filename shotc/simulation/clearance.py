@@ -1,0 +1,90 @@
+"""How near the bodies of drones come to all else in a run, at its frames.
+
+Take-off and landing over a drone's own pad are left out, as in the proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.solid_arrays.points import signed_distance
+from shotc.geom.surface.ground import height_at
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.phases import UPRIGHT
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.simulation.flight import Flown
+from shotc.simulation.world import World, at_times
+
+MESH_LIMIT_M = 20.0
+"""Metres beyond which the distance from a scene is not told."""
+
+
+class Nearest(NamedTuple):
+    """How near a drone's body comes to something: metres (negative: into it), and when, s.
+
+    to : the thing as plans name it, or "drone NAME"
+    """
+
+    to: str
+    distance: float
+    time: float
+
+
+def free_of_pad(track: DroneTrajectory, times: Array) -> Array:
+    """Return those of times at which a drone neither takes off nor lands."""
+    inside = np.zeros(len(times), dtype=bool)
+    for phase in track.phases:
+        if phase.name not in UPRIGHT:
+            inside |= (times >= phase.start) & (times <= phase.end)
+    return times[inside]
+
+
+def nearest(world: World, flown: Flown, track: DroneTrajectory, times: Array) -> list[tuple[Nearest, ...]]:
+    """Return for every run how near a drone comes to each thing that stands, and to each target."""
+    drone, mission = world.mission.drone(flown.drone), world.mission
+    free = free_of_pad(track, times)
+    if not len(free):
+        return [()] * len(world.runs)
+    places = at_times(flown.position, flown.times, free)
+    flat = places.reshape(-1, 3)
+    shape = places.shape[:2]
+    rows = [(name, away.reshape(shape)) for name, away in _standing(mission, drone, flat)]
+    for target in mission.targets:
+        really = at_times(world.places[target.name], world.times, free)
+        body = target._replace(track=None) if target.track is None else target
+        moved = (places - (really - np.array(target.centre))).reshape(-1, 3)
+        away = signed_distance(body.kept_clear, moved) - drone.radius
+        rows.append((f"target {target.name}", away.reshape(shape)))
+    return [tuple(_least(name, away[:, r], free) for name, away in rows) for r in range(shape[1])]
+
+
+def between(mission: MissionIR, one: Flown, other: Flown, times: Array) -> list[Nearest]:
+    """Return for every run how near the bodies of two drones come; who has landed stands on the pad."""
+    a, b = (at_times(f.position, f.times, times) for f in (one, other))
+    reach = mission.drone(one.drone).radius + mission.drone(other.drone).radius
+    away = np.linalg.norm(a - b, axis=2) - reach
+    return [_least(f"drone {other.drone}", away[:, r], times) for r in range(away.shape[1])]
+
+
+def _standing(mission: MissionIR, drone: Drone, flat: Array) -> Iterator[tuple[str, Array]]:
+    for zone in mission.zones:
+        away = signed_distance(zone.solid, flat)
+        yield f"zone {zone.name}", (away if zone.keep == "out" else -away) - drone.radius
+    terrain = mission.terrain
+    ground = 0.0 if terrain is None else height_at(terrain.ground, flat[:, :2])
+    yield "ground", flat[:, 2] - np.nan_to_num(ground) - drone.radius
+    for mesh in mission.meshes:
+        away = mesh.signed_distance(flat, MESH_LIMIT_M)
+        yield mesh.kind, away - mesh.spacing - drone.radius
+    for pad in mission.parked:
+        away = np.linalg.norm(flat - np.array(pad.home), axis=1)
+        yield f"drone {pad.name}", away - drone.radius - pad.radius
+
+
+def _least(name: str, away: Array, times: Array) -> Nearest:
+    k = int(np.argmin(away))
+    return Nearest(name, float(away[k]), float(times[k]))

@@ -1,0 +1,37 @@
+"""Under which conditions a plan is flown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal, get_args
+from zlib import crc32
+
+import numpy as np
+
+from shotc.simulation.sensors import RTK, Detector, Gps
+from shotc.simulation.truth import Truth
+from shotc.simulation.wind import Wind
+
+Loop = Literal["replay", "track"]
+LOOPS: tuple[Loop, ...] = get_args(Loop)
+"""replay: drone and camera do what the plan says; track: the camera follows where its targets are seen."""
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """What runs have in common.
+
+    gps : the receivers of drones and of targets that move; detector : what finds targets in pictures, or None
+    """
+
+    loop: Loop = "replay"
+    wind: Wind = field(default_factory=Wind)
+    gps: Gps = RTK
+    detector: Detector | None = field(default_factory=Detector)
+    truth: Truth = field(default_factory=Truth)
+    seed: int = 1
+
+    def chances(self, runs: Sequence[int], what: str) -> list[np.random.Generator]:
+        """Return random numbers for one thing in each run: no other thing and no other run changes them."""
+        return [np.random.default_rng([self.seed, run, crc32(what.encode())]) for run in runs]

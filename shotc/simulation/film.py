@@ -1,0 +1,107 @@
+"""What a drone is to do, sampled from its plan at the steps of a simulation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.sampling import references, subjects
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.simulation.vehicle import STEP_S, Setpoint
+
+LEAD_S = 1.5
+"""Seconds over which a camera comes to follow a target before a shot."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Framed:
+    """A target that a drone frames.
+
+    wanted : where on screen it is to be at each step, (N, 2); NaN where it is not framed
+    share : how far the camera follows it, 0 to 1, shape (N,): it rises before a shot and falls after it
+    """
+
+    target: str
+    wanted: Array
+    share: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Film:
+    """One drone's plan at N steps of STEP_S.
+
+    times : (N,), s; position, velocity, acceleration : (N, 3), W
+    yaw, pitch, yaw_rate, pitch_rate : of the camera, (N,), rad, rad/s
+    half : tan of half the fields of view, (N, 2)
+    """
+
+    drone: Drone
+    track: DroneTrajectory
+    times: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
+    yaw: Array
+    pitch: Array
+    yaw_rate: Array
+    pitch_rate: Array
+    half: Array
+    framed: tuple[Framed, ...]
+
+    def setpoint(self, k: int) -> Setpoint:
+        """Return what the drone is asked for at a step."""
+        return Setpoint(self.position[k, None], self.velocity[k, None], self.acceleration[k, None])
+
+
+def film_of(mission: MissionIR, track: DroneTrajectory) -> Film:
+    """Sample the plan of one drone, from its first second to its landing."""
+    drone = mission.drone(track.drone)
+    count = int(np.ceil(track.curve.end / STEP_S)) + 1
+    times = np.arange(count, dtype=np.float64) * STEP_S
+    pose = track.curve(times)
+    rate, acceleration = track.curve.derivative()(times), track.curve.derivative(2)(times)
+    rate[-1] = acceleration[-1] = 0.0  # it stands on its pad
+    half = np.tan(pose[:, HFOV] / 2)
+    return Film(
+        drone=drone,
+        track=track,
+        times=times,
+        position=pose[:, :3],
+        velocity=rate[:, :3],
+        acceleration=acceleration[:, :3],
+        yaw=pose[:, CAM_YAW],
+        pitch=pose[:, CAM_PITCH],
+        yaw_rate=rate[:, CAM_YAW],
+        pitch_rate=rate[:, CAM_PITCH],
+        half=np.column_stack([half, half / drone.aspect]),
+        framed=_framed(mission, track, times),
+    )
+
+
+def _framed(mission: MissionIR, track: DroneTrajectory, times: Array) -> tuple[Framed, ...]:
+    wanted: dict[str, Array] = {}
+    for phase in track.phases:
+        if phase.shot is None:
+            continue
+        inside = (times >= phase.start) & (times <= phase.end)
+        for target in subjects(mission, track, phase.shot):
+            into = wanted.setdefault(target, np.full((len(times), 2), np.nan))
+            into[inside] = references(track, phase.shot, target, times[inside])
+    return tuple(_led_in(name, uv) for name, uv in wanted.items() if np.isfinite(uv).any())
+
+
+def _led_in(name: str, wanted: Array) -> Framed:
+    """Let the camera begin to follow a target LEAD_S before a shot, and leave it as slowly afterwards."""
+    asked = np.isfinite(wanted[:, 0])
+    steps, rows = round(LEAD_S / STEP_S), np.arange(len(wanted))
+    at = rows[asked]
+    before, after = np.searchsorted(at, rows, side="right") - 1, np.searchsorted(at, rows)
+    since = np.where(before >= 0, rows - at[np.maximum(before, 0)], np.inf)
+    until = np.where(after < len(at), at[np.minimum(after, len(at) - 1)] - rows, np.inf)
+    nearest = np.where(since <= until, at[np.maximum(before, 0)], at[np.minimum(after, len(at) - 1)])
+    share = np.clip(1.0 - np.minimum(since, until) / steps, 0.0, 1.0)
+    return Framed(name, np.where(share[:, None] > 0.0, wanted[nearest], np.nan), share)

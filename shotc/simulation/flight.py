@@ -1,0 +1,158 @@
+"""One drone of a plan, flown in many runs at once: sense, estimate, aim, fly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.vec import wrapped
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.simulation.aim import aimed, sight_rates
+from shotc.simulation.film import Film, film_of
+from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
+from shotc.simulation.seen import Watched, watched
+from shotc.simulation.vehicle import STEP_S, State, Vehicle, moved
+from shotc.simulation.world import World
+
+EVERY = 2
+"""Steps of the drone for one of the gimbal, and for one record: 50 a second."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Estimated:
+    """What a drone knew of a target: place (F, R, 3), metres, and its covariance (F, R, 3, 3)."""
+
+    target: str
+    place: Array
+    covariance: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flown:
+    """One drone in R runs at F instants.
+
+    times : (F,), s; position, velocity : (F, R, 3), W; yaw, pitch, roll : of the camera, (F, R), rad
+    """
+
+    drone: str
+    times: Array
+    position: Array
+    velocity: Array
+    yaw: Array
+    pitch: Array
+    roll: Array
+    estimated: tuple[Estimated, ...]
+
+
+def fly(world: World, track: DroneTrajectory) -> Flown:
+    """Fly the plan of one drone in all runs of a world; a run is the same whichever ran beside it."""
+    conditions, runs = world.conditions, world.runs
+    film = film_of(world.mission, track)
+    name, count, n = film.drone.name, len(film.times), len(runs)
+    gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
+    error = conditions.gps.error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
+    targets = _watched(world, film)
+    vehicle, gimbal = Vehicle(), GimbalModel(film.drone.gimbal.rate)
+    state = State.at_rest(np.tile(film.position[0], (n, 1)))
+    first = axes_of(np.full(n, film.yaw[0]), np.full(n, film.pitch[0]))
+    attitude = Attitude(first, np.zeros((n, 3)))
+    into = _Record.of(film, n, targets)
+    for k in range(count):
+        off = error[k // EVERY]
+        if k % EVERY == 0:
+            into.add(k // EVERY, state, attitude, targets)
+            believed = state.position + off
+            for target in targets:
+                target.look(k, film, conditions, (state.position, believed), attitude)
+                target.learn(float(film.times[k]))
+            wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
+            attitude = turned(gimbal, attitude, wanted, rate, EVERY * STEP_S)
+        state = moved(vehicle, state, film.setpoint(k), world.steady + gusts[k], off)
+    return into.done(film)
+
+
+def _watched(world: World, film: Film) -> tuple[Watched, ...]:
+    """Return the targets that a drone follows with its camera: those that move, where the loop says so."""
+    if world.conditions.loop == "replay":
+        return ()
+    moving = (f for f in film.framed if world.moves(f.target))
+    return tuple(watched(world, film, framed) for framed in moving)
+
+
+def _asked(
+    world: World, film: Film, k: int, drone: tuple[Array, Array], targets: tuple[Watched, ...]
+) -> tuple[Array, Array]:
+    """Return the attitudes that cameras are asked for, (R, 3, 3), and their rates, (R, 3).
+
+    drone : where drones take themselves to be and how they move, (R, 3) each. Of several targets the mean of
+    the angles that each asks for is taken.
+    """
+    yaw, pitch, rates = film.yaw[k], film.pitch[k], np.array([film.yaw_rate[k], film.pitch_rate[k]])
+    asked = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
+    framed = () if world.conditions.loop == "replay" else film.framed
+    aims = [
+        (each.share[k], _aim(film, k, each.wanted, drone, _known(world, each.target, targets, film.times[k])))
+        for each in framed
+        if each.share[k] > 0.0
+    ]
+    if aims:
+        away = np.mean([share * _beyond(aim, asked) for share, aim in aims], axis=0)
+        asked = asked + away
+        low, high = film.drone.gimbal.pitch
+        asked[:, 1] = np.clip(asked[:, 1], low, high)
+    axes = axes_of(asked[:, 0], asked[:, 1])
+    return axes, turn_rate(axes, asked[:, 2], asked[:, 3])
+
+
+def _beyond(aim: Array, planned: Array) -> Array:
+    """Return angles and rates less those of the plan, (R, 4); the yaw by the shorter turn."""
+    away = aim - planned
+    away[:, 0] = wrapped(away[:, 0])
+    return away
+
+
+def _known(world: World, name: str, targets: tuple[Watched, ...], time: float) -> tuple[Array, Array]:
+    """Return where a target is taken to be, and how it moves; what stands is where the mission says."""
+    for target in targets:
+        if target.name == name:
+            now = target.tracker.now(time)
+            return now.position, now.velocity
+    return np.array([world.mission.target(name).centre]), np.zeros((1, 3))
+
+
+def _aim(film: Film, k: int, wanted: Array, drone: tuple[Array, Array], target: tuple[Array, Array]) -> Array:
+    """Return yaw, pitch and their rates, (R, 4), that keep a target where it is to be on screen."""
+    offset, velocity = target[0] - drone[0], target[1] - drone[1]
+    n = len(offset)
+    yaw, pitch = aimed(offset, np.tile(wanted[k], (n, 1)), np.tile(film.half[k], (n, 1)))
+    return np.column_stack([yaw, pitch, *sight_rates(offset, velocity)])
+
+
+@dataclass(slots=True)
+class _Record:
+    """What is kept of a flight while it is flown."""
+
+    position: Array
+    velocity: Array
+    angles: Array
+    estimated: tuple[Estimated, ...]
+
+    @staticmethod
+    def of(film: Film, n: int, targets: tuple[Watched, ...]) -> _Record:
+        f = (len(film.times) + EVERY - 1) // EVERY
+        known = tuple(Estimated(t.name, np.empty((f, n, 3)), np.empty((f, n, 3, 3))) for t in targets)
+        return _Record(np.empty((f, n, 3)), np.empty((f, n, 3)), np.empty((f, n, 3)), known)
+
+    def add(self, i: int, state: State, attitude: Attitude, targets: tuple[Watched, ...]) -> None:
+        self.position[i], self.velocity[i] = state.position, state.velocity
+        self.angles[i] = np.stack(angles_of(attitude.axes), axis=-1)
+        for target, into in zip(targets, self.estimated, strict=True):
+            now = target.tracker.now(i * EVERY * STEP_S)
+            into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
+
+    def done(self, film: Film) -> Flown:
+        yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
+        times = film.times[::EVERY]
+        return Flown(film.drone.name, times, self.position, self.velocity, yaw, pitch, roll, self.estimated)

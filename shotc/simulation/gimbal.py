@@ -1,0 +1,81 @@
+"""A gimbal that turns a camera on SO(3), for many runs at once.
+
+Frames: W is East, North, Up; C is x right, y down, z forward. An attitude is R_WC: its columns are the
+camera's axes in W.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, sqrt
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.simulation.vehicle import within
+
+
+@dataclass(frozen=True, slots=True)
+class GimbalModel:
+    """A gimbal.
+
+    gain : of the attitude error, 1/s; lag : time constant of the motors, s
+    rate : largest rate of an axis, rad/s; both together reach root two of it
+    """
+
+    rate: float
+    gain: float = 4.0
+    lag: float = 0.05
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attitude:
+    """Cameras of R runs: R_WC (R, 3, 3), and their angular velocity in W, (R, 3), rad/s."""
+
+    axes: Array
+    rate: Array
+
+
+def axes_of(yaw: Array, pitch: Array) -> Array:
+    """Return R_WC (R, 3, 3) without roll of yaw and pitch (R,), rad: counter-clockwise from East, up."""
+    cos_y, sin_y, cos_p, sin_p = np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch)
+    right = np.stack([sin_y, -cos_y, np.zeros_like(yaw)], axis=-1)
+    forward = np.stack([cos_p * cos_y, cos_p * sin_y, sin_p], axis=-1)
+    return np.stack([right, np.cross(forward, right), forward], axis=-1)
+
+
+def angles_of(axes: Array) -> tuple[Array, Array, Array]:
+    """Return yaw, pitch and roll (R,) of R_WC (R, 3, 3), rad; roll is positive with the right side up."""
+    forward, right = axes[..., 2], axes[..., 0]
+    yaw = np.arctan2(forward[..., 1], forward[..., 0])
+    pitch = np.arcsin(np.clip(forward[..., 2], -1.0, 1.0))
+    return yaw, pitch, np.arctan2(right[..., 2], -axes[..., 2, 1])
+
+
+def turn_rate(axes: Array, yaw_rate: Array, pitch_rate: Array) -> Array:
+    """Return the angular velocity (R, 3), in W, of cameras (R, 3, 3) that yaw and pitch at rates (R,)."""
+    out = pitch_rate[..., None] * axes[..., 0]
+    out[..., 2] += yaw_rate
+    return np.asarray(out)
+
+
+def turned(gimbal: GimbalModel, attitude: Attitude, wanted: Array, rate: Array, step: float) -> Attitude:
+    """Return cameras a step later that are asked for attitudes (R, 3, 3) that turn at ``rate`` (R, 3), in W.
+
+    The law is omega = k (R_e - R_e^T)^vee / 2 + the rate that is wanted, R_e = R^T R* (Lee et al. 2010),
+    which in W is half the sum of the cross products of the axes; then the motors' lag, and R <- e^(omega h) R.
+    """
+    error = 0.5 * np.cross(attitude.axes, wanted, axis=1).sum(axis=2)
+    asked = within(gimbal.gain * error + rate, sqrt(2.0) * gimbal.rate)
+    omega = attitude.rate + (asked - attitude.rate) * (1.0 - exp(-step / gimbal.lag))
+    return Attitude(rotated(attitude.axes, omega * step), omega)
+
+
+def rotated(axes: Array, by: Array) -> Array:
+    """Return attitudes (R, 3, 3) turned by rotation vectors in W, (R, 3), rad (Rodrigues)."""
+    angle = np.sqrt(np.einsum("rd,rd->r", by, by))
+    along = np.sinc(angle / np.pi)[:, None, None]
+    across = (0.5 * np.sinc(angle / (2 * np.pi)) ** 2)[:, None, None]
+    once = np.cross(by[:, None, :], axes, axisa=2, axisb=1, axisc=1)
+    twice = np.cross(by[:, None, :], once, axisa=2, axisb=1, axisc=1)
+    return np.asarray(axes + along * once + across * twice)

@@ -1,0 +1,191 @@
+"""What came of the runs of a plan: what cameras saw, how near drones came, how far they strayed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.framing import Cameras, frames
+from shotc.ir.bodies import shapes
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import HFOV
+from shotc.ir.phases import Phase
+from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
+from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
+from shotc.simulation.clearance import Nearest, between, nearest
+from shotc.simulation.flight import Flown
+from shotc.simulation.world import World, at_times
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A target in the frames of a shot, in one run.
+
+    in_frame : share of frames with the whole target in them, 0 to 1
+    error, usual, worst : distance from where it is to be on screen, half frames: its mean, what 95 % of
+        frames do not exceed, the largest; None where the shot asks for no place. Infinite behind the camera
+    time : of the largest, or of the frame that it is farthest out of, s
+    """
+
+    shot: str
+    drone: str
+    target: str
+    in_frame: float
+    error: float | None
+    usual: float | None
+    worst: float | None
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """How a drone kept to its plan in one run.
+
+    stray, farthest : distance from where the plan has it at the same time, m: root of the mean square, the
+        largest; time : of the largest, s; speed, climb : the largest over ground, m/s
+    roll : the largest that its picture was tilted, rad
+    """
+
+    drone: str
+    stray: float
+    farthest: float
+    time: float
+    speed: float
+    roll: float
+    near: tuple[Nearest, ...]
+
+    @property
+    def nearest(self) -> Nearest | None:
+        """The thing that its body came nearest to."""
+        return min(self.near, key=lambda each: each.distance, default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One run; number : which, from 0 on. The same number is the same run, whatever ran beside it."""
+
+    number: int
+    pictures: tuple[Picture, ...]
+    courses: tuple[Course, ...]
+
+    @property
+    def in_frame(self) -> float:
+        """The least share of frames that show a whole target, over the shots; 1 where nothing is filmed."""
+        return min((p.in_frame for p in self.pictures), default=1.0)
+
+    @property
+    def error(self) -> float:
+        """The largest mean distance on screen, over the shots; 0 where none asks for a place."""
+        return max((p.error for p in self.pictures if p.error is not None), default=0.0)
+
+    @property
+    def clearance(self) -> float:
+        """The least distance of a drone's body from all else, metres; infinite where there is nothing."""
+        return min((c.nearest.distance for c in self.courses if c.nearest is not None), default=float("inf"))
+
+    @property
+    def stray(self) -> float:
+        """The farthest that a drone was from its plan, metres."""
+        return max((c.farthest for c in self.courses), default=0.0)
+
+    @property
+    def merit(self) -> tuple[bool, float, float]:
+        """Order from the worst run to the best: what hits something, what shows least, what is off most."""
+        return (self.clearance >= 0.0, self.in_frame, -self.error)
+
+
+def judged(world: World, ir: TrajectoryIR, flown: tuple[Flown, ...]) -> tuple[Run, ...]:
+    """Judge all runs of a plan; flown : as ``ir.drones``."""
+    mission = world.mission
+    ticks = clock(mission.rate, float(world.times[-1]))
+    near = [nearest(world, f, t, ticks[ticks <= t.curve.end]) for f, t in zip(flown, ir.drones, strict=True)]
+    for (i, one), (_, other) in combinations(enumerate(flown), 2):
+        for r, each in enumerate(between(mission, one, other, ticks)):
+            near[i][r] = (*near[i][r], each)
+    return tuple(
+        Run(
+            number,
+            tuple(p for f, t in zip(flown, ir.drones, strict=True) for p in _pictures(world, t, f, r)),
+            tuple(
+                _course(f, t, r, near[d][r]) for d, (f, t) in enumerate(zip(flown, ir.drones, strict=True))
+            ),
+        )
+        for r, number in enumerate(world.runs)
+    )
+
+
+def cameras_of(mission: MissionIR, track: DroneTrajectory, flown: Flown, run: int, times: Array) -> Cameras:
+    """Return the cameras of a run, by its index, at times (M,): where they were, and with the plan's lens."""
+    return Cameras(
+        at_times(flown.position[:, run], flown.times, times),
+        at_times(np.unwrap(flown.yaw[:, run]), flown.times, times),
+        at_times(flown.pitch[:, run], flown.times, times),
+        track.curve(times)[:, HFOV],
+        mission.drone(track.drone).aspect,
+    )
+
+
+def _pictures(world: World, track: DroneTrajectory, flown: Flown, run: int) -> Iterator[Picture]:
+    for phase in track.phases:
+        if phase.shot is not None:
+            for target in subjects(world.mission, track, phase.shot):
+                yield from _picture(world, track, flown, run, (phase, target))
+
+
+def _picture(
+    world: World, track: DroneTrajectory, flown: Flown, run: int, of: tuple[Phase, str]
+) -> Iterator[Picture]:
+    phase, name = of
+    shot = phase.shot
+    assert shot is not None
+    ticks = clock(world.mission.rate, phase.end)
+    times = ticks[(ticks >= phase.start) & (ticks <= phase.end)]
+    times = times[framed(track, shot, name, times)]
+    if not len(times):
+        return
+    target = world.target(name, run, times)
+    eyes = cameras_of(world.mission, track, flown, run, times)
+    seen = frames(beside_cameras(eyes, target, times), target.centre, shapes(target, times))
+    wanted = references(track, shot, name, times)
+    error = np.hypot(seen.u - wanted[:, 0], seen.v - wanted[:, 1])
+    error = np.where(np.isnan(seen.u) & ~np.isnan(wanted[:, 0]), np.inf, error)
+    known = error[~np.isnan(error)]
+    picture = Picture(
+        shot,
+        track.drone,
+        name,
+        float(seen.in_frame.mean()),
+        None,
+        None,
+        None,
+        float(times[np.argmin(seen.margin)]),
+    )
+    if len(known):
+        worst = int(np.nanargmax(error))
+        picture = replace(
+            picture,
+            error=float(known.mean()),
+            usual=float(np.quantile(known, 0.95)),
+            worst=float(error[worst]),
+            time=float(times[worst]),
+        )
+    yield picture
+
+
+def _course(flown: Flown, track: DroneTrajectory, run: int, near: tuple[Nearest, ...]) -> Course:
+    off = np.linalg.norm(flown.position[:, run] - track.curve(flown.times)[:, :3], axis=1)
+    k = int(np.argmax(off))
+    speed = np.linalg.norm(flown.velocity[:, run], axis=1)
+    return Course(
+        drone=track.drone,
+        stray=float(np.sqrt(np.mean(off**2))),
+        farthest=float(off[k]),
+        time=float(flown.times[k]),
+        speed=float(speed.max()),
+        roll=float(np.abs(flown.roll[:, run]).max()),
+        near=near,
+    )

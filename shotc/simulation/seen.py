@@ -1,0 +1,80 @@
+"""What a drone knows of the targets that it films: fixes and detections on their way to its trackers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from itertools import count
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.simulation.conditions import Conditions
+from shotc.simulation.film import Film, Framed
+from shotc.simulation.gimbal import Attitude
+from shotc.simulation.tracker import Measurement, PictureFix, PositionFix, Tracker, projection
+from shotc.simulation.vehicle import STEP_S
+from shotc.simulation.world import World
+
+AGILITY = 1.0
+"""q of the trackers, m^2/s^3: between a person (0.5) and a car (2)."""
+
+
+@dataclass(slots=True)
+class Watched:
+    """One target that moves, and what is known of it in R runs.
+
+    places : where it really is at each step, (N, R, 3); share : as of ``Framed``
+    """
+
+    name: str
+    places: Array
+    share: Array
+    fixes: list[PositionFix]
+    tracker: Tracker
+    chances: Sequence[np.random.Generator]
+    waiting: list[tuple[float, int, Measurement]] = field(default_factory=list)
+    numbers: count[int] = field(default_factory=count)
+
+    def look(
+        self, k: int, film: Film, conditions: Conditions, eyes: tuple[Array, Array], attitude: Attitude
+    ) -> None:
+        """Take a picture where one is due; eyes : where the cameras are, and where they are taken to be."""
+        detector = conditions.detector
+        if detector is None or k % round(detector.period / STEP_S) or self.share[k] == 0.0:
+            return
+        really, believed = eyes
+        half = np.broadcast_to(film.half[k], (len(really), 2))
+        uv, _ = projection(self.places[k] - really, attitude.axes, half)
+        found, used = detector.found(uv, self.chances)
+        time = float(film.times[k])
+        fix = PictureFix(time, found, believed, attitude.axes, half, detector.noise, used)
+        heappush(self.waiting, (time + detector.delay, next(self.numbers), fix))
+
+    def learn(self, time: float) -> None:
+        """Take in what has arrived by a time."""
+        while self.waiting and self.waiting[0][0] <= time:
+            self.tracker.take(heappop(self.waiting)[2])
+
+
+def watched(world: World, film: Film, framed: Framed) -> Watched:
+    """Return what is known at the start of a target that moves: about where it is."""
+    conditions, runs, name = world.conditions, world.runs, framed.target
+    gps, places = conditions.gps, world.places[name]
+    every = max(1, round(gps.period / STEP_S))
+    stamps = world.times[::every]
+    measured = places[::every] + gps.error(stamps, conditions.chances(runs, f"gps of {name}"))
+    everywhere = np.ones(len(runs), dtype=bool)
+    fixes = [
+        PositionFix(float(t), place, gps.deviation, everywhere)
+        for t, place in zip(stamps, measured, strict=True)
+        if gps.arrives(float(t))
+    ]
+    velocity = (places[1] - places[0]) / STEP_S
+    tracker = Tracker.beginning(0.0, measured[0], velocity, AGILITY)
+    pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
+    out = Watched(name, places, framed.share, fixes, tracker, pictures)
+    for fix in fixes[1:]:
+        heappush(out.waiting, (fix.time + gps.delay, next(out.numbers), fix))
+    return out

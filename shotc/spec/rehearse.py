@@ -1,0 +1,83 @@
+"""Wind, and what a mission asks of its rehearsals (`shotc simulate`)."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from shotc.spec import presets
+from shotc.spec.fields import (
+    Heading,
+    NonNegativeLength,
+    NonNegativeSpeed,
+    PositiveLength,
+    PositiveShare,
+    ScreenDistance,
+    Share,
+)
+from shotc.spec.fieldtypes import Integer
+from shotc.spec.model import Model, section
+from shotc.spec.quantities import Quantity
+
+_SPEED = Quantity("NonNegativeSpeed", "speed", 0.0)
+Runs = Annotated[int, Integer("Runs", 1, 100_000)]
+
+
+class WindSpec(Model):
+    """How fast the wind blows, and where it comes from."""
+
+    speed: NonNegativeSpeed = Field(default=0.0, description="how fast it blows")
+    from_: Heading | None = Field(
+        default=None, alias="from", description="compass bearing it comes from; any, if silent"
+    )
+
+    @classmethod
+    def shorthand(cls, data: Any) -> Any:
+        """Return the mapping for a speed whose direction is not known."""
+        return {"speed": _SPEED.read(data)} if isinstance(data, str | int | float) else data
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Return the mapping's schema beside one speed."""
+        schema = handler.resolve_ref_schema(handler(core_schema))
+        return {"anyOf": [_SPEED.reference(), schema]}
+
+
+class RehearsalPromiseSpec(Model):
+    """What has to hold in the runs of a rehearsal."""
+
+    in_frame: Share | None = Field(
+        default=None, description="least share of the frames of each shot with the whole target in them"
+    )
+    mean_error: ScreenDistance | None = Field(
+        default=None, description="largest mean distance on screen between target and reference, over a shot"
+    )
+    clearance: NonNegativeLength | None = Field(
+        default=None,
+        description="least distance from a drone's body to all else; 0 if silent: nothing is touched",
+    )
+    stray: PositiveLength | None = Field(
+        default=None, description="largest distance of a drone from where the plan has it"
+    )
+    of: PositiveShare = Field(default=1.0, description="share of the runs in which all of it has to hold")
+
+
+class RehearseSpec(Model):
+    """How `shotc simulate` flies the mission, and what it asks of the runs; nothing else reads it."""
+
+    wind: WindSpec | None = Field(default=None, description="wind; that of the world if silent")
+    gusts: NonNegativeSpeed = Field(default=0.0, description="standard deviation of gusts, on each axis")
+    gps: Literal["rtk", "plain"] = Field(
+        default="rtk", description="satellite receivers of drones and targets: with corrections, or without"
+    )
+    wander: NonNegativeLength = Field(
+        default=0.0, description="standard deviation of how far what moves is off its track"
+    )
+    loop: Literal["replay", "track"] = Field(
+        default="replay", description="whether the camera does what was planned, or follows what is seen"
+    )
+    runs: Runs = Field(default=presets.RUNS, description="number of runs")
+    require: RehearsalPromiseSpec = section("what has to hold in the runs")

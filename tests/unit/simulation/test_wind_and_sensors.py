@@ -1,0 +1,125 @@
+import numpy as np
+import pytest
+
+from shotc.geom.shapes import CylinderShape
+from shotc.geom.track import Track
+from shotc.ir.target import Target
+from shotc.simulation.aim import aimed, sight_rates
+from shotc.simulation.conditions import Conditions
+from shotc.simulation.gimbal import axes_of
+from shotc.simulation.sensors import PLAIN, Detector, Gps
+from shotc.simulation.tracker import projection
+from shotc.simulation.truth import Truth
+from shotc.simulation.wind import Wind, wandering
+
+
+def chances(n, what="x"):
+    return Conditions(seed=3).chances(range(n), what)
+
+
+def test_a_process_of_deviation_one_stays_so_and_forgets_at_its_rate():
+    noise = np.random.default_rng(1).standard_normal((4000, 200))
+    out = wandering(noise, 0.1)
+    assert out.std() == pytest.approx(1.0, abs=0.02)
+    assert np.mean(out[:-10] * out[10:]) == pytest.approx(np.exp(-1.0), abs=0.02)
+
+
+def test_wind_with_a_bearing_is_the_same_in_all_runs_and_else_of_one_speed():
+    assert Wind(3.0, 0.0).steady(chances(4)) == pytest.approx(np.tile([3.0, 0.0, 0.0], (4, 1)))
+    drawn = Wind(3.0).steady(chances(50))
+    assert np.linalg.norm(drawn, axis=1) == pytest.approx(np.full(50, 3.0))
+    assert drawn[:, 0].min() < -1.0 < 1.0 < drawn[:, 0].max()
+
+
+def test_gusts_have_the_deviation_that_is_asked_for():
+    blown = Wind(gusts=1.5).blown(2000, 0.1, chances(60))
+    assert blown.std() == pytest.approx(1.5, rel=0.05)
+    assert not Wind().blown(10, 0.1, chances(2)).any()
+
+
+def test_a_run_has_the_same_chances_whichever_runs_stand_beside_it():
+    alone = Conditions(seed=3).chances([7], "gps")[0].standard_normal(4)
+    among = Conditions(seed=3).chances(range(9), "gps")[7].standard_normal(4)
+    assert alone == pytest.approx(among)
+    other = Conditions(seed=3).chances([7], "wind")[0].standard_normal(4)
+    assert abs(alone - other).min() > 0
+
+
+def test_positions_are_off_by_noise_bias_and_offset():
+    times = np.arange(4000) * 0.2
+    error = Gps(0.3, 1.0, (10.0, 0.0, 0.0)).error(times, chances(40))
+    assert error.mean(axis=(0, 1)) == pytest.approx([10.0, 0.0, 0.0], abs=0.15)
+    assert error[:, :, 1].std() == pytest.approx(np.hypot(0.3, 1.0), rel=0.05)
+    # The bias is nearly the same 0.2 s later, the noise is not.
+    step = np.diff(error[:, :, 1], axis=0).std()
+    assert step == pytest.approx(np.sqrt(2 * 0.3**2 + 2 * (1 - np.exp(-0.01))), rel=0.05)
+    assert PLAIN.deviation == pytest.approx(np.hypot(0.3, 1.5))
+
+
+def test_longer_recordings_begin_as_shorter_ones_do():
+    short, long = (PLAIN.error(np.arange(n) * 0.2, chances(2)) for n in (50, 80))
+    assert long[:50] == pytest.approx(short)
+
+
+def test_no_position_arrives_while_it_is_lost():
+    gps = Gps(lost=((10.0, 15.0),))
+    assert gps.arrives(9.9)
+    assert not gps.arrives(10.0)
+    assert gps.arrives(15.0)
+
+
+def test_detections_are_missed_as_often_as_said_and_never_out_of_the_picture():
+    detector, n = Detector(noise=0.02, misses=0.2), 3000
+    uv = np.tile([0.3, -0.2], (n, 1))
+    uv[:300] = [1.2, 0.0]
+    uv[300:600] = np.nan
+    found, used = detector.found(uv, chances(n))
+    assert not used[:600].any()
+    assert used[600:].mean() == pytest.approx(0.8, abs=0.03)
+    assert (found - uv)[used].std() == pytest.approx(0.02, rel=0.05)
+
+
+WAY = Track((0.0, 60.0), ((0.0, 0.0, 0.9), (60.0, 0.0, 0.9)))
+WALKER = Target("walker", (0.0, 0.0, 0.9), CylinderShape(0.4, 1.8), (), WAY)
+
+
+def test_a_target_wanders_smoothly_about_its_track_from_its_start_on():
+    times = np.arange(6000) * 0.01
+    places = Truth(wander=0.5).places(WALKER, times, chances(200))
+    off = places - np.column_stack([times, 0 * times, 0 * times + 0.9])[:, None]
+    assert not off[0].any()
+    assert off[3000:, :, :2].std() == pytest.approx(0.5, rel=0.1)
+    assert not off[:, :, 2].any()
+    assert np.abs(np.diff(off, axis=0)).max() < 0.02  # 2 m/s
+
+
+def test_a_true_track_takes_the_place_of_the_planned_one():
+    track = Track((0.0, 10.0), ((0.0, 5.0, 0.9), (0.0, 15.0, 0.9)))
+    places = Truth(tracks=(("walker", track),)).places(WALKER, np.array([0.0, 5.0]), chances(2))
+    assert places[1] == pytest.approx(np.array([[0.0, 10.0, 0.9]] * 2))
+
+
+def test_what_stands_stays():
+    still = WALKER._replace(track=None)
+    places = Truth(wander=1.0).places(still, np.array([0.0, 1.0]), chances(3))
+    assert places == pytest.approx(np.broadcast_to([0.0, 0.0, 0.9], (2, 3, 3)))
+
+
+def test_aimed_cameras_show_the_point_where_it_is_wanted():
+    rng = np.random.default_rng(5)
+    offset = rng.uniform(-10, 10, (300, 3)) * [1, 1, 0.5]
+    uv, half = rng.uniform(-0.8, 0.8, (300, 2)), np.tile([0.6, 0.4], (300, 1))
+    yaw, pitch = aimed(offset, uv, half)
+    shown, _ = projection(offset, axes_of(yaw, pitch), half)
+    # Straight above or below, no camera without roll shows every place.
+    level = np.hypot(offset[:, 0], offset[:, 1]) > np.abs(offset[:, 2])
+    assert shown[level] == pytest.approx(uv[level], abs=1e-9)
+
+
+def test_rates_of_a_line_of_sight_are_its_slopes():
+    rng = np.random.default_rng(6)
+    offset, velocity, h = rng.uniform(2, 9, (50, 3)), rng.uniform(-2, 2, (50, 3)), 1e-6
+    centre, half = np.zeros((50, 2)), np.full((50, 2), 0.5)
+    now, later = (aimed(offset + velocity * t, centre, half) for t in (0.0, h))
+    for rate, a, b in zip(sight_rates(offset, velocity), now, later, strict=True):
+        assert rate == pytest.approx((b - a) / h, abs=1e-4)
