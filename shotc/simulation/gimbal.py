@@ -63,7 +63,8 @@ def turned(gimbal: GimbalModel, attitude: Attitude, wanted: Array, rate: Array, 
     """Return cameras a step later that are asked for attitudes (R, 3, 3) that turn at ``rate`` (R, 3), in W.
 
     The law is omega = k (R_e - R_e^T)^vee / 2 + the rate that is wanted, R_e = R^T R* (Lee et al. 2010),
-    which in W is half the sum of the cross products of the axes; then the motors' lag, and R <- e^(omega h) R.
+    which in W is half the sum of the cross products of the axes. The motors' lag follows, and
+    R <- exp(omega h) R.
     """
     error = 0.5 * np.cross(attitude.axes, wanted, axis=1).sum(axis=2)
     asked = within(gimbal.gain * error + rate, sqrt(2.0) * gimbal.rate)
