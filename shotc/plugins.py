@@ -1,4 +1,4 @@
-"""Where kinds, refiners, emitters and saliency models come from: entry points, by one route for all.
+"""Where plugins come from, of all groups by one route: entry points.
 
 An entry point names an object with ``name``, ``summary`` and ``api`` (the version it was written
 against). Nothing is imported until it is asked for; a clash of names, a failed import or another api
@@ -22,6 +22,7 @@ GROUPS = {
     "kinds": "shotc.kinds",
     "refiners": "shotc.refiners",
     "emitters": "shotc.emitters",
+    "replanners": "shotc.replanners",
     "saliency": "shotc.saliency",
 }
 
@@ -88,7 +89,7 @@ class OnDemand(Mapping[str, Any]):
 
 @cache
 def discover(group: str) -> Found:
-    """Load every plugin of ``group`` ("kinds", "refiners", "emitters" or "saliency")."""
+    """Load every plugin of ``group`` ("kinds", "refiners", "emitters", "replanners" or "saliency")."""
     return _prove(group, _by_name(group))
 
 

@@ -1,11 +1,13 @@
 """All that a plugin imports. Names load when they are used, so a kind needs no numpy.
 
-A plugin is an installable package with an entry point in one of three groups, each naming an object
+A plugin is an installable package with an entry point in one of five groups, each naming an object
 that carries ``name``, ``summary`` and ``api = 1``:
 
 - ``shotc.kinds``: a ``Kind``, which turns a shot's parameters into keyframes
 - ``shotc.refiners``: a ``Refiner``, which improves the filmed legs of a path
 - ``shotc.emitters``: an ``Emitter``, which turns a verified plan into files
+- ``shotc.replanners``: a ``Replanner``, which plans the next seconds of a flight anew while it is flown
+- ``shotc.saliency``: a ``Saliency``, which guesses where in a picture its subject is
 """
 
 from __future__ import annotations

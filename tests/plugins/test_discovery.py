@@ -124,6 +124,13 @@ def test_one_plugin_is_loaded_and_named_with_its_package(install):
     assert (found.package, found.reference, found.diagnostics) == ("sample-maker", "sample_maker:PLUGIN", ())
 
 
+@pytest.mark.parametrize("group", ["refiners", "replanners"])
+def test_whatever_the_seat_a_name_that_two_packages_take_is_neither(install, group):
+    install("maker-one", "sample", MODULE.format(name="sample", api=1), group=group)
+    install("maker-two", "sample", MODULE.format(name="sample", api=1), group=group)
+    assert [d.code for d in plugins.one(group, "sample").diagnostics] == ["P001"]
+
+
 def test_one_plugin_is_used_though_another_is_broken(install):
     install("sample-maker", "sample", MODULE.format(name="sample", api=1), group="refiners")
     install("broken-maker", "broken", "raise RuntimeError('no such solver')", group="refiners")

@@ -6,16 +6,19 @@ import re
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from shotc import plugin_api, plugins
 from shotc.api import PlanOptions, compile_source, emit_plan
 from shotc.checking import check_source
-from shotc.plugin_api import refiner
+from shotc.plugin_api import refiner, replanner
+from tests.support.replans import problem, situation
 
 GUIDE = (Path(__file__).parents[2] / "shotc" / "docs" / "plugins.md").read_text(encoding="utf-8")
 _, _, AFTER = GUIDE.partition("## Names of `shotc.plugin_api`\n")
-NAMES, _, REFINER_NAMES = AFTER.partition("## Names of `shotc.plugin_api.refiner`\n")
+NAMES, _, REST = AFTER.partition("## Names of `shotc.plugin_api.refiner`\n")
+REFINER_NAMES, _, REPLANNER_NAMES = REST.partition("## Names of `shotc.plugin_api.replanner`\n")
 EXAMPLES = dict(re.findall(r"```python\n# (\w+)\.py\n(.*?)```", GUIDE, re.DOTALL))
 (SWING,) = re.findall(r"```yaml\n(.*?)```", GUIDE, re.DOTALL)
 RUN = """\
@@ -42,7 +45,9 @@ def named(text: str) -> list[str]:
     return re.findall(r"^\| `(\w+)(?:\(.*?\))?` \| \S", text, re.MULTILINE)
 
 
-@pytest.mark.parametrize(("text", "module"), [(NAMES, plugin_api), (REFINER_NAMES, refiner)])
+@pytest.mark.parametrize(
+    ("text", "module"), [(NAMES, plugin_api), (REFINER_NAMES, refiner), (REPLANNER_NAMES, replanner)]
+)
 def test_every_public_name_is_explained_once_and_no_other(text, module):
     assert sorted(named(text)) == sorted(module.__all__)
     assert f"from {module.__name__} import NAME" in text
@@ -56,7 +61,13 @@ def test_every_public_name_can_be_imported():
 @pytest.fixture
 def examples(install):
     """All examples of the guide, as packages of their own."""
-    group = {"pendulum": "kinds", "shoulder": "kinds", "shotlist": "emitters", "on_mark": "refiners"}
+    group = {
+        "pendulum": "kinds",
+        "shoulder": "kinds",
+        "shotlist": "emitters",
+        "on_mark": "refiners",
+        "brake": "replanners",
+    }
     assert set(group) == set(EXAMPLES)
     for module, source in EXAMPLES.items():
         install(f"my-{module}".replace("_", "-"), module.replace("_", "-"), source, group[module])
@@ -108,3 +119,14 @@ def test_the_package_of_the_guide_registers_its_kind():
     (group,) = project["entry-points"]
     assert group in plugins.GROUPS.values()
     assert project["entry-points"][group] == {"pendulum": "shotc_pendulum:PLUGIN"}
+
+
+def test_the_replanner_comes_to_rest_at_the_limit_of_acceleration(examples):
+    source = plugins.one("replanners", "brake")
+    assert source.package == "my-brake"
+    planner = source.plugin.chase(problem(20))
+    plan = planner.replan(situation(20, velocity=np.array([3.0, 4.0, 0.0])), None).plan
+    assert plan.velocities[-1] == pytest.approx(np.zeros(3), abs=1e-12)
+    assert np.linalg.norm(plan.accelerations[0]) == pytest.approx(5.0)
+    assert np.linalg.norm(plan.places[-1] - plan.places[0]) == pytest.approx(2.5)
+    assert planner.replan(situation(20, velocity=np.full(3, np.nan)), plan).status == "failed"

@@ -1,0 +1,23 @@
+"""The replanner: what shotc finds in the seat ``shotc.replanners``."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from shotc.plugin_api.replanner import ChasePlanner, ChaseProblem
+from shotc_casadi.replan.chase import Chase
+
+
+class Ours:
+    """One Gauss-Newton step a replan, so that the time it takes is known before."""
+
+    name: ClassVar[str] = "ours"
+    summary: ClassVar[str] = "one Gauss-Newton step a replan by PIQP, from the plan that is flown"
+    api: ClassVar[int] = 1
+
+    def chase(self, problem: ChaseProblem) -> ChasePlanner:
+        """Return the planner of a shot of one target."""
+        return Chase(problem)
+
+
+OURS = Ours()
