@@ -50,7 +50,7 @@ class CsvTable:
         framing = [
             row.encode()
             for track in tracks
-            for row in _framing(mission, track, others_of(everyone, track.drone))
+            for row in _framing(plan, track, others_of(everyone, track.drone))
         ]
         return Emission(
             (
@@ -101,14 +101,15 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
         yield line % (time, names[phase], *row)
 
 
-def _framing(mission: MissionIR, track: DroneTrajectory, others: Sequence[DroneTrajectory]) -> Iterator[str]:
+def _framing(plan: VerifiedIR, track: DroneTrajectory, others: Sequence[DroneTrajectory]) -> Iterator[str]:
+    mission = plan.trajectory.keyframes.mission
     t = clock(mission.rate, track.curve.end)
     index = phase_index(track.phases, t)
     for k, phase in enumerate(track.phases):
         if phase.shot is not None:
             at = t[index == k]
             blocks = [
-                _block(mission, track, (phase.shot, target), at, others)
+                _block(plan, track, (phase.shot, target), at, others)
                 for target in subjects(mission, track, phase.shot)
             ]
             for rows in zip(*blocks, strict=True):
@@ -116,18 +117,22 @@ def _framing(mission: MissionIR, track: DroneTrajectory, others: Sequence[DroneT
 
 
 def _block(
-    mission: MissionIR,
+    plan: VerifiedIR,
     track: DroneTrajectory,
     of: tuple[str, str],
     t: Array,
     others: Sequence[DroneTrajectory],
 ) -> list[str]:
-    shot, target = of
+    (shot, target), mission = of, plan.trajectory.keyframes.mission
     frames = seen(mission, track, target, t, others)
     wanted = references(track, shot, target, t)
     numbers = np.column_stack([frames.u, frames.v, wanted, frames.size]) + 0.0
     flags = np.column_stack([frames.in_frame, frames.hidden]).astype(int)
-    covered = coverage(mission, others, target, track.curve(t)[:, :3], t).share
+    covered = _judged(plan, (track.drone, shot, target), t)
+    missing = np.isnan(covered)
+    if missing.any():
+        eyes = track.curve(t[missing])[:, :3]
+        covered[missing] = coverage(mission, others, target, eyes, t[missing]).share
     name = f"{track.drone},{shot},{target}"
     return [
         f"{NUMBER % time},{name},{_cells(row)},{flag[0]},{flag[1]},{NUMBER % share}"
@@ -135,6 +140,20 @@ def _block(
             t.tolist(), numbers.tolist(), flags.tolist(), covered.tolist(), strict=True
         )
     ]
+
+
+def _judged(plan: VerifiedIR, of: tuple[str, str, str], t: Array) -> Array:
+    """Return the shares that verification found covered at times (M,), NaN where it did not look.
+
+    of : drone, shot and target
+    """
+    share = np.full(len(t), np.nan)
+    for found in plan.covered:
+        if (found.drone, found.shot, found.target) == of:
+            near = np.minimum(np.searchsorted(found.times, t), len(found.times) - 1)
+            same = found.times[near] == t
+            share[same] = found.share[near[same]]
+    return share
 
 
 def _cells(row: list[float]) -> str:

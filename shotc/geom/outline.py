@@ -19,8 +19,8 @@ from shotc.geom.silhouette import shape_contour
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks, within
 from shotc.geom.solids import Cylinder, Solid
-from shotc.geom.surface.sight import Billboards, billboards, cells_of, hidden
-from shotc.geom.surface.tree import Surface
+from shotc.geom.surface.sight import Billboards, billboards, cells_of, stopped
+from shotc.geom.surface.tree import Pairs, Surface
 from shotc.geom.vec import Vec3
 
 CELLS = 12
@@ -49,26 +49,11 @@ class OutlineRays:
 
     def pick(self, which: Mask) -> OutlineRays:
         """Return those of some frames, by a mask (F,)."""
-        b = self.boards
-        boards = Billboards(b.eye[which], b.corner[which], b.right[which], b.up[which])
-        return OutlineRays(boards, self.own[which], self.reach[which])
+        return OutlineRays(self.boards.pick(which), self.own[which], self.reach[which])
 
     def mapped(self, put: Callable[[Array], Array]) -> OutlineRays:
         """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
-        b = self.boards
-        corner = put(b.corner)
-        right, up = (put(b.corner + side) - corner for side in (b.right, b.up))
-        return OutlineRays(Billboards(put(b.eye), corner, right, up), self.own, self.reach)
-
-    def near(self, centres: Array, radius: float) -> Mask:
-        """Tell in which frames a ray may come to balls at centres, (3,) or (F, 3), shape (F,)."""
-        b = self.boards
-        along = b.corner + 0.5 * (b.right + b.up) - b.eye
-        away = centres - b.eye
-        square = np.maximum(np.einsum("fd,fd->f", along, along), NO_LENGTH_M**2)
-        share = np.clip(np.einsum("fd,fd->f", away, along) / square, 0.0, 1.0)
-        wide = 0.5 * (np.linalg.norm(b.right, axis=1) + np.linalg.norm(b.up, axis=1))
-        return np.asarray(np.linalg.norm(away - share[:, None] * along, axis=1) <= radius + wide)
+        return OutlineRays(self.boards.mapped(put), self.own, self.reach)
 
     def segments(self) -> tuple[Array, Array]:
         """Return where all rays begin and end, each of shape (F n n, 3), metres."""
@@ -76,20 +61,39 @@ class OutlineRays:
         return eyes, eyes + self.reach.reshape(-1, 1) * (cells_of(self.boards, self.own.shape[1]) - eyes)
 
 
-def outline_rays(shape: TargetShape, centre: Vec3, eyes: Array, n: int = CELLS) -> OutlineRays:
-    """Return the rays from eyes (F, 3) to the outline of a shape that stands about a centre, metres."""
+@dataclass(frozen=True, slots=True, eq=False)
+class OutlineBoards:
+    """The rectangles that hold the outline of a body.
+
+    through : share of the way to the body's centre that is for sure beyond the body, shape (F,)
+    """
+
+    boards: Billboards
+    through: Array
+
+    def pick(self, which: Mask) -> OutlineBoards:
+        """Return those of some frames, by a mask (F,)."""
+        return OutlineBoards(self.boards.pick(which), self.through[which])
+
+
+def outline_boards(shape: TargetShape, centre: Vec3, eyes: Array) -> OutlineBoards:
+    """Return what holds the outlines, from eyes (F, 3), of a shape that stands about a centre, metres."""
     bodies, middle = bodies_of(shape), np.array(centre)
     contour = np.concatenate(
         [shape_contour(middle + np.array(body.offset) - eyes, body.shape, RIM) for body in bodies], axis=1
     )
-    boards = _holding(eyes, middle, contour)
-    from_eyes = np.repeat(eyes, n * n, axis=0)
-    to_cells = cells_of(boards, n) - from_eyes
     # Cells lie in the plane of the centre; this is far enough to be through the target.
     size = np.linalg.norm(contour - (middle - eyes)[:, None], axis=2).max(axis=1)
-    far = 1.0 + 2.0 * size / np.maximum(np.linalg.norm(middle - eyes, axis=1), NO_LENGTH_M)
-    beyond = np.repeat(far, n * n)
-    reach = entering(shape, centre, from_eyes, beyond[:, None] * to_cells)
+    through = 1.0 + 2.0 * size / np.maximum(np.linalg.norm(middle - eyes, axis=1), NO_LENGTH_M)
+    return OutlineBoards(_holding(eyes, middle, contour), through)
+
+
+def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards, n: int = CELLS) -> OutlineRays:
+    """Return the rays to the outline of a shape that stands about a centre, metres; on : what holds it."""
+    boards = on.boards
+    eyes = np.repeat(boards.eye, n * n, axis=0)
+    beyond = np.repeat(on.through, n * n)
+    reach = entering(shape, centre, eyes, beyond[:, None] * (cells_of(boards, n) - eyes))
     own = np.isfinite(reach).reshape(-1, n, n)
     return OutlineRays(boards, own, np.where(own, (reach * beyond).reshape(-1, n, n), 0.0))
 
@@ -107,35 +111,49 @@ def entering(shape: TargetShape, centre: Vec3, eyes: Array, along: Array) -> Arr
     return share
 
 
+def near(boards: Billboards, centres: Array, radius: float) -> Mask:
+    """Tell in which frames a ray may come to balls at centres, (3,) or (F, 3), shape (F,)."""
+    along = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
+    away = centres - boards.eye
+    square = np.maximum(np.einsum("fd,fd->f", along, along), NO_LENGTH_M**2)
+    share = np.clip(np.einsum("fd,fd->f", away, along) / square, 0.0, 1.0)
+    wide = 0.5 * (np.linalg.norm(boards.right, axis=1) + np.linalg.norm(boards.up, axis=1))
+    return np.asarray(np.linalg.norm(away - share[:, None] * along, axis=1) <= radius + wide)
+
+
+def near_solid(boards: Billboards, solid: Solid) -> Mask:
+    """Tell in which frames a ray may come to a solid, shape (F,)."""
+    return near(boards, *_ball_about(solid))
+
+
 def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
     """Tell which rays a solid is in the way of, (F, n, n); one that holds the eye hides nothing."""
-    out, near = np.zeros_like(rays.own), rays.near(*_ball_about(solid))
-    near[near] = signed_distance(solid, rays.boards.eye[near]) > 0.0
-    if near.any():
-        some = rays.pick(near)
-        out[near] = blocks(solid, *some.segments()).reshape(some.own.shape) & some.own
+    out, may = np.zeros_like(rays.own), near_solid(rays.boards, solid)
+    may[may] = signed_distance(solid, rays.boards.eye[may]) > 0.0
+    if may.any():
+        some = rays.pick(may)
+        out[may] = blocks(solid, *some.segments()).reshape(some.own.shape) & some.own
     return out
 
 
 def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
     """Tell which rays balls at centres (F, 3) are in the way of, (F, n, n), unless they hold the eye."""
-    out, near = np.zeros_like(rays.own), rays.near(centres, radius)
-    near &= np.linalg.norm(centres - rays.boards.eye, axis=1) >= radius
-    if near.any():
-        some = rays.pick(near)
+    out, may = np.zeros_like(rays.own), near(rays.boards, centres, radius)
+    may &= np.linalg.norm(centres - rays.boards.eye, axis=1) >= radius
+    if may.any():
+        some = rays.pick(may)
         eyes, ends = some.segments()
-        along, away = ends - eyes, np.repeat(centres[near], some.own[0].size, axis=0) - eyes
+        along, away = ends - eyes, np.repeat(centres[may], some.own[0].size, axis=0) - eyes
         square = np.maximum(np.einsum("md,md->m", along, along), NO_LENGTH_M**2)
         share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)
         hit = np.linalg.norm(away - share[:, None] * along, axis=1) < radius
-        out[near] = hit.reshape(some.own.shape) & some.own
+        out[may] = hit.reshape(some.own.shape) & some.own
     return out
 
 
-def covered_by_surface(rays: OutlineRays, surface: Surface) -> Mask:
-    """Tell which rays a surface is in the way of, shape (F, n, n)."""
-    n = rays.own.shape[1]
-    return np.asarray(hidden(surface, rays.boards, n, rays.reach) & rays.own)
+def covered_by_surface(rays: OutlineRays, surface: Surface, pairs: Pairs) -> Mask:
+    """Tell which rays a surface is in the way of, shape (F, n, n); pairs : of frames and its triangles."""
+    return np.asarray(stopped(surface, rays.boards, pairs, rays.reach) & rays.own)
 
 
 def share_of(rays: OutlineRays, which: Mask) -> Array:

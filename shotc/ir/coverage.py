@@ -7,23 +7,31 @@ much of it the frame cuts off is another question (``Frames.in_frame``). What co
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.outline import (
+    CELLS,
     OutlineRays,
     covered_by_ball,
     covered_by_solid,
     covered_by_surface,
+    near,
+    near_solid,
+    outline_boards,
     outline_rays,
     share_of,
 )
 from shotc.geom.pieces import Mask
 from shotc.geom.shapes import bodies_of
+from shotc.geom.solids import Solid
+from shotc.geom.surface.sight import Billboards, in_the_way
+from shotc.geom.surface.tree import Pairs, Surface
 from shotc.ir.bodies import beside_body, flying, from_body, parts_of_one
 from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.mission import MissionIR
@@ -73,41 +81,105 @@ def _alone(mission: MissionIR, others: Sequence[DroneTrajectory]) -> bool:
     return not (zones or others or mission.meshes or mission.terrain or len(mission.targets) > 1)
 
 
+class _Thing(NamedTuple):
+    """What may cover a target, by sort and name.
+
+    may    : in which frames a ray may come to it, shape (F,)
+    covers : tells which of some rays it is in the way of; given them, and in which frames they are, (F,)
+    """
+
+    name: str
+    may: Mask
+    covers: Callable[[OutlineRays, Mask], Mask]
+
+
 def _part(
     mission: MissionIR, others: Sequence[DroneTrajectory], filmed: Target, eyes: Array, t: Array
 ) -> Coverage:
-    beside = outline_rays(filmed.shape, filmed.centre, beside_body(filmed, eyes, t))
-    rays = beside.mapped(partial(from_body, filmed, t=t))
+    beside = outline_boards(filmed.shape, filmed.centre, beside_body(filmed, eyes, t))
+    boards = beside.boards.mapped(partial(from_body, filmed, t=t))
+    things = list(_things(mission, others, filmed, boards, t))
+    # Most frames have nothing in the way: no rays are drawn there.
+    some = np.any([np.zeros(len(t), dtype=bool), *(thing.may for thing in things)], axis=0)
+    own = outline_rays(filmed.shape, filmed.centre, beside.pick(some))
+    rays = own.mapped(partial(from_body, filmed, t=t[some]))
     covered, by = np.zeros_like(rays.own), []
-    for name, covers in _covers(mission, others, filmed, rays, t):
+    for thing in things:
+        covers = thing.covers(rays, some)
         covered |= covers
-        by.append((name, share_of(rays, covers)))
-    return Coverage(share_of(rays, covered), tuple(by))
+        by.append((thing.name, _over(some, share_of(rays, covers))))
+    return Coverage(_over(some, share_of(rays, covered)), tuple(by))
 
 
-def _covers(
-    mission: MissionIR, others: Sequence[DroneTrajectory], filmed: Target, rays: OutlineRays, t: Array
-) -> Iterator[tuple[str, Mask]]:
-    """Yield what may cover a target, and which of the rays to it, (F, n, n)."""
+def _over(some: Mask, shares: Array) -> Array:
+    """Return shares of some frames as those of all, (F,): 0 in the others."""
+    out = np.zeros(len(some))
+    out[some] = shares
+    return out
+
+
+def _things(
+    mission: MissionIR, others: Sequence[DroneTrajectory], filmed: Target, boards: Billboards, t: Array
+) -> Iterator[_Thing]:
+    """Yield what may cover a target; boards : what its outline is within in each frame."""
     for zone in mission.zones:
         if zone.keep == "out":
-            yield f"zone {zone.name}", covered_by_solid(rays, zone.solid)
+            yield _Thing(f"zone {zone.name}", near_solid(boards, zone.solid), partial(_by_solid, zone.solid))
     one = mission.one_with(filmed.name)
     for other in mission.targets:
         if other.name not in one:
-            covers = _covered_by_target(rays, other, t)
-            yield f"target {other.name}", covers & ~parts_of_one(filmed, other, t)[:, None, None]
+            yield _before(filmed, other, boards, t)
     for name, surface in surfaces_before(mission, filmed.name):
-        yield name, covered_by_surface(rays, surface)
+        yield _beside(name, surface, boards)
     for flight in others:
-        ball = flying(flight.curve, t)
-        yield f"drone {flight.drone}", covered_by_ball(rays, ball, mission.drone(flight.drone).radius)
+        ball, radius = flying(flight.curve, t), mission.drone(flight.drone).radius
+        covers = partial(_by_ball, ball, radius)
+        yield _Thing(f"drone {flight.drone}", near(boards, ball, radius), covers)
+
+
+def _by_solid(solid: Solid, rays: OutlineRays, _: Mask) -> Mask:
+    return covered_by_solid(rays, solid)
+
+
+def _by_ball(ball: Array, radius: float, rays: OutlineRays, some: Mask) -> Mask:
+    return covered_by_ball(rays, ball[some], radius)
+
+
+def _beside(name: str, surface: Surface, boards: Billboards) -> _Thing:
+    """Return a surface as what may cover a target."""
+    pairs = in_the_way(surface, boards, CELLS)
+    may = np.zeros(len(boards), dtype=bool)
+    may[pairs.item] = True
+
+    def covers(rays: OutlineRays, some: Mask) -> Mask:
+        number = np.cumsum(some) - 1
+        return covered_by_surface(rays, surface, Pairs(number[pairs.item], pairs.triangle))
+
+    return _Thing(name, may, covers)
+
+
+def _before(filmed: Target, other: Target, boards: Billboards, t: Array) -> _Thing:
+    """Return another target as what may cover one."""
+    apart = ~parts_of_one(filmed, other, t)
+    beside = boards.mapped(partial(beside_body, other, t=t))
+    may = [near_solid(beside, solid) for solid in _solids(other)]
+
+    def covers(rays: OutlineRays, some: Mask) -> Mask:
+        return _covered_by_target(rays, other, t[some]) & apart[some, None, None]
+
+    return _Thing(f"target {other.name}", np.any(may, axis=0) & apart, covers)
 
 
 def _covered_by_target(rays: OutlineRays, other: Target, t: Array) -> Mask:
     beside = rays.mapped(partial(beside_body, other, t=t))
     out = np.zeros_like(rays.own)
-    for body in bodies_of(other.shape):
-        x, y, z = (np.array(other.centre) + np.array(body.offset)).tolist()
-        out |= covered_by_solid(beside, body.shape.solid((x, y, z)))
+    for solid in _solids(other):
+        out |= covered_by_solid(beside, solid)
     return out
+
+
+def _solids(target: Target) -> Iterator[Solid]:
+    """Yield the bodies of a target as they stand at mission time 0."""
+    for body in bodies_of(target.shape):
+        x, y, z = (np.array(target.centre) + np.array(body.offset)).tolist()
+        yield body.shape.solid((x, y, z))

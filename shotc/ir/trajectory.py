@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from shotc.geom.bernstein import Piecewise
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.origin import KeyPath
@@ -72,8 +72,26 @@ class Claim:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class CoveredShares:
+    """How much of a target is covered while one drone films it in one shot, as verification sampled it.
+
+    times : seconds, in order, shape (M,); share : of the target's outline, by anything, 0 to 1, shape (M,)
+    """
+
+    drone: str
+    shot: str
+    target: str
+    times: Array
+    share: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class VerifiedIR:
-    """A trajectory with its certificate, made by the verify pass alone; emitters take nothing else."""
+    """A trajectory with its certificate, made by the verify pass alone; emitters take nothing else.
+
+    covered : the samples by which its claims of what is visible were judged
+    """
 
     trajectory: TrajectoryIR
     certificate: tuple[Claim, ...]
+    covered: tuple[CoveredShares, ...] = ()

@@ -15,7 +15,7 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Pieces
 from shotc.geom.surface.distance import SurfaceBound, inf_distance
 from shotc.geom.surface.near import AT_ONCE, nearest
-from shotc.geom.surface.tree import Surface, in_plan, surface_of
+from shotc.geom.surface.tree import Surface, surface_of, under_points
 from shotc.geom.surface.triangles import TINY
 
 EDGE = 1e-6
@@ -99,7 +99,7 @@ def under(ground: Ground, xy: Array) -> Under:
 
 
 def _under(surface: Surface, xy: Array, out: Under) -> None:
-    pairs = in_plan(surface, xy, xy)
+    pairs = under_points(surface, xy)
     height = heights(surface.triangles[pairs.triangle], xy[pairs.item])
     inside = ~np.isnan(height)
     pairs, height = pairs.pick(inside), height[inside]

@@ -44,7 +44,7 @@ def first_hits(surface: Surface, boards: Billboards, n: int, disc: float = 0.0) 
     points = _points(surface) if disc > 0.0 else None
     for start in range(0, len(boards), FRAMES_AT_ONCE):
         which = slice(start, start + FRAMES_AT_ONCE)
-        some = boards.part(which)
+        some = boards.pick(which)
         pairs = candidates(surface, some, np.inf, disc)
         for first in range(0, len(pairs), PAIRS_AT_ONCE):
             part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))

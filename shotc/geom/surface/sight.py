@@ -6,6 +6,7 @@ the cell: three products a triangle serve all rays (watertight on common sides, 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import sqrt
 
@@ -26,6 +27,8 @@ ALIKE_RATIO = 0.5
 """Of the way to a billboard: how wide the boxes of frames together are at most, all axes summed."""
 SHORT_OF = 1.0 - 1e-6
 """Share of the way to a cell at which rays end: what a target stands on, or touches, does not hide it."""
+BESIDE_M = 1e-6
+"""How far all rays pass a triangle that is left out: far more than what rounding moves."""
 _NONE = 1e-300  # instead of a length that is none, so that what is divided by it is far beyond any share
 
 
@@ -44,9 +47,15 @@ class Billboards:
     def __len__(self) -> int:
         return len(self.eye)
 
-    def part(self, which: slice) -> Billboards:
-        """Return those of some frames."""
+    def pick(self, which: Mask | slice) -> Billboards:
+        """Return those of some frames, by a mask (F,) or a slice."""
         return Billboards(self.eye[which], self.corner[which], self.right[which], self.up[which])
+
+    def mapped(self, put: Callable[[Array], Array]) -> Billboards:
+        """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
+        corner = put(self.corner)
+        right, up = (put(self.corner + side) - corner for side in (self.right, self.up))
+        return Billboards(put(self.eye), corner, right, up)
 
 
 def billboards(eye: Array, centre: Array, width: Array | float, height: Array | float) -> Billboards:
@@ -87,25 +96,50 @@ def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboar
     return Billboards(eye, centre + radius * level - 0.5 * (right + up), right, up)
 
 
-def hidden(surface: Surface, boards: Billboards, n: int = 8, reach: Array | None = None) -> Mask:
+def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
     """Tell which of n x n cells a surface hides: shape (F, n, n), along right and up.
 
-    reach : share of the way to a cell at which its ray ends, (F, n, n); all of it if silent, and at most
     The mean over a frame is the share that is hidden.
     """
-    ends = np.ones((len(boards), n * n)) if reach is None else np.minimum(reach, 1.0).reshape(-1, n * n)
-    ends = SHORT_OF * ends
-    out = np.zeros((len(boards), n * n), dtype=bool)
+    out = np.zeros((len(boards), n, n), dtype=bool)
     for start in range(0, len(boards), FRAMES_AT_ONCE):
-        which = slice(start, start + FRAMES_AT_ONCE)
-        some, short = boards.part(which), ends[which]
+        some = boards.pick(slice(start, start + FRAMES_AT_ONCE))
+        reach = np.ones((len(some), n, n))
+        out[start : start + len(some)] = stopped(surface, some, candidates(surface, some), reach)
+    return out
+
+
+def in_the_way(surface: Surface, boards: Billboards, n: int) -> Pairs:
+    """Return the frames and triangles of which rays to the middles of n x n cells may meet.
+
+    Left out are triangles in front of whose plane all rays of a frame are, and those wholly beside all
+    rays: over terrain that is nearly all that is below a line of sight.
+    """
+    items, triangles = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
+    for start in range(0, len(boards), FRAMES_AT_ONCE):
+        some = boards.pick(slice(start, start + FRAMES_AT_ONCE))
         pairs = candidates(surface, some)
-        for first in range(0, len(pairs), PAIRS_AT_ONCE):
-            part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
-            hits = _hits(surface.triangles[part.triangle], some, (part.item, short[part.item]))
-            frame, begin = np.unique(part.item, return_index=True)
-            out[which][frame] |= np.logical_or.reduceat(hits, begin, axis=0)
-    return out.reshape(-1, n, n)
+        corners = surface.triangles[pairs.triangle] - some.eye[pairs.item][:, None]
+        pairs = pairs.pick(_pyramids(some, n).may_meet(pairs.item, corners))
+        items.append(pairs.item + start)
+        triangles.append(pairs.triangle)
+    return Pairs(np.concatenate(items), np.concatenate(triangles))
+
+
+def stopped(surface: Surface, boards: Billboards, pairs: Pairs, reach: Array) -> Mask:
+    """Tell which rays the triangles of some pairs stop, shape (F, n, n).
+
+    pairs : of a frame and a triangle, as ``in_cones`` returns them
+    reach : share of the way to a cell at which its ray ends, (F, n, n), at most 1
+    """
+    ends = SHORT_OF * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])
+    out = np.zeros(ends.shape, dtype=bool)
+    for first in range(0, len(pairs), PAIRS_AT_ONCE):
+        part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
+        hits = _hits(surface.triangles[part.triangle], boards, (part.item, ends[part.item]))
+        frame, begin = np.unique(part.item, return_index=True)
+        out[frame] |= np.logical_or.reduceat(hits, begin, axis=0)
+    return out.reshape(reach.shape)
 
 
 def lines_hidden(surface: Surface, eyes: Array, points: Array) -> Mask:
@@ -135,6 +169,41 @@ def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: fl
     item, triangle = item[keep], triangle[keep]
     order = np.argsort(item, kind="stable")
     return Pairs(item[order], triangle[order])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Pyramids:
+    """What holds all rays of a frame, from its eye.
+
+    ends : the outermost middles of cells, shape (F, 4, 3); sides : inner unit normals, (F, 4, 3), 0 for none
+    """
+
+    ends: Array
+    sides: Array
+
+    def may_meet(self, frame: IntArray, corners: Array) -> Mask:
+        """Tell which triangles (K, 3, 3), from the eyes of frames (K,), are not parted from their rays."""
+        normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]
+        far = dot(normal, corners[:, 0])
+        nearest = (np.einsum("kd,ked->ek", normal, self.ends[frame]) * np.sign(far)).max(axis=0)
+        may = np.abs(far) - nearest <= BESIDE_M
+        inside = np.einsum("ksd,kvd->vsk", self.sides[frame[may]], corners[may])
+        may[may] = inside.max(axis=0).min(axis=0) >= -BESIDE_M
+        return np.asarray(may)
+
+
+def _pyramids(boards: Billboards, n: int) -> _Pyramids:
+    """Return what holds the rays to the middles of n x n cells."""
+    first = boards.corner + (0.5 / n) * (boards.right + boards.up) - boards.eye
+    right, up = (1.0 - 1.0 / n) * boards.right, (1.0 - 1.0 / n) * boards.up
+    ends = np.stack([first, first + right, first + up, first + right + up], axis=1)
+    normals = np.stack(
+        [cross(ends[:, k], way) for k, way in ((0, right), (2, right), (0, up), (1, up))], axis=1
+    )
+    inward = np.einsum("fsd,fsd->fs", normals, np.stack([up, -up, right, -right], axis=1))
+    length = np.maximum(np.linalg.norm(normals, axis=2), _NONE)
+    return _Pyramids(ends, np.asarray(normals * (np.sign(inward) / length)[:, :, None]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

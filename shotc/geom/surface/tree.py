@@ -20,6 +20,8 @@ FAN = 4
 """Triangles of a leaf, and children of a node."""
 TOP = 16
 """Nodes with which a search begins, at most."""
+TOGETHER = 16
+"""Points that follow one another, which one search is for."""
 LONG = 8.0
 """Times the median of all longest edges, from which a triangle is halved: it would swell its leaf."""
 SPARE = 4096
@@ -162,6 +164,27 @@ def in_plan(surface: Surface, low: Array, high: Array) -> Pairs:
         return plan_boxes_meet(low[item], high[item], its_low, its_high)
 
     return search(surface, len(low), meets)
+
+
+def under_points(surface: Surface, xy: Array) -> Pairs:
+    """Return the triangles whose boxes hold points (K, 2) in the plan.
+
+    Points that follow one another are searched for together where they are near one another, as on a path.
+    """
+    starts = np.arange(0, len(xy), TOGETHER)
+    if len(starts) < 2:
+        return in_plan(surface, xy, xy)
+    low, high = (extreme.reduceat(xy, starts, axis=0) for extreme in (np.minimum, np.maximum))
+    if (high - low).mean() > (surface.high[0] - surface.low[0])[:, :2].mean():
+        return in_plan(surface, xy, xy)
+    found = in_plan(surface, low, high)
+    point = starts[found.item][:, None] + np.arange(TOGETHER)
+    inside = point < len(xy)
+    item, triangle = point[inside], np.repeat(found.triangle, inside.sum(axis=1))
+    corners = surface.triangles[triangle]
+    keep = plan_boxes_meet(xy[item], xy[item], lowest(corners), highest(corners))
+    order = np.argsort(item[keep], kind="stable")
+    return Pairs(item[keep][order], triangle[keep][order])
 
 
 def plan_boxes_meet(low: Array, high: Array, other_low: Array, other_high: Array) -> Mask:

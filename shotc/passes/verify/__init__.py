@@ -17,10 +17,10 @@ from shotc.diag.registry import has_errors
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
+from shotc.ir.trajectory import Claim, CoveredShares, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.course import course
-from shotc.passes.verify.framing import framing
+from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
 from shotc.passes.verify.pair import from_fleets, separation
@@ -36,10 +36,11 @@ from shotc.passes.verify.transits import transits
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """All claims about a trajectory, broken ones included, and the diagnostics of those."""
+    """All claims about a trajectory, broken ones included, the diagnostics of those, and samples."""
 
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
+    covered: tuple[CoveredShares, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +54,7 @@ class Verify:
         verdict = judge(ir, ctx)
         if has_errors(verdict.diagnostics):
             return Outcome(None, verdict.diagnostics)
-        return Outcome(VerifiedIR(ir, verdict.certificate), verdict.diagnostics)
+        return Outcome(VerifiedIR(ir, verdict.certificate, verdict.covered), verdict.diagnostics)
 
 
 def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
@@ -69,6 +70,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     ]
     flights, on_pads = present[: len(ir.drones)], present[len(ir.drones) :]
     claims: list[Claim] = []
+    covered: list[CoveredShares] = []
     for flight in flights:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [
@@ -79,7 +81,12 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *shots(flight, ir),
             *course(flight, ir),
         ]
-        claims += framing(flight, ir)
+        for shot in filmed(flight, ir):
+            claims += framing(flight, shot)
+            covered += (
+                CoveredShares(flight.drone.name, view.shot.id, view.target, view.times, view.covered)
+                for view in shot.views
+            )
     claims += [
         *separation(flights, on_pads),
         *from_fleets(ir, flights),
@@ -88,7 +95,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     ]
     certificate = tuple(claims)
     diagnostics = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
-    return Verdict(certificate, (*_grounded(ir), *diagnostics))
+    return Verdict(certificate, (*_grounded(ir), *diagnostics), tuple(covered))
 
 
 def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:

@@ -69,7 +69,8 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
     diagnostics = [*other, *verdict.diagnostics]
     if verdict.certificate:
         diagnostics += _against_the_file(read, verdict.certificate, name)
-    plan = None if has_errors(diagnostics) else VerifiedIR(ir, verdict.certificate)
+    verified = VerifiedIR(ir, verdict.certificate, verdict.covered)
+    plan = None if has_errors(diagnostics) else verified
     return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file, written)
 
 

@@ -40,20 +40,34 @@ class View:
     covered: Array
 
 
-def framing(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Claim what every shot promises of its targets; without a promise the same claims are soft."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Filmed:
+    """A shot as it is flown, and what it shows of each of its targets that it ever frames."""
+
+    placed: PlacedShot
+    phase: Phase
+    views: tuple[View, ...]
+
+
+def filmed(flight: Flight, ir: TrajectoryIR) -> Iterator[Filmed]:
+    """Yield the shots that a drone films, with the samples of all their targets."""
     for placed in ir.keyframes.shots:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
         if len(flown) != 1 or placed.shot.drone != flight.drone.name:
             continue
-        yield from wanted_framing(flight, placed_at(flight.mission, placed, flown[0].start), flown[0])
-        for target in subjects(flight.mission, flight.track, placed.shot.id):
-            view = view_of(flight, placed, target, flown[0])
-            if view is not None:
-                yield _in_frame(flight, view)
-                yield from _screen_error(flight, view)
-                yield from _size(flight, view)
-                yield from visible(flight, view.shot, target, view.times, view.covered)
+        every = subjects(flight.mission, flight.track, placed.shot.id)
+        views = (view_of(flight, placed, target, flown[0]) for target in every)
+        yield Filmed(placed, flown[0], tuple(view for view in views if view is not None))
+
+
+def framing(flight: Flight, shot: Filmed) -> Iterator[Claim]:
+    """Claim what a shot promises of its targets; without a promise the same claims are soft."""
+    yield from wanted_framing(flight, placed_at(flight.mission, shot.placed, shot.phase.start), shot.phase)
+    for view in shot.views:
+        yield _in_frame(flight, view)
+        yield from _screen_error(flight, view)
+        yield from _size(flight, view)
+        yield from visible(flight, view.shot, view.target, view.times, view.covered)
 
 
 def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:

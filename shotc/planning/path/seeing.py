@@ -61,12 +61,9 @@ class FilmedCurve:
         Where one is hidden in part, its share counts. The speed is that which bends and the way from rest to
         rest allow; jerk is left out.
         """
-        filmed = dict(self._ways())
         s = [self._samples(k, FINER) for k in range(len(self.at) - 1)]
-        hidden = [
-            self._shares(part, filmed[k]) if k in filmed else np.zeros(len(part)) for k, part in enumerate(s)
-        ]
-        every, shares = np.concatenate(s), np.concatenate(hidden)
+        every = np.concatenate(s)
+        shares = np.concatenate([self._hidden.get(k, np.zeros(len(part))) for k, part in enumerate(s)])
         steps = self._steps(every)
         return float(steps.sum()), float((0.5 * (shares[1:] + shares[:-1]) * steps).sum())
 
@@ -79,9 +76,18 @@ class FilmedCurve:
         """Return places that draw each way to where its target is seen, (N, 3), in order; none if it is."""
         places = [np.zeros((0, 3))] * (len(self.at) - 1)
         for k, who in self._ways():
-            if self._shares(self._samples(k, FINER), who).max() > MOST_SHARE:
+            if self._hidden[k].max() > MOST_SHARE:
                 places[k] = self._led(space, k, who)
         return tuple(places)
+
+    @cached_property
+    def _hidden(self) -> dict[int, Array]:
+        """The shares of its target that are hidden on each way that films one, at samples."""
+        found = {}
+        for k, who in self._ways():
+            s = self._samples(k, FINER)
+            found[k] = _repeated(who, len(s)).hidden(self.curve(s)[:, None])[:, 0]
+        return found
 
     def _ways(self) -> Iterator[tuple[int, Watched]]:
         """Yield the ways from one keyframe to the next that film one target, and that target."""
@@ -93,9 +99,6 @@ class FilmedCurve:
     def _samples(self, k: int, finer: int) -> Array:
         long = float(self.at[k + 1] - self.at[k])
         return np.linspace(self.at[k], self.at[k + 1], finer * min(MOST, max(2, round(long / STEP_M))) + 1)
-
-    def _shares(self, s: Array, who: Watched) -> Array:
-        return _repeated(who, len(s)).hidden(self.curve(s)[:, None])[:, 0]
 
     def _steps(self, s: Array) -> Array:
         """Return about how many seconds pass from each of some path parameters (N,) to the next, (N - 1,)."""

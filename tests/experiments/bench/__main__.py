@@ -23,7 +23,7 @@ from pathlib import Path
 from shotc import __version__, plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
-from tests.experiments.bench import shows
+from tests.experiments.bench import places, shows
 from tests.experiments.bench.fleets import fleets, mission
 from tests.experiments.bench.memory import check_status, peak_memory, start
 
@@ -204,6 +204,12 @@ def main() -> None:
             for name, path in shows.large(Path(folder)).items()
         }
         processes(1, "cvxpy, scipy.spatial, rerun", rows)
+        ways = {
+            name: [*SHOTC, "plan", str(path), "-o", folder]
+            for name, path in places.missions(Path(folder)).items()
+        }
+        processes(3, "cvxpy, casadi, toppra, rerun", ways)
+        places.in_one_process(Path(folder))
     fleets()
     shows.growth()
     shows.splines()

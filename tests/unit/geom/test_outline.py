@@ -7,18 +7,32 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from shotc.geom.outline import (
+    OutlineRays,
     covered_by_ball,
     covered_by_solid,
     covered_by_surface,
+    near_solid,
+    outline_boards,
     outline_rays,
     share_of,
 )
+from shotc.geom.pieces import Mask
 from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, Part, TargetShape, bodies_of
 from shotc.geom.solids import Cylinder, Prism, Solid, box
-from shotc.geom.surface.tree import surface_of
+from shotc.geom.surface.sight import candidates, in_the_way, stopped
+from shotc.geom.surface.tree import Surface, surface_of
+from shotc.geom.vec import Vec3
 
 RAYS = 60_000
 RIDER = CylinderShape(0.4, 1.9)
+
+
+def rays_to(shape: TargetShape, centre: Vec3, eyes: Array) -> OutlineRays:
+    return outline_rays(shape, centre, outline_boards(shape, centre, eyes))
+
+
+def by_surface(rays: OutlineRays, surface: Surface) -> Mask:
+    return covered_by_surface(rays, surface, in_the_way(surface, rays.boards, rays.own.shape[1]))
 
 
 def meets(solid: Solid, eye: Array, way: Array) -> Array:
@@ -96,7 +110,7 @@ def test_shares_are_those_of_many_rays() -> None:
     for shape in SHAPES:
         for _ in range(15):
             eye, solids = scene(random, max(shape.radius, shape.height))
-            rays = outline_rays(shape, (0.0, 0.0, 0.0), eye[None])
+            rays = rays_to(shape, (0.0, 0.0, 0.0), eye[None])
             covered = np.any([covered_by_solid(rays, solid) for solid in solids], axis=0)
             wanted = reference(shape, eye, solids, random)
             errors.append(abs(float(share_of(rays, covered)[0]) - wanted))
@@ -111,16 +125,16 @@ def test_a_surface_covers_what_its_solid_does(shape: TargetShape) -> None:
     random = np.random.default_rng(6)
     for _ in range(10):
         eye, solids = scene(random, max(shape.radius, shape.height))
-        rays = outline_rays(shape, (0.0, 0.0, 0.0), eye[None])
+        rays = rays_to(shape, (0.0, 0.0, 0.0), eye[None])
         walls = [solid for solid in solids if isinstance(solid, Prism)]
-        meshes = [covered_by_surface(rays, surface_of(triangles(wall))) for wall in walls]
+        meshes = [by_surface(rays, surface_of(triangles(wall))) for wall in walls]
         for wall, mesh in zip(walls, meshes, strict=True):
             assert np.mean(covered_by_solid(rays, wall) != mesh) < 0.01
 
 
 def test_a_ball_covers_what_a_disc_as_large_does() -> None:
     eye = np.array([[-20.0, 0.0, 0.0]])
-    rays = outline_rays(CylinderShape(1.0, 2.0), (0.0, 0.0, 0.0), eye)
+    rays = rays_to(CylinderShape(1.0, 2.0), (0.0, 0.0, 0.0), eye)
     covered = share_of(rays, covered_by_ball(rays, np.array([[-10.0, 0.0, 0.0]]), 0.25))
     assert covered[0] == pytest.approx(np.pi * 0.5**2 / 4.0, abs=0.05)
     assert share_of(rays, covered_by_ball(rays, np.array([[10.0, 0.0, 0.0]]), 0.25))[0] == 0.0
@@ -129,17 +143,44 @@ def test_a_ball_covers_what_a_disc_as_large_does() -> None:
 
 def test_what_touches_is_within_or_behind_covers_nothing_and_what_holds_the_target_all() -> None:
     eyes = np.array([[-20.0, 0.0, 3.0], [-15.0, 6.0, 0.2], [0.3, 0.2, 30.0]])
-    rays = outline_rays(RIDER, (0.0, 0.0, 0.95), eyes)
+    rays = rays_to(RIDER, (0.0, 0.0, 0.95), eyes)
     behind = box((3.0, 0.0, 1.0), (2.0, 9.0, 2.0), 0.0)
     within = Cylinder((0.0, 0.0), 0.3, 0.1, 1.8)
     ground = surface_of(np.array([[[-99, -99, 0], [99, -99, 0], [0, 99, 0.0]]], dtype=float))
     assert not covered_by_solid(rays, behind).any()
     assert not covered_by_solid(rays, within).any()
-    assert not covered_by_surface(rays, ground).any()
+    assert not by_surface(rays, ground).any()
     assert (share_of(rays, covered_by_solid(rays, box((0.0, 0.0, 1.0), (3.0, 3.0, 3.0), 0.0))) == 1.0).all()
     assert not covered_by_solid(rays, box((-18.0, 2.0, 1.0), (90.0, 90.0, 90.0), 0.0)).any()
 
 
 def test_an_eye_within_its_target_sees_no_outline() -> None:
-    rays = outline_rays(CylinderShape(2.0, 4.0), (0.0, 0.0, 0.0), np.array([[0.1, 0.0, 0.0]]))
+    rays = rays_to(CylinderShape(2.0, 4.0), (0.0, 0.0, 0.0), np.array([[0.1, 0.0, 0.0]]))
     assert share_of(rays, rays.own).tolist() in ([0.0], [1.0])
+
+
+@pytest.mark.parametrize("size", [0.2, 5.0, 60.0])
+def test_what_is_left_out_is_in_the_way_of_no_ray(size: float) -> None:
+    """Triangles that cross, touch and lie far beside the rays, and flat ones that the target stands on."""
+    random = np.random.default_rng(8)
+    middles = random.uniform(-25.0, 25.0, (3000, 1, 3))
+    loose = middles + random.normal(0.0, size, (3000, 3, 3))
+    flat = middles * [1.0, 1.0, 0.0] + random.normal(0.0, size, (3000, 3, 3)) * [1.0, 1.0, 0.0]
+    surface = surface_of(np.concatenate([loose, flat]))
+    eyes = random.uniform([-20.0, -20.0, -5.0], [20.0, 20.0, 35.0], (40, 3))
+    for shape in SHAPES:
+        rays = rays_to(shape, (0.0, 0.0, 0.5 * shape.height), eyes)
+        some, every = in_the_way(surface, rays.boards, rays.own.shape[1]), candidates(surface, rays.boards)
+        assert len(some) < len(every)
+        hits = [stopped(surface, rays.boards, pairs, np.ones_like(rays.reach)) for pairs in (some, every)]
+        assert hits[0].any()
+        assert (hits[0] == hits[1]).all()
+
+
+def test_solids_that_cover_are_near() -> None:
+    random = np.random.default_rng(9)
+    for shape in SHAPES:
+        eye, solids = scene(random, max(shape.radius, shape.height))
+        rays = rays_to(shape, (0.0, 0.0, 0.0), eye[None])
+        for solid in solids:
+            assert near_solid(rays.boards, solid)[0] or not covered_by_solid(rays, solid).any()
