@@ -9,7 +9,7 @@ its limit, worst value, time, place and method. A plan that breaks a hard claim 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
@@ -40,7 +40,7 @@ class Verdict:
 
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
-    covered: tuple[CoveredShares, ...] = ()
+    covered: tuple[CoveredShares, ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
