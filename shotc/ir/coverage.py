@@ -33,7 +33,7 @@ from shotc.geom.solids import Solid
 from shotc.geom.surface.sight import Billboards, in_the_way
 from shotc.geom.surface.tree import Pairs, Surface
 from shotc.ir.bodies import beside_body, flying, from_body, parts_of_one
-from shotc.ir.hiding_surfaces import surfaces_before
+from shotc.ir.hiding_surfaces import NamedParts, surfaces_before
 from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
@@ -73,6 +73,23 @@ def coverage(
     names = [name for name, _ in parts[0].by] if parts else []
     by = tuple((name, np.concatenate([part.by[k][1] for part in parts])) for k, name in enumerate(names))
     return Coverage(np.concatenate([np.empty(0), *(part.share for part in parts)]), by)
+
+
+def covered_by_parts(mission: MissionIR, before: NamedParts, target: str, eyes: Array, t: Array) -> Coverage:
+    """Return how much of a target's outline a mesh covers, and each of its parts by name, as ``coverage``."""
+    filmed = mission.target(target)
+    own = outline_boards(filmed.shape, filmed.centre, beside_body(filmed, eyes, t))
+    rays = outline_rays(filmed.shape, filmed.centre, own).mapped(partial(from_body, filmed, t=t))
+    pairs = in_the_way(before.surface, rays.boards, CELLS)
+    covered, by = np.zeros_like(rays.own), []
+    number = before.part[pairs.triangle]
+    names = {part: before.mesh.names[part] for part in np.unique(number).tolist()}
+    for name in dict.fromkeys(names.values()):
+        its = np.isin(number, [part for part, called in names.items() if called == name])
+        covers = covered_by_surface(rays, before.surface, pairs.pick(its))
+        covered |= covers
+        by.append((name, share_of(rays, covers)))
+    return Coverage(share_of(rays, covered), tuple(by))
 
 
 def _alone(mission: MissionIR, others: Sequence[DroneTrajectory]) -> bool:

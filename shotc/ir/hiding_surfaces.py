@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Solid
 from shotc.geom.surface.sight import hidden, upright
@@ -27,15 +29,40 @@ RAYS = 3
 """Along each side of what stands in for a target where viewpoints are chosen."""
 
 
+class NamedParts(NamedTuple):
+    """The surface of a mesh of several parts, without what of it is a target.
+
+    mesh : what it is of; part : shape (N,), of each of its triangles, the number of what it belongs to
+    """
+
+    mesh: ObstacleMesh
+    surface: Surface
+    part: IntArray
+
+
 def surfaces_before(mission: MissionIR, target: str) -> tuple[tuple[str, Surface], ...]:
     """Return, by sort and name, the surfaces that may hide a target; name : of the target."""
-    own = tuple(
-        body.solid for body in mission.targets if body.name in mission.one_with(target) and body.track is None
-    )
-    found = [(f"{mesh.kind} {mesh.file}", _without(mesh, own)) for mesh in mission.meshes]
+    own = _bodies(mission, target)
+    found = [(_called(mesh), _without(mesh, own).surface) for mesh in mission.meshes]
     if mission.terrain is not None:
         found.insert(0, (f"terrain {mission.terrain.file}", mission.terrain.ground.surface))
     return tuple(found)
+
+
+def parts_before(mission: MissionIR, target: str) -> dict[str, NamedParts]:
+    """Return, by sort and name as in ``surfaces_before``, the meshes of several parts."""
+    own = _bodies(mission, target)
+    return {_called(mesh): _without(mesh, own) for mesh in mission.meshes if len(mesh.names) > 1}
+
+
+def _called(mesh: ObstacleMesh) -> str:
+    return f"{mesh.kind} {mesh.file}"
+
+
+def _bodies(mission: MissionIR, target: str) -> tuple[Solid, ...]:
+    """Return the bodies of a target, and of what is one with it, that stand."""
+    one = mission.one_with(target)
+    return tuple(body.solid for body in mission.targets if body.name in one and body.track is None)
 
 
 def share_hidden(surface: Surface, eyes: Array, centres: Array, radius: float, height: float) -> Array:
@@ -62,11 +89,14 @@ def shares_hidden_by(
 
 
 @lru_cache(maxsize=16)
-def _without(mesh: ObstacleMesh, own: tuple[Solid, ...]) -> Surface:
-    """Return the surface of a mesh without triangles all of whose corners are in solids, or next to them."""
-    corners = mesh.surface.triangles.reshape(-1, 3)
+def _without(mesh: ObstacleMesh, own: tuple[Solid, ...]) -> NamedParts:
+    """Return a mesh without triangles all of whose corners are in solids, or next to them."""
+    corners, part = mesh.surface.triangles.reshape(-1, 3), mesh.part[mesh.surface.source]
     beside = np.zeros(len(corners), dtype=bool)
     for solid in own:
         beside |= distances(solid, corners) <= OWN_M
-    its = beside.reshape(-1, 3).all(axis=1)
-    return surface_of(mesh.surface.triangles[~its]) if its.any() else mesh.surface
+    others = ~beside.reshape(-1, 3).all(axis=1)
+    if others.all():
+        return NamedParts(mesh, mesh.surface, part)
+    surface = surface_of(mesh.surface.triangles[others])
+    return NamedParts(mesh, surface, part[others][surface.source])

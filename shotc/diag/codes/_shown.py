@@ -79,7 +79,7 @@ SHOWN: tuple[CodeInfo, ...] = (
         "Another target, a keep-out zone, terrain, a scene or another drone covers more than half of the target's "
         "outline in some frame, or the target is within a zone. Targets that overlap or touch, as a lantern in "
         "its tower, are parts of one thing and do not hide each other. The notes tell what hides how much of it and how "
-        "often, and when it is worst. Film from another side or from higher up. Planning leads "
+        "often, by the names of buildings and parts of a scene, and when it is worst. Film from another side or from higher up. Planning leads "
         "shots past terrain, scenes and buildings where the author left the way free, and the refiner `ours` goes "
         "aside in shots of moving targets, as far as that shows more. Where it is hidden in most frames, that "
         "is an error (V050). Less is told by `covered` in framing.csv and in the summary; `require: {visible: 90 %}` has it held "

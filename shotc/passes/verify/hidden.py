@@ -4,11 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from shotc.ir.coverage import HALF_SHARE, coverage
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.coverage import HALF_SHARE, coverage, covered_by_parts
+from shotc.ir.hiding_surfaces import NamedParts, parts_before
+from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import others_of
+from shotc.ir.owners import mesh_owner
 from shotc.ir.parked import bodies
 from shotc.ir.sampling import clock, framed
 from shotc.ir.trajectory import Claim, TrajectoryIR
+
+NAMED = 3
+"""Buildings, or parts of a scene, that are told by name: those that hide most."""
 
 
 def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
@@ -20,9 +29,34 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
     if not len(times):
         return
     others, eyes = others_of(bodies(ir), track.drone), track.curve(times)[:, :3]
-    for what, share in sorted(coverage(mission, others, target, eyes, times).by, key=lambda by: -by[1].sum()):
-        sort, _, name = what.partition(" ")
+    named, told = parts_before(mission, target), list[tuple[str, Array]]()
+    for what, share in coverage(mission, others, target, eyes, times).by:
+        parts = _by_name(mission, named[what], target, (eyes, times, share)) if what in named else []
+        if len(parts) != 1:
+            sort, _, name = what.partition(" ")
+            told.append((f"{sort} `{name}`", share))
+        told += parts[:NAMED]
+    for what, share in sorted(told, key=lambda by: -by[1].sum()):
         if share.any():
             often = float((share > 1.0 - HALF_SHARE).mean())
-            most = f"{sort} `{name}` hides up to {100 * share.max():.3g} % of it"
+            most = f"{what} hides up to {100 * share.max():.3g} % of it"
             yield f"{most}, and more than half in {100 * often:.3g} % of the frames"
+
+
+def _by_name(
+    mission: MissionIR, of: NamedParts, target: str, seen: tuple[Array, Array, Array]
+) -> list[tuple[str, Array]]:
+    """Return the parts of a mesh that hide a target, in words, the worst first, and the share each hides.
+
+    seen : eyes, (M, 3), mission times, (M,), and the share that the whole mesh hides then, (M,)
+    """
+    eyes, times, share = seen
+    hides, owner = share > 0.0, mesh_owner(of.mesh)
+    if not hides.any():
+        return []
+    found = []
+    for name, its in covered_by_parts(mission, of, target, eyes[hides], times[hides]).by:
+        every = np.zeros(len(share))
+        every[hides] = its
+        found.append((owner._replace(name=name).words, every))
+    return sorted(found, key=lambda by: -by[1].sum())

@@ -10,11 +10,13 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import box
 from shotc.ir.mission import Promise, Zone
+from shotc.ir.obstacle_mesh import obstacle_mesh
 from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.visible import longest
 from tests.support.records import replace
+from tests.support.scenes import house, turned
 from tests.support.tampered_plans import (
     CONTEXT,
     MISSION,
@@ -107,6 +109,23 @@ def test_a_target_within_a_zone_is_hidden_in_every_frame_and_that_is_an_error_un
     assert told.notes[-1] == "zone `hall` hides up to 100 % of it, and more than half in 100 % of the frames"
     meant = replace(MISSION.shots[0], allow=("hidden-subject",))
     assert codes(with_mission(zones=(*MISSION.zones, hall), shots=(meant,))) == []
+
+
+def test_what_hides_a_target_is_named_by_its_part() -> None:
+    walls = [turned(house(1, 4, 19, 20), 0.0, (x, y)) for x, y in ((30.0, 0.0), (30.0, 400.0))]
+    numbers = np.repeat([0, 1], [len(wall) for wall in walls])
+    mesh = obstacle_mesh("buildings", "houses.geojson", np.concatenate(walls), (numbers, ("Barn", "Mill")))
+    ir = with_mission(meshes=(mesh,))
+    found = [d for d in Verify().run(ir, CONTEXT).diagnostics if d.code == "V031"]
+    notes = found[0].notes
+    assert [note.partition(" hides")[0] for note in notes if " hides up to" in note] == ["building `Barn`"]
+    again = replace(mesh, names=("Barn", "Barn"))
+    alone = replace(mesh, part=np.zeros(len(numbers), dtype=np.intp), names=("houses",))
+    for other, name in ((again, "building `Barn`"), (alone, "buildings `houses.geojson`")):
+        (told,) = (
+            d for d in Verify().run(with_mission(meshes=(other,)), CONTEXT).diagnostics if d.code == "V031"
+        )
+        assert told.notes[-1] == notes[-1].replace("building `Barn`", name)
 
 
 @pytest.mark.slow
