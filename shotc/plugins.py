@@ -14,7 +14,10 @@ from shotc.diag.model import Diagnostic
 from shotc.requirements import remedy
 
 API_VERSION = 1
-OPTIONAL = ("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi")
+OPTIONAL = (
+    *("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi"),
+    "pymavlink",
+)
 """Libraries that the base install does without: a plugin that misses one is not broken."""
 OURS = "shotc"
 OUR_REFINER, NO_REFINER = "ours", "none"

@@ -12,6 +12,7 @@ PACKAGE = "shotc"
 VIEWER = "rerun"
 PLACES = frozenset({"pyproj", "laspy", "lazrs"})
 """Libraries of the extra `geo`."""
+SENDER = "pymavlink"
 
 
 def remedy(libraries: Sequence[str]) -> str:
@@ -24,6 +25,8 @@ def remedy(libraries: Sequence[str]) -> str:
                 "leave it out: the viewer has no release for Intel Macs; the output `storyboard` shows a "
                 "plan without it, and `shotc view` on another machine takes the plan.json of this one"
             )
+    if SENDER in packages:
+        return f"run `{install_line('stream' if packages == {SENDER} else 'all')}`"
     if PLACES & packages:
         return f"run `{install_line('geo' if packages <= PLACES else 'all')}`"
     extra = "view" if packages == {VIEWER} else "all" if VIEWER in packages else "plan"

@@ -39,6 +39,7 @@ COMMANDS = {
     "verify": _Command("shotc.cli.verify:verify", _PLAN),
     "emit": _Command("shotc.cli.emit:emit", _PLAN),
     "fly": _Command("shotc.cli.fly:fly", _PLAN),
+    "stream": _Command("shotc.cli.stream:stream", _PLAN),
     "view": _Command("shotc.cli.view:view", _PLAN),
     "compare": _Command("shotc.cli.compare:compare", _PLAN),
     "diff": _Command("shotc.cli.diff:diff", _PLAN),

@@ -27,6 +27,7 @@ FAMILIES = {
     "T": ("timing", "timing"),
     "V": ("verification", "verification"),
     "E": ("emission", "emission"),
+    "A": ("autopilots", "autopilots and streaming"),
     "I": ("imports", "imports"),
     "P": ("plugins", "plugins and options"),
     "X": ("internal", "our bug"),

@@ -1,0 +1,193 @@
+"""``shotc stream``: send a proved plan to autopilots, as it is to be flown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from shotc.cli import console
+from shotc.cli.console import known
+from shotc.cli.plans import PlanPath, prove
+from shotc.plugins import not_installed
+from shotc.stream.endpoint import Endpoint, endpoint
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.api import PlanReport
+    from shotc.ir.mission import MissionIR
+    from shotc.stream.flight import Flown
+    from shotc.stream.pilot import Pilot
+    from shotc.stream.session import Aboard, Session
+
+To = Annotated[
+    list[str],
+    typer.Option(
+        "--to",
+        metavar="[DRONE=]ADDRESS",
+        help="Where a vehicle is: `udp:PORT` or `udp:HOST:PORT` waits for it there, `udpout:HOST:PORT` calls "
+        "it. Once for every drone; the name may be left out where the plan has one.",
+    ),
+]
+TargetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--target",
+        metavar="NAME=udp:PORT",
+        help="Let cameras follow where a target really is: positions as JSON or MAVLink come to this port.",
+    ),
+]
+Arm = Annotated[
+    bool, typer.Option("--arm", help="Mean it: arm the vehicles and fly. Without it nothing moves.")
+]
+
+
+def stream(plan: PlanPath, to: To, target: TargetOption = None, arm: Arm = False) -> None:
+    """Send a proved plan to PX4 or ArduPilot over MAVLink: 50 setpoints a second a drone, on one clock.
+
+    Without --arm it is a dry run: it connects to every vehicle, reads what has to be known, judges it, says
+    what it would do, and sends nothing that moves anything. Try it first, on the pads.
+
+    Before anything is armed, every vehicle has to be the autopilot that the plan is for, disarmed and ready,
+    with its home within 1 m of its pad in the plan, a gimbal that reaches what the plan looks at, and
+    parameters by which it holds, returns or lands when the link is lost. What is not so is said, with what to
+    do about it.
+
+    With --arm each drone gets ready a few seconds before its lift-off, follows the plan in OFFBOARD (PX4) or
+    GUIDED (ArduPilot), records its shots, and lands on its pad. If anything goes wrong, or at Ctrl-C, every
+    drone in the air is told to hold (PX4: HOLD, ArduPilot: BRAKE): be ready to take over.
+
+    With --target cameras follow where a target is, at the place on screen that the plan gives it; drones keep
+    to the plan. A datagram is `{"x": 3.1, "y": -2, "z": 0.9}` in the mission's frame,
+    `{"lat": .., "lon": .., "alt": ..}`, or the GLOBAL_POSITION_INT of another vehicle.
+
+    Examples
+        shotc stream out/tower --to udp:14540
+
+        shotc stream out/runner --to near=udp:14540 --to far=udp:14541 --target runner=udp:14600 --arm
+    """
+    addresses, targets = _addresses(to, "--to"), _addresses(target or [], "--target")
+    if find_spec("pymavlink") is None:
+        console.report([not_installed("P004", "`shotc stream`", ["pymavlink"])], {})
+        raise typer.Exit(console.EXIT_REJECTED)
+    report = prove(plan)
+    if report.plan is None:
+        console.report(report.diagnostics, report.sources)
+        raise typer.Exit(console.EXIT_REJECTED)
+    mission = report.plan.trajectory.keyframes.mission
+    flown = [track.drone for track in report.plan.trajectory.drones]
+    _all_named(_of_one(addresses, flown), flown, targets, mission)
+    raise typer.Exit(_stream(report, _of_one(addresses, flown), targets, arm=arm))
+
+
+def _stream(
+    report: PlanReport, addresses: Mapping[str, Endpoint], targets: Mapping[str, Endpoint], *, arm: bool
+) -> int:
+    from shotc.stream.clock import WallClock
+    from shotc.stream.session import Session
+    from shotc.stream.sockets import DOORS
+
+    assert report.plan is not None
+    with Session(report.plan, DOORS, WallClock(), console.note) as session:
+        found = session.open(addresses, targets)
+        aboard: list[Aboard] = []
+        if not found:
+            aboard, found = session.check()
+        console.report(found, report.sources)
+        if console.exit_code(found):
+            return console.EXIT_REJECTED
+        console.out(_checked(aboard))
+        if not arm:
+            console.out("dry run: nothing was armed or moved; with --arm this is flown")
+            return console.EXIT_CLEAN
+        return _fly(session, aboard, report)
+
+
+def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport) -> int:
+    from shotc.stream.report import told
+
+    flown, pilots = session.fly(aboard)
+    console.out(_outcome(flown, pilots))
+    console.out(told(flown.times))
+    console.report(flown.diagnostics, report.sources)
+    if flown.interrupted:
+        return console.EXIT_INTERRUPTED
+    return console.exit_code(flown.diagnostics)
+
+
+def _checked(aboard: Sequence[Aboard]) -> str:
+    from shotc.stream.session import summary
+
+    rows = [
+        (f"{who.ready.drone.name}" if index == 0 else "", *row)
+        for who in aboard
+        for index, row in enumerate(summary(who))
+    ]
+    return "\n".join(console.table(rows))
+
+
+def _outcome(flown: Flown, pilots: Sequence[Pilot]) -> str:
+    rows = [
+        (
+            pilot.name,
+            f"{pilot.sent} setpoints",
+            f"at most {pilot.farthest:.2f} m from the plan",
+            _end(flown, pilot),
+        )
+        for pilot in pilots
+    ]
+    return "\n".join(console.table(rows))
+
+
+def _end(flown: Flown, pilot: Pilot) -> str:
+    if pilot.done:
+        return "landed"
+    mode = dict(flown.holding).get(pilot.name)
+    if mode is not None:
+        return f"in the air, {mode} was asked for: take it over"
+    return "taken over" if pilot.taken else "not in the air"
+
+
+def _addresses(texts: Sequence[str], option: str) -> dict[str, Endpoint]:
+    """Return addresses by name; "" where none is given."""
+    found: dict[str, Endpoint] = {}
+    for text in texts:
+        name, equals, address = text.rpartition("=")
+        if option == "--target" and not equals:
+            raise typer.BadParameter(f"`{text}` names no target; write `NAME=udp:PORT`", param_hint=option)
+        if name in found:
+            raise typer.BadParameter(f"`{name or text}` is given twice", param_hint=option)
+        try:
+            found[name] = endpoint(address)
+        except ValueError as fault:
+            raise typer.BadParameter(str(fault), param_hint=option) from None
+    return found
+
+
+def _of_one(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> dict[str, Endpoint]:
+    """Return addresses by drone: one without a name is that of a plan's only drone."""
+    if len(flown) == 1 and list(addresses) == [""]:
+        return {flown[0]: addresses[""]}
+    return dict(addresses)
+
+
+def _all_named(
+    addresses: Mapping[str, Endpoint],
+    flown: Sequence[str],
+    targets: Mapping[str, Endpoint],
+    mission: MissionIR,
+) -> None:
+    """Refuse names that the plan does not have, and drones without an address: all fly on one clock."""
+    if "" in addresses:
+        names = ", ".join(flown)
+        raise typer.BadParameter(
+            f"the plan flies {names}; write `--to DRONE=...` for each", param_hint="--to"
+        )
+    for name in addresses:
+        known("--to", name, list(flown))
+    lacking = [name for name in flown if name not in addresses]
+    if lacking:
+        raise typer.BadParameter(f"no address for {', '.join(lacking)}", param_hint="--to")
+    for name in targets:
+        known("--target", name, [target.name for target in mission.targets])

@@ -1,0 +1,35 @@
+"""The clock that a flight is sent by: deadlines are absolute, so that no delay adds up."""
+
+from __future__ import annotations
+
+import time
+from typing import Protocol
+
+RATE_HZ = 50
+PERIOD_S = 1.0 / RATE_HZ
+
+
+class Clock(Protocol):
+    """Seconds that only go forward, from anywhere."""
+
+    def now(self) -> float:
+        """Return the time."""
+        ...
+
+    def wait_until(self, moment: float) -> None:
+        """Return at ``moment``, at once where it has passed."""
+        ...
+
+
+class WallClock:
+    """The clock of the machine."""
+
+    def now(self) -> float:
+        """Return the time."""
+        return time.monotonic()
+
+    def wait_until(self, moment: float) -> None:
+        """Sleep until ``moment``."""
+        left = moment - time.monotonic()
+        if left > 0:
+            time.sleep(left)

@@ -1,0 +1,35 @@
+"""Where a vehicle is reached: ``udp:PORT`` waits for it there, ``udpout:HOST:PORT`` calls it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+EVERYWHERE = "0.0.0.0"
+PORT_MOST = 65535
+
+
+class Endpoint(NamedTuple):
+    """A UDP address; calls : whether it is the other side's, to which the first datagram goes."""
+
+    host: str
+    port: int
+    calls: bool
+
+    def __str__(self) -> str:
+        """Return it as it is written."""
+        if self.calls:
+            return f"udpout:{self.host}:{self.port}"
+        return f"udp:{self.port}" if self.host == EVERYWHERE else f"udp:{self.host}:{self.port}"
+
+
+def endpoint(text: str) -> Endpoint:
+    """Return what ``udp:[HOST:]PORT`` or ``udpout:HOST:PORT`` says; ValueError says what is wrong with it."""
+    scheme, _, rest = text.partition(":")
+    host, _, port = rest.rpartition(":")
+    if scheme not in ("udp", "udpout") or not port:
+        raise ValueError(f"`{text}` is no address; write `udp:PORT`, `udp:HOST:PORT` or `udpout:HOST:PORT`")
+    if not port.isascii() or not port.isdigit() or not 1 <= int(port) <= PORT_MOST:
+        raise ValueError(f"`{text}` has no port from 1 to {PORT_MOST}")
+    if scheme == "udpout" and not host:
+        raise ValueError(f"`{text}` does not say whom to call; write `udpout:HOST:{port}`")
+    return Endpoint(host or EVERYWHERE, int(port), scheme == "udpout")

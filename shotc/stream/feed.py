@@ -1,0 +1,111 @@
+"""Where a live target is: JSON or MAVLink positions that come by UDP.
+
+A datagram is one position. As JSON it is ``{"x": .., "y": .., "z": ..}``, metres in the mission's frame, or
+``{"lat": .., "lon": .., "alt": ..}``, degrees and metres above sea level; without a height the target is as
+high as in the plan. As MAVLink it is the GLOBAL_POSITION_INT of another vehicle.
+"""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Callable, Iterable
+from math import isfinite
+
+from shotc.geom.geodetic import to_world
+from shotc.geom.vec import Vec3
+from shotc.ir.mission import GeoOrigin
+from shotc.stream.endpoint import Endpoint
+from shotc.stream.messages import GlobalPosition, Place
+
+STALE_S = 1.0
+"""A target that was heard of longer ago is where the plan has it."""
+LARGEST_DATAGRAM = 4096
+MOST_DATAGRAMS = 200
+FARTHEST_M = 1e5
+"""A position farther from the mission's origin is none."""
+Spot = tuple[float, float, float | None]
+"""x, y and maybe z of W, metres."""
+Decode = Callable[[bytes], Iterable[object]]
+
+
+class Feed:
+    """The positions of one target."""
+
+    def __init__(self, target: str, endpoint: Endpoint, origin: GeoOrigin, mavlink: Decode) -> None:
+        """Listen; OSError where the port cannot be opened. mavlink : decodes datagrams that are no JSON."""
+        self.target = target
+        self.endpoint = endpoint
+        self.seen: float | None = None
+        self.heard = self.unread = 0
+        self._origin: Vec3 = (origin.lat_deg, origin.lon_deg, origin.alt)
+        self._mavlink = mavlink
+        self._spot: Spot | None = None
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setblocking(False)
+        try:
+            self._socket.bind((endpoint.host, endpoint.port))
+        except OSError:
+            self._socket.close()
+            raise
+
+    def close(self) -> None:
+        """Stop listening."""
+        self._socket.close()
+
+    def listen(self, now: float) -> None:
+        """Take in what has come; the last position counts."""
+        for _ in range(MOST_DATAGRAMS):
+            try:
+                data = self._socket.recv(LARGEST_DATAGRAM)
+            except OSError:
+                return
+            for spot in self._spots(data):
+                self._spot, self.seen, self.heard = spot, now, self.heard + 1
+
+    def position(self, now: float) -> Spot | None:
+        """Return where the target is, None where nothing was heard for STALE_S."""
+        if self.seen is None or now - self.seen > STALE_S:
+            return None
+        return self._spot
+
+    def _spots(self, data: bytes) -> list[Spot]:
+        if data.lstrip().startswith(b"{"):
+            spot = self._of_json(data)
+            found = [] if spot is None else [spot]
+            self.unread += not found
+            return found
+        places = [m.place for m in self._mavlink(data) if isinstance(m, GlobalPosition)]
+        return [spot for place in places if (spot := self._of_place(place)) is not None]
+
+    def _of_json(self, data: bytes) -> Spot | None:
+        try:
+            told = json.loads(data)
+        except (ValueError, RecursionError):
+            return None
+        lat, lon = _number(told.get("lat")), _number(told.get("lon"))
+        if lat is not None and lon is not None:
+            alt = _number(told.get("alt"))
+            spot = self._of_place(Place(lat, lon, self._origin[2] if alt is None else alt))
+            return None if spot is None else (spot[0], spot[1], None if alt is None else spot[2])
+        x, y = _number(told.get("x")), _number(told.get("y"))
+        return None if x is None or y is None else _near((x, y, _number(told.get("z"))))
+
+    def _of_place(self, place: Place) -> Spot | None:
+        if abs(place.lat) > 90 or abs(place.lon) > 360:
+            return None
+        return _near(to_world((place.lat, place.lon, place.alt), self._origin))
+
+
+def _near(spot: Spot) -> Spot | None:
+    return spot if all(abs(c) <= FARTHEST_M for c in spot if c is not None) else None
+
+
+def _number(value: object) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if isfinite(number) else None

@@ -1,0 +1,165 @@
+"""The flight: all drones on one clock, a setpoint at every tick, and one way out when anything is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from math import ceil
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.stream import faults
+from shotc.stream.aim import LiveAim
+from shotc.stream.clock import PERIOD_S, RATE_HZ, Clock
+from shotc.stream.feed import Feed
+from shotc.stream.pilot import Pilot
+from shotc.stream.reading import BEAT_S
+from shotc.stream.report import SendTimes, send_times
+
+STALL_S = 0.5
+"""A gap from which on the next setpoint would be a jump: half of what PX4 takes for a lost link."""
+HOLD_S = 5.0
+"""How long holding is asked for before that is told as an error."""
+HOLD_AGAIN_S = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Crew:
+    """Who flies: a drone's pilot, and where its camera looks."""
+
+    pilot: Pilot
+    aim: LiveAim
+
+
+@dataclass(slots=True)
+class Flown:
+    """What came of a flight.
+
+    landed : whether every drone stands on its pad again; interrupted : by the user
+    holding : the drones that were asked to hold, with the modes
+    """
+
+    times: SendTimes
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    landed: bool = False
+    interrupted: bool = False
+    holding: list[tuple[str, str]] = field(default_factory=list)
+
+
+class Flight:
+    """Sends a plan to vehicles that have passed their checks."""
+
+    def __init__(
+        self, crew: Sequence[Crew], feeds: Sequence[Feed], clock: Clock, say: Callable[[str], None]
+    ) -> None:
+        """Say : is told what happens, a line at a time."""
+        self._crew = crew
+        self._feeds = feeds
+        self._clock = clock
+        self._say = say
+        self._delays: list[float] = []
+        self._skipped = 0
+        self._beat = float("-inf")
+        self._stale: set[str] = set()
+        self._tick = min(member.pilot.begins for member in crew)
+
+    def fly(self) -> Flown:
+        """Fly; return when all drones have landed, or hold because something is wrong."""
+        found: list[Diagnostic] = []
+        interrupted = False
+        try:
+            found = self._run()
+        except KeyboardInterrupt:
+            interrupted = True
+            self._say("interrupted: every drone in the air is asked to hold")
+        landed = all(member.pilot.done for member in self._crew)
+        holding: list[tuple[str, str]] = []
+        if not landed:
+            holding, more = self._hold()
+            found += more
+        times = send_times(self._delays, self._skipped)
+        return Flown(times, found, landed and not interrupted, interrupted, holding)
+
+    def _run(self) -> list[Diagnostic]:
+        found: list[Diagnostic] = []
+        start = self._clock.now() - self._tick * PERIOD_S
+        while not all(member.pilot.done for member in self._crew):
+            due = start + self._tick * PERIOD_S
+            self._clock.wait_until(due)
+            behind = self._clock.now() - due
+            if behind > STALL_S:
+                return [*found, faults.stalled(behind, STALL_S)]
+            self._send()
+            self._delays.append(self._clock.now() - due)
+            found += self._attend()
+            if has_errors(found):
+                return found
+            onward = max(self._tick + 1, ceil((self._clock.now() - start) * RATE_HZ - 1e-6))
+            self._skipped += onward - self._tick - 1
+            self._tick = onward
+        return found
+
+    def _send(self) -> None:
+        now = self._clock.now()
+        for member in self._crew:
+            member.pilot.send(self._tick, member.aim.at(self._tick, now))
+
+    def _attend(self) -> list[Diagnostic]:
+        """Listen to everybody, and let every pilot go on; return what is wrong."""
+        now = self._clock.now()
+        self._keep_up(now)
+        found = [d for member in self._crew for d in member.pilot.step(self._tick, now)]
+        for member in self._crew:
+            self._tell(member.pilot)
+        return [*found, *self._silent_targets(now)]
+
+    def _keep_up(self, now: float) -> None:
+        if now - self._beat >= BEAT_S:
+            self._beat = now
+            for member in self._crew:
+                member.pilot.vehicle.link.heartbeat()
+        for member in self._crew:
+            member.pilot.vehicle.listen(now)
+        for feed in self._feeds:
+            feed.listen(now)
+
+    def _tell(self, pilot: Pilot) -> None:
+        for event in pilot.events:
+            self._say(f"{self._tick * PERIOD_S:8.1f} s  {pilot.name}: {event}")
+        pilot.events.clear()
+
+    def _silent_targets(self, now: float) -> list[Diagnostic]:
+        """Return a warning for every target that has just become silent."""
+        found = []
+        for feed in self._feeds:
+            silent = feed.position(now) is None
+            if silent and feed.target not in self._stale:
+                found.append(faults.stale(feed.target, now - (feed.seen or 0.0)))
+                self._stale.add(feed.target)
+            elif not silent:
+                self._stale.discard(feed.target)
+        return found
+
+    def _hold(self) -> tuple[list[tuple[str, str]], list[Diagnostic]]:
+        """Ask every drone in the air to hold until it does, but for those that somebody else has taken."""
+        pilots = [member.pilot for member in self._crew if not member.pilot.taken]
+        start = again = self._clock.now()
+        asked: dict[str, str] = {}
+        while True:
+            now = self._clock.now()
+            self._keep_up(now)
+            running = [pilot for pilot in pilots if not pilot.stopped(self._tick)]
+            if not running or now - start > HOLD_S:
+                return list(asked.items()), [faults.not_holding(p.vehicle, HOLD_S) for p in running]
+            if now >= again:
+                again = now + HOLD_AGAIN_S
+                for pilot in running:
+                    asked.update(self._ask_to_hold(pilot, known=pilot.name in asked))
+            self._clock.wait_until(now + PERIOD_S)
+
+    def _ask_to_hold(self, pilot: Pilot, *, known: bool) -> dict[str, str]:
+        mode = pilot.hold(self._tick)
+        if mode is None or known:
+            return {}
+        self._say(f"{pilot.name}: {mode.name} is asked for")
+        return {pilot.name: mode.name}

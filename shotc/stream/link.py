@@ -1,0 +1,256 @@
+"""The door to MAVLink: the only module that speaks to pymavlink.
+
+Of pymavlink only the generated dialect is used, on sockets of our own. A link belongs to one vehicle: it
+takes what comes from the first address at which an autopilot is heard, and answers there.
+"""
+
+from __future__ import annotations
+
+import socket
+import struct
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from shotc.stream.autopilots import Mode
+from shotc.stream.endpoint import Endpoint
+from shotc.stream.messages import (
+    Answer,
+    GimbalManager,
+    GlobalPosition,
+    Heartbeat,
+    Home,
+    LocalPosition,
+    Message,
+    Origin,
+    Parameter,
+    Place,
+    Text,
+)
+from shotc.stream.setpoints import Aim, Setpoint
+
+STATION, OURSELVES = 255, mavlink.MAV_COMP_ID_MISSIONPLANNER
+"""System and component that ground stations have."""
+AUTOPILOT = mavlink.MAV_COMP_ID_AUTOPILOT1
+LARGEST_DATAGRAM = 65536
+MOST_DATAGRAMS = 500
+"""Datagrams that are read at once: whoever floods a port keeps no setpoint waiting."""
+USES_ALL = mavlink.POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE
+ROLL_LOCK, PITCH_LOCK, YAW_LOCK = 4, 8, 16
+INTEGERS = {1: "<B", 2: "<b", 3: "<H", 4: "<h", 5: "<I", 6: "<i"}
+"""MAV_PARAM_TYPE of integers, and how their bytes stand in the float of PARAM_VALUE where they do."""
+
+
+class Link:
+    """One UDP socket to one vehicle."""
+
+    def __init__(self, endpoint: Endpoint, *, bytewise: bool = False) -> None:
+        """Open the socket; OSError where that is not possible.
+
+        bytewise : whether parameters that are integers come as bytes
+        """
+        self.endpoint = endpoint
+        self.system = 0
+        self.bytewise = bytewise
+        self._peer: tuple[str, int] | None = (endpoint.host, endpoint.port) if endpoint.calls else None
+        self._known = False
+        self._mav = mavlink.MAVLink(None, srcSystem=STATION, srcComponent=OURSELVES)
+        self._mav.robust_parsing = True
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setblocking(False)
+        try:
+            if not endpoint.calls:
+                self._socket.bind((endpoint.host, endpoint.port))
+        except OSError:
+            self._socket.close()
+            raise
+
+    def close(self) -> None:
+        """Close the socket."""
+        self._socket.close()
+
+    def speak_as(self, system: int) -> None:
+        """Take the system id of the ground station whose silence the autopilot minds."""
+        self._mav.srcSystem = system
+
+    def receive(self) -> Iterator[Message]:
+        """Yield what has come since last time; what is no MAVLink, or of no use, is left out."""
+        for _ in range(MOST_DATAGRAMS):
+            try:
+                data, peer = self._socket.recvfrom(LARGEST_DATAGRAM)
+            except OSError:  # nothing there, or the other side's port is closed
+                return
+            if self._known and peer != self._peer:
+                continue
+            yield from self._read(data, peer)
+
+    def _read(self, data: bytes, peer: tuple[str, int]) -> Iterator[Message]:
+        for raw in decoded(self._mav, data):
+            message = understood(raw, bytewise=self.bytewise)
+            if isinstance(message, Heartbeat) and not self._known and raw.get_srcComponent() == AUTOPILOT:
+                self.system, self._peer, self._known = message.system, peer, True
+            if message is not None and (not self.system or raw.get_srcSystem() == self.system):
+                yield message
+
+    def _send(self, message: Any) -> None:
+        if self._peer is None:
+            return
+        try:
+            self._socket.sendto(message.pack(self._mav), self._peer)
+        except OSError:
+            return  # a network that is gone shows as heartbeats that do not come
+        self._mav.seq = (self._mav.seq + 1) % 256
+
+    def heartbeat(self) -> None:
+        """Say that the ground station is there."""
+        self._send(
+            self._mav.heartbeat_encode(
+                mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE
+            )
+        )
+
+    def ask_parameter(self, name: str) -> None:
+        """Ask for a parameter."""
+        self._send(self._mav.param_request_read_encode(self.system, AUTOPILOT, name.encode(), -1))
+
+    def ask(self, message: type[Message]) -> None:
+        """Ask for a message that is not sent by itself."""
+        self.command(mavlink.MAV_CMD_REQUEST_MESSAGE, float(_NUMBERS[message]))
+
+    def stream(self, message: type[Message], rate: float) -> None:
+        """Ask for a message at a rate, Hz."""
+        self.command(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, float(_NUMBERS[message]), 1e6 / rate)
+
+    def command(self, command: int, *params: float, component: int = AUTOPILOT) -> None:
+        """Send a command, its parameters padded with zeros."""
+        seven = (*params, *(0.0,) * (7 - len(params)))
+        self._send(self._mav.command_long_encode(self.system, component, command, 0, *seven))
+
+    def set_mode(self, mode: Mode) -> None:
+        """Ask for a flight mode."""
+        custom = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+        self.command(mavlink.MAV_CMD_DO_SET_MODE, float(custom), float(mode.main), float(mode.sub))
+
+    def arm(self, *, armed: bool) -> None:
+        """Ask the vehicle to arm or disarm; nothing is forced."""
+        self.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, float(armed))
+
+    def take_off(self, height: float) -> None:
+        """Ask the vehicle to rise straight up to a height above its home, metres."""
+        self.command(mavlink.MAV_CMD_NAV_TAKEOFF, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height)
+
+    def record(self, *, on: bool, component: int) -> None:
+        """Ask the camera to begin or to end recording."""
+        video = mavlink.MAV_CMD_VIDEO_START_CAPTURE if on else mavlink.MAV_CMD_VIDEO_STOP_CAPTURE
+        self.command(video, component=component)
+
+    def claim(self, gimbal: GimbalManager) -> None:
+        """Take control of a gimbal."""
+        ours = (float(self._mav.srcSystem), float(self._mav.srcComponent))
+        self.command(
+            mavlink.MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, *ours, -1.0, -1.0, 0.0, 0.0, float(gimbal.device),
+            component=gimbal.component,
+        )  # fmt: skip
+
+    def setpoint(self, setpoint: Setpoint, boot_ms: int) -> None:
+        """Send position, velocity, acceleration and yaw."""
+        self._send(
+            self._mav.set_position_target_local_ned_encode(
+                boot_ms, self.system, AUTOPILOT, mavlink.MAV_FRAME_LOCAL_NED, USES_ALL,
+                *setpoint.position, *setpoint.velocity, *setpoint.acceleration, setpoint.yaw, 0.0,
+            )
+        )  # fmt: skip
+
+    def aim(self, aim: Aim, gimbal: GimbalManager, *, pans: bool) -> None:
+        """Send gimbal angles, level with the horizon; without pan the camera looks where its body does."""
+        flags = ROLL_LOCK | PITCH_LOCK | (YAW_LOCK if pans else 0)
+        yaw, yaw_rate = (aim.yaw, aim.yaw_rate) if pans else (0.0, 0.0)
+        self._send(
+            self._mav.gimbal_manager_set_pitchyaw_encode(
+                self.system, gimbal.component, flags, gimbal.device, aim.pitch, yaw, aim.pitch_rate, yaw_rate
+            )
+        )
+
+
+def decoded(mav: Any, data: bytes) -> list[Any]:
+    """Return the MAVLink messages in a datagram; none where it holds something else."""
+    try:
+        return mav.parse_buffer(data) or []
+    except (mavlink.MAVError, struct.error, ValueError):
+        return []
+
+
+def decoder() -> Any:
+    """Return what decodes datagrams of one sender."""
+    mav = mavlink.MAVLink(None)
+    mav.robust_parsing = True
+    return mav
+
+
+def understood(raw: Any, *, bytewise: bool = False) -> Message | None:
+    """Return a message as plain values, None where it is none that is used."""
+    read = _READERS.get(raw.get_msgId())
+    if read is None:
+        return None
+    try:
+        return Parameter(_name(raw), _number(raw, bytewise=bytewise)) if read is _parameter else read(raw)
+    except (OverflowError, ValueError, struct.error):
+        return None
+
+
+def _heartbeat(raw: Any) -> Message:
+    return Heartbeat(
+        raw.get_srcSystem(), raw.get_srcComponent(), raw.type, raw.autopilot,
+        bool(raw.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED), raw.custom_mode, raw.system_status,
+    )  # fmt: skip
+
+
+def _parameter(raw: Any) -> Message:
+    return Parameter(_name(raw), float(raw.param_value))
+
+
+def _name(raw: Any) -> str:
+    text = raw.param_id
+    return (text.decode("ascii", "replace") if isinstance(text, bytes) else str(text)).rstrip("\x00")
+
+
+def _number(raw: Any, *, bytewise: bool) -> float:
+    layout = INTEGERS.get(raw.param_type)
+    if not bytewise or layout is None:
+        return float(raw.param_value)
+    return float(struct.unpack_from(layout, struct.pack("<f", raw.param_value))[0])
+
+
+def _place(raw: Any) -> Place:
+    return Place(raw.latitude / 1e7, raw.longitude / 1e7, raw.altitude / 1e3)
+
+
+def _gimbal(raw: Any) -> Message:
+    return GimbalManager(
+        raw.get_srcComponent(),
+        raw.gimbal_device_id,
+        (raw.pitch_min, raw.pitch_max),
+        (raw.yaw_min, raw.yaw_max),
+    )
+
+
+_READERS: dict[int, Callable[[Any], Message]] = {
+    mavlink.MAVLINK_MSG_ID_HEARTBEAT: _heartbeat,
+    mavlink.MAVLINK_MSG_ID_PARAM_VALUE: _parameter,
+    mavlink.MAVLINK_MSG_ID_COMMAND_ACK: lambda raw: Answer(raw.command, raw.result),
+    mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: lambda raw: Origin(_place(raw)),
+    mavlink.MAVLINK_MSG_ID_HOME_POSITION: lambda raw: Home(_place(raw)),
+    mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED: lambda raw: LocalPosition((raw.x, raw.y, raw.z)),
+    mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: lambda raw: GlobalPosition(
+        raw.get_srcSystem(), Place(raw.lat / 1e7, raw.lon / 1e7, raw.alt / 1e3)
+    ),
+    mavlink.MAVLINK_MSG_ID_GIMBAL_MANAGER_INFORMATION: _gimbal,
+    mavlink.MAVLINK_MSG_ID_STATUSTEXT: lambda raw: Text(raw.severity, str(raw.text).rstrip("\x00")),
+}
+_NUMBERS: dict[type[Message], int] = {
+    Origin: mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN,
+    Home: mavlink.MAVLINK_MSG_ID_HOME_POSITION,
+    LocalPosition: mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED,
+    GimbalManager: mavlink.MAVLINK_MSG_ID_GIMBAL_MANAGER_INFORMATION,
+}

@@ -1,0 +1,261 @@
+"""One drone's way through a flight: from its pad into the air by the common clock, and back onto the pad.
+
+Called at every tick; nothing here waits. A command is repeated until the vehicle's own heartbeat or position
+shows that it has been carried out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import Enum
+from math import dist
+from typing import NamedTuple
+
+from shotc.diag.model import Diagnostic
+from shotc.stream import faults
+from shotc.stream.autopilots import Mode
+from shotc.stream.clock import PERIOD_S, RATE_HZ
+from shotc.stream.messages import ACCEPTED, IN_PROGRESS, REJECTED_FOR_NOW
+from shotc.stream.setpoints import Aim, Course
+from shotc.stream.vehicle import Vehicle
+
+AGAIN = RATE_HZ // 2
+"""Ticks after which a command that had no effect is sent again."""
+FLOWING = RATE_HZ * 3 // 2
+"""Ticks of setpoints that PX4 has to have had before it follows them: more than a second."""
+SPOOL = RATE_HZ
+"""Ticks that motors are given from arming to lift-off."""
+SILENT_S = 2.0
+"""Seconds without a heartbeat after which a vehicle counts as vanished; they come once a second."""
+STRAY_M = 10.0
+"""A vehicle farther from its setpoint flies something else than the plan."""
+LIFTED = 0.85
+"""Share of the height at which a vehicle that takes off by itself is taken over."""
+LANDING_S = 60.0
+SET_MODE, ARM_DISARM, TAKE_OFF, CLAIM = 176, 400, 22, 1001
+VIDEO_START, VIDEO_STOP = 2500, 2501
+
+
+class Stage(Enum):
+    """How far a drone has come; value : its order."""
+
+    PARKED = 0
+    MODE = 1
+    ARMING = 2
+    LIFTING = 3
+    FLYING = 4
+    LANDING = 5
+    LANDED = 6
+
+
+FOLLOWING = (Stage.ARMING, Stage.LIFTING, Stage.FLYING)
+"""Stages in which a vehicle that has left its mode was taken over."""
+DOINGS = {
+    Stage.MODE: "gets ready",
+    Stage.ARMING: "arms",
+    Stage.LIFTING: "takes off",
+    Stage.FLYING: "follows the plan",
+    Stage.LANDING: "lands",
+    Stage.LANDED: "stands on its pad, motors off",
+}
+
+
+class Cut(NamedTuple):
+    """A tick at which the camera begins or ends to record a shot."""
+
+    tick: int
+    shot: str
+    on: bool
+
+
+class Pilot:
+    """Sends one drone what its course and its stage ask for."""
+
+    def __init__(self, vehicle: Vehicle, course: Course, cuts: tuple[Cut, ...]) -> None:
+        self.vehicle = vehicle
+        self.course = course
+        self.cuts = cuts
+        self.stage = Stage.PARKED
+        self.begins = course.lifts - round(vehicle.autopilot.lead * RATE_HZ)
+        self.farthest = 0.0
+        self.sent = 0
+        self.taken = False
+        self.events: list[str] = []
+        self._asked = -(10**9)
+        self._armed_since = 0
+        self._recording: Cut | None = None
+        self._told = 0
+        self._landing_since = 0
+
+    @property
+    def name(self) -> str:
+        """The drone's name in the plan."""
+        return self.vehicle.drone
+
+    @property
+    def done(self) -> bool:
+        """Whether it stands on its pad again, motors off."""
+        return self.stage is Stage.LANDED
+
+    def airborne(self, tick: int) -> bool:
+        """Tell whether the drone is off its pad, or may be."""
+        if self.stage is Stage.FLYING:
+            return tick > self.course.lifts or self.vehicle.autopilot.lift > 0
+        return self.stage in (Stage.LIFTING, Stage.LANDING)
+
+    def send(self, tick: int, aim: Aim) -> None:
+        """Send what belongs to a tick: the setpoint where the vehicle takes them, and the camera's angles."""
+        follows = Stage.MODE if self.vehicle.autopilot.lift == 0 else Stage.FLYING
+        if self.stage.value >= follows.value and self.stage.value <= Stage.FLYING.value:
+            boot_ms = max(0, round((tick - self.begins) * PERIOD_S * 1000))
+            self.vehicle.link.setpoint(self.course.setpoint(tick), boot_ms)
+            self.sent += 1
+        if self.stage in (Stage.FLYING, Stage.LIFTING) and self.vehicle.gimbal is not None:
+            self.vehicle.link.aim(aim, self.vehicle.gimbal, pans=self.course.pans)
+
+    def step(self, tick: int, now: float) -> Iterator[Diagnostic]:
+        """Go on to the next stage where this one has been reached; yield what makes flying on wrong."""
+        if self.stage is Stage.LANDED or tick < self.begins:
+            return
+        if self.stage is not Stage.PARKED and now - self.vehicle.seen > SILENT_S:
+            yield faults.vanished(self.vehicle, now - self.vehicle.seen)
+            return
+        if self.stage in FOLLOWING and self.vehicle.mode != self.vehicle.autopilot.flown.custom:
+            self.taken = True
+            yield faults.mode_left(self.vehicle)
+            return
+        match self.stage:
+            case Stage.PARKED:
+                self._prepare(tick)
+            case Stage.MODE:
+                yield from self._enter_mode(tick)
+            case Stage.ARMING:
+                yield from self._arm(tick)
+            case Stage.LIFTING:
+                yield from self._lift(tick)
+            case Stage.FLYING:
+                yield from self._fly(tick)
+            case Stage.LANDING:
+                yield from self._land(tick)
+
+    def hold(self, tick: int) -> Mode | None:
+        """Ask a drone in the air to hold, and one on the ground to disarm; return the mode asked for."""
+        if self.stage in (Stage.PARKED, Stage.LANDED):
+            return None
+        if self.airborne(tick):
+            self.vehicle.link.set_mode(self.vehicle.autopilot.hold)
+            return self.vehicle.autopilot.hold
+        if self.vehicle.armed:
+            self.vehicle.link.arm(armed=False)
+        return None
+
+    def stopped(self, tick: int) -> bool:
+        """Tell whether it holds, or stands with its motors off."""
+        if self.stage in (Stage.PARKED, Stage.LANDED) or not self.vehicle.armed:
+            return True
+        return self.airborne(tick) and self.vehicle.mode == self.vehicle.autopilot.hold.custom
+
+    def _prepare(self, tick: int) -> None:
+        self._go(Stage.MODE, tick)
+        if self.vehicle.autopilot.lift == 0:
+            self._asked = tick + FLOWING - AGAIN
+
+    def _enter_mode(self, tick: int) -> Iterator[Diagnostic]:
+        pilot, gimbal = self.vehicle.autopilot, self.vehicle.gimbal
+        claimed = gimbal is None or self.vehicle.answers.get(CLAIM) == ACCEPTED
+        flows = pilot.lift > 0 or tick >= self.begins + FLOWING
+        if self.vehicle.mode == pilot.flown.custom and claimed and flows:
+            self._go(Stage.ARMING, tick)
+            return
+        yield from self._late_or_refused(tick, SET_MODE, f"the mode {pilot.flown.name}")
+        if not claimed:
+            yield from self._late_or_refused(tick, CLAIM, "control of its gimbal")
+        if self._again(tick):
+            self.vehicle.link.set_mode(pilot.flown)
+            if gimbal is not None and not claimed:
+                self.vehicle.link.claim(gimbal)
+
+    def _arm(self, tick: int) -> Iterator[Diagnostic]:
+        if self.vehicle.armed:
+            self._armed_since = self._armed_since or tick
+            if tick - self._armed_since >= SPOOL:
+                self._go(Stage.LIFTING if self.vehicle.autopilot.lift > 0 else Stage.FLYING, tick)
+            return
+        yield from self._late_or_refused(tick, ARM_DISARM, "to arm")
+        if self._again(tick):
+            self.vehicle.link.arm(armed=True)
+
+    def _lift(self, tick: int) -> Iterator[Diagnostic]:
+        if self._height() >= LIFTED * self.course.height:
+            self._go(Stage.FLYING, tick)
+            return
+        yield from self._late_or_refused(tick, TAKE_OFF, "to take off")
+        if self._again(tick):
+            self.vehicle.link.take_off(self.course.height)
+
+    def _fly(self, tick: int) -> Iterator[Diagnostic]:
+        if self.vehicle.position is not None:
+            away = dist(self.vehicle.position, self.course.setpoint(tick).position)
+            self.farthest = max(self.farthest, away)
+            if away > STRAY_M:
+                yield faults.strayed(self.vehicle, away, STRAY_M)
+                return
+        yield from self._record(tick)
+        if tick >= self.course.last:
+            self._landing_since = tick
+            self._go(Stage.LANDING, tick)
+
+    def _land(self, tick: int) -> Iterator[Diagnostic]:
+        if not self.vehicle.armed:
+            self._go(Stage.LANDED, tick)
+            return
+        if (tick - self._landing_since) * PERIOD_S > LANDING_S:
+            yield faults.not_landed(self.vehicle, LANDING_S)
+            self._go(Stage.LANDED, tick)
+        elif self._again(tick) and self.vehicle.mode != self.vehicle.autopilot.land.custom:
+            self.vehicle.link.set_mode(self.vehicle.autopilot.land)
+
+    def _record(self, tick: int) -> Iterator[Diagnostic]:
+        """Begin and end recording; a camera that does not answer is told of, and the flight goes on."""
+        cut = next((c for c in reversed(self.cuts) if c.tick <= tick), None)
+        if cut is None:
+            return
+        command = VIDEO_START if cut.on else VIDEO_STOP
+        if cut is not self._recording:
+            self._recording, self._told = cut, 0
+            self.events.append(f"records shot `{cut.shot}`" if cut.on else f"has recorded shot `{cut.shot}`")
+            self.vehicle.answers.pop(command, None)
+        if self.vehicle.answers.get(command) in (ACCEPTED, IN_PROGRESS) or self._told > 3:
+            return
+        if (tick - cut.tick) % AGAIN == 0:
+            self._told += 1
+            if self._told > 3:
+                yield faults.not_recorded(self.vehicle, cut.shot, on=cut.on)
+            else:
+                self.vehicle.link.record(on=cut.on, component=self.vehicle.camera)
+
+    def _late_or_refused(self, tick: int, command: int, what: str) -> Iterator[Diagnostic]:
+        result = self.vehicle.answers.get(command)
+        if result is not None and result not in (ACCEPTED, REJECTED_FOR_NOW, IN_PROGRESS):
+            yield faults.refused(self.vehicle, what, result)
+        elif tick >= max(self.course.lifts, self.course.first):
+            if result == REJECTED_FOR_NOW:
+                yield faults.refused(self.vehicle, what, result)
+            else:
+                yield faults.late(self.vehicle, what)
+
+    def _again(self, tick: int) -> bool:
+        due = tick - self._asked >= AGAIN
+        if due:
+            self._asked = tick
+        return due
+
+    def _go(self, stage: Stage, tick: int) -> None:
+        self.stage, self._asked = stage, tick - AGAIN
+        self.vehicle.answers.clear()
+        self.events.append(DOINGS[stage])
+
+    def _height(self) -> float:
+        """Return how high the vehicle is above its pad, metres."""
+        down = self.course.position[0, 2]
+        return float(down - self.vehicle.position[2]) if self.vehicle.position is not None else 0.0

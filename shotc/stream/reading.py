@@ -1,0 +1,94 @@
+"""What is read of vehicles before anything is judged: who they are, and what they would do without a link."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from shotc.stream.clock import PERIOD_S, Clock
+from shotc.stream.messages import GimbalManager, Home, LocalPosition, Message, Origin
+from shotc.stream.vehicle import Vehicle
+
+HEARTBEAT_S = 10.0
+"""How long a vehicle is waited for."""
+READ_S = 6.0
+"""How long its answers are waited for, from its first heartbeat on."""
+SOME_LACK_S = 2.0
+"""How long what only some versions have is waited for."""
+AGAIN_S = 0.5
+"""After so long a question is put again: on a radio link one in ten is lost."""
+BEAT_S = 1.0
+POSITION_HZ = 10.0
+ASKED: tuple[tuple[type[Message], str, str], ...] = (
+    (Origin, "origin", "GPS_GLOBAL_ORIGIN"),
+    (Home, "home", "HOME_POSITION"),
+    (LocalPosition, "position", "LOCAL_POSITION_NED"),
+    (GimbalManager, "gimbal", "GIMBAL_MANAGER_INFORMATION"),
+)
+"""Messages that are asked for: where a vehicle keeps what they say, and what MAVLink calls them."""
+
+
+def read(vehicles: Sequence[Vehicle], clock: Clock, note: Callable[[str], None] = lambda _: None) -> None:
+    """Wait for all vehicles, and read what they have to say; what does not come stays unknown."""
+    start = now = clock.now()
+    met: dict[str, float] = {}
+    beat = asked = start - 60.0
+    while not all(_done(vehicle, met.get(vehicle.drone), start, now) for vehicle in vehicles):
+        if now - beat >= BEAT_S:
+            beat = now
+            for vehicle in vehicles:
+                vehicle.link.heartbeat()
+        for vehicle in vehicles:
+            _meet(vehicle, met, now, note)
+        if now - asked >= AGAIN_S:
+            asked = now
+            for vehicle in vehicles:
+                _ask(vehicle)
+        clock.wait_until(now + PERIOD_S)
+        now = clock.now()
+    for vehicle in vehicles:
+        _take_station(vehicle)
+
+
+def missing(vehicle: Vehicle) -> Iterator[str]:
+    """Yield what a vehicle has not told, by MAVLink's names; what some versions lack is left out."""
+    yield from (name for _, known, name in ASKED if known != "gimbal" and getattr(vehicle, known) is None)
+    pilot = vehicle.autopilot
+    yield from (n for n in pilot.parameters if n not in vehicle.parameters and not pilot.can_lack(n))
+
+
+def _meet(vehicle: Vehicle, met: dict[str, float], now: float, note: Callable[[str], None]) -> None:
+    vehicle.listen(now)
+    if vehicle.heartbeat is not None and vehicle.drone not in met:
+        met[vehicle.drone] = now
+        note(f"{vehicle.drone}: system {vehicle.heartbeat.system} is there")
+
+
+def _take_station(vehicle: Vehicle) -> None:
+    """Speak as the ground station whose silence the autopilot minds."""
+    known = vehicle.parameters
+    station = next((known[name] for name in vehicle.autopilot.station if name in known), 0.0)
+    if 1 <= station <= 255:
+        vehicle.link.speak_as(int(station))
+
+
+def _ask(vehicle: Vehicle) -> None:
+    if vehicle.heartbeat is None or vehicle.heartbeat.autopilot != vehicle.autopilot.number:
+        return
+    for message, known, _ in ASKED:
+        if getattr(vehicle, known) is None:
+            vehicle.link.ask(message)
+    if not vehicle.parameters:  # nothing was asked of it before
+        vehicle.link.stream(LocalPosition, POSITION_HZ)
+    for name in vehicle.autopilot.parameters:
+        if name not in vehicle.parameters:
+            vehicle.link.ask_parameter(name)
+
+
+def _done(vehicle: Vehicle, met: float | None, start: float, now: float) -> bool:
+    if met is None or vehicle.heartbeat is None:
+        return now - start >= HEARTBEAT_S
+    if vehicle.heartbeat.autopilot != vehicle.autopilot.number:
+        return True
+    lacking = any(n not in vehicle.parameters for n in vehicle.autopilot.parameters)
+    whole = not any(missing(vehicle)) and vehicle.gimbal is not None
+    return now - met >= READ_S or (whole and (not lacking or now - met >= SOME_LACK_S))

@@ -1,0 +1,233 @@
+"""From a plan and the addresses of its vehicles to a flight: open, read, judge, and fly if it is meant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from math import ceil, dist
+from typing import TYPE_CHECKING
+
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.ir.mission import GeoOrigin, MissionIR
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+from shotc.stream import checks
+from shotc.stream.aim import LiveAim
+from shotc.stream.autopilots import AUTOPILOTS, Autopilot
+from shotc.stream.checks import Ready
+from shotc.stream.clock import RATE_HZ, Clock
+from shotc.stream.endpoint import Endpoint
+from shotc.stream.feed import Feed
+from shotc.stream.flight import Crew, Flight, Flown
+from shotc.stream.pilot import Cut, Pilot
+from shotc.stream.reading import read
+from shotc.stream.setpoints import Course, course_of
+from shotc.stream.vehicle import Vehicle
+
+if TYPE_CHECKING:  # the sockets come from outside, and MAVLink with them
+    from shotc.stream.link import Link
+
+BETWEEN_CUTS = RATE_HZ // 10
+"""Ticks between the end of one recording and the begin of the next."""
+SILENT_TARGET_S = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class Doors:
+    """What opens sockets. link : to a vehicle; feed : of a target; both raise OSError where that fails."""
+
+    link: Callable[[Endpoint, Autopilot], Link]
+    feed: Callable[[str, Endpoint, GeoOrigin], Feed]
+
+
+@dataclass(frozen=True, slots=True)
+class Aboard:
+    """One drone that has passed its checks: as it was read, and what is sent to it."""
+
+    ready: Ready
+    track: DroneTrajectory
+    course: Course
+
+
+class Session:
+    """One run: used in a ``with`` block, which closes its sockets."""
+
+    def __init__(self, plan: VerifiedIR, doors: Doors, clock: Clock, note: Callable[[str], None]) -> None:
+        """Note : is told what happens, a line at a time."""
+        self._plan = plan
+        self._doors = doors
+        self._clock = clock
+        self._note = note
+        self._stack = ExitStack()
+        self._feeds: list[Feed] = []
+        self.vehicles: list[Vehicle] = []
+
+    def __enter__(self) -> Session:
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Close all sockets."""
+        self._stack.close()
+
+    @property
+    def mission(self) -> MissionIR:
+        """The mission that is flown."""
+        return self._plan.trajectory.keyframes.mission
+
+    def open(self, addresses: Mapping[str, Endpoint], targets: Mapping[str, Endpoint]) -> list[Diagnostic]:
+        """Open a link for every drone and a feed for every target; return what cannot be opened.
+
+        addresses : by drone; targets : by target
+        """
+        found = [*unplaced(self.mission, self._plan)]
+        if found:
+            return found
+        for name, endpoint in addresses.items():
+            autopilot = AUTOPILOTS[self.mission.drone(name).autopilot]
+            try:
+                link = self._doors.link(endpoint, autopilot)
+            except OSError as error:
+                found.append(_closed(f"drone `{name}`", endpoint, error, "--to"))
+                continue
+            self._stack.callback(link.close)
+            self.vehicles.append(Vehicle(name, autopilot, link))
+        return [*found, *self._open_feeds(targets)]
+
+    def _open_feeds(self, targets: Mapping[str, Endpoint]) -> Iterator[Diagnostic]:
+        assert self.mission.origin is not None
+        for name, endpoint in targets.items():
+            try:
+                feed = self._doors.feed(name, endpoint, self.mission.origin)
+            except OSError as error:
+                yield _closed(f"target `{name}`", endpoint, error, "--target")
+                continue
+            self._stack.callback(feed.close)
+            self._feeds.append(feed)
+
+    def check(self) -> tuple[list[Aboard], list[Diagnostic]]:
+        """Read every vehicle and judge it; return those that may fly, and all that is wrong."""
+        read(self.vehicles, self._clock, self._note)
+        aboard: list[Aboard] = []
+        found: list[Diagnostic] = []
+        for vehicle in self.vehicles:
+            who, faults = self._judge(vehicle)
+            found += faults
+            aboard += [who] if who is not None else []
+        return aboard, [*found, *self._mute_targets()]
+
+    def _judge(self, vehicle: Vehicle) -> tuple[Aboard | None, list[Diagnostic]]:
+        origin = self.mission.origin
+        assert origin is not None
+        ready = Ready(self.mission, self.mission.drone(vehicle.drone), vehicle)
+        found = checks.answered(ready)
+        frame = checks.frame_of(ready, origin)
+        if found or frame is None:
+            return None, found
+        track = next(t for t in self._plan.trajectory.drones if t.drone == vehicle.drone)
+        course = course_of(track, origin, frame, vehicle.autopilot.lift)
+        found = checks.ready_to_fly(ready, origin, course)
+        return (None if has_errors(found) else Aboard(ready, track, course)), found
+
+    def _mute_targets(self) -> Iterator[Diagnostic]:
+        """Wait for the first position of every target."""
+        end = self._clock.now() + SILENT_TARGET_S
+        while any(feed.seen is None for feed in self._feeds) and self._clock.now() < end:
+            now = self._clock.now()
+            for feed in self._feeds:
+                feed.listen(now)
+            self._clock.wait_until(now + 1 / RATE_HZ)
+        for feed in self._feeds:
+            if feed.seen is None:
+                notes: tuple[str, ...] = (f"{SILENT_TARGET_S:.0f} s were waited at {feed.endpoint}",)
+                if feed.unread:
+                    notes += (f"{feed.unread} datagrams came that hold no position",)
+                yield Diagnostic(
+                    "A013",
+                    f"no position of the target `{feed.target}` is heard",
+                    (self.mission.origins.value(("targets", feed.target)),),
+                    notes,
+                    "let its position be sent there, or leave --target away",
+                )
+
+    def fly(self, aboard: Sequence[Aboard]) -> tuple[Flown, list[Pilot]]:
+        """Arm and fly all drones on one clock."""
+        crew = [
+            Crew(
+                Pilot(who.ready.vehicle, who.course, cuts_of(who.track)),
+                LiveAim(self.mission, who.track, who.course, tuple(self._feeds)),
+            )
+            for who in aboard
+        ]
+        flown = Flight(crew, self._feeds, self._clock, self._note).fly()
+        return flown, [member.pilot for member in crew]
+
+
+def cuts_of(track: DroneTrajectory) -> tuple[Cut, ...]:
+    """Return when a drone's camera begins and ends to record, in order of time."""
+    cuts: list[Cut] = []
+    for phase in track.phases:
+        if phase.shot is not None:
+            begin = ceil(phase.start * RATE_HZ - 1e-9)
+            if cuts:
+                begin = max(begin, cuts[-1].tick + BETWEEN_CUTS)
+            cuts += [
+                Cut(begin, phase.shot, True),
+                Cut(max(begin + 1, ceil(phase.end * RATE_HZ - 1e-9)), phase.shot, False),
+            ]
+    return tuple(cuts)
+
+
+def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
+    """Yield what keeps a plan from being sent to anybody."""
+    if plan.trajectory.fleets:
+        names = ", ".join(f"`{fleet.fleet}`" for fleet in plan.trajectory.fleets)
+        yield Diagnostic(
+            "A030",
+            f"a show is not streamed: the plan has the fleet {names}",
+            (mission.origins.key(("fleets",)),),
+            help="drones of shows fly .skyc files by themselves: `shotc emit PLAN --emit skyc`",
+        )
+    if mission.origin is None:
+        yield Diagnostic(
+            "A001",
+            "the plan has no place on the globe",
+            (mission.origins.key(("world",)),),
+            ("a vehicle's local frame is tied to the plan's by latitude and longitude",),
+            "give the mission `world.origin: {lat: .., lon: .., alt: ..}` and plan again",
+        )
+
+
+def summary(who: Aboard) -> list[tuple[str, str]]:
+    """Return what was read of a vehicle that may fly, as pairs of what and how."""
+    vehicle = who.ready.vehicle
+    origin = who.ready.mission.origin
+    assert origin is not None
+    assert vehicle.heartbeat is not None
+    away = dist(checks.home_offset(who.ready, origin), (0.0, 0.0, 0.0))
+    after = ", ".join(f"{name} {seconds:g} s" for name, seconds in checks.loss_times(vehicle).items())
+    does = ", ".join(f"{action} ({name})" for name, action in checks.actions_of(vehicle).items())
+    cuts = [cut for cut in cuts_of(who.track) if cut.on]
+    return [
+        ("vehicle", f"{vehicle.autopilot.name}, system {vehicle.heartbeat.system}"),
+        ("home", f"{away:.2f} m from its pad"),
+        ("link lost", f"{does}; {after}"),
+        (
+            "setpoints",
+            f"{who.course.last - who.course.first + 1} at {RATE_HZ} Hz, in {vehicle.autopilot.flown.name}",
+        ),
+        ("lifts off", f"{who.course.lifts / RATE_HZ:.1f} s"),
+        ("records", ", ".join(f"{cut.shot} from {cut.tick / RATE_HZ:.1f} s" for cut in cuts) or "nothing"),
+        ("back on its pad", f"{who.track.curve.end:.1f} s"),
+    ]
+
+
+def _closed(whose: str, endpoint: Endpoint, error: OSError, option: str) -> Diagnostic:
+    reason = (error.strerror or str(error)).lower()
+    return Diagnostic(
+        "A002",
+        f"the address {endpoint} of {whose} cannot be opened: {reason}",
+        notes=("another program may listen there: a ground station, or this command in another window",),
+        help=f"end it, or give another port with {option}",
+    )

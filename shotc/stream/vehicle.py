@@ -1,0 +1,97 @@
+"""One vehicle as it is heard: the last of what it said of itself, and when."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from shotc.geom.vec import Vec3
+from shotc.stream.autopilots import Autopilot
+from shotc.stream.messages import (
+    Answer,
+    GimbalManager,
+    Heartbeat,
+    Home,
+    LocalPosition,
+    Message,
+    Origin,
+    Parameter,
+    Place,
+    Text,
+)
+
+if TYPE_CHECKING:  # MAVLink is an extra, and a vehicle is judged without it
+    from shotc.stream.link import Link
+
+AUTOPILOT_COMPONENT = 1
+CAMERA_KIND = 30
+"""MAV_TYPE of a camera that has a heartbeat of its own."""
+WARNING = 4
+"""The severity from which on a text is of no concern before a flight."""
+TEXTS_KEPT = 4
+
+
+@dataclass(slots=True)
+class Vehicle:
+    """What is known of one drone's vehicle.
+
+    drone : its name in the plan; autopilot : the one that the plan is made for
+    seen : when its last heartbeat came; camera : the component that records
+    answers : the last result of each command
+    """
+
+    drone: str
+    autopilot: Autopilot
+    link: Link
+    heartbeat: Heartbeat | None = None
+    seen: float = 0.0
+    camera: int = AUTOPILOT_COMPONENT
+    origin: Place | None = None
+    home: Place | None = None
+    position: Vec3 | None = None
+    gimbal: GimbalManager | None = None
+    parameters: dict[str, float] = field(default_factory=dict)
+    answers: dict[int, int] = field(default_factory=dict)
+    texts: deque[str] = field(default_factory=lambda: deque(maxlen=TEXTS_KEPT))
+
+    @property
+    def mode(self) -> int | None:
+        """The flight mode, as heartbeats say it."""
+        return None if self.heartbeat is None else self.heartbeat.mode
+
+    @property
+    def armed(self) -> bool:
+        """Whether its motors run."""
+        return self.heartbeat is not None and self.heartbeat.armed
+
+    def listen(self, now: float) -> None:
+        """Take in what has come."""
+        for message in self.link.receive():
+            self.hear(message, now)
+
+    def hear(self, message: Message, now: float) -> None:
+        """Take in one message."""
+        match message:
+            case Heartbeat():
+                self._met(message, now)
+            case Parameter(name, value):
+                self.parameters[name] = value
+            case Answer(command, result):
+                self.answers[command] = result
+            case Origin(place):
+                self.origin = place
+            case Home(place):
+                self.home = place
+            case LocalPosition(position):
+                self.position = position
+            case GimbalManager():
+                self.gimbal = message
+            case Text(severity, text) if severity <= WARNING:
+                self.texts.append(text)
+
+    def _met(self, heartbeat: Heartbeat, now: float) -> None:
+        if heartbeat.component == AUTOPILOT_COMPONENT:
+            self.heartbeat, self.seen = heartbeat, now
+        elif heartbeat.kind == CAMERA_KIND:
+            self.camera = heartbeat.component
