@@ -12,6 +12,7 @@ from shotc.cli import console
 from shotc.cli.console import known
 from shotc.cli.plans import PlanPath, prove
 from shotc.plugins import not_installed
+from shotc.stream.clock import WallClock
 from shotc.stream.endpoint import Endpoint, endpoint
 
 if TYPE_CHECKING:  # the base install has no numpy
@@ -22,7 +23,7 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.stream.session import Aboard, Session
 
 To = Annotated[
-    list[str],
+    list[str] | None,
     typer.Option(
         "--to",
         metavar="[DRONE=]ADDRESS",
@@ -43,7 +44,7 @@ Arm = Annotated[
 ]
 
 
-def stream(plan: PlanPath, to: To, target: TargetOption = None, arm: Arm = False) -> None:
+def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm = False) -> None:
     """Send a proved plan to PX4 or ArduPilot over MAVLink: 50 setpoints a second a drone, on one clock.
 
     Without --arm it is a dry run: it connects to every vehicle, reads what has to be known, judges it, says
@@ -67,7 +68,7 @@ def stream(plan: PlanPath, to: To, target: TargetOption = None, arm: Arm = False
 
         shotc stream out/runner --to near=udp:14540 --to far=udp:14541 --target runner=udp:14600 --arm
     """
-    addresses, targets = _addresses(to, "--to"), _addresses(target or [], "--target")
+    found, targets = _addresses(to or [], "--to"), _addresses(target or [], "--target")
     if find_spec("pymavlink") is None:
         console.report([not_installed("P004", "`shotc stream`", ["pymavlink"])], {})
         raise typer.Exit(console.EXIT_REJECTED)
@@ -75,16 +76,15 @@ def stream(plan: PlanPath, to: To, target: TargetOption = None, arm: Arm = False
     if report.plan is None:
         console.report(report.diagnostics, report.sources)
         raise typer.Exit(console.EXIT_REJECTED)
-    mission = report.plan.trajectory.keyframes.mission
     flown = [track.drone for track in report.plan.trajectory.drones]
-    _all_named(_of_one(addresses, flown), flown, targets, mission)
-    raise typer.Exit(_stream(report, _of_one(addresses, flown), targets, arm=arm))
+    addresses = _of_one(found, flown)
+    _all_named(addresses, flown, targets, report.plan.trajectory.keyframes.mission)
+    raise typer.Exit(_stream(report, addresses, targets, arm=arm))
 
 
 def _stream(
     report: PlanReport, addresses: Mapping[str, Endpoint], targets: Mapping[str, Endpoint], *, arm: bool
 ) -> int:
-    from shotc.stream.clock import WallClock
     from shotc.stream.session import Session
     from shotc.stream.sockets import DOORS
 

@@ -275,14 +275,14 @@ def _elsewhere(ready: Ready, offset: Vec3) -> Diagnostic:
 def _home_off(ready: Ready, origin: GeoOrigin, offset: Vec3) -> Diagnostic:
     assert ready.vehicle.home is not None
     across, rise = hypot(offset[0], offset[1]), offset[2]
-    there = tuple(round(c, 2) for c in _in_world(ready.vehicle.home, origin))
+    there = tuple(round(c, 2) + 0.0 for c in _in_world(ready.vehicle.home, origin))
     return Diagnostic(
         "A010",
         f"the home of `{ready.drone.name}` is {dist(offset, (0, 0, 0)):.1f} m from the plan's",
         (ready.label("home"),),
         (
-            f"{across:.2f} m across ({offset[0]:+.2f} East, {offset[1]:+.2f} North), {rise:+.2f} m in "
-            f"height; at most {HOME_OFF_M:g} m",
+            f"{across:.2f} m across ({_signed(offset[0])} East, {_signed(offset[1])} North), "
+            f"{_signed(rise)} m in height; at most {HOME_OFF_M:g} m",
             f"in the mission's frame it is at [{there[0]:g}, {there[1]:g}, {there[2]:g}]",
         ),
         "put the vehicle on its pad and let it take its home there; where the whole site is off, as heights "
@@ -324,6 +324,10 @@ def _said(vehicle: Vehicle) -> tuple[str, ...]:
 def _in_world(place: Place, origin: GeoOrigin) -> Vec3:
     east, north, up = to_world(np.array([place]), origin)[0].tolist()
     return (east, north, up)
+
+
+def _signed(metres: float) -> str:
+    return f"{round(metres, 2) + 0.0:+.2f}"
 
 
 def _far(offset: Vec3) -> str:

@@ -83,12 +83,16 @@ class Flight:
     def _run(self) -> list[Diagnostic]:
         found: list[Diagnostic] = []
         start = self._clock.now() - self._tick * PERIOD_S
+        if self._tick < 0:
+            self._say(f"mission time 0 is in {-self._tick * PERIOD_S:.1f} s")
         while not all(member.pilot.done for member in self._crew):
             due = start + self._tick * PERIOD_S
             self._clock.wait_until(due)
             behind = self._clock.now() - due
             if behind > STALL_S:
                 return [*found, faults.stalled(behind, STALL_S)]
+            if self._tick == 0:
+                self._say("mission time 0")
             self._send()
             self._delays.append(self._clock.now() - due)
             found += self._attend()

@@ -171,7 +171,8 @@ class Pilot:
         if not claimed:
             yield from self._late_or_refused(tick, CLAIM, "control of its gimbal")
         if self._again(tick):
-            self.vehicle.link.set_mode(pilot.flown)
+            if self.vehicle.answers.get(SET_MODE) != ACCEPTED:
+                self.vehicle.link.set_mode(pilot.flown)
             if gimbal is not None and not claimed:
                 self.vehicle.link.claim(gimbal)
 
@@ -182,7 +183,7 @@ class Pilot:
                 self._go(Stage.LIFTING if self.vehicle.autopilot.lift > 0 else Stage.FLYING, tick)
             return
         yield from self._late_or_refused(tick, ARM_DISARM, "to arm")
-        if self._again(tick):
+        if self._again(tick) and self.vehicle.answers.get(ARM_DISARM) != ACCEPTED:
             self.vehicle.link.arm(armed=True)
 
     def _lift(self, tick: int) -> Iterator[Diagnostic]:
@@ -190,7 +191,7 @@ class Pilot:
             self._go(Stage.FLYING, tick)
             return
         yield from self._late_or_refused(tick, TAKE_OFF, "to take off")
-        if self._again(tick):
+        if self._again(tick) and self.vehicle.answers.get(TAKE_OFF) != ACCEPTED:
             self.vehicle.link.take_off(self.course.height)
 
     def _fly(self, tick: int) -> Iterator[Diagnostic]:

@@ -1,0 +1,119 @@
+"""What `shotc stream` prints, and how it ends; vehicles are simulated, and so is time."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from tests.cli.conftest import Run
+from tests.support.show_plans import plan as show_plan
+from tests.support.stream.autopilot import Script
+from tests.support.stream.plans import hop_plan
+from tests.support.stream.worlds import World, free_port
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def flying(monkeypatch, tmp_path):
+    """Give the command a plan made by hand, and a clock that drives its vehicles."""
+    worlds = []
+
+    def made(plan, **more):
+        world = World(plan, **more)
+        worlds.append(world)
+        report = SimpleNamespace(plan=plan, diagnostics=(), sources={})
+        monkeypatch.setattr("shotc.cli.stream.prove", lambda _path: report)
+        monkeypatch.setattr("shotc.cli.stream.WallClock", lambda: world.clock)
+        return world, [
+            word for name, port in world.ports.items() for word in ("--to", f"{name}=udp:127.0.0.1:{port}")
+        ]
+
+    yield made
+    for world in worlds:
+        world.stack.close()
+
+
+def test_a_dry_run_says_what_it_would_do_and_moves_nothing(run: Run, flying) -> None:
+    world, to = flying(hop_plan("near", "far", waits=5.0))
+    done = run("stream", "plan.json", *to)
+    assert done.code == 0
+    assert "near  vehicle          PX4, system 1" in done.out
+    assert "hold (COM_OBL_RC_ACT), return (NAV_DLL_ACT); COM_OF_LOSS_T 1 s" in done.out
+    assert "by-far from 11.0 s" in done.out
+    assert "dry run: nothing was armed or moved" in done.out
+    assert not any(autopilot.setpoints for autopilot in world.autopilots.values())
+
+
+def test_meant_it_flies_and_says_how_well_it_was_sent(run: Run, flying) -> None:
+    world, to = flying(hop_plan())
+    done = run("stream", "plan.json", "--to", to[1].partition("=")[2], "--arm")
+    assert done.code == 0
+    assert "landed" in done.out
+    assert "sent every 20 ms, after its moment: median 0.00 ms" in done.out
+    assert "cam1: records shot `by-cam1`" in done.err
+    assert len(world.autopilots["cam1"].setpoints) > 1500
+
+
+def test_a_check_that_fails_is_told_and_ends_with_one(run: Run, flying) -> None:
+    world, to = flying(hop_plan(), cam1=Script(parameters={"COM_OBL_RC_ACT": 0}))
+    done = run("stream", "plan.json", *to, "--arm")
+    assert done.code == 1
+    assert "error[A007]" in done.err
+    assert done.out == ""
+    assert not world.autopilots["cam1"].setpoints
+
+
+def test_interrupted_it_ends_as_interrupted_and_says_who_is_in_the_air(run: Run, flying) -> None:
+    def stop():
+        raise KeyboardInterrupt
+
+    world, to = flying(hop_plan())
+    world.clock.events.append((world.clock.time + 22.0, stop))
+    done = run("stream", "plan.json", *to, "--arm")
+    assert done.code == 130
+    assert "in the air, HOLD was asked for: take it over" in done.out
+
+
+def test_a_show_is_not_streamed(run: Run, monkeypatch) -> None:
+    report = SimpleNamespace(plan=show_plan(), diagnostics=(), sources={})
+    monkeypatch.setattr("shotc.cli.stream.prove", lambda _path: report)
+    done = run("stream", "plan.json")
+    assert done.code == 1
+    assert "error[A030]" in done.err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--to", "14540"], "no address"),
+        (["--to", "udp:14540"], "write `--to DRONE=...` for each"),
+        (["--to", "near=udp:14540"], "no address for far"),
+        (["--to", "neer=udp:14540"], "did you mean `near`"),
+        (["--to", "near=udp:14540", "--to", "near=udp:14541"], "given twice"),
+        (["--to", "near=udp:1", "--to", "far=udp:2", "--target", "udp:3"], "names no target"),
+        (["--to", "near=udp:1", "--to", "far=udp:2", "--target", "towr=udp:3"], "did you mean `tower`"),
+        ([], "no address for near, far"),
+    ],
+)
+def test_addresses_are_read_before_anything_is_opened(run: Run, flying, words, said) -> None:
+    flying(hop_plan("near", "far"))
+    done = run("stream", "plan.json", *words)
+    assert done.code == 2
+    assert said in " ".join(done.err.split())
+
+
+def test_without_mavlink_the_extra_is_named(run: Run, flying, monkeypatch) -> None:
+    _, to = flying(hop_plan())
+    monkeypatch.setattr("shotc.cli.stream.find_spec", lambda name: None)
+    done = run("stream", "plan.json", *to)
+    assert done.code == 1
+    assert "error[P004]" in done.err
+    assert "[stream]" in done.err
+
+
+def test_a_plan_that_cannot_be_read_is_told(run: Run) -> None:
+    done = run("stream", "nowhere.json", "--to", f"udp:{free_port()}")
+    assert done.code == 1
+    assert "cannot be read" in done.err
