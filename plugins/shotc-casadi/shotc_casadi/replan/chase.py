@@ -7,15 +7,14 @@ wanted state instead of the rates. What the measured stage costs cannot be chang
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import isfinite
-from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from shotc.plugin_api.replanner import (
+    NO_TRAFFIC,
     Array,
     ChaseProblem,
     ChaseSituation,
@@ -24,79 +23,155 @@ from shotc.plugin_api.replanner import (
     Status,
 )
 from shotc_casadi.clock.angles import rates
-from shotc_casadi.replan.evaluation import Mapped, dense
-from shotc_casadi.replan.program import Pattern, Programs, Quadratic, pattern
-from shotc_casadi.replan.rows import Kept, Rows, rows, standing, within_reach
-from shotc_casadi.replan.steps import walk
+from shotc_casadi.replan.evaluation import Horizon, Stage, horizon
+from shotc_casadi.replan.keeping import Kept, Standing, common, each, ends, kept, rows
+from shotc_casadi.replan.steps import Bounds, Solver, Until
 
 LACKING = 1e4  # a metre that the worst row of a stage lacks
 OUTSIDE = 30.0  # a m/s beyond a bound of the velocity
 DAMPING = 1e-3  # of the Hessian; never on the slack, or the programme buys itself through a zone
-FIRST_STEPS, FIRST_GAIN = 30, 1e-3
+FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
+BEYOND = "the motion from here is beyond all numbers"
 STATES, INPUTS = 6, 3
+OWN = 14  # parameters of a stage: the target, whether it is not the last, whether it is, bounds of velocity
+SHARED = 12  # parameters of all: weights, the wanted state, the height
 
 
 class Chase:
     """Plans a shot of one target (``ChasePlanner``)."""
 
-    def __init__(self, problem: ChaseProblem, most: int | None = None, gain: float = 0.0) -> None:
-        """Take memory; most, gain : steps of a replan and where they end, for those who want a finer one."""
-        self._problem = problem
-        self._standing = standing(problem.keeping)
-        self._rates = Mapped(_turning(), problem.horizon.stages)
-        self._slopes = Mapped(_turning_with_slopes(), problem.horizon.stages)
-        self._most, self._gain = most, gain
-        self._programs = Programs()
+    def __init__(self, problem: ChaseProblem, until: Until = WARM) -> None:
+        """Take memory; until : where a replan stops that continues a plan, for those who want a finer one."""
+        n, limits = problem.horizon.stages, problem.keeping.limits
+        self._problem, self._until = problem, until
+        self._standing = Standing(problem.keeping)
+        self._solvers: dict[Kept, Solver] = {}
+        self._times = problem.horizon.step * np.arange(n + 1)
+        self._way = float(self._times[-1])  # at a metre a second
+        self._back = limits.acceleration / np.sqrt(3.0) * self._times[1:, None] * np.ones(3)
+        self._lowest = np.array([-limits.speed, -limits.speed, -limits.descent])
+        self._highest = np.array([limits.speed, limits.speed, limits.climb])
+        most, free = np.full(INPUTS, limits.acceleration), np.full((n, 3), np.inf)
+        low, high = (np.hstack([sign * free, np.tile(v, (n, 1))]) for sign, v in
+                     ((-1.0, self._lowest), (1.0, self._highest)))  # fmt: skip
+        self._usual = Bounds(-most, most, low, high)
+        self._solver_of(kept(problem.keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))
 
     def replan(self, situation: ChaseSituation, last: Plan | None) -> Replan:
         """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
-        fault = _fault(situation, last)
-        if fault:
-            return Replan(None, "failed", fault)
-        first = (FIRST_STEPS, FIRST_GAIN)
-        most, gain = (self._most, self._gain) if self._most else first if last is None else (1, 0.0)
         with np.errstate(all="ignore"):
-            model = self._model(situation)
+            solver = self._prepared(situation)
+            bounds, widened = self._bounds(situation.velocity)
             start = self._guess(situation) if last is None else self._shifted(situation, last)
-            done = walk(model, self._programs, start, (most, gain))
-        if not (np.isfinite(done.states).all() and np.isfinite(done.lack)):
-            return Replan(None, "failed", "the motion from here is beyond all numbers")
-        n, step = self._problem.horizon
-        plan = Plan(
-            np.asarray(situation.time + step * np.arange(n + 1)),
-            np.vstack([situation.place, done.states[:, :3]]),
-            np.vstack([situation.velocity, done.states[:, 3:]]),
-            done.inputs,
-        )
-        opened = done.opened or model.widened
+            solver.evaluation.given[:, 8:11] = bounds.low[:, 3:]
+            solver.evaluation.given[:, 11:OWN] = bounds.high[:, 3:]
+            since = situation.time - (0.0 if last is None else last.times[0])
+            if not (solver.evaluation.is_finite and isfinite(since) and isfinite(start.sum())):
+                return Replan(None, "failed", _fault(situation, last))
+            done = solver.walk(start, bounds, FIRST if last is None else self._until)
+        motion = done.motion
+        if not (isfinite(motion.worst) and isfinite(motion.states.sum())):
+            return Replan(None, "failed", BEYOND)
+        states = np.concatenate([solver.evaluation.start[None], motion.states])
+        times = np.asarray(self._times + situation.time)
+        plan = Plan(times, states[:, :3], states[:, 3:], motion.inputs)
+        opened = done.opened or widened
         status: Status = "stalled" if done.stalled else "opened" if opened else "planned"
-        return Replan(plan, status, "", done.lack, done.steps)
+        return Replan(plan, status, "", motion.worst, done.steps)
 
-    def _model(self, situation: ChaseSituation) -> _Model:
-        problem = self._problem
-        limits, way = problem.keeping.limits, problem.horizon.stages * problem.horizon.step
-        way *= max(limits.speed, float(np.linalg.norm(situation.velocity)))
-        near = within_reach(self._standing, situation.place, way)
-        kept = Kept(problem.keeping, problem.horizon.step, near, situation.target[1:], situation.traffic)
-        target = np.hstack([situation.target[1:], situation.target_velocity[1:]])
-        slowest, fastest, widened = _bounds(problem, situation)
-        return _Model(problem, situation, target, kept, self._rates, self._slopes, slowest, fastest, widened)
+    def _prepared(self, s: ChaseSituation) -> Solver:
+        """Return the solver of a situation with its parameters filled in, bounds excepted."""
+        keeping, w = self._problem.keeping, self._problem.weights
+        fastest = max(keeping.limits.speed, float(np.linalg.norm(s.velocity)))
+        near = self._standing.near(s.place, fastest * self._way)
+        solver = self._solver_of(kept(keeping, near, s.traffic))
+        into = solver.evaluation
+        into.common[SHARED : len(into.common) - len(s.traffic.cones)] = common(
+            keeping, near, self._problem.horizon.step
+        )
+        into.start[:3], into.start[3:] = s.place, s.velocity
+        into.given[:, :3], into.given[:, 3:6] = s.target[1:], s.target_velocity[1:]
+        if len(s.traffic.others) or s.traffic.cones:
+            into.given[:, OWN:] = each(s.traffic)
+            into.common[len(into.common) - len(s.traffic.cones) :] = [c.half_angle for c in s.traffic.cones]
+        into.common[5:8], into.common[8:11] = s.wanted, s.wanted_velocity
+        into.common[3] = 0.0 if s.height is None else w.height
+        into.common[11] = 0.0 if s.height is None else s.height
+        return solver
+
+    def _solver_of(self, of: Kept) -> Solver:
+        if of not in self._solvers:
+            w = self._problem.weights
+            solver = Solver(_horizon(of, self._problem.horizon.stages), LACKING, OUTSIDE)
+            into = solver.evaluation
+            into.given[:, 6], into.given[-1, 6:8] = 1.0, (0.0, 1.0)
+            into.common[:5] = w.effort, w.pitch, w.yaw, w.height, w.end
+            self._solvers[of] = solver
+        return self._solvers[of]
+
+    def _bounds(self, v: Array) -> tuple[Bounds, bool]:
+        """Return the bounds, and whether the measured velocity opens them.
+
+        Who is too fast gets back within them by the acceleration that can be had along every axis at once.
+        """
+        back = self._back[0]
+        if (v >= self._lowest - back).all() and (v <= self._highest + back).all():
+            return self._usual, False
+        low, high = self._usual.low.copy(), self._usual.high.copy()
+        low[:, 3:], high[:, 3:] = (
+            np.minimum(low[:, 3:], v + self._back),
+            np.maximum(high[:, 3:], v - self._back),
+        )
+        return self._usual._replace(low=low, high=high), True
 
     def _shifted(self, situation: ChaseSituation, last: Plan) -> Array:
         """Return the accelerations of the last plan from now on, and none after its end."""
-        n, step = self._problem.horizon
-        now = (situation.time - last.times[0]) / step + np.arange(n)
-        index = np.clip(np.floor(now + 1e-6), 0, len(last.accelerations)).astype(np.int64)
-        return np.asarray(np.vstack([last.accelerations, np.zeros(3)])[index])
+        now = (situation.time + self._times[:-1] - last.times[0]) / self._problem.horizon.step
+        index = np.fmin(np.fmax(now + 1e-6, 0.0), len(last.accelerations)).astype(np.int64)
+        return np.asarray(np.concatenate([last.accelerations, np.zeros((1, 3))])[index])
 
     def _guess(self, situation: ChaseSituation) -> Array:
         """Return the accelerations of the cubic in time to the wanted state."""
-        n, step = self._problem.horizon
-        whole = n * step
-        share = ((np.arange(n) + 0.5) / n)[:, None]
+        whole = self._way
+        share = ((self._times[1:] + self._times[:-1]) / (2.0 * whole))[:, None]
         way, v0, v1 = situation.wanted - situation.place, situation.velocity, situation.wanted_velocity
         bend = 6.0 * way - whole * (4.0 * v0 + 2.0 * v1)
         return np.asarray((bend - share * (12.0 * way - 6.0 * whole * (v0 + v1))) / whole**2)
+
+
+@lru_cache(maxsize=32)
+def _horizon(of: Kept, stages: int) -> Horizon:
+    x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
+    p, g = ca.SX.sym("p", OWN + of.each), ca.SX.sym("g", SHARED + of.common)
+    effort, pitch, yaw, height, end = ca.vertsplit(g[:5])
+    shared = g[SHARED:]
+    step, most = shared[0], shared[2]
+    place, v = y[:3], y[3:]
+    ray = p[:6] - y
+    yaw_rate, pitch_rate = rates(ray[:3], ray[3:])
+    residuals = ca.vertcat(
+        ca.sqrt(effort) * u,
+        p[6] * ca.sqrt(yaw) * yaw_rate,
+        p[6] * ca.sqrt(pitch) * pitch_rate,
+        ca.sqrt(height) * (y[2] - g[11]),
+        p[7] * ca.sqrt(end) * (y - g[5:11]),
+    )
+    free = ca.SX.inf(3)
+    stage = Stage(
+        x,
+        u,
+        y,
+        p,
+        g,
+        allowed=u * most / ca.fmax(ca.norm_2(u), most),
+        following=ca.vertcat(x[:3] + step * (x[3:] + 0.5 * step * u), x[3:] + step * u),
+        residuals=residuals,
+        rows=rows(of, (place, v, p[:3]), p[OWN:], shared),
+        ends=ends(of, place, v, shared),
+        low=ca.vertcat(-free, p[8:11]),
+        high=ca.vertcat(free, p[11:OWN]),
+    )
+    return horizon(stage, stages, DAMPING)
 
 
 def _fault(s: ChaseSituation, last: Plan | None) -> str:
@@ -106,149 +181,7 @@ def _fault(s: ChaseSituation, last: Plan | None) -> str:
         "the wanted state": [s.wanted, s.wanted_velocity],
         "a plan that was sent": [s.traffic.others, *(a for c in s.traffic.cones for a in (c.apex, c.axis))],
         "the last plan": [] if last is None else [last.times, last.accelerations],
+        "the time or the height": [np.array([s.time, s.height or 0.0])],
     }
-    total = s.time + (s.height or 0.0) + sum(float(a.sum()) for arrays in given.values() for a in arrays)
-    if isfinite(total):
-        return ""
     broken = (name for name, arrays in given.items() if not all(np.isfinite(a).all() for a in arrays))
-    return f"{next(broken, 'a time or a height')} is not finite"
-
-
-def _bounds(problem: ChaseProblem, situation: ChaseSituation) -> tuple[Array, Array, bool]:
-    """Return the bounds of velocities, (N, 3) each, and whether the measured one opens them.
-
-    Who is too fast gets back within them by the acceleration that can be had along every axis at once.
-    """
-    n, step = problem.horizon
-    limits, v = problem.keeping.limits, situation.velocity
-    lowest = np.array([-limits.speed, -limits.speed, -limits.descent])
-    highest = np.array([limits.speed, limits.speed, limits.climb])
-    each = limits.acceleration / np.sqrt(3.0) * step
-    if (v >= lowest - each).all() and (v <= highest + each).all():
-        return np.tile(lowest, (n, 1)), np.tile(highest, (n, 1)), False
-    back = each * np.arange(1, n + 1)[:, None]
-    return np.minimum(lowest, v + back), np.maximum(highest, v - back), True
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Model:
-    """One replan; target : its states, (N, 6); slowest, fastest : bounds of the velocities, (N, 3).
-
-    widened : whether these bounds are not the limits, which are out of reach
-    """
-
-    problem: ChaseProblem
-    situation: ChaseSituation
-    target: Array
-    kept: Kept
-    turning: Mapped
-    slopes: Mapped
-    slowest: Array
-    fastest: Array
-    widened: bool
-
-    @property
-    def prices(self) -> tuple[float, float]:
-        return LACKING, OUTSIDE
-
-    def allowed(self, inputs: Array) -> Array:
-        most = self.problem.keeping.limits.acceleration
-        size = np.sqrt(np.einsum("nd,nd->n", inputs, inputs))
-        return np.asarray(inputs * (most / np.maximum(size, most))[:, None])
-
-    def rolled(self, inputs: Array) -> Array:
-        step, states = self.problem.horizon.step, np.empty((len(inputs), STATES))
-        velocities = states[:, 3:]
-        velocities[:] = self.situation.velocity + step * inputs.cumsum(axis=0)
-        ways = step * (velocities - 0.5 * step * inputs)
-        states[:, :3] = self.situation.place + ways.cumsum(axis=0)
-        return states
-
-    def cost(self, inputs: Array, states: Array) -> float:
-        w = self.problem.weights
-        turns = self.turning(states, self.target)[0][:-1]
-        cost = w.effort * (inputs**2).sum() + w.end * (self._missed(states) ** 2).sum()
-        cost += w.yaw * (turns[:, 0] ** 2).sum() + w.pitch * (turns[:, 1] ** 2).sum()
-        if self.situation.height is not None:
-            cost += w.height * ((states[:, 2] - self.situation.height) ** 2).sum()
-        return float(cost)
-
-    def rows(self, inputs: Array, states: Array) -> Rows:
-        return rows(self.kept, states)
-
-    def excess(self, states: Array) -> float:
-        v = states[:, 3:]
-        return float((np.maximum(v - self.fastest, 0.0) + np.maximum(self.slowest - v, 0.0)).sum())
-
-    def quadratic(self, inputs: Array, states: Array, rows: Rows, opened: bool) -> Quadratic:
-        n, w = len(inputs), self.problem.weights
-        gradient, hessian = np.zeros((n, 9)), np.zeros((n, 9, 9))
-        gradient[:, :3] = 2.0 * w.effort * inputs
-        diagonal = np.zeros((n, 9))
-        diagonal[:, :3] = 2.0 * w.effort
-        turns, slope = self.slopes(states, self.target)
-        each = np.array([w.yaw, w.pitch])
-        slopes = slope.reshape(n, STATES, 2)[:-1]
-        weighted = slopes * (2.0 * each)
-        gradient[:-1, 3:] = np.einsum("nxr,nr->nx", weighted, turns[:-1])
-        hessian[:-1, 3:, 3:] = weighted @ slopes.transpose(0, 2, 1)
-        if self.situation.height is not None:
-            gradient[:, 5] += 2.0 * w.height * (states[:, 2] - self.situation.height)
-            diagonal[:, 5] += 2.0 * w.height
-        gradient[-1, 3:] += 2.0 * w.end * self._missed(states)
-        diagonal[-1, 3:] += 2.0 * w.end
-        hessian[:, np.arange(9), np.arange(9)] += diagonal + DAMPING
-        onward, driven = _motion(n, self.problem.horizon.step)
-        low, high = self._step_bounds(inputs, states, opened)
-        return Quadratic(gradient, hessian, onward, driven, rows, LACKING, low, high, _PATTERN)
-
-    def _step_bounds(self, inputs: Array, states: Array, opened: bool) -> tuple[Array, Array]:
-        most = self.problem.keeping.limits.acceleration
-        v, low = states[:, 3:], np.full((len(states), 9), -np.inf)
-        high = -low
-        low[:, :3], high[:, :3] = -most - inputs, most - inputs
-        low[:, 6:] = (np.minimum(self.slowest, v) if opened else self.slowest) - v
-        high[:, 6:] = (np.maximum(self.fastest, v) if opened else self.fastest) - v
-        return low, high
-
-    def _missed(self, states: Array) -> Array:
-        s = self.situation
-        return np.asarray(states[-1] - np.concatenate([s.wanted, s.wanted_velocity]))
-
-
-def _pattern() -> Pattern:
-    hessian = np.eye(INPUTS + STATES, dtype=np.bool_)
-    hessian[INPUTS:, INPUTS:] = True
-    onward, driven = _motion(1, 1.0)
-    return pattern(hessian, onward[0] != 0, driven[0] != 0)
-
-
-@lru_cache(maxsize=8)
-def _motion(stages: int, step: float) -> tuple[Array, Array]:
-    """Return the derivatives of the next state by the state, (N, 6, 6), and by the input, (N, 6, 3)."""
-    one = np.eye(3)
-    onward = np.block([[one, step * one], [np.zeros((3, 3)), one]])
-    driven = np.vstack([0.5 * step**2 * one, step * one])
-    return np.tile(onward, (stages, 1, 1)), np.tile(driven, (stages, 1, 1))
-
-
-def _symbols() -> tuple[list[Any], Any]:
-    x, target = ca.SX.sym("x", STATES), ca.SX.sym("target", STATES)
-    ray = target - x
-    return [x, target], ca.vertcat(*rates(ray[:3], ray[3:]))
-
-
-@lru_cache(maxsize=1)
-def _turning() -> Any:
-    """Return the yaw and pitch rate of the camera (Eq. 11, differentiated) by states of drone and target."""
-    given, turns = _symbols()
-    return dense("turning", given, [turns])
-
-
-@lru_cache(maxsize=1)
-def _turning_with_slopes() -> Any:
-    given, turns = _symbols()
-    return dense("turning_with_slopes", given, [turns, ca.jacobian(turns, given[0])])
-
-
-_PATTERN = _pattern()
+    return next((f"{name} is not finite" for name in broken), BEYOND)

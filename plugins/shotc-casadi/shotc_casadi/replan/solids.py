@@ -1,17 +1,17 @@
-"""Signed distances of points from what stands, with their gradients, for arrays of points.
+"""How much room there is beside what stands, in symbols, with the shapes of solids as parameters.
 
 The distance from a convex solid is a convex function: where its linearisation is kept, the distance is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
+import casadi as ca
 import numpy as np
 
 from shotc.plugin_api.replanner import (
-    Array,
     Clearance,
     Cylinder,
     Prism,
@@ -21,115 +21,122 @@ from shotc.plugin_api.replanner import (
     hull_and_pockets,
 )
 
-NO_LENGTH_M = 1e-9
-"""A length below it has no direction."""
+FAR_M = 1e6
+"""What has no end ends here, metres."""
 SHARP_M = 0.5
-"""Radius of a curve that leads round a corner: a straight step between two stages cuts it."""
+"""Radius of the curve that leads round a corner: a straight step between two stages cuts it."""
+TINY_M = 1e-9
+HALF_SPACE, PILLAR, SHAFT = 0, 1, 2
+"""Shapes with a fixed number of parameters; a prism is named by how many corners it has."""
 
-Room = Callable[[Array], tuple[Array, Array]]
-"""Of points (M, 3): how much room there is, (M,), metres, negative where it lacks; its gradient, (M, 3)."""
+
+class Room(NamedTuple):
+    """A part of what a drone keeps clear of, or stays inside of.
+
+    shape : HALF_SPACE (normal, offset), PILLAR, an upright cylinder, (x, y, radius, bottom, top), SHAFT, the
+        room in an endless one, (x, y, radius), or a number of corners (bottom, top, their x and y)
+    metres : that are kept from it; radius : of the curve on which they are kept, infinite for a plane
+    """
+
+    shape: int
+    sizes: tuple[float, ...]
+    metres: float
+    radius: float
+
+    @property
+    def disc(self) -> tuple[float, float, float]:
+        """Return a disc that holds it with its metres, (x, y, radius); endless for what has no end."""
+        if self.shape in (HALF_SPACE, SHAFT):
+            return (0.0, 0.0, np.inf)
+        if self.shape == PILLAR:
+            return (self.sizes[0], self.sizes[1], self.sizes[2] + self.metres)
+        corners = np.reshape(self.sizes[2:], (-1, 2))
+        x, y = corners.mean(axis=0)
+        return (x, y, float(np.hypot(*(corners - (x, y)).T).max()) + self.metres)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Return metres, what a step between stages cuts off times 8 / way^2, and the sizes."""
+        return (self.metres, 1.0 / self.radius, *self.sizes)
 
 
-def rooms(zone: Clearance, margin: float) -> Iterator[tuple[Room, float]]:
-    """Yield what is kept of one clearance, and the radius of the curve that it is kept on, metres."""
+def count(shape: int) -> int:
+    """Return how many parameters a room of a shape has."""
+    return 2 + {HALF_SPACE: 4, PILLAR: 5, SHAFT: 3}.get(shape, 2 + 2 * shape)
+
+
+def half_space(normal: Sequence[float], offset: float) -> Room:
+    """Return the room in normal . p >= offset; normal : a unit vector."""
+    return Room(HALF_SPACE, (*normal, offset), 0.0, np.inf)
+
+
+def rooms(zone: Clearance, margin: float) -> Iterator[Room]:
+    """Yield what is kept of one clearance."""
     metres = zone.metres + margin
-    if zone.inside:
-        yield from _inside(zone.solid, metres)
+    if not zone.inside:
+        yield from (_outside(part, metres) for part in convex_parts(zone.solid))
         return
-    for part in convex_parts(zone.solid):
-        yield partial(outside, part, metres), _radius(part, metres)
-
-
-def outside(part: Solid, metres: float, p: Array) -> tuple[Array, Array]:
-    """Return the room of points outside of a convex solid, less metres."""
-    gap, normal = _from_disc(part, p) if isinstance(part, Cylinder) else _from_polygon(part, p)
-    if part.bottom == -np.inf and part.top == np.inf:
-        return gap - metres, normal
-    return _with_heights(part, p, gap, normal, metres)
-
-
-def above(normal: Array, offset: float, p: Array) -> tuple[Array, Array]:
-    """Return the room of points in a half-space normal . p >= offset; normal : a unit vector."""
-    return p @ normal - offset, np.broadcast_to(normal, p.shape)
-
-
-def _inside(solid: Solid, metres: float) -> Iterator[tuple[Room, float]]:
-    yield from ((partial(above, n, o), np.inf) for n, o in _lids(solid, metres))
+    solid = zone.solid
+    if np.isfinite(solid.bottom):
+        yield half_space((0.0, 0.0, 1.0), solid.bottom + metres)
+    if np.isfinite(solid.top):
+        yield half_space((0.0, 0.0, -1.0), metres - solid.top)
     if isinstance(solid, Cylinder):
-        yield partial(_in_disc, solid, metres), np.inf
+        yield Room(SHAFT, (*solid.centre, solid.radius), metres, np.inf)
         return
     hull, pockets = hull_and_pockets(solid)
     for a, b in edges(hull.points):
-        normal = _outward(a, b)
-        yield partial(above, -normal, metres - float(normal @ [*a, 0.0])), np.inf
-    for pocket in pockets:
-        yield partial(outside, pocket, metres), _radius(pocket, metres)
+        x, y = a[1] - b[1], b[0] - a[0]  # inwards: the polygon runs counter-clockwise
+        length = float(np.hypot(x, y))
+        yield half_space((x / length, y / length, 0.0), (x * a[0] + y * a[1]) / length + metres)
+    yield from (_outside(pocket, metres) for pocket in pockets)
 
 
-def _lids(solid: Solid, metres: float) -> Iterator[tuple[Array, float]]:
-    if np.isfinite(solid.bottom):
-        yield np.array([0.0, 0.0, 1.0]), solid.bottom + metres
-    if np.isfinite(solid.top):
-        yield np.array([0.0, 0.0, -1.0]), metres - solid.top
+def free_at(shape: int, p: Any, sizes: Any) -> Any:
+    """Return the room at a place in symbols; sizes : the parameters of a ``Room``."""
+    metres, s = sizes[0], sizes[2:]
+    if shape == HALF_SPACE:
+        return ca.dot(s[:3], p) - s[3] - metres
+    if shape in (PILLAR, SHAFT):
+        # A direction is there even on the axis.
+        across = ca.norm_2(p[:2] - s[:2] + ca.SX([TINY_M, 0.0])) - s[2]
+        return -across - metres if shape == SHAFT else _upright(across, p, s[3], s[4]) - metres
+    return _upright(_polygon(p, ca.reshape(s[2:], 2, shape)), p, s[0], s[1]) - metres
 
 
-def _radius(part: Solid, metres: float) -> float:
-    return max(metres + (part.radius if isinstance(part, Cylinder) else 0.0), SHARP_M)
+def _outside(part: Solid, metres: float) -> Room:
+    low, high = max(part.bottom, -FAR_M), min(part.top, FAR_M)
+    if isinstance(part, Cylinder):
+        sizes = (*part.centre, part.radius, low, high)
+        return Room(PILLAR, sizes, metres, max(part.radius + metres, SHARP_M))
+    assert isinstance(part, Prism)
+    corners = [c for point in part.points for c in point]
+    return Room(len(part.points), (low, high, *corners), metres, max(metres, SHARP_M))
 
 
-def _in_disc(solid: Cylinder, metres: float, p: Array) -> tuple[Array, Array]:
-    gap, normal = _from_disc(solid, p)
-    return -gap - metres, -normal
+def _polygon(p: Any, corners: Any) -> Any:
+    """Return the signed distance over ground from a convex polygon, corners (2, k) counter-clockwise."""
+    k = corners.size2()
+    faces, squares = [], []
+    for i in range(k):
+        start, side = corners[:, i], corners[:, (i + 1) % k] - corners[:, i]
+        away, square = p[:2] - start, ca.sumsqr(side)
+        faces.append((side[1] * away[0] - side[0] * away[1]) / ca.sqrt(square))
+        along = ca.fmin(ca.fmax(ca.dot(away, side) / square, 0), 1)
+        squares.append(ca.sumsqr(away - along * side))
+    inside = _folded(ca.fmax, faces)
+    return ca.if_else(inside > 0, ca.sqrt(_folded(ca.fmin, squares) + TINY_M**2), inside)
 
 
-def _from_disc(part: Cylinder, p: Array) -> tuple[Array, Array]:
-    away = p[:, :2] - part.centre
-    distance = np.hypot(away[:, 0], away[:, 1])
-    if not distance.min() > NO_LENGTH_M:  # on the axis any direction leads out
-        away = np.where(distance[:, None] > NO_LENGTH_M, away, [NO_LENGTH_M, 0.0])
-        distance = np.maximum(distance, NO_LENGTH_M)
-    normal = np.zeros((len(p), 3))
-    normal[:, :2] = away / distance[:, None]
-    return distance - part.radius, normal
+def _upright(across: Any, p: Any, bottom: Any, top: Any) -> Any:
+    """Return the signed distance from an upright solid by that over ground."""
+    up = ca.fmax(bottom - p[2], p[2] - top)
+    corner = ca.sqrt(ca.fmax(across, 0) ** 2 + ca.fmax(up, 0) ** 2 + TINY_M**2)
+    return ca.if_else(ca.fmin(across, up) > 0, corner, ca.fmax(across, up))
 
 
-def _from_polygon(part: Prism, p: Array) -> tuple[Array, Array]:
-    corners = np.array(part.points)
-    sides = np.roll(corners, -1, axis=0) - corners
-    lengths = np.linalg.norm(sides, axis=1)
-    normals = np.column_stack([sides[:, 1], -sides[:, 0]]) / lengths[:, None]
-    from_corners = p[:, None, :2] - corners
-    faces = np.einsum("mkd,kd->mk", from_corners, normals)
-    along = np.clip(np.einsum("mkd,kd->mk", from_corners, sides) / lengths**2, 0.0, 1.0)
-    rest = from_corners - along[..., None] * sides
-    nearest = np.einsum("mkd,mkd->mk", rest, rest).argmin(axis=1)
-    rows, face = np.arange(len(p)), faces.argmax(axis=1)
-    away = rest[rows, nearest]
-    distance = np.hypot(away[:, 0], away[:, 1])
-    beyond = (faces[rows, face] > 0) & (distance > NO_LENGTH_M)
-    gap = np.where(beyond, distance, faces[rows, face])
-    normal = np.zeros((len(p), 3))
-    normal[:, :2] = np.where(
-        beyond[:, None], away / np.maximum(distance, NO_LENGTH_M)[:, None], normals[face]
-    )
-    return gap, normal
-
-
-def _with_heights(part: Solid, p: Array, gap: Array, normal: Array, metres: float) -> tuple[Array, Array]:
-    under, over = part.bottom - p[:, 2], p[:, 2] - part.top
-    upright = np.maximum(under, over)
-    up = np.where(over >= under, 1.0, -1.0)
-    corner = (gap > 0) & (upright > 0)
-    with_corner = np.hypot(gap, np.maximum(upright, 0.0))
-    distance = np.where(corner, with_corner, np.maximum(gap, upright))
-    lengths = np.where(corner, with_corner, 1.0)
-    flat = np.where(corner, gap, gap >= upright) / lengths
-    tall = np.where(corner, upright, gap < upright) / lengths
-    turned = normal * flat[:, None]
-    turned[:, 2] = up * tall
-    return distance - metres, turned
-
-
-def _outward(a: tuple[float, float], b: tuple[float, float]) -> Array:
-    side = np.array([b[1] - a[1], a[0] - b[0], 0.0])  # the polygon runs counter-clockwise
-    return np.asarray(side / np.linalg.norm(side))
+def _folded(by: Any, values: list[Any]) -> Any:
+    first, *rest = values
+    for value in rest:
+        first = by(first, value)
+    return first

@@ -1,0 +1,170 @@
+"""What every plan keeps, as rows in symbols that are not negative where it is kept: metres, or m/s.
+
+It is the same for all kinds of shots, by place and velocity of the drone at a stage.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import casadi as ca
+import numpy as np
+
+from shotc.plugin_api.replanner import Array, Keeping, Traffic
+from shotc_casadi.replan.solids import SHARP_M, TINY_M, Room, count, free_at, half_space, rooms
+
+STANDING_MS = 1e-3
+"""Added to speeds, whose direction would not be known at rest, m/s."""
+REACH_M = 1.0
+"""What stands farther off than this and the way of a horizon is left out, metres."""
+FEW = 3
+"""So many rooms are never left out, so that no programme has to be laid out anew in flight."""
+LIMITS = 8
+
+
+class Kept(NamedTuple):
+    """What rows there are.
+
+    shapes : of what stands; others, cones : how many; low, high : whether pitch has such a bound
+    framed : whether there is a cone about the own camera's axis that holds no other drone
+    """
+
+    shapes: tuple[int, ...]
+    others: int
+    cones: int
+    low: bool
+    high: bool
+    framed: bool
+
+    @property
+    def common(self) -> int:
+        """Return how many parameters all stages share."""
+        return LIMITS + sum(map(count, self.shapes)) + self.cones
+
+    @property
+    def each(self) -> int:
+        """Return how many parameters a stage has of its own."""
+        return 6 * (self.others + self.cones)
+
+
+class Standing:
+    """All that stands and is kept clear of, or stayed inside of."""
+
+    def __init__(self, keeping: Keeping) -> None:
+        """Cut zones into convex parts."""
+        found = [room for zone in keeping.zones for room in rooms(zone, keeping.margin)]
+        if np.isfinite(keeping.floor):
+            found.append(half_space((0.0, 0.0, 1.0), keeping.floor))
+        self._rooms = found
+        self._discs = np.array([room.disc for room in found]).reshape(-1, 3)
+
+    def near(self, place: Array, way: float) -> tuple[Room, ...]:
+        """Return what may be met on a way of so many metres, or all where it is not much."""
+        if len(self._rooms) <= FEW:
+            return tuple(self._rooms)
+        x, y, radius = self._discs.T
+        away = np.hypot(x - place[0], y - place[1]) - radius
+        return tuple(self._rooms[i] for i in np.flatnonzero(away < way + REACH_M))
+
+
+def kept(keeping: Keeping, near: tuple[Room, ...], traffic: Traffic) -> Kept:
+    """Return what rows there are in one replan."""
+    low, high = keeping.pitch
+    return Kept(
+        tuple(room.shape for room in near),
+        len(traffic.others),
+        len(traffic.cones),
+        low > -0.5 * np.pi,
+        high < 0.5 * np.pi,
+        keeping.half_angle is not None and len(traffic.others) > 0,
+    )
+
+
+def common(keeping: Keeping, near: tuple[Room, ...], step: float) -> list[float]:
+    """Return the parameters that all stages share, but the half angles of cones, which come after them."""
+    limits, given = keeping.limits, keeping
+    numbers = [step, limits.speed, limits.acceleration, given.reaction, given.separation + given.margin]
+    numbers += [given.half_angle or 0.0, *given.pitch]
+    return [*numbers, *(number for room in near for number in room.parameters)]
+
+
+def each(traffic: Traffic) -> Array:
+    """Return the parameters that every stage has of its own, shape (N, 6 (D + C))."""
+    sent = [np.hstack([other[1:], np.diff(other, axis=0)]) for other in traffic.others]
+    sent += [np.hstack([cone.apex[1:], cone.axis[1:]]) for cone in traffic.cones]
+    return np.hstack(sent)
+
+
+def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
+    """Return the rows of a stage, as a column.
+
+    state : place and velocity of the drone and place of the target; p, g : parameters of ``each``, ``common``
+    """
+    place, v, target = state
+    step, speed, _, _, apart, half_angle, low, high = ca.vertsplit(g[:LIMITS])
+    cut = ca.sumsqr(v) * step**2 / 8
+    found = [free_at(shape, place, sizes) - cut * sizes[1] for shape, sizes in _rooms(of, g)]
+    for i in range(of.others):
+        other, way = p[6 * i : 6 * i + 3], p[6 * i + 3 : 6 * i + 6]
+        d = place - other
+        # The way of one as seen from the other is straight, too, between two stages.
+        cut = ca.sumsqr(step * v - way) / (8 * ca.fmax(apart, SHARP_M))
+        found.append(_length(d) - apart - cut)
+        if of.framed:
+            found.append(beside_cone(d, (place - target) / _length(place - target), half_angle))
+    for i in range(of.cones):
+        at = 6 * (of.others + i)
+        angle = g[of.common - of.cones + i]
+        found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
+    found += _pitched(of, place - target, low, high)
+    found.append(speed - ca.sqrt(ca.sumsqr(v[:2]) + STANDING_MS**2))
+    return ca.vertcat(*found)
+
+
+def ends(of: Kept, place: Any, v: Any, g: Any) -> Any:
+    """Return the room where the drone stands after it has braked from the last stage, as a column.
+
+    The way is straight, and the linearised room of a convex solid is no larger than the room there.
+    """
+    acceleration, reaction = g[2], g[3]
+    seconds = reaction + ca.sqrt(ca.sumsqr(v) + STANDING_MS**2) / (2 * acceleration)
+    found = []
+    for shape, sizes in _rooms(of, g):
+        room = free_at(shape, place, sizes)
+        found.append(room + seconds * ca.jtimes(room, place, v))
+    return ca.vertcat(*found) if found else ca.SX(0, 1)
+
+
+def beside_cone(d: Any, axis: Any, half_angle: Any) -> Any:
+    """Return how far what lies at d from the apex is out of a cone, metres; behind it, the distance.
+
+    With the line of sight for an axis it is Alcantara et al., Eq. 12.i and 13, in metres.
+    """
+    along = ca.dot(axis, d)
+    across = ca.sqrt(ca.fmax(ca.sumsqr(d) - along**2, 0) + TINY_M**2)
+    sine, cosine = ca.sin(half_angle), ca.cos(half_angle)
+    behind = cosine * along + sine * across < 0
+    return ca.if_else(behind, _length(d), cosine * across - sine * along)
+
+
+def _rooms(of: Kept, g: Any) -> Iterator[tuple[int, Any]]:
+    at = LIMITS
+    for shape in of.shapes:
+        yield shape, g[at : at + count(shape)]
+        at += count(shape)
+
+
+def _pitched(of: Kept, q: Any, low: Any, high: Any) -> list[Any]:
+    # Distances from the cones of the lowest and the highest line of sight; Eq. 12.g of Alcantara et al.
+    flat = ca.sqrt(ca.sumsqr(q[:2]) + TINY_M**2)
+    found = []
+    if of.low:
+        found.append(-ca.sin(low) * flat - ca.cos(low) * q[2])
+    if of.high:
+        found.append(ca.sin(high) * flat + ca.cos(high) * q[2])
+    return found
+
+
+def _length(d: Any) -> Any:
+    return ca.sqrt(ca.sumsqr(d) + TINY_M**2)
