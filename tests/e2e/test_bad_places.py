@@ -51,6 +51,13 @@ def with_hole(value: float) -> np.ndarray:
     return heights
 
 
+def without_columns(*lacking: int) -> bytes:
+    """Return a table of level ground, 20 m from post to post, without some columns."""
+    side = range(-400, 401, 20)
+    rows = (f"{x},{y},0\n" for x in side if x not in lacking for y in side)
+    return ("x,y,z\n" + "".join(rows)).encode()
+
+
 class Bad(NamedTuple):
     """A world, the bytes of its file (or how many there are), the error and its line, and another target."""
 
@@ -73,6 +80,8 @@ BAD = {
     "projected without a system": Bad(
         "terrain: {file: a.asc}", dem(level(), xllcorner=398e3, yllcorner=517e4, cellsize=10), "N009", 5
     ),
+    "columns that lack": Bad("terrain: {file: a.csv}", without_columns(20, 40), "G025", 11),
+    "a house in millimetres": Bad(SCENE, ply(1000 * (house() + np.array([60, 40, 0]))), "G033", 5),
     "statue in millimetres": Bad(SCENE, ply(1000 * box_mesh((0, 0, 1), (1, 1, 2))), "G027", 9),
     "upside down": Bad(SCENE, ply(house() * [1, 1, -1] + np.array([60, 40, 0])), "G051", 5),
     "a gigabyte": Bad(SCENE, 1 << 30, "N009", 5),
@@ -89,7 +98,7 @@ BAD = {
 
 
 def written(bad: Bad, folder: Path) -> bytes:
-    name = next((n for n in ("a.asc", "a.ply", "a.geojson") if n in bad.world), "a.txt")
+    name = next((n for n in ("a.asc", "a.csv", "a.ply", "a.geojson") if n in bad.world), "a.txt")
     with (folder / name).open("wb") as stream:
         if isinstance(bad.data, int):
             stream.truncate(bad.data)
@@ -135,3 +144,18 @@ def test_a_scene_in_millimetres_is_told_with_its_size_and_its_fix_works(tmp_path
         "the scene measures 2000 m" in note and "`units: mm`" in note for d in told for note in d.notes
     )
     assert check_source(text.replace(b"units: m}", b"units: mm}"), "m.yaml", tmp_path).diagnostics == ()
+
+
+def test_a_scene_half_under_the_ground_is_a_warning_that_says_what_it_may_be(tmp_path: Path) -> None:
+    half = ply(house() * [1, 1, -1] + np.array([60, 40, 3]))
+    text = written(Bad(SCENE, half, "G032", 5), tmp_path)
+    (told,) = check_source(text, "m.yaml", tmp_path).diagnostics
+    assert (told.code, told.labels[0].span.line) == ("G032", 5)
+    assert "raise it by `at`" in (told.help or "")
+    assert compile_source(text, "m.yaml", tmp_path, PlanOptions(refiner="none")).plan is not None
+
+
+def test_a_house_in_millimetres_is_told_of_its_unit(tmp_path: Path) -> None:
+    text = written(BAD["a house in millimetres"], tmp_path)
+    (told,) = check_source(text, "m.yaml", tmp_path).diagnostics
+    assert "`units: mm`, which makes it 10 m" in (told.help or "")

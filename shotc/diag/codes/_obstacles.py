@@ -76,7 +76,9 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         _WARNING,
         "much of a scene lies under the ground",
         "No camera sees it there. Most often another axis of the file points up: OBJ and GLB files are read with y up, "
-        "STL, PLY and clouds with z up, unless `up` says it. Or its origin is not on the ground: raise it by `at`.",
+        "STL, PLY and clouds with z up, unless `up` says it. Or its origin is not on the ground: raise it by `at`. It is a "
+        "warning, for foundations, cellars and the ground of a scan lie under the ground, too: the plan is proved with the scene as "
+        "it is written, and the storyboard shows whether that is what was meant. A scene that is under the ground as a whole is an error (G051).",
     ),
     _of_a_file(
         "G033",
@@ -85,7 +87,8 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "a scene's file holds 32-bit numbers, and its coordinates are so large that they are rounded",
         "STL, GLB and most PLY files hold 32-bit numbers of seven digits: at 5,000 km, where coordinates of surveys lie, "
         "these are half a metre apart, and what is proved would be of another scene. Export the scene with an offset, "
-        "and give the place of that offset as `at`; or as OBJ, which is text, or as PLY of doubles.",
+        "and give the place of that offset as `at`; or as OBJ, which is text, or as PLY of doubles. A scene in millimetres has "
+        "coordinates as large: the help has the unit.",
     ),
     _of_a_file(
         "G034",

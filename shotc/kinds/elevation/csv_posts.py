@@ -17,10 +17,12 @@ FULL = 0.5
 """Share of a grid's places that have a post, at least: fewer are points that lie anywhere."""
 SAME = 1e-6
 """Share of an axis's extent within which places are one: tables are rounded."""
+USUAL = 0.25
+"""Share of the gaps between columns, or rows, that are no wider than the step of a grid: others lack some."""
 
 
 def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a table; places of its grid that it leaves out have no height."""
+    """Return the posts of a table; places of its grid that it leaves out, and whole rows, have no height."""
     table = read_table(data, LAYOUTS, most=MOST_ROWS)
     if isinstance(table, FileFault):
         return TerrainFault("format", *table)
@@ -49,10 +51,18 @@ def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFau
 
 
 def _places(values: Array) -> tuple[Array, IntArray]:
-    """Return the places along an axis, increasing, and of which each value is."""
+    """Return the places along an axis, increasing, with those that lack, and of which each value is."""
     order = np.argsort(values, kind="stable")
     ordered = values[order]
     begins = np.concatenate([[True], np.diff(ordered) > SAME * (ordered[-1] - ordered[0])])
     number = np.empty(len(values), dtype=np.intp)
     number[order] = np.cumsum(begins) - 1
-    return ordered[begins], number
+    there = ordered[begins]
+    gaps = np.diff(there)
+    if not len(gaps):
+        return there, number
+    steps = np.rint(gaps / np.quantile(gaps, USUAL, method="lower"))
+    at = np.concatenate([[0.0], np.cumsum(np.maximum(steps, 1.0))])
+    if at[-1] > MOST_POSTS:
+        return there, number  # no grid, as its count of places says
+    return np.interp(np.arange(at[-1] + 1.0), at, there), at.astype(np.intp)[number]

@@ -66,7 +66,7 @@ def check_homes_beside(mission: MissionIR) -> Iterator[Diagnostic]:
         how = (
             f"it is {-near.away:.2f} m deep in it"
             if inside
-            else f"the take-off comes within {near.away:.2f} m"
+            else f"the take-off comes within {near.away + 0.0:.2f} m"
         )
         note = f"{how}; {_needed(near.mesh, drone.radius, 0.0)} must be free"
         yield Diagnostic("G027", message, labels, (note, *_large(near.mesh)), _other_home(mission, drone))

@@ -108,13 +108,14 @@ class _Scene(NamedTuple):
             return
         grain = float(np.spacing(np.float32(most))) * self.placed.metres
         low, high = _box(parts)
-        yield Diagnostic(
-            "G033",
-            f"the coordinates of `{self.written.file}` are rounded to {grain:.2g} m",
-            self._label,
-            (f"it holds 32-bit numbers, and they reach {most:.7g} {self._unit}",),
-            f"export it with {_rounded(0.5 * (low + high))} taken off, and give that place as `at`",
-        )
+        notes = [f"it holds 32-bit numbers, and they reach {most:.7g} {self._unit}"]
+        help_ = f"export it with {_rounded(0.5 * (low + high))} taken off, and give that place as `at`"
+        size = float((high - low).max()) * self.placed.metres
+        if size > LARGE_M:
+            notes.append(f"the scene measures {_length(size)}")
+            help_ = f"{self._fitting(size)}; if it is so large, {help_}"
+        message = f"the coordinates of `{self.written.file}` are rounded to {grain:.2g} m"
+        yield Diagnostic("G033", message, self._label, tuple(notes), help_)
 
     def of_no_size(self, parts: list[Part]) -> Iterator[Diagnostic]:
         """Yield the fault of a scene that is smaller than a drone, or larger than what can be flown about."""

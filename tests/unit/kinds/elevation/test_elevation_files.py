@@ -126,12 +126,26 @@ def rows(columns: tuple[float, ...], lines: tuple[float, ...]) -> np.ndarray:
 
 
 def test_a_table_is_a_grid_whatever_the_order_of_its_rows():
-    of = rows((0, 5, 20), (0, 10))
+    of = rows((0, 5, 10.5), (0, 10))
     found = read("a.csv", files.table("x,y,z", np.random.default_rng(1).permutation(of)))
     assert found.system is None
-    assert (found.x == [0, 5, 20]).all()
+    assert (found.x == [0, 5, 10.5]).all()
     assert (found.y == [0, 10]).all()
-    assert found.heights == pytest.approx(np.array([[100, 105, 120], [120, 125, 140]]))
+    assert found.heights == pytest.approx(np.array([[100, 105, 110.5], [120, 125, 130.5]]))
+
+
+def test_columns_and_rows_that_a_table_lacks_are_holes():
+    x, y = (0, 10, 20, 50, 60, 80, 90), (0, 5, 10, 20, 25)
+    found = read("a.csv", files.table("x,y,z", rows(x, y)))
+    assert (found.x == np.arange(0, 91, 10)).all()
+    assert (found.y == np.arange(0, 26, 5)).all()
+    there = np.isin(found.y, y)[:, None] & np.isin(found.x, x)
+    assert (np.isfinite(found.heights) == there).all()
+
+
+def test_a_table_that_lacks_most_of_a_grid_is_none():
+    assert fault("a.csv", files.table("x,y,z", rows((0, 10, 20, 1000), (0, 10)))).kind == "grid"
+    assert fault("a.csv", files.table("x,y,z", rows((0, 1e-5, 2e-5, 4000), (0, 10)))).kind == "grid"
 
 
 def test_a_table_of_degrees_may_leave_posts_out():
