@@ -17,7 +17,7 @@ from shotc.stream.endpoint import Endpoint, endpoint
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.api import PlanReport
-    from shotc.ir.mission import MissionIR
+    from shotc.ir.trajectory import TrajectoryIR
     from shotc.stream.flight import Flown
     from shotc.stream.pilot import Pilot
     from shotc.stream.session import Aboard, Session
@@ -78,7 +78,8 @@ def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm 
         raise typer.Exit(console.EXIT_REJECTED)
     flown = [track.drone for track in report.plan.trajectory.drones]
     addresses = _of_one(found, flown)
-    _all_named(addresses, flown, targets, report.plan.trajectory.keyframes.mission)
+    _all_named(addresses, flown)
+    _all_filmed(targets, report.plan.trajectory)
     raise typer.Exit(_stream(report, addresses, targets, arm=arm))
 
 
@@ -189,5 +190,14 @@ def _all_named(
     lacking = [name for name in flown if name not in addresses]
     if lacking:
         raise typer.BadParameter(f"no address for {', '.join(lacking)}", param_hint="--to")
+
+
+def _all_filmed(targets: Mapping[str, Endpoint], trajectory: TrajectoryIR) -> None:
+    """Refuse targets that the mission does not have, or that no camera looks at."""
+    mission = trajectory.keyframes.mission
+    filmed = {span.target for track in trajectory.drones for span in track.framing}
+    filmed |= {shot.subject for shot in mission.shots if shot.subject is not None}
     for name in targets:
         known("--target", name, [target.name for target in mission.targets])
+        if name not in filmed:
+            raise typer.BadParameter(f"no shot films `{name}`", param_hint="--target")

@@ -72,6 +72,9 @@ class Flight:
         except KeyboardInterrupt:
             interrupted = True
             self._say("interrupted: every drone in the air is asked to hold")
+        except BaseException:  # a bug of ours leaves no drone without a command
+            self._hold()
+            raise
         landed = all(member.pilot.done for member in self._crew)
         holding: list[tuple[str, str]] = []
         if not landed:

@@ -50,6 +50,8 @@ class Stage(Enum):
 
 FOLLOWING = (Stage.ARMING, Stage.LIFTING, Stage.FLYING)
 """Stages in which a vehicle that has left its mode was taken over."""
+AT_REST = (Stage.PARKED, Stage.LANDING, Stage.LANDED)
+"""Stages in which nothing has to be stopped: what comes down onto its pad goes on."""
 DOINGS = {
     Stage.MODE: "gets ready",
     Stage.ARMING: "arms",
@@ -98,10 +100,10 @@ class Pilot:
         return self.stage is Stage.LANDED
 
     def airborne(self, tick: int) -> bool:
-        """Tell whether the drone is off its pad, or may be."""
+        """Tell whether the drone is off its pad, or may be, and follows or rises."""
         if self.stage is Stage.FLYING:
             return tick > self.course.lifts or self.vehicle.autopilot.lift > 0
-        return self.stage in (Stage.LIFTING, Stage.LANDING)
+        return self.stage is Stage.LIFTING
 
     def send(self, tick: int, aim: Aim) -> None:
         """Send what belongs to a tick: the setpoint where the vehicle takes them, and the camera's angles."""
@@ -140,7 +142,7 @@ class Pilot:
 
     def hold(self, tick: int) -> Mode | None:
         """Ask a drone in the air to hold, and one on the ground to disarm; return the mode asked for."""
-        if self.stage in (Stage.PARKED, Stage.LANDED):
+        if self.stage in AT_REST:
             return None
         if self.airborne(tick):
             self.vehicle.link.set_mode(self.vehicle.autopilot.hold)
@@ -150,8 +152,8 @@ class Pilot:
         return None
 
     def stopped(self, tick: int) -> bool:
-        """Tell whether it holds, or stands with its motors off."""
-        if self.stage in (Stage.PARKED, Stage.LANDED) or not self.vehicle.armed:
+        """Tell whether it holds, comes down onto its pad, or stands with its motors off."""
+        if self.stage in AT_REST or not self.vehicle.armed:
             return True
         return self.airborne(tick) and self.vehicle.mode == self.vehicle.autopilot.hold.custom
 

@@ -9,7 +9,7 @@ import pytest
 from tests.cli.conftest import Run
 from tests.support.show_plans import plan as show_plan
 from tests.support.stream.autopilot import Script
-from tests.support.stream.plans import hop_plan
+from tests.support.stream.plans import hop_plan, with_target
 from tests.support.stream.worlds import World, free_port
 
 pytestmark = pytest.mark.slow
@@ -94,11 +94,12 @@ def test_a_show_is_not_streamed(run: Run, monkeypatch) -> None:
         (["--to", "near=udp:14540", "--to", "near=udp:14541"], "given twice"),
         (["--to", "near=udp:1", "--to", "far=udp:2", "--target", "udp:3"], "names no target"),
         (["--to", "near=udp:1", "--to", "far=udp:2", "--target", "towr=udp:3"], "did you mean `tower`"),
+        (["--to", "near=udp:1", "--to", "far=udp:2", "--target", "shed=udp:3"], "no shot films `shed`"),
         ([], "no address for near, far"),
     ],
 )
 def test_addresses_are_read_before_anything_is_opened(run: Run, flying, words, said) -> None:
-    flying(hop_plan("near", "far"))
+    flying(with_target(hop_plan("near", "far"), "shed"))
     done = run("stream", "plan.json", *words)
     assert done.code == 2
     assert said in " ".join(done.err.split())

@@ -6,6 +6,7 @@ import socket
 
 import pytest
 
+from shotc.stream.aim import LiveAim
 from shotc.stream.endpoint import Endpoint
 from tests.support.stream.autopilot import (
     ARDUPILOT,
@@ -14,6 +15,7 @@ from tests.support.stream.autopilot import (
     CLAIM,
     PX4,
     PX4_HOLD,
+    PX4_LAND,
     SET_MODE,
     TAKE_OFF,
     VIDEO_START,
@@ -255,6 +257,39 @@ def test_a_camera_that_does_not_answer_is_told_of_and_the_flight_goes_on():
         flown, _ = world.fly()
     assert flown.landed
     assert [d.code for d in flown.diagnostics] == ["A027"]
+
+
+@pytest.mark.slow
+def test_a_bug_on_the_way_leaves_no_drone_without_a_command(monkeypatch):
+    with World(hop_plan("near", "far")) as world:
+        aboard, _ = world.check()
+        end = world.clock.time + 22.0
+        aim = LiveAim.at
+
+        def breaks(self, tick, now):
+            if now > end:
+                raise ZeroDivisionError
+            return aim(self, tick, now)
+
+        monkeypatch.setattr(LiveAim, "at", breaks)
+        with pytest.raises(ZeroDivisionError):
+            world.session.fly(aboard)
+        assert {autopilot.mode for autopilot in world.autopilots.values()} == {PX4_HOLD}
+        assert all(autopilot.north_east_down[2] < -3 for autopilot in world.autopilots.values())
+
+
+@pytest.mark.slow
+def test_interrupted_while_it_lands_it_lands():
+    def stop():
+        raise KeyboardInterrupt
+
+    with World(hop_plan()) as world:
+        aboard, _ = world.check()
+        world.clock.events.append((world.clock.time + 36.2, stop))
+        flown, _ = world.session.fly(aboard)
+        assert flown.interrupted
+        assert flown.holding == []
+        assert world.autopilots["cam1"].mode == PX4_LAND
 
 
 def test_px4_reads_whole_numbers_by_their_bytes():

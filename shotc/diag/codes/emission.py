@@ -61,7 +61,7 @@ _MAVLINK_CODES = (
         "A curve becomes straight legs, and an autopilot's memory ends: 500 items for PX4, 650 for ArduPilot. "
         "Where the usual tolerances need more, those of heading and picture grow first and that of position "
         "last, until the flight fits; the notes say what was reached. Fly the shots as separate missions, or "
-        "stream `trajectory.csv`.",
+        "fly the plan itself with `shotc stream`.",
         "",
         "",
         "other",
@@ -96,7 +96,7 @@ _MAVLINK_CODES = (
         "the straight legs of a mission file come nearer to something than its clearance allows",
         "The plan keeps every clearance, but a mission file flies straight from waypoint to waypoint, and "
         "waypoints can only be so dense. The message says how much nearer the legs come, and to what. Leave more "
-        "room there, or stream `trajectory.csv`.",
+        "room there, or fly the plan itself with `shotc stream`.",
         "",
         "",
         "other",
@@ -107,8 +107,8 @@ _MAVLINK_CODES = (
         Severity.WARNING,
         "a mission file does not carry when a shot of a moving target is filmed",
         "An autopilot flies a mission file from waypoint to waypoint at mean speeds, from whenever it is started. A "
-        "target that moves is then somewhere else, and several drones meet where the plan keeps them apart. Stream "
-        "`trajectory.csv` as offboard setpoints on one clock for such a mission; the file is good for rehearsing one "
+        "target that moves is then somewhere else, and several drones meet where the plan keeps them apart. Fly "
+        "such a mission with `shotc stream`, all drones on one clock; the file is good for rehearsing one "
         "drone's way without the target.",
         _MAVLINK.replace("at: [0, 0, 6]", "track: {start: [0, 0, 6], velocity: [1, 0, 0]}")
         .replace(

@@ -69,7 +69,7 @@ def coarsened(mission: MissionIR, drone: Drone, error: Error, most: int) -> Diag
             f"reached: {error.position:.2f} m, {degrees(error.heading):.1f} deg of heading,"
             f" {error.screen:.3f} of the screen",
         ),
-        "fly the shots as separate missions, or stream trajectory.csv instead",
+        "fly the shots as separate missions, or the plan itself with `shotc stream`",
     )
 
 
@@ -120,7 +120,7 @@ def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
             f"the mission file of {flight.drone} does not carry when its shots of moving targets are filmed",
             tuple(mission.origins.key(shot.path) for shot in moving),
             (f"an autopilot starts it when it is told to, and flies at mean speeds; in question: {names}",),
-            "stream trajectory.csv instead",
+            "fly the plan itself with `shotc stream`",
         )
     ]
 
@@ -134,7 +134,7 @@ def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic
         f"the straight legs of {drone.name} come {depth:.2f} m nearer to {name} than its clearance allows",
         (mission.origins.key(drone.path),),
         ("the plan itself keeps the clearance; waypoints cannot follow it that closely",),
-        "leave more room there, or stream trajectory.csv instead",
+        "leave more room there, or fly the plan itself with `shotc stream`",
     )
 
 

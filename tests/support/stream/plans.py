@@ -60,7 +60,16 @@ def _move(start, end, a, b):
 
 def without_origin(plan):
     """The same plan without a place on the globe."""
-    trajectory = plan.trajectory
-    mission = trajectory.keyframes.mission._replace(origin=None)
-    keyframes = trajectory.keyframes._replace(mission=mission)
-    return VerifiedIR(replace(trajectory, keyframes=keyframes), plan.certificate)
+    return _of_mission(plan, plan.trajectory.keyframes.mission._replace(origin=None))
+
+
+def with_target(plan, name):
+    """The same plan with another target, which no shot films."""
+    mission = plan.trajectory.keyframes.mission
+    more = mission.targets[0]._replace(name=name)
+    return _of_mission(plan, mission._replace(targets=(*mission.targets, more)))
+
+
+def _of_mission(plan, mission):
+    keyframes = plan.trajectory.keyframes._replace(mission=mission)
+    return VerifiedIR(replace(plan.trajectory, keyframes=keyframes), plan.certificate)
