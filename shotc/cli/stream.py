@@ -173,12 +173,7 @@ def _of_one(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> dict[str
     return dict(addresses)
 
 
-def _all_named(
-    addresses: Mapping[str, Endpoint],
-    flown: Sequence[str],
-    targets: Mapping[str, Endpoint],
-    mission: MissionIR,
-) -> None:
+def _all_named(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> None:
     """Refuse names that the plan does not have, and drones without an address: all fly on one clock."""
     if "" in addresses:
         names = ", ".join(flown)
