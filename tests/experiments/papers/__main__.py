@@ -26,6 +26,7 @@ PARTS = (
     "yaw",
     "retiming",
     "multidrone",
+    "replanning",
     "fleets",
     "viewpoint",
     "display",
@@ -72,6 +73,10 @@ def sections(parts: tuple[str, ...], count: int, say: Callable[[str], None]) -> 
 
         say("multidrone")
         found.append(multidrone.section())
+    if "replanning" in parts and "ours" in plugins.names("replanners"):
+        from tests.experiments.papers import replanning
+
+        found.append(replanning.section(say))
     if "fleets" in parts and "ours" in installed:
         from tests.experiments.papers import fleets
 

@@ -24,7 +24,7 @@ DT = 0.1
 STATES, WIDTH, SIZE = 6, 10, 23
 SLACK = 1e-4  # metres a unit of slack: the solver begins with a price of 1
 FIXED = 1e-9
-OPTIONS = {"print_level": 0, "tol": 1e-3, "max_iter": 300, "max_soc": 0, "mu_init": 1e-2}
+OPTIONS = {"print_level": 0, "tol": 1e-4, "max_iter": 300, "max_soc": 0, "mu_init": 1e-2}
 
 
 class Solved(NamedTuple):
@@ -126,3 +126,18 @@ def _rolled(situation: ChaseSituation, inputs: Array) -> Array:
     v = situation.velocity + DT * np.vstack([np.zeros(3), np.cumsum(inputs, axis=0)])
     places = np.cumsum(DT * (v[:-1] + 0.5 * DT * inputs), axis=0)
     return np.hstack([situation.place + np.vstack([np.zeros(3), places]), v])
+
+
+def paid(problem: ChaseProblem, situation: ChaseSituation, inputs: Array) -> float:
+    """Return what a motion costs, with what it lacks priced, by the symbols of this module."""
+    p, states = _parameters(problem, situation), _rolled(situation, inputs)
+    (zone,) = problem.keeping.zones
+    assert isinstance(zone.solid, Cylinder)
+    room = zone.solid.radius + problem.keeping.margin + zone.metres
+    cut = (states[1:, 3:] ** 2).sum(axis=1) * DT**2 / (8 * room)
+    lack = room + cut - np.hypot(*(states[1:, :2] - zone.solid.centre).T)
+    slack = np.maximum(lack, 0.0) / SLACK
+    z = np.hstack([states[:-1], inputs, slack[:, None]])
+    d = differentiated(_stage())
+    cost = d.cost.map(len(inputs))(z.T, p[:-1].T)[0]
+    return float(np.array(cost).sum() + float(d.last_cost(states[-1], p[-1])[0]))

@@ -23,13 +23,11 @@ from shotc.plugin_api.replanner import (
     Status,
 )
 from shotc_casadi.clock.angles import rates
-from shotc_casadi.replan.evaluation import Horizon, Stage, horizon
+from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
 from shotc_casadi.replan.keeping import Kept, Standing, common, each, ends, kept, rows
-from shotc_casadi.replan.steps import Bounds, Solver, Until
+from shotc_casadi.replan.steps import Solver, Until
 
-LACKING = 1e4  # a metre that the worst row of a stage lacks
-OUTSIDE = 30.0  # a m/s beyond a bound of the velocity
-DAMPING = 1e-3  # of the Hessian; never on the slack, or the programme buys itself through a zone
+PRICES = Prices(lacking=1e4, outside=30.0, damping=1e-3)  # a metre, a m/s, and of steps
 FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
 BEYOND = "the motion from here is beyond all numbers"
 STATES, INPUTS = 6, 3
@@ -51,24 +49,18 @@ class Chase:
         self._back = limits.acceleration / np.sqrt(3.0) * self._times[1:, None] * np.ones(3)
         self._lowest = np.array([-limits.speed, -limits.speed, -limits.descent])
         self._highest = np.array([limits.speed, limits.speed, limits.climb])
-        most, free = np.full(INPUTS, limits.acceleration), np.full((n, 3), np.inf)
-        low, high = (np.hstack([sign * free, np.tile(v, (n, 1))]) for sign, v in
-                     ((-1.0, self._lowest), (1.0, self._highest)))  # fmt: skip
-        self._usual = Bounds(-most, most, low, high)
         self._solver_of(kept(problem.keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))
 
     def replan(self, situation: ChaseSituation, last: Plan | None) -> Replan:
         """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
         with np.errstate(all="ignore"):
             solver = self._prepared(situation)
-            bounds, widened = self._bounds(situation.velocity)
+            widened = self._bound(solver, situation.velocity)
             start = self._guess(situation) if last is None else self._shifted(situation, last)
-            solver.evaluation.given[:, 8:11] = bounds.low[:, 3:]
-            solver.evaluation.given[:, 11:OWN] = bounds.high[:, 3:]
             since = situation.time - (0.0 if last is None else last.times[0])
             if not (solver.evaluation.is_finite and isfinite(since) and isfinite(start.sum())):
                 return Replan(None, "failed", _fault(situation, last))
-            done = solver.walk(start, bounds, FIRST if last is None else self._until)
+            done = solver.walk(start, FIRST if last is None else self._until)
         motion = done.motion
         if not (isfinite(motion.worst) and isfinite(motion.states.sum())):
             return Replan(None, "failed", BEYOND)
@@ -102,27 +94,25 @@ class Chase:
     def _solver_of(self, of: Kept) -> Solver:
         if of not in self._solvers:
             w = self._problem.weights
-            solver = Solver(_horizon(of, self._problem.horizon.stages), LACKING, OUTSIDE)
+            solver = Solver(_horizon(of, self._problem.horizon.stages))
             into = solver.evaluation
             into.given[:, 6], into.given[-1, 6:8] = 1.0, (0.0, 1.0)
             into.common[:5] = w.effort, w.pitch, w.yaw, w.height, w.end
             self._solvers[of] = solver
         return self._solvers[of]
 
-    def _bounds(self, v: Array) -> tuple[Bounds, bool]:
-        """Return the bounds, and whether the measured velocity opens them.
+    def _bound(self, solver: Solver, v: Array) -> bool:
+        """Bound the velocities, and tell whether the measured one opens these bounds.
 
         Who is too fast gets back within them by the acceleration that can be had along every axis at once.
         """
-        back = self._back[0]
+        given, back = solver.evaluation.given, self._back[0]
+        given[:, 8:11], given[:, 11:OWN] = self._lowest, self._highest
         if (v >= self._lowest - back).all() and (v <= self._highest + back).all():
-            return self._usual, False
-        low, high = self._usual.low.copy(), self._usual.high.copy()
-        low[:, 3:], high[:, 3:] = (
-            np.minimum(low[:, 3:], v + self._back),
-            np.maximum(high[:, 3:], v - self._back),
-        )
-        return self._usual._replace(low=low, high=high), True
+            return False
+        given[:, 8:11] = np.minimum(self._lowest, v + self._back)
+        given[:, 11:OWN] = np.maximum(self._highest, v - self._back)
+        return True
 
     def _shifted(self, situation: ChaseSituation, last: Plan) -> Array:
         """Return the accelerations of the last plan from now on, and none after its end."""
@@ -168,10 +158,10 @@ def _horizon(of: Kept, stages: int) -> Horizon:
         residuals=residuals,
         rows=rows(of, (place, v, p[:3]), p[OWN:], shared),
         ends=ends(of, place, v, shared),
-        low=ca.vertcat(-free, p[8:11]),
-        high=ca.vertcat(free, p[11:OWN]),
+        inputs=(-most * ca.SX.ones(INPUTS), most * ca.SX.ones(INPUTS)),
+        states=(ca.vertcat(-free, p[8:11]), ca.vertcat(free, p[11:OWN])),
     )
-    return horizon(stage, stages, DAMPING)
+    return horizon(stage, stages, PRICES)
 
 
 def _fault(s: ChaseSituation, last: Plan | None) -> str:

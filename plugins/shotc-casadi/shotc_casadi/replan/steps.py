@@ -1,4 +1,4 @@
-"""Gauss-Newton steps, each a quadratic programme, shortened until an exact-penalty merit falls.
+"""Gauss-Newton steps, each a quadratic programme by PIQP, shortened until an exact-penalty merit falls.
 
 Inputs are the unknowns: the states are rolled out from the measured one, so that every iterate can be flown,
 and what it lacks is known and priced.
@@ -6,25 +6,19 @@ and what it lacks is known and priced.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import piqp
 
 from shotc.plugin_api.replanner import Array
 from shotc_casadi.replan.evaluation import Evaluation, Horizon, Motion
-from shotc_casadi.replan.program import Program
 
 SHORTER = 0.4
 TRIES = 5
-
-
-class Bounds(NamedTuple):
-    """Of inputs, (U,), and of the states of stages 1 to N, (N, X)."""
-
-    low_input: Array
-    high_input: Array
-    low: Array
-    high: Array
+TOLERANCE = 1e-4
+ITERATIONS = 50
+"""Of PIQP: about 10 are usual, and a programme without a solution takes all of them."""
 
 
 class Until(NamedTuple):
@@ -50,50 +44,68 @@ class Walk(NamedTuple):
 class Solver:
     """Takes steps over one horizon; one thread may use it at a time."""
 
-    def __init__(self, of: Horizon, lacking: float, outside: float) -> None:
-        """Take memory; lacking, outside : prices of what the worst row of a stage lacks, and of excess."""
+    def __init__(self, of: Horizon) -> None:
+        """Take memory."""
         self.evaluation = Evaluation(of)
-        self._program = Program(of, lacking)
-        self._lacking, self._outside = lacking, outside
+        cost, self._linear, motion, bound, self._rows, self._low, self._high = self.evaluation.programme
+        laid = of.layout
+        self._cost, self._motion = laid.cost.over(cost), laid.motion.over(motion)
+        self._bound = laid.bound.over(bound)
+        self._still = np.zeros(laid.motion.shape[0])
+        self._shape, self._inputs = (of.stages, -1), of.inputs
+        self._solver: Any = None
 
-    def walk(self, inputs: Array, bounds: Bounds, until: Until) -> Walk:
+    def walk(self, inputs: Array, until: Until) -> Walk:
         """Take steps from inputs (N, U) on."""
         taken, moved, opened = 0, False, False
-        point, slopes = self.evaluation.slopes(inputs)
+        point = self.evaluation.step(inputs)
         while True:
             taken += 1
-            step = self._program.solve(slopes, *_about(bounds, point, opened=False))
+            step = self._solved()
             if step is None:
                 opened = True
-                step = self._program.solve(slopes, *_about(bounds, point, opened=True))
-            better = None if step is None else self._better(point, step[:, : inputs.shape[1]])
+                np.minimum(self._low, 0.0, out=self._low)
+                np.maximum(self._high, 0.0, out=self._high)
+                step = self._solved()
+            better = None if step is None else self._better(point, step)
             if better is None:
                 return Walk(point, taken, not moved, opened)
-            gained = self._merit(point) - self._merit(better)
-            settled = gained < until.gain * abs(self._merit(point))
-            point, moved = better, True
+            settled = point.merit - better.merit < until.gain * abs(point.merit)
             if settled or taken == until.most:
-                return Walk(point, taken, stalled=False, opened=opened)
-            point, slopes = self.evaluation.slopes(point.inputs)
+                return Walk(better, taken, stalled=False, opened=opened)
+            point, moved = self.evaluation.step(better.inputs), True
+
+    def _solved(self) -> Array | None:
+        """Return the change of the inputs (N, U) that the programme asks for, or None where there is none."""
+        given = (self._cost, self._linear, self._motion, self._still, self._bound, self._rows, None)
+        if self._solver is None:
+            self._solver = _solver()
+            self._solver.setup(*given, self._low, self._high)
+        else:
+            self._solver.update(*given, self._low, self._high)
+        if self._solver.solve() != piqp.PIQP_SOLVED:
+            return None
+        return np.asarray(self._solver.result.x).reshape(self._shape)[:, : self._inputs]
 
     def _better(self, point: Motion, step: Array) -> Motion | None:
-        share, before = 1.0, self._merit(point)
+        share = 1.0
         for _ in range(TRIES):
             found = self.evaluation.motion(point.inputs + share * step)
-            if self._merit(found) < before:  # what is no number is not
+            if found.merit < point.merit:  # what is no number is not
                 return found
             share *= SHORTER
         return None
 
-    def _merit(self, motion: Motion) -> float:
-        return motion.cost + self._lacking * motion.lack + self._outside * motion.excess
 
+def _solver() -> Any:
+    """Return a solver whose answers do not depend on what it solved before.
 
-def _about(bounds: Bounds, point: Motion, opened: bool) -> tuple[Array, Array]:
-    low, high = bounds.low, bounds.high
-    if opened:
-        low, high = np.minimum(low, point.states), np.maximum(high, point.states)
-    return (
-        np.hstack([bounds.low_input - point.inputs, low - point.states]),
-        np.hstack([bounds.high_input - point.inputs, high - point.states]),
-    )
+    Scaling would be taken over from one programme to the next, to their last digits; in metres and seconds a
+    programme is near to scale.
+    """
+    solver = piqp.SparseSolver()
+    settings = solver.settings
+    settings.eps_abs = settings.eps_rel = TOLERANCE
+    settings.eps_duality_gap_abs = settings.eps_duality_gap_rel = TOLERANCE
+    settings.max_iter, settings.preconditioner_iter = ITERATIONS, 0
+    return solver

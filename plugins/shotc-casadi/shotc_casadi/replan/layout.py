@@ -1,0 +1,91 @@
+"""Where the entries of a step's quadratic programme stand.
+
+The unknowns of a stage are the change of its input, its slack, and the change of the state it leads to. The
+measured state is no unknown, so nothing is fixed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+
+Index = NDArray[np.int64]
+Places = tuple[Index, Index]
+
+
+class Pattern(NamedTuple):
+    """Rows and columns of the nonzeros of a stage's matrices, in the order of their values.
+
+    hessian : of the upper triangle, by input and next state; onward, driven : of the next state, by the state
+    and by the input; kept : of the rows, by input and next state; ends : of those of the end, by the state
+    rows : how many of each stage; last : how many at the end
+    """
+
+    hessian: Places
+    onward: Places
+    driven: Places
+    kept: Places
+    ends: Places
+    rows: int
+    last: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sparse:
+    """A sparse matrix of a fixed pattern, and in which order its values are taken from a list of them."""
+
+    order: Index
+    indices: NDArray[np.int32]
+    starts: NDArray[np.int32]
+    shape: tuple[int, int]
+
+    def over(self, values: Any) -> Any:
+        """Return the matrix whose values are an array, which may change."""
+        return csc_matrix((values, self.indices, self.starts), self.shape, copy=False)
+
+
+class Layout(NamedTuple):
+    """The matrices of a programme over a horizon.
+
+    cost : of the stages' Hessians; motion : of their ``driven``, then -1 for every state, then ``onward`` but
+    the first; bound : of ``kept``, then ``ends``, then 1 for every row
+    """
+
+    cost: Sparse
+    motion: Sparse
+    bound: Sparse
+
+
+def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> Layout:
+    """Return the matrices of so many stages."""
+    p, n = pattern, stages
+    width = inputs + states + 1
+    place = np.delete(np.arange(width), inputs)
+    after, first = np.arange(states) + inputs + 1, width * np.arange(n)[:, None]
+    line, size, count = states * np.arange(n)[:, None], n * width, n * states
+    cost = _sparse([first + place[p.hessian[0]]], [first + place[p.hessian[1]]], (size, size))
+    motion = _sparse(
+        [line + p.driven[0], np.arange(count), line[1:] + p.onward[0]],
+        [first + p.driven[1], first + after, first[:-1] + after[p.onward[1]]],
+        (count, size),
+    )
+    rows, ends = p.rows * np.arange(n)[:, None], n * p.rows + np.arange(p.last)
+    number = np.arange(n * p.rows + p.last)
+    slack = np.append(np.repeat(first, p.rows), np.full(p.last, first[-1])) + inputs
+    bound = _sparse(
+        [rows + p.kept[0], ends[p.ends[0]], number],
+        [first + place[p.kept[1]], first[-1] + after[p.ends[1]], slack],
+        (len(number), size),
+    )
+    return Layout(cost, motion, bound)
+
+
+def _sparse(rows: list[Index], columns: list[Index], shape: tuple[int, int]) -> Sparse:
+    row, column = (np.concatenate([part.ravel() for part in parts]) for parts in (rows, columns))
+    order = np.lexsort((row, column))
+    starts = np.searchsorted(column[order], np.arange(shape[1] + 1))
+    return Sparse(order, row[order].astype(np.int32), starts.astype(np.int32), shape)
