@@ -38,7 +38,7 @@ COMMANDS = {
     "plan": _Command("shotc.cli.plan:plan", _PLAN),
     "verify": _Command("shotc.cli.verify:verify", _PLAN),
     "emit": _Command("shotc.cli.emit:emit", _PLAN),
-    "fly": _Command("shotc.cli.fly:fly", _PLAN),
+    "simulate": _Command("shotc.cli.simulate:simulate", _PLAN),
     "stream": _Command("shotc.cli.stream:stream", _PLAN),
     "view": _Command("shotc.cli.view:view", _PLAN),
     "compare": _Command("shotc.cli.compare:compare", _PLAN),

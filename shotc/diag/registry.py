@@ -26,6 +26,7 @@ FAMILIES = {
     "R": ("refinement", "refinement"),
     "T": ("timing", "timing"),
     "V": ("verification", "verification"),
+    "W": ("rehearsals", "rehearsals"),
     "E": ("emission", "emission"),
     "A": ("autopilots", "autopilots and streaming"),
     "I": ("imports", "imports"),

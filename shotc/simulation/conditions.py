@@ -34,4 +34,8 @@ class Conditions:
 
     def chances(self, runs: Sequence[int], what: str) -> list[np.random.Generator]:
         """Return random numbers for one thing in each run: no other thing and no other run changes them."""
-        return [np.random.default_rng([self.seed, run, crc32(what.encode())]) for run in runs]
+        return [np.random.default_rng(self.seed_of(run, what)) for run in runs]
+
+    def seed_of(self, run: int, what: str) -> tuple[int, ...]:
+        """Return the seed of one thing in a run."""
+        return (self.seed, run, crc32(what.encode()))

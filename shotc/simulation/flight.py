@@ -52,7 +52,7 @@ def fly(world: World, track: DroneTrajectory) -> Flown:
     film = film_of(world.mission, track)
     name, count, n = film.drone.name, len(film.times), len(runs)
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
-    error = conditions.gps.error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
+    error = conditions.gps.own_error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
     targets = _watched(world, film)
     vehicle, gimbal = Vehicle(), GimbalModel(film.drone.gimbal.rate)
     state = State.at_rest(np.tile(film.position[0], (n, 1)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
+from math import inf
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from shotc.ir.sampling import beside_cameras, clock, framed, references, subject
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import Nearest, between, nearest
 from shotc.simulation.flight import Flown
+from shotc.simulation.shows import FleetCourse
 from shotc.simulation.world import World, at_times
 
 
@@ -71,6 +73,7 @@ class Run:
     number: int
     pictures: tuple[Picture, ...]
     courses: tuple[Course, ...]
+    fleets: tuple[FleetCourse, ...] = ()
 
     @property
     def in_frame(self) -> float:
@@ -85,21 +88,26 @@ class Run:
     @property
     def clearance(self) -> float:
         """The least distance of a drone's body from all else, metres; infinite where there is nothing."""
-        return min((c.nearest.distance for c in self.courses if c.nearest is not None), default=float("inf"))
+        near = [c.nearest.distance for c in self.courses if c.nearest is not None]
+        return min([*near, *(fleet.clearance for fleet in self.fleets)], default=inf)
 
     @property
     def stray(self) -> float:
         """The farthest that a drone was from its plan, metres."""
-        return max((c.farthest for c in self.courses), default=0.0)
+        return max(
+            [*(c.farthest for c in self.courses), *(f.flown.farthest for f in self.fleets)], default=0.0
+        )
 
     @property
-    def merit(self) -> tuple[bool, float, float]:
+    def merit(self) -> tuple[bool, float, float, float]:
         """Order from the worst run to the best: what hits something, what shows least, what is off most."""
-        return (self.clearance >= 0.0, self.in_frame, -self.error)
+        return (self.clearance >= 0.0, self.in_frame, -self.error, -self.stray)
 
 
-def judged(world: World, ir: TrajectoryIR, flown: tuple[Flown, ...]) -> tuple[Run, ...]:
-    """Judge all runs of a plan; flown : as ``ir.drones``."""
+def judged(
+    world: World, ir: TrajectoryIR, flown: tuple[Flown, ...], fleets: tuple[tuple[FleetCourse, ...], ...]
+) -> tuple[Run, ...]:
+    """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run, as ``ir.fleets``."""
     mission = world.mission
     ticks = clock(mission.rate, float(world.times[-1]))
     near = [nearest(world, f, t, ticks[ticks <= t.curve.end]) for f, t in zip(flown, ir.drones, strict=True)]
@@ -113,6 +121,7 @@ def judged(world: World, ir: TrajectoryIR, flown: tuple[Flown, ...]) -> tuple[Ru
             tuple(
                 _course(f, t, r, near[d][r]) for d, (f, t) in enumerate(zip(flown, ir.drones, strict=True))
             ),
+            fleets[r],
         )
         for r, number in enumerate(world.runs)
     )

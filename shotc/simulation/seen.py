@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from itertools import count
+from math import sqrt
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from shotc.geom.bernstein import Array
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import Film, Framed
 from shotc.simulation.gimbal import Attitude
-from shotc.simulation.tracker import Measurement, PictureFix, PositionFix, Tracker, projection
+from shotc.simulation.tracker import Measurement, Motion, PictureFix, PositionFix, Tracker, projection
 from shotc.simulation.vehicle import STEP_S
 from shotc.simulation.world import World
 
@@ -67,12 +68,12 @@ def watched(world: World, film: Film, framed: Framed) -> Watched:
     measured = places[::every] + gps.error(stamps, conditions.chances(runs, f"gps of {name}"))
     everywhere = np.ones(len(runs), dtype=bool)
     fixes = [
-        PositionFix(float(t), place, gps.deviation, everywhere)
+        PositionFix(float(t), place, gps.noise, everywhere)
         for t, place in zip(stamps, measured, strict=True)
         if gps.arrives(float(t))
     ]
     velocity = (places[1] - places[0]) / STEP_S
-    tracker = Tracker.beginning(0.0, measured[0], velocity, AGILITY)
+    tracker = Tracker.beginning(0.0, measured[0], velocity, Motion(AGILITY, sqrt(2.0) * gps.bias))
     pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
     out = Watched(name, places, framed.share, fixes, tracker, pictures)
     for fix in fixes[1:]:

@@ -15,6 +15,10 @@ BIAS_MEMORY_S = 20.0
 """Correlation time of the bias of a satellite position, seconds."""
 
 
+FILTER_S = 1.0
+BAROMETER_SHARE = 0.2
+
+
 @dataclass(frozen=True, slots=True)
 class Gps:
     """A receiver of satellite positions; metres, each axis by itself.
@@ -35,7 +39,7 @@ class Gps:
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of a position, m: what a filter takes its noise for."""
+        """Standard deviation of a position, m."""
         return float(np.hypot(self.noise, self.bias))
 
     def error(self, times: Array, chances: Sequence[np.random.Generator]) -> Array:
@@ -46,6 +50,20 @@ class Gps:
         step = float(times[1] - times[0]) if len(times) > 1 else 0.0
         drift = wandering(slow, step / BIAS_MEMORY_S)
         return np.asarray(self.noise * white + self.bias * drift + np.array(self.offset))
+
+    def own_error(self, times: Array, chances: Sequence[np.random.Generator]) -> Array:
+        """Return what a drone takes its own place to be off at even times (M,), metres; shape (M, R, 3).
+
+        Its filter smooths the noise over FILTER_S, and a barometer holds its height, to BAROMETER_SHARE of
+        what the receiver is off.
+        """
+        noise = np.stack([rng.standard_normal((len(times), 6)) for rng in chances], axis=1)
+        step = float(times[1] - times[0]) if len(times) > 1 else 0.0
+        white = wandering(noise[..., :3], step / FILTER_S)
+        drift = wandering(noise[..., 3:], step / BIAS_MEMORY_S)
+        error = self.noise * white + self.bias * drift
+        error[..., 2] *= BAROMETER_SHARE
+        return np.asarray(error + np.array(self.offset))
 
     def arrives(self, time: float) -> bool:
         """Tell whether there is a position at a time."""

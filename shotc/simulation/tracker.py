@@ -1,20 +1,24 @@
 """Where a target is and how it moves, estimated of what sensors say: a Kalman filter for many runs at once.
 
-State x = [p, v] in W (metres, m/s) with white noise on the acceleration:
-F = [I dt I; 0 I], Q = q [dt^3/3 I, dt^2/2 I; dt^2/2 I, dt I]. A measurement that arrives late is taken in at
-the moment it holds for: what came after it is taken in again.
+State x = [p, v, b] in W (m, m/s, m): place, velocity, and what satellite positions are off for long.
+White noise on acceleration gives p and v F = [I dt I; 0 I] and Q = q [dt^3/3 I, dt^2/2 I; dt^2/2 I, dt I].
+b is an Ornstein-Uhlenbeck process: without it the filter takes a bias that lasts for noise that averages out,
+becomes sure of a wrong place, and turns detections away that show the right one. A measurement that arrives
+late is taken in at the moment it holds for: what came after it is taken in again.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
+from math import exp
 from typing import Protocol
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
+from shotc.simulation.sensors import BIAS_MEMORY_S
 
 GATE = 9.21
 """Squared distance from what is expected beyond which a detection is of something else: chi-square, 99 %."""
@@ -26,9 +30,23 @@ KEPT_S = 2.0
 """Seconds for which the past is kept: what arrives later than that is too old to be taken in."""
 
 
+STATES = 9
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """What is believed of a target: q of the noise on its acceleration, m^2/s^3, and the receiver's bias.
+
+    bias : standard deviation of what positions are off for long, m, the drone's own place included
+    """
+
+    agility: float
+    bias: float = 0.0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Estimate:
-    """The state at a time, seconds: mean (R, 6) and covariance (R, 6, 6)."""
+    """The state at a time, seconds: mean (R, 9) and covariance (R, 9, 9)."""
 
     time: float
     mean: Array
@@ -42,7 +60,7 @@ class Estimate:
     @property
     def velocity(self) -> Array:
         """How it moves, (R, 3), m/s."""
-        return self.mean[:, 3:]
+        return self.mean[:, 3:6]
 
 
 class Measurement(Protocol):
@@ -58,7 +76,7 @@ class Measurement(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PositionFix:
-    """A satellite position: place (R, 3), metres; deviation : of each axis; used : in which runs, (R,)."""
+    """A satellite position: place (R, 3), metres; deviation : of its noise; used : in which runs, (R,)."""
 
     time: float
     place: Array
@@ -67,10 +85,11 @@ class PositionFix:
 
     def taken(self, estimate: Estimate) -> Estimate:
         """Take the position in."""
-        jacobian = np.zeros((len(self.place), 3, 6))
-        jacobian[:, :, :3] = np.eye(3)
+        jacobian = np.zeros((len(self.place), 3, STATES))
+        jacobian[:, :, :3] = jacobian[:, :, 6:] = np.eye(3)
         noise = self.deviation**2 * np.eye(3)
-        return _updated(estimate, (self.place - estimate.position, jacobian, noise), self.used)
+        miss = self.place - estimate.position - estimate.mean[:, 6:]
+        return _updated(estimate, (miss, jacobian, noise), self.used)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,7 +112,7 @@ class PictureFix:
         expected, jacobian = projection(estimate.position - self.eye, self.axes, self.half)
         known = self.used & np.isfinite(expected).all(axis=1)
         miss = np.where(known[:, None], self.uv - expected, 0.0)
-        rows = np.zeros((len(miss), 2, 6))
+        rows = np.zeros((len(miss), 2, STATES))
         rows[:, :, :3] = np.where(known[:, None, None], jacobian, 0.0)
         noise = self.deviation**2 * np.eye(2)
         spread = rows @ estimate.covariance @ np.swapaxes(rows, 1, 2) + noise
@@ -119,18 +138,21 @@ def projection(offset: Array, axes: Array, half: Array) -> tuple[Array, Array]:
 class Tracker:
     """One target of R runs.
 
-    agility : q, of the noise on its acceleration, m^2/s^3
+    model : how it moves, and what its receiver is off
     """
 
-    agility: float
+    model: Motion
     _past: list[tuple[Estimate, Measurement | None]] = field(default_factory=list)
 
     @staticmethod
-    def beginning(time: float, place: Array, velocity: Array, agility: float) -> Tracker:
-        """Return a tracker that knows a first place and velocity, (R, 3) each, roughly."""
-        mean = np.concatenate([place, velocity], axis=1)
-        covariance = np.tile(FIRST_VARIANCE * np.eye(6), (len(place), 1, 1))
-        return Tracker(agility, [(Estimate(time, mean, covariance), None)])
+    def beginning(time: float, place: Array, velocity: Array, model: Motion) -> Tracker:
+        """Return a tracker that knows a first satellite position and a velocity, (R, 3) each, roughly."""
+        mean = np.concatenate([place, velocity, np.zeros_like(place)], axis=1)
+        off = model.bias**2
+        # A place that a receiver tells is off by as much as the receiver, the other way.
+        spread = np.array([[FIRST_VARIANCE + off, 0.0, -off], [0.0, FIRST_VARIANCE, 0.0], [-off, 0.0, off]])
+        covariance = np.tile(np.kron(spread, np.eye(3)), (len(place), 1, 1))
+        return Tracker(model, [(Estimate(time, mean, covariance), None)])
 
     def take(self, measurement: Measurement) -> bool:
         """Take a measurement in, in its place in time; tell whether it was not too old for that."""
@@ -140,14 +162,14 @@ class Tracker:
         again = [measurement, *(later for _, later in self._past[k:] if later is not None)]
         del self._past[k:]
         for each in again:
-            at = predicted(self._past[-1][0], each.time, self.agility)
+            at = predicted(self._past[-1][0], each.time, self.model)
             self._past.append((each.taken(at), each))
         self._forget()
         return True
 
     def now(self, time: float) -> Estimate:
         """Return what is known of the target at a time at or after all that was taken in."""
-        return predicted(self._past[-1][0], time, self.agility)
+        return predicted(self._past[-1][0], time, self.model)
 
     def _forget(self) -> None:
         oldest = self._past[-1][0].time - KEPT_S
@@ -156,23 +178,21 @@ class Tracker:
             del self._past[: k - 1]
 
 
-def predicted(estimate: Estimate, time: float, agility: float) -> Estimate:
+def predicted(estimate: Estimate, time: float, model: Motion) -> Estimate:
     """Return an estimate as of a later time, seconds."""
     dt = time - estimate.time
     if dt <= 0.0:
         return estimate
-    forward = np.eye(6)
-    forward[:3, 3:] = dt * np.eye(3)
-    noise = np.kron(np.array([[dt**3 / 3, dt**2 / 2], [dt**2 / 2, dt]]), np.eye(3))
-    return Estimate(
-        time,
-        estimate.mean @ forward.T,
-        forward @ estimate.covariance @ forward.T + agility * noise,
-    )
+    kept = exp(-dt / BIAS_MEMORY_S)
+    forward = np.kron(np.array([[1.0, dt, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, kept]]), np.eye(3))
+    q, fresh = model.agility, model.bias**2 * (1.0 - kept * kept)
+    noise = np.array([[q * dt**3 / 3, q * dt**2 / 2, 0.0], [q * dt**2 / 2, q * dt, 0.0], [0.0, 0.0, fresh]])
+    spread = forward @ estimate.covariance @ forward.T + np.kron(noise, np.eye(3))
+    return Estimate(time, estimate.mean @ forward.T, spread)
 
 
 def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) -> Estimate:
-    """Return an estimate with innovation (R, m), Jacobian (R, m, 6) and noise (m, m) taken in where used."""
+    """Return an estimate with innovation (R, m), Jacobian (R, m, 9) and noise (m, m) taken in where used."""
     miss, jacobian, noise = row
     across = np.swapaxes(jacobian, 1, 2)
     spread = jacobian @ estimate.covariance @ across + noise
@@ -180,6 +200,6 @@ def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) ->
     gain = np.where(used[:, None, None], gain, 0.0)
     mean = estimate.mean + np.einsum("rij,rj->ri", gain, miss)
     # Joseph's form stays symmetric and positive.
-    left = np.eye(6) - gain @ jacobian
+    left = np.eye(STATES) - gain @ jacobian
     covariance = left @ estimate.covariance @ np.swapaxes(left, 1, 2) + gain @ noise @ np.swapaxes(gain, 1, 2)
     return Estimate(estimate.time, mean, covariance)

@@ -18,10 +18,10 @@ from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.simulation.fly import PERIOD_S, Conditions, Flown, fly
-from shotc.show.simulation.near import nearest
-from shotc.show.simulation.vehicle import Gusts, Vehicle
 from shotc.show.solvers.match import matched
+from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, Flown, fly
+from shotc.simulation.fleets.near import nearest
+from shotc.simulation.fleets.vehicle import Gusts, Vehicle
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED
 from tests.experiments.papers.report import Table
@@ -110,10 +110,10 @@ def flight(breaks: Array, coef: Array, case: Case) -> Flown:
     if case.avoids:
         # A margin keeps the metric's shape only if it is scaled like the rest.
         room = NEEDED._replace(horizontal=0.7 + ROOM, vertical=(0.7 + ROOM) / stretch(NEEDED))
-        from shotc.show.simulation.avoid import Avoidance  # its library has few wheels
+        from shotc.simulation.fleets.avoid import Avoidance  # its library has few wheels
 
         avoid = Avoidance(room, SPEED, PERIOD_S)
-    return fly(breaks, coef, Conditions(case.vehicle, gusts=Gusts(case.gusts), seed=6), avoid)
+    return fly(breaks, coef, FleetConditions(case.vehicle, gusts=Gusts(case.gusts), seed=6), avoid)
 
 
 def move(n: int, case: Case) -> tuple[Array, Array]:

@@ -14,11 +14,11 @@ from shotc.geom.fleet_spline import places
 from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids, viewpoint_centroids
-from shotc.show.simulation.fly import Conditions, Flown, fly
-from shotc.show.simulation.follow import Gains
-from shotc.show.simulation.near import nearest
-from shotc.show.simulation.vehicle import Gusts
 from shotc.show.solvers.match import matched
+from shotc.simulation.fleets.fly import FleetConditions, Flown, fly
+from shotc.simulation.fleets.follow import Gains
+from shotc.simulation.fleets.near import nearest
+from shotc.simulation.fleets.vehicle import Gusts
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED, Limited, control_points
 from tests.experiments.papers.plots import png
@@ -51,9 +51,9 @@ def squares_table() -> Table:
     rows = []
     for side in SIDES:
         breaks, coef = limited_square(side)
-        flights = [fly(breaks, coef[None], Conditions(gains=gains)) for gains in LEADING]
+        flights = [fly(breaks, coef[None], FleetConditions(gains=gains)) for gains in LEADING]
         many = np.repeat(coef[None], 30, axis=0)
-        flights.append(fly(breaks, many, Conditions(gusts=GUSTS, seed=1)))
+        flights.append(fly(breaks, many, FleetConditions(gusts=GUSTS, seed=1)))
         rows.append((f"{side:g} m, {side / 5:g} m/s", *map(_errors, flights)))
     return Table(
         "Following a square: RMSE / largest error, m",
@@ -96,7 +96,7 @@ def corners_table() -> Table:
             ("K_ff", LEADING[1]),
             ("K_ff, look-ahead 0.1 s", Gains(ahead=0.1)),
         ):
-            flown = fly(breaks, coef, Conditions(gains=gains))
+            flown = fly(breaks, coef, FleetConditions(gains=gains))
             dips = [
                 dip(flown, of) for of in (_speeds(breaks, coef, flown), flown.preferred[0], flown.velocity[0])
             ]
@@ -165,7 +165,7 @@ def stranding_table() -> Table:
             for gusts, many in ((Gusts(), 1), (GUSTS, 30)):
                 fleet = np.repeat(coef[None], many, axis=0)
                 for gains in (PRINTED, Gains()):
-                    flown = fly(breaks, fleet, Conditions(gains=gains, gusts=gusts, seed=2))
+                    flown = fly(breaks, fleet, FleetConditions(gains=gains, gusts=gusts, seed=2))
                     cells.append(f"{flown.error.max():.2f}")
             rows.append((f"{degrees} deg, hold {hold} s", *cells))
     return Table(
@@ -205,7 +205,7 @@ def human_table() -> Table:
     breaks = control_points(np.stack(goals)[:, 0])[0]
     solve = Limited(breaks).solver()
     coef = np.stack([solve(each) for each in asked])
-    flown = fly(breaks, coef, Conditions())
+    flown = fly(breaks, coef, FleetConditions())
     shift = np.linalg.norm(coef - asked, axis=2).max(axis=1)
     gaps = [closest(breaks, each, PAPER_APART).proven for each in (asked, coef)]
     near = nearest(flown.times, flown.position, PAPER_APART, 0.7)

@@ -10,9 +10,9 @@ from shotc.geom.fleet_spline import differences, places
 from shotc.geom.separation import closest
 from shotc.ir.limits import Limits
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.simulation.fly import Conditions, fly
-from shotc.show.simulation.vehicle import Vehicle
 from shotc.show.solvers.qcqp import Bounds, bounded, deviation
+from shotc.simulation.fleets.fly import FleetConditions, fly
+from shotc.simulation.fleets.vehicle import Vehicle
 from tests.experiments.papers import bodies, coverage, crossing, following, limited
 
 
@@ -54,7 +54,7 @@ def test_samples_do_not_bound_what_lies_between():
 @pytest.mark.slow
 def test_the_square_at_three_metres_a_second_is_followed_within_six_centimetres():
     breaks, coef = following.limited_square(15.0)
-    assert fly(breaks, coef[None], Conditions()).rmse <= 0.06
+    assert fly(breaks, coef[None], FleetConditions()).rmse <= 0.06
 
 
 def test_the_solver_of_plan_finds_what_the_papers_programme_finds():
@@ -72,7 +72,7 @@ def test_the_solver_of_plan_finds_what_the_papers_programme_finds():
 @pytest.mark.slow
 def test_what_is_preferred_dips_before_the_path_does():
     breaks, coef = following.moving_sphere(10.0)
-    flown = fly(breaks, coef, Conditions())
+    flown = fly(breaks, coef, FleetConditions())
     path = following.dip(flown, places(breaks, coef[:1], flown.times, 1)[0])
     preferred = following.dip(flown, flown.preferred[0])
     assert path[1] == pytest.approx(2.0 / np.sqrt(2.0), abs=0.01)

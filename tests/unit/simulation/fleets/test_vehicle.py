@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from shotc.show.simulation.vehicle import Gusts, State, Vehicle, moved, within
+from shotc.simulation.fleets.vehicle import Gusts, State, Vehicle, moved, within
 
 
 def at_rest(n=1, gust=(0.0, 0.0, 0.0)):

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from shotc.ir.show import Apart
-from shotc.show.simulation.near import nearest
+from shotc.simulation.fleets.near import nearest
 
 pytest.importorskip("rvo23d")
-from shotc.show.simulation.avoid import Avoidance
+from shotc.simulation.fleets.avoid import Avoidance
 
 
 def flown(start, wanted, apart, seconds=10.0):

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from shotc.geom.fleet_spline import places
-from shotc.show.simulation.fly import Conditions, fly
-from shotc.show.simulation.follow import Gains, Reference, preferred
-from shotc.show.simulation.vehicle import Gusts
+from shotc.simulation.fleets.fly import FleetConditions, fly
+from shotc.simulation.fleets.follow import Gains, Reference, preferred
+from shotc.simulation.fleets.vehicle import Gusts
 
 
 def spline(points, repeats=1):
@@ -71,7 +71,7 @@ def test_a_hover_draws_back_from_any_side():
 
 
 def test_no_lag_is_left_on_a_straight_line():
-    flown = fly(*spline([[2.0 * k, 0, 5] for k in range(15)]), Conditions())
+    flown = fly(*spline([[2.0 * k, 0, 5] for k in range(15)]), FleetConditions())
     steady = (flown.times > 8.0) & (flown.times < 14.0)
     assert flown.error[:, steady].max() < 0.01
     assert flown.error[0, -1] < 0.06
@@ -80,7 +80,7 @@ def test_no_lag_is_left_on_a_straight_line():
 @pytest.mark.slow
 def test_feed_forward_turns_a_corner_closer():
     path = spline(square(10.0))
-    with_it, without = fly(*path, Conditions()), fly(*path, Conditions(gains=Gains(forward=0.0)))
+    with_it, without = fly(*path, FleetConditions()), fly(*path, FleetConditions(gains=Gains(forward=0.0)))
     assert with_it.rmse < 0.6 * without.rmse
     assert with_it.error.max() < without.error.max()
 
@@ -90,8 +90,8 @@ def test_feed_forward_turns_a_corner_closer():
 @pytest.mark.parametrize("degrees", [90, 150, 180])
 def test_nobody_is_left_behind_a_turn_after_a_hold(degrees, hold):
     path = spline(there_and_off(degrees, hold))
-    printed = fly(*path, Conditions(gains=Gains(reach=inf)))
-    cured = fly(*path, Conditions())
+    printed = fly(*path, FleetConditions(gains=Gains(reach=inf)))
+    cured = fly(*path, FleetConditions())
     assert printed.error.max() > 2.0
     assert cured.error.max() < 0.4
 
@@ -99,15 +99,15 @@ def test_nobody_is_left_behind_a_turn_after_a_hold(degrees, hold):
 @pytest.mark.slow
 def test_gusts_leave_nobody_behind_either():
     path = spline(there_and_off(180, 2), repeats=30)
-    cured = fly(*path, Conditions(gusts=Gusts(0.3), seed=3))
-    printed = fly(*path, Conditions(gains=Gains(reach=inf), gusts=Gusts(0.3), seed=3))
+    cured = fly(*path, FleetConditions(gusts=Gusts(0.3), seed=3))
+    printed = fly(*path, FleetConditions(gains=Gains(reach=inf), gusts=Gusts(0.3), seed=3))
     assert cured.error.max() < 0.8
     assert printed.error.max() > 2.0
 
 
 def test_a_look_ahead_leads_by_its_time():
     path = spline([[2.0 * k, 0, 5] for k in range(15)])
-    flown = fly(*path, Conditions(gains=Gains(ahead=0.1)))
+    flown = fly(*path, FleetConditions(gains=Gains(ahead=0.1)))
     middle = np.argmin(np.abs(flown.times - 10.0))
     lead = (flown.position - flown.wanted)[0, middle, 0]
     assert lead == pytest.approx(2.0 * 0.1, abs=0.01)
@@ -116,6 +116,6 @@ def test_a_look_ahead_leads_by_its_time():
 @pytest.mark.slow
 def test_flights_depend_on_their_seed_alone():
     path = spline(square(5.0), 4)
-    one, same, other = (fly(*path, Conditions(gusts=Gusts(0.3), seed=s)) for s in (1, 1, 2))
+    one, same, other = (fly(*path, FleetConditions(gusts=Gusts(0.3), seed=s)) for s in (1, 1, 2))
     assert np.array_equal(one.position, same.position)
     assert not np.array_equal(one.position, other.position)

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.show.simulation.follow import Gains, Reference, preferred
-from shotc.show.simulation.vehicle import Gusts, State, Vehicle, moved, within
+from shotc.simulation.fleets.follow import Gains, Reference, preferred
+from shotc.simulation.fleets.vehicle import Gusts, State, Vehicle, moved, within
 
 PERIOD_S = 0.05
 """Seconds between commands."""
@@ -19,13 +19,13 @@ Avoid = Callable[[Array, Array, Array], Array]
 
 
 @dataclass(frozen=True, slots=True)
-class Conditions:
+class FleetConditions:
     """How a fleet flies; seed : of the gusts."""
 
     vehicle: Vehicle = field(default_factory=Vehicle)
     gains: Gains = field(default_factory=Gains)
     gusts: Gusts = field(default_factory=Gusts)
-    seed: int = 0
+    seed: int | tuple[int, ...] = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +65,7 @@ class Moment:
 
 
 def flying(
-    breaks: Array, coef: Array, conditions: Conditions, avoid: Avoid | None = None
+    breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None
 ) -> Iterator[Moment]:
     """Fly a fleet along splines (``geom.fleet_spline``) from rest at their start to their end.
 
@@ -86,7 +86,7 @@ def flying(
         state = replace(state, gust=conditions.gusts.after(state.gust, PERIOD_S, rng))
 
 
-def fly(breaks: Array, coef: Array, conditions: Conditions, avoid: Avoid | None = None) -> Flown:
+def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> Flown:
     """Return all moments of ``flying`` together, which for a thousand drones is megabytes a second."""
     moments = list(flying(breaks, coef, conditions, avoid))
     return Flown(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from shotc.ir.show import Apart
-from shotc.show.simulation.near import nearest
+from shotc.simulation.fleets.near import nearest
 
 BALL = Apart("ellipsoid", 1.0, 1.0, 0.0)
 

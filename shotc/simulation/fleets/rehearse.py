@@ -9,9 +9,9 @@ import numpy as np
 
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.show import Fleet
-from shotc.show.simulation.fly import Conditions, flying
-from shotc.show.simulation.near import Near, Search
-from shotc.show.simulation.vehicle import Gusts, Vehicle
+from shotc.simulation.fleets.fly import FleetConditions, flying
+from shotc.simulation.fleets.near import Near, Search
+from shotc.simulation.fleets.vehicle import Gusts, Vehicle
 
 HEADROOM = 2.0
 """Acceleration that drones have over what plans may ask of them, as in the paper's simulation."""
@@ -34,7 +34,7 @@ class Rehearsal:
     near: Near | None
 
 
-def rehearse(fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int) -> Rehearsal:
+def rehearse(fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tuple[int, ...]) -> Rehearsal:
     """Fly a fleet with lag and gusts; the same seed gives the same flight."""
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))
@@ -43,7 +43,7 @@ def rehearse(fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int) -> 
     search = Search(fleet.apart, fleet.apart.horizontal)
     largest, when = np.zeros(len(flight.coef)), np.zeros(len(flight.coef))
     squares, count = 0.0, 0
-    for moment in flying(flight.breaks, flight.coef, Conditions(vehicle, gusts=gusts, seed=seed)):
+    for moment in flying(flight.breaks, flight.coef, FleetConditions(vehicle, gusts=gusts, seed=seed)):
         error = np.linalg.norm(moment.position - moment.wanted, axis=1)
         when = np.where(error > largest, moment.time, when)
         largest = np.maximum(largest, error)

@@ -1,0 +1,73 @@
+"""Options of `shotc simulate` that say under which conditions it flies."""
+
+from __future__ import annotations
+
+from math import isfinite, pi, radians
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from shotc.cli import console
+from shotc.diag.model import Diagnostic
+from shotc.geom.camera import yaw_of
+from shotc.geom.track import Track
+from shotc.ir.mission import MissionIR
+from shotc.ir.rehearsal import Wind
+from shotc.passes.resolve.lower.files import Files, Reader
+from shotc.passes.resolve.lower.recordings import read_recording
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from shotc.source.file import SourceFile
+
+
+def wind_of(mission: MissionIR, speed: float | None, bearing: float | None) -> Wind | None:
+    """Return the wind that options ask for, None where they say nothing; bearing : it comes from, deg."""
+    if speed is None and bearing is None:
+        return None
+    written = mission.rehearsal.wind if mission.rehearsal is not None and mission.rehearsal.wind else None
+    usual = written or Wind(mission.wind, mission.wind_toward)
+    toward = usual.toward if bearing is None else yaw_of(radians(bearing) + pi)
+    return Wind(usual.speed if speed is None else speed, toward)
+
+
+def stretches(lost: Sequence[str]) -> tuple[tuple[float, float], ...]:
+    """Return stretches of time that are written FROM:TO, seconds."""
+    return tuple(_stretch(each) for each in lost)
+
+
+def _stretch(text: str) -> tuple[float, float]:
+    start, _, end = text.partition(":")
+    try:
+        found = float(start), float(end)
+    except ValueError:
+        found = (0.0, 0.0)
+    if not (isfinite(found[1]) and 0.0 <= found[0] < found[1]):
+        raise typer.BadParameter(
+            f"`{text}` is no stretch of time; write FROM:TO in seconds", param_hint="--lost"
+        )
+    return found
+
+
+def true_tracks(
+    mission: MissionIR, sources: dict[str, SourceFile], written: Sequence[str]
+) -> tuple[tuple[str, Track], ...]:
+    """Return the tracks of options written TARGET=FILE; where a file cannot be read, say why and exit."""
+    return tuple(_true_track(mission, sources, each) for each in written)
+
+
+def _true_track(mission: MissionIR, sources: dict[str, SourceFile], written: str) -> tuple[str, Track]:
+    name, _, place = written.partition("=")
+    known = [target.name for target in mission.targets]
+    console.known("--truth", name, known)
+    if not place:
+        raise typer.BadParameter(f"`{written}` names no file; write {name}=FILE", param_hint="--truth")
+    path, target = Path(place), mission.target(name)
+    files = Files(mission.origin, mission.origins, Reader(path.parent, mission.origins))
+    read = read_recording(path.name, files, target.path)
+    if isinstance(read, Diagnostic):
+        console.report([read], sources)
+        raise typer.Exit(console.EXIT_REJECTED)
+    return name, read.track

@@ -1,0 +1,191 @@
+"""What came of a rehearsal, as people read it on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import degrees, isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from shotc.cli.console import clock, table
+from shotc.geom.camera import heading_of
+from shotc.ir.show import drone_names
+from shotc.rounding import at_least, at_most, plain, up
+from shotc.simulation.judge import Course, Picture, Run
+from shotc.simulation.rehearsal import Rehearsed
+from shotc.simulation.shows import FleetCourse
+
+if TYPE_CHECKING:
+    from shotc.ir.show import Fleet
+
+PICTURES = ("shot", "target", "whole in frame", "in the worst run", "off on screen", "95 %", "worst")
+COURSES = ("drone", "strays, RMS", "farthest", "run", "nearest", "to", "at", "run")
+LARGEST_MARGIN = 2.0
+"""Times the separation: with a larger margin a show has no pictures left."""
+FLEETS = ("fleet", "drones", "strays, RMS", "99 %", "farthest", "nearest", "asked", "margin")
+
+
+def text(done: Rehearsed, paths: Sequence[Path]) -> str:
+    """Return the report; paths : of the files that were written."""
+    return "\n".join(_lines(done, paths))
+
+
+def _lines(done: Rehearsed, paths: Sequence[Path]) -> Iterator[str]:
+    total = len(done.runs)
+    yield f"{done.mission.name}: {total} run{'s' if total > 1 else ''}, {_conditions(done)}"
+    for rows in (_pictures(done), _courses(done), _fleets(done)):
+        if len(rows) > 1:
+            yield ""
+            yield from (f"  {line}" for line in table(rows))
+    yield ""
+    for each in done.verdicts:
+        asked = f"{each.key} {_limit(each.key, each.limit)}" if each.written else "touch nothing"
+        yield f"  asked     {asked}: {each.held} of {total} runs"
+    if done.promise.of < 1.0 or len(done.verdicts) > 1:
+        yield f"  asked     all of it in {done.needed} of {total} runs: {done.held} keep it"
+    yield f"  worst     run {done.worst.number}"
+    yield from (f"  note      {line}" for line in _remarks(done))
+    if paths:
+        yield from ("", f"  wrote     {paths[0].parent}/: {', '.join(path.name for path in paths)}")
+
+
+def _conditions(done: Rehearsed) -> str:
+    conditions = done.conditions
+    wind, gps = conditions.wind, conditions.gps
+    blows = f"wind {plain(wind.speed, 1)} m/s"
+    if wind.speed and wind.toward is not None:
+        blows += f" from {degrees(heading_of(wind.toward) + np.pi) % 360:.0f} deg"
+    elif wind.speed:
+        blows += " from any side"
+    if not wind.speed:
+        blows = "no steady wind"
+    parts = [blows, f"gusts {plain(wind.gusts, 2)} m/s" if wind.gusts else "no gusts"]
+    if done.ir.drones:
+        parts.append(f"positions within {plain(gps.deviation, 2)} m")
+        parts.append("camera as planned" if conditions.loop == "replay" else "camera follows what it sees")
+    if conditions.truth.wander:
+        parts.append(f"targets {plain(conditions.truth.wander, 2)} m off their tracks")
+    return ", ".join(parts)
+
+
+def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = [PICTURES]
+    for i, first in enumerate(done.runs[0].pictures):
+        rows.append(_picture_row(first, [run.pictures[i] for run in done.runs]))
+    return rows
+
+
+def _picture_row(first: Picture, every: list[Picture]) -> tuple[str, ...]:
+    shares = [p.in_frame for p in every]
+    whole = (f"{at_most(100 * float(np.mean(shares)), 1)} %", f"{at_most(100 * min(shares), 1)} %")
+    if first.error is None:
+        return (first.shot, first.target, *whole, "-", "-", "-")
+    off = (
+        float(np.mean([p.error for p in every if p.error is not None])),
+        max(p.usual for p in every if p.usual is not None),
+        max(p.worst for p in every if p.worst is not None),
+    )
+    return (first.shot, first.target, *whole, *(_size(value) for value in off))
+
+
+def _size(value: float) -> str:
+    return at_least(value, 3) if isfinite(value) else "behind it"
+
+
+def _courses(done: Rehearsed) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = [COURSES]
+    for i, first in enumerate(done.runs[0].courses):
+        every = [(run, run.courses[i]) for run in done.runs]
+        rows.append(_course_row(first, every))
+    return rows
+
+
+def _course_row(first: Course, every: list[tuple[Run, Course]]) -> tuple[str, ...]:
+    stray = float(np.sqrt(np.mean([course.stray**2 for _, course in every])))
+    strayed, far = max(every, key=lambda pair: pair[1].farthest)
+    row = (first.drone, f"{at_least(stray)} m", f"{at_least(far.farthest)} m", str(strayed.number))
+    near = [(run, course.nearest) for run, course in every if course.nearest is not None]
+    if not near:
+        return (*row, "-", "-", "-", "-")
+    run, nearest = min(near, key=lambda pair: pair[1].distance if pair[1] else 0.0)
+    return (*row, f"{at_most(nearest.distance)} m", nearest.to, clock(nearest.time), str(run.number))
+
+
+def _fleets(done: Rehearsed) -> list[tuple[str, ...]]:
+    count = len(done.runs[0].fleets)
+    return [FLEETS, *(_fleet_row(done, [run.fleets[i] for run in done.runs]) for i in range(count))]
+
+
+def _fleet_row(done: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
+    fleet = done.mission.fleet(every[0].fleet)
+    near = [each.flown.near.distance for each in every if each.flown.near is not None]
+    sizes = (
+        float(np.sqrt(np.mean([each.flown.rmse**2 for each in every]))),
+        max(each.flown.usual for each in every),
+        max(each.flown.farthest for each in every),
+    )
+    nearest = f"{at_most(min(near))} m" if near else "-"
+    apart = fleet.apart
+    shown = (f"{at_least(value)} m" for value in sizes)
+    return (
+        fleet.name,
+        str(len(fleet.pads)),
+        *shown,
+        nearest,
+        f"{apart.horizontal:g} m",
+        f"{apart.margin:g} m",
+    )
+
+
+def _limit(key: str, limit: float) -> str:
+    return (
+        f"{plain(100 * limit, 1)} %"
+        if key == "in_frame"
+        else f"{plain(limit)}{'' if key == 'mean_error' else ' m'}"
+    )
+
+
+def _remarks(done: Rehearsed) -> Iterator[str]:
+    """Say what was not looked at, and what the margin of a show should be."""
+    if done.ir.drones and (done.mission.zones or done.mission.meshes or len(done.mission.targets) > 1):
+        yield "whether something hides a target is not judged here; framing.csv has it for the plan"
+    unasked = [p.shot for p in done.runs[0].pictures if p.error is None]
+    if unasked and done.conditions.loop == "track":
+        names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
+        yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
+    for i in range(len(done.runs[0].fleets)):
+        yield from _margin(done, [run.fleets[i] for run in done.runs])
+
+
+def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
+    """Say who strays farthest and comes nearest, and which margin is enough for how far drones stray."""
+    fleet = done.mission.fleet(every[0].fleet)
+    names, far = drone_names(fleet), max(every, key=lambda each: each.flown.farthest).flown
+    yield f"{fleet.name}: {names[far.drone]} strays farthest, at {clock(far.time)}"
+    near = min(
+        (each.flown.near for each in every if each.flown.near is not None),
+        key=lambda n: n.distance,
+        default=None,
+    )
+    if near is not None:
+        pair = f"{names[near.first]} and {names[near.second]}"
+        yield f"{fleet.name}: {pair} come nearest, at {clock(near.time)}"
+    yield f"{fleet.name}: {_enough(fleet, far.farthest, 0 if near is None else near.below)}"
+
+
+def _enough(fleet: Fleet, farthest: float, below: int) -> str:
+    stray, safe = f"a drone strays up to {at_least(farthest)} m from its place", up(2 * farthest, 1)
+    if safe > LARGEST_MARGIN * fleet.apart.horizontal:
+        remedy = f"{stray}, too far for any margin: do not fly this show in such wind"
+    else:
+        remedy = (
+            f"{stray}: plan with `separation: {{margin: {safe:g}}}`, which keeps any two apart in such wind"
+        )
+    if below:
+        pairs = "1 pair comes" if below == 1 else f"{below} pairs come"
+        return f"{pairs} nearer than the separation; {remedy}"
+    if fleet.apart.margin >= 2 * farthest:
+        return "no two drones can come too near in this wind: the margin is twice the farthest stray, or more"
+    return f"the margin was enough in these runs; {remedy}"

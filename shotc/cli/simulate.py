@@ -1,0 +1,173 @@
+"""``shotc simulate``: fly a mission or a plan in simulation, in many runs, and judge them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from os import cpu_count, sched_getaffinity
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from shotc.api import PlanOptions, compile_source
+from shotc.cli import console
+from shotc.cli.console import Progress
+from shotc.cli.flight_options import stretches, true_tracks, wind_of
+from shotc.cli.inputs import STDIN, read_mission
+from shotc.cli.plans import prove
+from shotc.cli.refiner import told
+from shotc.cli.verify import Format
+from shotc.filenames import file_name
+from shotc.output import write
+from shotc.spec.presets import RUNS
+
+if TYPE_CHECKING:
+    from shotc.ir.trajectory import VerifiedIR
+    from shotc.source.file import SourceFile
+
+Input = Annotated[
+    str,
+    typer.Argument(metavar="MISSION|PLAN", help="A mission, a plan.json or its folder, or - for a mission."),
+]
+Loop = Annotated[
+    Literal["replay", "track"] | None,
+    typer.Option(
+        help="replay: drone and camera do what was planned; track: the camera follows what is seen [replay]."
+    ),
+]
+Seeds = Annotated[
+    int | None, typer.Option(min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}].")
+]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of the first run; all others follow from it.")]
+WindSpeed = Annotated[float | None, typer.Option("--wind", min=0.0, help="Steady wind, m/s [the world's].")]
+WindFrom = Annotated[
+    float | None,
+    typer.Option("--from", min=-360.0, max=360.0, help="Compass bearing it comes from, deg [any: drawn]."),
+]
+Gusty = Annotated[
+    float | None, typer.Option("--gusts", min=0.0, help="Standard deviation of gusts on each axis, m/s [0].")
+]
+GpsGrade = Annotated[
+    Literal["rtk", "plain"] | None,
+    typer.Option("--gps", help="Receivers of drones and targets: rtk (0.02 m) or plain (1.5 m) [rtk]."),
+]
+Bias = Annotated[float, typer.Option(help="What all satellite positions are off to the East, m.")]
+Lost = Annotated[
+    list[str] | None,
+    typer.Option(metavar="FROM:TO", help="Seconds of the mission without satellite positions; repeatable."),
+]
+Wander = Annotated[
+    float | None,
+    typer.Option(min=0.0, help="Standard deviation of how far what moves is off its track, m [0]."),
+]
+TruthFiles = Annotated[
+    list[str] | None,
+    typer.Option("--truth", metavar="TARGET=FILE", help="Where a target really goes: a track as CSV or GPX."),
+]
+Jobs = Annotated[
+    int | None, typer.Option(min=1, metavar="N", help="Processes that fly side by side [the cores].")
+]
+Output = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", help="Folder for the files [that of the plan, or out/MISSION]."),
+]
+FormatOption = Annotated[Format, typer.Option("--format", help="How to print what came of it.")]
+
+
+def simulate(
+    source: Input,
+    loop: Loop = None,
+    seeds: Seeds = None,
+    seed: Seed = 1,
+    wind: WindSpeed = None,
+    from_: WindFrom = None,
+    gusts: Gusty = None,
+    gps: GpsGrade = None,
+    bias: Bias = 0.0,
+    lost: Lost = None,
+    wander: Wander = None,
+    truth: TruthFiles = None,
+    jobs: Jobs = None,
+    output: Output = None,
+    format: FormatOption = Format.TEXT,
+) -> None:
+    """Fly a mission in simulation, many times, and judge the runs.
+
+    Drones lag behind their plan, the wind pushes them, receivers and cameras err, and subjects may leave
+    their track. The report tells what the cameras show (share of frames with the whole target, distance on
+    screen from where it is to be), how far drones stray, and how near they come to anything. What the mission
+    asks of rehearsals (`rehearse: {gusts: 1 m/s, require: {in_frame: 95 %, of: 99 %}}`) is judged: the exit
+    status is 1 where too few runs keep it, or where a drone touches something. A simulation proves nothing;
+    `plan` and `verify` do.
+
+    Written are simulate.json (every run), flight.csv (the worst run, instant by instant), simulate.png
+    (distributions) and simulate.rrd (the worst run beside the plan, for the rerun viewer). Examples:
+
+        shotc simulate tower.yaml --wind 5 --from 270 --gusts 1
+        shotc simulate out/tower --loop track --gps plain --seeds 100
+    """
+    with Progress() as progress:
+        plan, sources, folder = _plan(source, output, progress)
+        from shotc.cli.rehearsed import text
+        from shotc.simulation.document import json_text
+        from shotc.simulation.faults import not_kept, unflyable
+        from shotc.simulation.outputs import artifacts
+        from shotc.simulation.rehearsal import Asked, conditions_of, rehearse, runs_of
+        from shotc.simulation.truth import Truth
+
+        mission = plan.trajectory.keyframes.mission
+        asked = Asked(
+            loop,
+            seeds,
+            wind_of(mission, wind, from_),
+            gusts,
+            gps,
+            bias,
+            stretches(lost or ()),
+            wander,
+            Truth(tracks=true_tracks(mission, sources, truth or ())),
+            seed,
+        )
+        conditions = conditions_of(mission, asked)
+        faults = tuple(unflyable(plan.trajectory, conditions))
+        if faults:
+            console.report(faults, sources)
+            raise typer.Exit(console.EXIT_REJECTED)
+        count = runs_of(mission, asked, RUNS)
+        progress(f"flying {count} runs")
+        hands = jobs or _cores()
+        done = rehearse(plan.trajectory, conditions, count, hands, lambda n: progress(f"{n} of {count} runs"))
+        made = artifacts(done, progress)
+    paths, faults = write(made.artifacts, folder)
+    found = (*made.diagnostics, *not_kept(done), *faults)
+    console.report(found, sources)
+    console.out(json_text(done) if format is Format.JSON else text(done, paths))
+    raise typer.Exit(console.exit_code(found))
+
+
+def _plan(
+    source: str, output: Path | None, progress: Callable[[str], None]
+) -> tuple[VerifiedIR, dict[str, SourceFile], Path]:
+    """Return a proved plan, the files its diagnostics point into, and the folder for what is written.
+
+    A mission is planned first, as `shotc plan` does without options; without a plan, say why and exit.
+    """
+    place = Path(source)
+    if source != STDIN and (place.is_dir() or place.suffix.lower() == ".json"):
+        report = prove(place)
+        plan, beside = report.plan, place if place.is_dir() else place.parent
+        diagnostics, sources = report.diagnostics, report.sources
+    else:
+        text = read_mission(source)
+        done = told(compile_source(text.data, text.name, text.folder, PlanOptions(progress=progress)), None)
+        plan, beside = done.plan, Path("out") / (file_name(done.mission) if done.mission else "")
+        diagnostics, sources = done.diagnostics, done.sources
+    if plan is None:
+        console.report(diagnostics, sources)
+        raise typer.Exit(console.EXIT_REJECTED)
+    return plan, sources, output or beside
+
+
+def _cores() -> int:
+    return len(sched_getaffinity(0)) if sys.platform == "linux" else cpu_count() or 1

@@ -1,0 +1,56 @@
+"""W: rehearsals, what comes of plans in wind."""
+
+from __future__ import annotations
+
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.model import Severity
+
+CODES: tuple[CodeInfo, ...] = (
+    CodeInfo(
+        "W001",
+        "rehearsal-not-kept",
+        Severity.ERROR,
+        "too few runs of a rehearsal keep what the mission asks of them",
+        "`shotc simulate` flies a plan many times: drones lag behind it, wind and gusts push them, receivers and "
+        "cameras err, subjects leave their track. What stands under `rehearse: {require: ...}` has to hold in the "
+        "share of the runs that `of` says, in all of them if it is silent. It judges rehearsals alone: `plan` and "
+        "`verify` prove the plan and do not read it. The help says what as many runs do keep.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "W002",
+        "rehearsal-touches",
+        Severity.ERROR,
+        "in a rehearsal a drone touches something",
+        "The body of a drone comes to what stands, to a target or to another drone in at least one run, and more runs "
+        "than `rehearse: {require: {of: ...}}` lets pass. The plan itself keeps its clearances; in this wind the drone "
+        "does not keep to the plan closely enough. Plan with larger clearances, or fly in less wind.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "W003",
+        "wind-too-strong",
+        Severity.ERROR,
+        "the wind of a rehearsal is as fast as a drone flies",
+        "A drone in a wind that is as fast as it flies cannot hold its place, so nothing is flown. `world.wind` is "
+        "taken off the speed of every drone; a rehearsal may blow harder than that, but not harder than the drone.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "W004",
+        "impossible-truth",
+        Severity.ERROR,
+        "a track that a target is really to take in a rehearsal ends early or jumps",
+        "`shotc simulate --truth TARGET=FILE` says where a target really goes while the plan believes its own track. "
+        "The file has to reach from the mission's start to the last landing, and nothing that is filmed jumps.",
+        "",
+        "",
+        "other",
+    ),
+)

@@ -1,0 +1,96 @@
+"""simulate.json: what came of every run, for programs; and flight.csv: the worst run, instant by instant."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from shotc import __version__
+from shotc.emit.table_numbers import NUMBER
+from shotc.ir.sampling import clock
+from shotc.simulation.flight import Estimated, Flown
+from shotc.simulation.rehearsal import Rehearsed
+from shotc.simulation.world import World, at_times
+
+FLIGHT = (
+    "t_s,run,drone,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,cam_yaw_rad,cam_pitch_rad,cam_roll_rad,"
+    "plan_x_m,plan_y_m,plan_z_m,target,target_x_m,target_y_m,target_z_m,"
+    "estimate_x_m,estimate_y_m,estimate_z_m,estimate_sd_m"
+)
+
+
+def json_text(done: Rehearsed) -> str:
+    """Return the document; the same rehearsal gives the same text, whatever ran it."""
+    mission = done.mission
+    document = {
+        "tool": {"name": "shotc", "version": __version__},
+        "mission": mission.name,
+        "mission_sha256": mission.source_sha256,
+        "conditions": asdict(done.conditions),
+        "asked": done.promise._asdict(),
+        "runs_that_hold": done.held,
+        "runs_needed": done.needed,
+        "kept": done.kept,
+        "verdicts": [asdict(each) for each in done.verdicts],
+        "worst_run": done.worst.number,
+        "runs": [asdict(run) for run in done.runs],
+    }
+    return json.dumps(_finite(document), indent=2) + "\n"
+
+
+def _finite(value: Any) -> Any:
+    """Return a document without the numbers that JSON has not: None takes their place."""
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, tuple) and hasattr(value, "_asdict"):
+        return _finite(value._asdict())
+    if isinstance(value, list | tuple):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not isfinite(value) else value
+
+
+def flight_table(done: Rehearsed, world: World, flown: Sequence[Flown]) -> str:
+    """Return flight.csv of the first run of a world, at the ticks of the output clock: by drone, then time.
+
+    A drone that follows several targets has a row for each; one that follows none has one row.
+    """
+    rows = [
+        row
+        for track, each in sorted(zip(done.ir.drones, flown, strict=True), key=lambda pair: pair[0].drone)
+        for row in _rows(done, world, each, clock(done.mission.rate, track.curve.end))
+    ]
+    return "\n".join([FLIGHT, *rows, ""])
+
+
+def _rows(done: Rehearsed, world: World, flown: Flown, times: Any) -> Iterator[str]:
+    track = next(t for t in done.ir.drones if t.drone == flown.drone)
+    angles = np.stack([np.unwrap(flown.yaw[:, 0]), flown.pitch[:, 0], flown.roll[:, 0]], axis=1)
+    own = np.concatenate(
+        [at_times(rows, flown.times, times) for rows in (flown.position[:, 0], flown.velocity[:, 0], angles)]
+        + [track.curve(times)[:, :3]],
+        axis=1,
+    )
+    of_targets = [(e.target, _known(world, flown, e, times)) for e in flown.estimated]
+    head = f"{NUMBER},{world.runs[0]},{flown.drone}"
+    for k, time in enumerate(times.tolist()):
+        numbers = ",".join(NUMBER % (value + 0.0) for value in own[k].tolist())
+        for name, known in of_targets or [("", None)]:
+            cells = ",,,,,," if known is None else ",".join(NUMBER % value for value in known[k].tolist())
+            yield f"{head % time},{numbers},{name},{cells}"
+
+
+def _known(world: World, flown: Flown, of: Estimated, times: Any) -> Any:
+    """Return where a target is, where it is taken to be, and the deviation of that, (M, 7)."""
+    spread = np.sqrt(np.trace(of.covariance[:, 0], axis1=1, axis2=2) / 3.0)
+    return np.column_stack(
+        [
+            at_times(world.places[of.target][:, 0], world.times, times),
+            at_times(of.place[:, 0], flown.times, times),
+            at_times(spread, flown.times, times),
+        ]
+    )

@@ -1,0 +1,175 @@
+"""Diagnostics of rehearsals: conditions that nothing can be flown in, and promises that too few runs keep."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import dist, isfinite
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.geom.track import Track
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.rounding import at_least, at_most, down, up
+from shotc.simulation.conditions import Conditions
+from shotc.simulation.judge import Run
+from shotc.simulation.rehearsal import Rehearsed
+from shotc.simulation.verdict import Verdict
+from shotc.spec.presets import TOP_SPEED
+
+WORDS = {
+    "in_frame": "the whole target is in {} of a shot's frames",
+    "mean_error": "the target is {} of half a frame off in the mean of a shot",
+    "clearance": "a drone's body comes within {}",
+    "stray": "a drone strays {} from its plan",
+}
+
+
+def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
+    """Yield what keeps conditions from being flown: too strong a wind, a truth that cannot be."""
+    mission, wind = ir.keyframes.mission, conditions.wind.speed
+    end = max((track.curve.end for track in ir.drones), default=0.0)
+    for drone in mission.drones:
+        most = drone.limits.speed + mission.wind
+        if wind >= most:
+            yield Diagnostic(
+                "W003",
+                f"a wind of {wind:g} m/s carries drone `{drone.name}` away: it flies {most:g} m/s",
+                (mission.origins.value(drone.path),),
+                help=f"rehearse with less than {most:g} m/s of wind, or take a faster drone",
+            )
+    for name, track in conditions.truth.tracks:
+        yield from _untrue(mission, name, track, end)
+
+
+def not_kept(done: Rehearsed) -> Iterator[Diagnostic]:
+    """Yield what too few runs keep."""
+    if done.kept:
+        return
+    failing = [each for each in done.verdicts if each.held < done.needed]
+    for each in failing:
+        yield _touches(done, each) if not each.written else _broken(done, each)
+    if not failing:
+        mission, total = done.mission, len(done.runs)
+        yield Diagnostic(
+            "W001",
+            f"{done.held} of {total} runs keep all that is asked; {done.needed} have to",
+            (mission.origins.value(_require(mission)),),
+            tuple(f"`{each.key}` holds in {each.held}" for each in done.verdicts),
+            "ask for less, or for a smaller share of the runs with `of`",
+        )
+
+
+def _broken(done: Rehearsed, each: Verdict) -> Diagnostic:
+    total = len(done.runs)
+    return Diagnostic(
+        "W001",
+        f"{_words(each, each.worst)} in run {each.run}; {_amount(each, each.limit)} is asked of "
+        f"{done.needed} of {total} runs, {each.held} keep it",
+        (done.mission.origins.value((*_require(done.mission), each.key)),),
+        tuple(_where(done, each)),
+        _help(done, each),
+    )
+
+
+def _touches(done: Rehearsed, each: Verdict) -> Diagnostic:
+    return Diagnostic(
+        "W002",
+        f"{_words(each, each.worst)} in run {each.run}: it touches something",
+        tuple(_touched(done, each)),
+        tuple(_where(done, each)),
+        "plan with a larger clearance, or fly in less wind",
+    )
+
+
+def _where(done: Rehearsed, each: Verdict) -> Iterator[str]:
+    run = next(run for run in done.runs if run.number == each.run)
+    if each.key in ("in_frame", "mean_error"):
+        yield from (_picture(run, each),)
+    elif each.key == "clearance":
+        near = [(c.drone, n) for c in run.courses for n in c.near if n.distance == each.worst]
+        yield from (f"drone `{drone}` and {n.to}, at {n.time:.1f} s" for drone, n in near)
+        pairs = [f for f in run.fleets if f.clearance == each.worst and f.flown.near is not None]
+        yield from (f"two drones of `{f.fleet}`, at {f.flown.near.time:.1f} s" for f in pairs if f.flown.near)
+    else:
+        yield from (f"drone `{c.drone}`, at {c.time:.1f} s" for c in run.courses if c.farthest == each.worst)
+        yield from (
+            f"a drone of `{f.fleet}`, at {f.flown.time:.1f} s"
+            for f in run.fleets
+            if f.flown.farthest == each.worst
+        )
+
+
+def _picture(run: Run, each: Verdict) -> str:
+    if each.key == "in_frame":
+        shown = min(run.pictures, key=lambda p: p.in_frame)
+    else:
+        shown = max(run.pictures, key=lambda p: p.error or 0.0)
+    return f"target `{shown.target}` in shot `{shown.shot}`, worst at {shown.time:.1f} s"
+
+
+def _help(done: Rehearsed, each: Verdict) -> str:
+    share = f"{done.needed} of {len(done.runs)} runs keep"
+    if not isfinite(each.kept):
+        return "plan for less wind, or with better receivers: in this many runs the camera looks away"
+    better = ""
+    if each.key in ("in_frame", "mean_error") and done.conditions.loop == "replay":
+        better = "let the camera follow what it sees with `loop: track`, or "
+    return f"{better}ask for what {share}: `{each.key}: {_kept(each)}`"
+
+
+def _kept(each: Verdict) -> str:
+    if each.key == "in_frame":
+        return f"{max(0.0, down(100 * each.kept, 1)):g} %"
+    return f"{up(each.kept, 3):g}" if each.upper else f"{max(0.0, down(each.kept)):g}"
+
+
+def _words(each: Verdict, value: float) -> str:
+    return WORDS[each.key].format(_amount(each, value))
+
+
+def _amount(each: Verdict, value: float) -> str:
+    if each.key == "in_frame":
+        return f"{at_most(100 * value, 1)} %"
+    if each.key == "mean_error":
+        return at_least(value, 3) if isfinite(value) else "infinitely many times"
+    return f"{at_least(value) if each.upper else at_most(value)} m"
+
+
+def _touched(done: Rehearsed, each: Verdict) -> Iterator[Label]:
+    run = next(run for run in done.runs if run.number == each.run)
+    mission = done.mission
+    for course in run.courses:
+        if course.nearest is not None and course.nearest.distance == each.worst:
+            yield mission.origins.value(mission.drone(course.drone).path)
+            return
+    for fleet in run.fleets:
+        if fleet.clearance == each.worst:
+            yield mission.origins.value(mission.fleet(fleet.fleet).path)
+            return
+
+
+def _require(mission: MissionIR) -> KeyPath:
+    return () if mission.rehearsal is None else (*mission.rehearsal.path, "require")
+
+
+def _untrue(mission: MissionIR, name: str, track: Track, end: float) -> Iterator[Diagnostic]:
+    label = mission.origins.value(mission.target(name).path)
+    if track.times[-1] < end:
+        yield Diagnostic(
+            "W004",
+            f"the true track of `{name}` ends at {track.times[-1]:g} s, and the plan lands at {end:.1f} s",
+            (label,),
+            help="give it rows until the landing",
+        )
+    for i, (a, b) in enumerate(pairwise(track.points)):
+        since, lasts = track.times[i], track.times[i + 1] - track.times[i]
+        if dist(a, b) > TOP_SPEED * lasts:
+            yield Diagnostic(
+                "W004",
+                f"the true track of `{name}` jumps {dist(a, b):.1f} m in {lasts:.3g} s at {since:g} s",
+                (label,),
+                help=f"nothing that is filmed moves faster than {TOP_SPEED:g} m/s: mend the rows there",
+            )
+            return

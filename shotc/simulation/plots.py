@@ -1,0 +1,132 @@
+"""simulate.png: how pictures, clearances and strays are spread over the runs, on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from io import BytesIO
+from math import isfinite
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from shotc.emit.palette import CAMERA, FAINT, INK, KEEP_OUT, PAPER, QUIET, SUBJECT
+from shotc.geom.bernstein import Array
+from shotc.simulation.judge import Run
+from shotc.simulation.rehearsal import Rehearsed
+
+DPI = 110.0
+WIDTH_IN = 11.0
+PANEL_IN = 2.6
+
+HEAD_IN = 1.0
+BINS = 32
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Strays:
+    """How far the farthest drone is from its plan: times (F,), s; median and largest of the runs, (F,), m."""
+
+    times: Array
+    median: Array
+    largest: Array
+
+
+class _Panel(NamedTuple):
+    """One distribution; limit : what the mission asks."""
+
+    title: str
+    unit: str
+    measure: Callable[[Run], float]
+    limit: float | None
+
+
+def draw(done: Rehearsed, over_time: Strays | None) -> bytes:
+    """Return the page as PNG; the same rehearsal gives the same bytes. over_time : None for shows."""
+    panels = _panels(done)
+    rows = (len(panels) + 1) // 2 + (over_time is not None)
+    height = HEAD_IN + PANEL_IN * rows
+    figure = Figure(figsize=(WIDTH_IN, height), dpi=DPI, facecolor=PAPER)
+    top, bottom = 1 - 0.75 / height, 0.5 / height
+    grid = figure.add_gridspec(
+        rows, 2, hspace=0.65, wspace=0.2, left=0.07, right=0.97, top=top, bottom=bottom
+    )
+    figure.suptitle(_title(done), x=0.07, y=1 - 0.2 / height, ha="left", va="top", color=INK, fontsize=12)
+    for i, panel in enumerate(panels):
+        _spread(figure.add_subplot(grid[i // 2, i % 2]), done, panel)
+    if over_time is not None:
+        _timeline(figure.add_subplot(grid[rows - 1, :]), done, over_time)
+    into = BytesIO()
+    figure.savefig(into, format="png", metadata={"Software": None})
+    return into.getvalue()
+
+
+def _title(done: Rehearsed) -> str:
+    return f"{done.mission.name}: {len(done.runs)} runs, worst is run {done.worst.number}"
+
+
+def _panels(done: Rehearsed) -> list[_Panel]:
+    asked = done.promise
+    least = None if asked.in_frame is None else 100 * asked.in_frame
+    clear = 0.0 if asked.clearance is None else asked.clearance
+    pictures = [
+        _Panel("Whole target in frame, worst shot", "% of frames", lambda run: 100 * run.in_frame, least),
+        _Panel("Mean distance on screen, worst shot", "half frames", lambda run: run.error, asked.mean_error),
+    ]
+    return [
+        *(pictures if done.runs[0].pictures else ()),
+        _Panel("Least distance of a body from anything", "m", lambda run: run.clearance, clear),
+        _Panel("Farthest from the plan", "m", lambda run: run.stray, asked.stray),
+    ]
+
+
+def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
+    """Draw every run as a tick and their histogram; the worst run in amber, what is asked in vermilion."""
+    values = np.array([panel.measure(run) for run in done.runs])
+    values = values[np.isfinite(values)]
+    if len(values):
+        low, high = float(values.min()), float(values.max())
+        if panel.limit is not None:
+            low, high = min(low, panel.limit), max(high, panel.limit)
+        around = max(high - low, 1e-2 * max(abs(high), 1e-3))
+        axes.hist(values, bins=np.linspace(low - 0.05 * around, high + 0.05 * around, BINS), color=SUBJECT)
+        axes.plot(values, np.zeros(len(values)), "|", color=INK, markersize=8, clip_on=False)
+    worst = panel.measure(done.worst)
+    if isfinite(worst):
+        axes.axvline(worst, color=CAMERA, linewidth=2.0, label=f"run {done.worst.number}, the worst")
+    if panel.limit is not None:
+        axes.axvline(panel.limit, color=KEEP_OUT, linewidth=1.5, linestyle="--", label="asked")
+    axes.xaxis.set_major_locator(MaxNLocator(6))
+    axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
+    axes.legend(loc="best", fontsize=9, frameon=False, labelcolor=QUIET)
+    _labels(axes, panel.title, panel.unit, "runs")
+
+
+def _timeline(axes: Any, done: Rehearsed, strays: Strays) -> None:
+    top = float(strays.largest.max())
+    label = "largest of the runs"
+    axes.fill_between(strays.times, 0.0, strays.largest, color=SUBJECT, alpha=0.25, linewidth=0, label=label)
+    axes.plot(strays.times, strays.median, color=SUBJECT, linewidth=1.2, label="median")
+    for row, track in enumerate(done.ir.drones):
+        for phase in track.phases:
+            if phase.shot is not None:
+                axes.axvspan(phase.start, phase.end, color=CAMERA, alpha=0.12, linewidth=0)
+                height = top * (1.03 + 0.12 * row)
+                axes.text(phase.start, height, f" {phase.shot}", fontsize=9, color=QUIET, va="bottom")
+    axes.set_xlim(0.0, float(strays.times[-1]))
+    axes.set_ylim(0.0, top * (1.15 + 0.12 * len(done.ir.drones)))
+    axes.legend(loc="upper right", fontsize=9, frameon=False, labelcolor=QUIET)
+    _labels(axes, "Distance from the plan over the flight (shots in amber)", "s", "m")
+
+
+def _labels(axes: Any, title: str, x: str, y: str) -> None:
+    axes.set_title(title, loc="left", fontsize=10, color=INK)
+    axes.set_xlabel(x, fontsize=9, color=QUIET)
+    axes.set_ylabel(y, fontsize=9, color=QUIET)
+    axes.tick_params(labelsize=9, colors=QUIET)
+    for name, side in axes.spines.items():
+        side.set_visible(name in ("left", "bottom"))
+        side.set_color(FAINT)
+    axes.set_facecolor("white")

@@ -1,0 +1,104 @@
+"""A rehearsal: a plan flown in many runs, and what the mission asks of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from shotc.ir.mission import MissionIR
+from shotc.ir.rehearsal import Loop, Receiver, RehearsalPromise, Wind
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.simulation import wind as air
+from shotc.simulation.conditions import Conditions
+from shotc.simulation.judge import Run
+from shotc.simulation.runs import Done, simulated
+from shotc.simulation.sensors import GRADES, Gps
+from shotc.simulation.truth import Truth
+from shotc.simulation.verdict import Verdict, enough, held, verdicts
+
+SILENT = RehearsalPromise()
+
+
+class Asked(NamedTuple):
+    """What a command line says in the place of the mission; None leaves it to the mission.
+
+    wind, gusts : m/s; gps : a name of GRADES; bias : offset of all positions to the East, m
+    lost : stretches without satellite positions, s; wander : m
+    """
+
+    loop: Loop | None = None
+    runs: int | None = None
+    wind: Wind | None = None
+    gusts: float | None = None
+    gps: Receiver | None = None
+    bias: float = 0.0
+    lost: tuple[tuple[float, float], ...] = ()
+    wander: float | None = None
+    truth: Truth = Truth()
+    seed: int = 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rehearsed:
+    """What came of a rehearsal.
+
+    held, needed : in how many runs all that is asked holds, and in how many it has to
+    """
+
+    ir: TrajectoryIR
+    conditions: Conditions
+    promise: RehearsalPromise
+    runs: tuple[Run, ...]
+    verdicts: tuple[Verdict, ...]
+    held: int
+    needed: int
+
+    @property
+    def mission(self) -> MissionIR:
+        """The mission that was flown."""
+        return self.ir.keyframes.mission
+
+    @property
+    def worst(self) -> Run:
+        """The worst of the runs."""
+        return min(self.runs, key=lambda run: run.merit)
+
+    @property
+    def kept(self) -> bool:
+        """Whether enough runs keep all that is asked."""
+        return self.held >= self.needed
+
+
+def conditions_of(mission: MissionIR, asked: Asked) -> Conditions:
+    """Return the conditions that a mission and a command line ask for."""
+    written = mission.rehearsal
+    wind = asked.wind or (None if written is None else written.wind)
+    blowing = wind or Wind(mission.wind, mission.wind_toward)
+    gusts = asked.gusts if asked.gusts is not None else (0.0 if written is None else written.gusts)
+    gps = GRADES[asked.gps or ("rtk" if written is None else written.gps)]
+    wander = asked.wander if asked.wander is not None else (0.0 if written is None else written.wander)
+    return Conditions(
+        loop=asked.loop or ("replay" if written is None else written.loop),
+        wind=air.Wind(blowing.speed, blowing.toward, gusts),
+        gps=_receiver(gps, asked),
+        truth=replace(asked.truth, wander=wander),
+        seed=asked.seed,
+    )
+
+
+def runs_of(mission: MissionIR, asked: Asked, usual: int) -> int:
+    """Return how many runs a mission and a command line ask for; usual : where neither says it."""
+    return asked.runs or (usual if mission.rehearsal is None else mission.rehearsal.runs)
+
+
+def rehearse(ir: TrajectoryIR, conditions: Conditions, count: int, jobs: int, done: Done) -> Rehearsed:
+    """Fly a plan in so many runs and judge them by what its mission asks."""
+    written = ir.keyframes.mission.rehearsal
+    promise = SILENT if written is None else written.promise
+    runs = simulated(ir, conditions, count, jobs, done)
+    found = verdicts(runs, promise)
+    return Rehearsed(ir, conditions, promise, runs, found, held(runs, found), enough(runs, promise))
+
+
+def _receiver(gps: Gps, asked: Asked) -> Gps:
+    return replace(gps, offset=(asked.bias, 0.0, 0.0), lost=asked.lost)

@@ -1,0 +1,241 @@
+"""What `shotc simulate` prints and writes of plans and missions, and how it ends."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shotc.api import PlanReport
+from shotc.ir.rehearsal import Rehearsal, RehearsalPromise
+from shotc.ir.show import Apart
+from tests.cli.conftest import Run
+from tests.support.film_plans import orbit_plan
+from tests.support.records import replace
+from tests.support.show_plans import PADS, fleet, mission, plan
+
+pytestmark = pytest.mark.slow
+
+WALKER = """\
+shotc: 1
+mission: walker
+world: {wind: {speed: 2 m/s, from: 270 deg}}
+targets:
+  walker: {track: {start: [0, 0, 0.9], velocity: [1.2, 0, 0]}, radius: 0.4, height: 1.8}
+drones: {cam: {model: x500, home: [-12, -10, 0]}}
+shots:
+  - {id: follow, kind: chase, drone: cam, target: walker, distance: 8, altitude: 3,
+     timing: {start: 12, duration: 6}}
+rehearse:
+  gusts: 1 m/s
+  runs: 4
+  require: {in_frame: 95 %, mean_error: 0.005, of: 75 %}
+"""
+
+
+@pytest.fixture
+def given(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    """Give the command a plan made by hand, which has no mission in a file that it could be held to."""
+
+    def made(flown) -> str:
+        report = PlanReport(flown, (), (), {})
+        monkeypatch.setattr("shotc.cli.simulate.prove", lambda _path: report)
+        (tmp_path / "out").mkdir(exist_ok=True)
+        return "out"
+
+    return made
+
+
+def asking(promise: RehearsalPromise):
+    """Return the half orbit with a mission that asks something of rehearsals."""
+    made = orbit_plan()
+    asked = Rehearsal(promise, ("rehearse",), 3, "replay", None, 0.5, "rtk", 0.0)
+    keyframes = made.trajectory.keyframes
+    keyframes = keyframes._replace(mission=keyframes.mission._replace(rehearsal=asked))
+    return replace(made, trajectory=replace(made.trajectory, keyframes=keyframes))
+
+
+def document(folder: str = "out"):
+    return json.loads((Path(folder) / "simulate.json").read_text())
+
+
+def test_a_film_is_flown_and_written(run: Run, given) -> None:
+    done = run("simulate", given(orbit_plan()), "--seeds", "3", "--gusts", "0.5", "--wind", "2")
+    assert done.code == 0
+    assert "3 runs, wind 2 m/s from any side, gusts 0.5 m/s" in done.out
+    assert {path.name for path in Path("out").iterdir()} == {
+        "simulate.json",
+        "flight.csv",
+        "simulate.png",
+        "simulate.rrd",
+    }
+    assert Path("out/simulate.png").read_bytes()[:4] == b"\x89PNG"
+    assert Path("out/simulate.rrd").read_bytes()[:4] == b"RRF2"
+    made = document()
+    assert [each["number"] for each in made["runs"]] == [0, 1, 2]
+    assert made["kept"]
+    rows = list(csv.DictReader(StringIO(Path("out/flight.csv").read_text())))
+    assert {row["run"] for row in rows} == {str(made["worst_run"])}
+    off = [[float(r[f"{a}_m"]) - float(r[f"plan_{a}_m"]) for a in "xyz"] for r in rows]
+    course = made["runs"][made["worst_run"]]["courses"][0]
+    assert np.linalg.norm(off, axis=1).max() == pytest.approx(course["farthest"], abs=0.01)
+
+
+def test_the_same_seed_gives_the_same_bytes_however_many_processes_fly(run: Run, given, monkeypatch) -> None:
+    monkeypatch.setattr("shotc.simulation.runs.BLOCK", 2)
+    documents = []
+    for more in (("--jobs", "1"), ("--jobs", "2"), ("--seed", "2")):
+        run("simulate", given(orbit_plan()), "--seeds", "5", "--gusts", "0.5", "--gps", "plain", *more)
+        documents.append(Path("out/simulate.json").read_text())
+    assert documents[0] == documents[1]
+    assert documents[0] != documents[2]
+
+
+def test_what_too_few_runs_keep_is_an_error_at_its_line(run: Run, given) -> None:
+    done = run("simulate", given(asking(RehearsalPromise(stray=0.01, of=0.6))))
+    assert done.code == 1
+    assert "W001" in done.err
+    assert re.search(
+        r"a drone strays [\d.]+ m from its plan in run \d; 0.01 m is asked of 2 of 3 runs", done.err
+    )
+    kept = float(re.search(r"2 of 3 runs keep: `stray: ([\d.]+)`", done.err)[1])
+    strays = sorted(max(c["farthest"] for c in each["courses"]) for each in document()["runs"])
+    assert strays[1] <= kept <= strays[1] + 0.001
+    assert not document()["kept"]
+
+
+def test_what_the_help_proposes_is_kept(run: Run, given) -> None:
+    first = run("simulate", given(asking(RehearsalPromise(mean_error=0.0, clearance=1000.0))))
+    error = float(re.search(r"`mean_error: ([\d.]+)`", first.err)[1])
+    clearance = float(re.search(r"`clearance: ([\d.]+)`", first.err)[1])
+    again = run("simulate", given(asking(RehearsalPromise(mean_error=error, clearance=clearance))))
+    assert (first.code, again.code) == (1, 0)
+
+
+def test_wind_as_fast_as_the_drone_is_refused_before_anything_flies(run: Run, given) -> None:
+    done = run("simulate", given(orbit_plan()), "--wind", "30")
+    assert done.code == 1
+    assert "W003" in done.err
+    assert not list(Path("out").iterdir())
+
+
+def test_a_mission_is_planned_and_flown_in_its_own_wind(run: Run) -> None:
+    Path("walker.yaml").write_text(WALKER)
+    done = run("simulate", "walker.yaml")
+    assert done.code == 1
+    assert "walker: 4 runs, wind 2 m/s from 270 deg, gusts 1 m/s" in done.out
+    assert "loop: track" in done.err
+    assert "walker.yaml:13:39" in done.err
+    tracked = run("simulate", "walker.yaml", "--loop", "track")
+    replayed, mean = done.out.split("follow")[1].split(), tracked.out.split("follow")[1].split()
+    assert float(mean[5]) < 0.5 * float(replayed[5])
+    assert document("out/walker")["conditions"]["loop"] == "track"
+
+
+def test_a_target_may_really_go_elsewhere(run: Run) -> None:
+    Path("walker.yaml").write_text(WALKER)
+    Path("late.csv").write_text("t,x,y,z\n0,0,0,0.9\n60,66,6,0.9\n")
+    run("simulate", "walker.yaml", "--truth", "walker=late.csv", "--seeds", "1")
+    replayed = document("out/walker")["runs"][0]["pictures"][0]["error"]
+    run("simulate", "walker.yaml", "--truth", "walker=late.csv", "--seeds", "1", "--loop", "track")
+    tracked = document("out/walker")["runs"][0]["pictures"][0]["error"]
+    assert tracked < 0.05
+    assert replayed > 0.15
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ("t,x,y,z\n0,0,0,0.9\n9,9,0,0.9\n", "ends at 9 s"),
+        ("t,x,y,z\n0,0,0,0.9\n9,9,0,0.9\n10,900,0,0.9\n99,950,0,0.9\n", "jumps 891.0 m in 1 s at 9 s"),
+        ("t,x,y,z\n0,0,0,0.9\n", "the file has one row"),
+    ],
+)
+def test_a_truth_that_cannot_be_is_refused(run: Run, rows: str, words: str) -> None:
+    Path("walker.yaml").write_text(WALKER)
+    Path("true.csv").write_text(rows)
+    done = run("simulate", "walker.yaml", "--truth", "walker=true.csv")
+    assert done.code == 1
+    assert words in done.err
+    assert "Traceback" not in done.err
+    assert not Path("out").exists()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--lost", "5"),
+        ("--lost", "9:5"),
+        ("--truth", "nobody=x.csv"),
+        ("--truth", "walker"),
+        ("--loop", "no"),
+    ],
+)
+def test_options_that_mean_nothing_are_mistakes_of_usage(run: Run, options: tuple[str, ...]) -> None:
+    Path("walker.yaml").write_text(WALKER)
+    assert run("simulate", "walker.yaml", *options).code == 2
+
+
+def test_a_mission_without_a_plan_is_told_as_plan_tells_it(run: Run) -> None:
+    Path("walker.yaml").write_text(WALKER.replace("target: walker", "target: nobody"))
+    done = run("simulate", "walker.yaml")
+    assert done.code == 1
+    assert "nobody" in done.err
+
+
+@pytest.fixture
+def show(given) -> str:
+    return given(plan())
+
+
+def test_fleets_are_flown_and_their_strays_told(run: Run, show: str) -> None:
+    done = run("simulate", show, "--seeds", "2")
+    assert done.code == 0
+    assert re.search(r"swarm +4 ", done.out)
+    # All four do the same in still air: they stay as far apart as their pads.
+    assert "4.00 m" in done.out
+    assert "swarm-1 strays farthest, at 0:" in done.out
+    assert {path.name for path in Path("out").iterdir()} == {"simulate.json", "simulate.png"}
+
+
+def test_gusts_take_from_the_separation(run: Run, show: str) -> None:
+    def near(*more: str) -> list[float]:
+        run("simulate", show, "--seeds", "2", *more)
+        return [each["fleets"][0]["flown"]["near"]["distance"] for each in document()["runs"]]
+
+    assert near() == pytest.approx([4.0, 4.0], abs=1e-6)
+    one, other = near("--gusts", "0.5")
+    assert one != other
+    assert max(one, other) < 4.0
+
+
+@pytest.mark.parametrize(
+    ("margin", "verdict"),
+    [(0.8, "no two drones can come too near in this wind"), (0.0, "the margin was enough in these runs")],
+)
+def test_the_margin_is_judged(run: Run, given, margin: float, verdict: str) -> None:
+    roomy = fleet(PADS)._replace(apart=Apart("ellipsoid", 1.0, 1.0, margin))
+    done = run("simulate", given(plan(mission(fleets=(roomy,)))), "--seeds", "1")
+    assert verdict in done.out
+    if not margin:
+        farthest = document()["runs"][0]["fleets"][0]["flown"]["farthest"]
+        proposed = float(re.search(r"\{margin: ([\d.]+)\}", done.out)[1])
+        assert 2 * farthest <= proposed <= 2 * farthest + 0.1
+
+
+def test_drones_nearer_than_asked_are_told(run: Run, given) -> None:
+    tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 3.9, 3.9, 0.0))
+    done = run("simulate", given(plan(mission(fleets=(tight,)))), "--seeds", "1", "--gusts", "0.5")
+    assert "nearer than the separation" in done.out
+
+
+def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, given) -> None:
+    tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 0.5, 0.5, 0.0))
+    said = run("simulate", given(plan(mission(fleets=(tight,)))), "--seeds", "1", "--gusts", "3").out
+    assert "do not fly this show in such wind" in said
+    assert "{margin:" not in said
