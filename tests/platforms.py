@@ -26,6 +26,7 @@ ROOT = Path(__file__).parents[1]
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 NO_WHEELS = {
     "jt-pyrvo23d": "built for Linux x86-64 and Windows, up to Python 3.13; only tests use it",
+    "mavsdk": "from version 4 on built for macOS 15 and later; only a test uses it, which is left out there",
     "rerun-sdk": "its last wheels for Intel Macs are those of 0.26; a storyboard shows the plan there",
     "toppra": "built for Linux x86-64; Clarabel makes the same profiles elsewhere",
 }

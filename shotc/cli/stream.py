@@ -14,6 +14,7 @@ from shotc.cli.plans import PlanPath, prove
 from shotc.plugins import not_installed
 from shotc.stream.clock import WallClock
 from shotc.stream.endpoint import Endpoint, endpoint
+from shotc.stream.punctual import punctual
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.api import PlanReport
@@ -108,9 +109,10 @@ def _stream(
 def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport) -> int:
     from shotc.stream.report import told
 
-    flown, pilots = session.fly(aboard)
+    with punctual() as granted:
+        flown, pilots = session.fly(aboard)
     console.out(_outcome(flown, pilots))
-    console.out(told(flown.times))
+    console.out(f"{told(flown.times)}{'; at real-time priority' * granted}")
     console.report(flown.diagnostics, report.sources)
     if flown.interrupted:
         return console.EXIT_INTERRUPTED

@@ -45,6 +45,19 @@ def _track(name, home, wait, *, pans):
     return DroneTrajectory(name, concatenate(curves), phases, (), framed)
 
 
+def brief_plan():
+    """One drone that rises 3 m in 2 s, films for 1 s, and comes down in 3 s: for flights in real time."""
+    plan = hop_plan()
+    pad = np.array([0.0, -60.0, 0.0, pi / 2, 0.0, pi / 2, radians(70)])
+    above = pad + np.array([0, 0, 3.0, 0, -0.2, 0, 0])
+    curve = concatenate(
+        [_move(0.0, 2.0, pad, above), _move(2.0, 3.0, above, above), _move(3.0, 6.0, above, pad)]
+    )
+    cuts = [("takeoff", None, 0.0, 2.0), ("shot", "by-cam1", 2.0, 3.0), ("land", None, 3.0, 6.0)]
+    track = DroneTrajectory("cam1", curve, tuple(Phase(*cut) for cut in cuts), (), ())
+    return VerifiedIR(replace(plan.trajectory, drones=(track,)), plan.certificate)
+
+
 def _above(pad, far):
     return np.array([*pad[:2], 5.0, far[3], far[4], far[5], far[6]])
 

@@ -44,6 +44,10 @@ class DrivenClock:
             autopilot.run(self.time)
 
 
+def endpoints_of(ports):
+    return {name: Endpoint("127.0.0.1", port, False) for name, port in ports.items()}
+
+
 def free_port():
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         probe.bind(("127.0.0.1", 0))
@@ -91,7 +95,7 @@ class World:
 
     @property
     def endpoints(self):
-        return {name: Endpoint("127.0.0.1", port, False) for name, port in self.ports.items()}
+        return endpoints_of(self.ports)
 
     def check(self):
         found = self.session.open(self.endpoints, self.targets)
