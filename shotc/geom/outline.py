@@ -19,7 +19,8 @@ from shotc.geom.silhouette import shape_contour
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks, within
 from shotc.geom.solids import Cylinder, Solid
-from shotc.geom.surface.sight import Billboards, billboards, cells_of, stopped
+from shotc.geom.surface.boards import Billboards, billboards, cells_of
+from shotc.geom.surface.sight import stopped
 from shotc.geom.surface.tree import Pairs, Surface
 from shotc.geom.vec import Vec3
 

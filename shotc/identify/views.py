@@ -13,10 +13,11 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.camera import ScreenBox, View, view
 from shotc.geom.pieces import Mask
+from shotc.geom.surface.boards import Billboards
 from shotc.geom.surface.hits import first_hits
-from shotc.geom.surface.sight import Billboards
 from shotc.geom.surface.tree import Surface
 from shotc.geom.vec import Vec2, Vec3
+from shotc.ir.hiding_surfaces import DISC_SPACINGS
 from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import ground_heights
 
@@ -26,8 +27,6 @@ SKY, GROUND = -1, -2
 """Instead of the number of a mesh: nothing is met, or the ground is."""
 ON_GROUND_M = 0.5
 """Height above ground up to which what is met counts as ground."""
-DISC_SPACINGS = 4.0
-"""Radius of the discs that stand for a cloud's points, in halves of their spacing: few rays slip through."""
 _Kind = TypeVar("_Kind", bound=np.generic)
 FRAME = ScreenBox(-1.0, 1.0, -1.0, 1.0)
 

@@ -7,6 +7,7 @@ mesh lies within the bodies of a standing target, or OWN_M about them, is its ow
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -14,16 +15,26 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
+from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Solid
-from shotc.geom.surface.sight import hidden, upright
+from shotc.geom.surface.boards import upright
+from shotc.geom.surface.cloud import splats
+from shotc.geom.surface.sight import hidden
 from shotc.geom.surface.tree import Surface, surface_of
+from shotc.geom.surface.triangles import without_size
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 
 OWN_M = 0.5
 """Metres about a target's bodies: footprints and scans are rarely as exact as the author's numbers."""
+
+DISC_SPACINGS = 4.0
+"""Radius of the discs that stand for a cloud's points, in halves of their spacing: few rays slip through."""
+
+MOST_DISCS = 200_000
+"""Of a cloud; where there would be more they are larger, and fewer."""
 
 RAYS = 3
 """Along each side of what stands in for a target where viewpoints are chosen."""
@@ -95,8 +106,24 @@ def _without(mesh: ObstacleMesh, own: tuple[Solid, ...]) -> NamedParts:
     beside = np.zeros(len(corners), dtype=bool)
     for solid in own:
         beside |= distances(solid, corners) <= OWN_M
-    others = ~beside.reshape(-1, 3).all(axis=1)
+    others: Mask = ~np.asarray(beside.reshape(-1, 3).all(axis=1))
+    if mesh.spacing > 0.0:
+        return _of_discs(mesh, others)
     if others.all():
         return NamedParts(mesh, mesh.surface, part)
     surface = surface_of(mesh.surface.triangles[others])
     return NamedParts(mesh, surface, part[others][surface.source])
+
+
+def _of_discs(mesh: ObstacleMesh, which: Mask) -> NamedParts:
+    """Return those triangles of a mesh with loose points, and the discs that stand for the points."""
+    triangles, part = mesh.surface.triangles[which], mesh.part[mesh.surface.source][which]
+    loose = without_size(triangles)
+    disc = DISC_SPACINGS * mesh.spacing
+    if loose.any():
+        kept = splats(triangles[loose, 0], disc, MOST_DISCS)
+        points = np.repeat(kept.middle[:, None, :], 3, axis=1)
+        triangles = np.concatenate([triangles[~loose], points])
+        part, disc = np.concatenate([part[~loose], part[loose][kept.first]]), kept.size
+    surface = replace(surface_of(triangles), disc=disc)
+    return NamedParts(mesh, surface, part[surface.source])

@@ -145,7 +145,23 @@ class HeightRangeType(_Counted):
         return HeightRange(low, high, ground=above == "ground")
 
 
+class LiftType(_Counted):
+    """The height of a target over its track, or over the ground that it keeps to."""
+
+    label = "Lift"
+    item = _LENGTH
+    sources = ("ground",)
+
+    def read(self, value: Any) -> float | AboveGround:
+        """Return a height over the places of a track, or over the ground below them, metres."""
+        if isinstance(value, AboveGround):
+            return value
+        height, above = self.parts(value)
+        return float(height) if above is None else AboveGround(height)
+
+
 HEIGHT = HeightType()
+Lift = Annotated[float | AboveGround, LiftType()]
 
 CameraAltitude = Annotated[Altitude, AltitudeType("CameraAltitude", _LENGTH)]
 CameraAltitudeSpan = Annotated[Altitude, AltitudeType("CameraAltitudeSpan", Span("LengthSpan", _LENGTH))]

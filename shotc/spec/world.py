@@ -12,7 +12,6 @@ from shotc.spec.fields import (
     Duration,
     Heading,
     Heights,
-    Length,
     Name,
     NonNegativeDuration,
     Plan,
@@ -24,6 +23,7 @@ from shotc.spec.fields import (
     Velocity,
 )
 from shotc.spec.fieldtypes import Integer
+from shotc.spec.heights import Lift
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.places import Altitude, Latitude, Longitude
 from shotc.spec.rehearse import WindSpec
@@ -100,10 +100,11 @@ class TrackSpec(Model):
         default=None,
         description="standard deviation, over time, of the weights by which the file's rows are smoothed",
     )
-    lift: Length | None = Field(
+    lift: Lift | None = Field(
         default=None,
         description="height of the target's centre over the places of the track, or over the ground where "
-        "they have no height: half its own there if silent, else 0",
+        "they have no height: half its own there if silent, else 0; {above: ground, height} leaves their "
+        "heights out",
     )
     begins: NonNegativeDuration | None = Field(
         default=None,

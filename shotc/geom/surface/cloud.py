@@ -37,24 +37,48 @@ def cloud_of(points: Array) -> Cloud:
     return Cloud(surface_of(np.repeat(kept[:, None, :], 3, axis=1)), moved)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Splats:
+    """Few places that stand for a cloud: one in each cell of a grid that has points.
+
+    middle : of the boxes round the points of each cell, (M, 3), metres; first : one of its points, (M,)
+    size   : of the cells, metres
+    """
+
+    middle: Array
+    first: IntArray
+    size: float
+
+
+def splats(points: Array, size: float, most: int) -> Splats:
+    """Return at most so many places for points (N, 3), one at least, in cells of a size or larger, metres."""
+    while True:
+        order, begins = _in_cells(points, size)
+        if len(begins) <= most:
+            lowest, highest = _boxes(points[order], begins)
+            return Splats(np.asarray(0.5 * (lowest + highest)), order[begins], size)
+        size *= max(_LARGER, _LARGER * float(np.sqrt(len(begins) / most)))  # most clouds are of faces
+
+
 def _thinned(points: Array, most: int) -> tuple[Array, float]:
     """Return the middles of the boxes round the points of each cell, and how far a point is from its own."""
-    low = points.min(axis=0)
-    size = float(np.ptp(points, axis=0).max()) / _FIRST_CELLS
-    while True:
-        cell = ((points - low) / max(size, 1e-9)).astype(np.int64)
-        key = (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]
-        order = np.argsort(key, kind="stable")
-        begins = np.flatnonzero(np.concatenate([[True], np.diff(key[order]) > 0]))
-        if len(begins) <= most:
-            break
-        size *= max(_LARGER, _LARGER * float(np.sqrt(len(begins) / most)))  # most clouds are of faces
-    ordered = points[order]
-    lowest, highest = np.minimum.reduceat(ordered, begins), np.maximum.reduceat(ordered, begins)
-    middle = np.asarray(0.5 * (lowest + highest))
+    kept = splats(points, float(np.ptp(points, axis=0).max()) / _FIRST_CELLS, most)
+    order, begins = _in_cells(points, kept.size)
     counts = np.diff(np.append(begins, len(points)))
-    moved = np.linalg.norm(ordered - np.repeat(middle, counts, axis=0), axis=1).max()
-    return middle, float(moved)
+    moved = np.linalg.norm(points[order] - np.repeat(kept.middle, counts, axis=0), axis=1).max()
+    return kept.middle, float(moved)
+
+
+def _in_cells(points: Array, size: float) -> tuple[IntArray, IntArray]:
+    """Return an order of points, (N,), cell by cell, and where each cell begins in it."""
+    cell = ((points - points.min(axis=0)) / max(size, 1e-9)).astype(np.int64)
+    key = (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]
+    order = np.argsort(key, kind="stable")
+    return order, np.flatnonzero(np.concatenate([[True], np.diff(key[order]) > 0]))
+
+
+def _boxes(ordered: Array, begins: IntArray) -> tuple[Array, Array]:
+    return np.minimum.reduceat(ordered, begins), np.maximum.reduceat(ordered, begins)
 
 
 def median_spacing(surface: Surface) -> float:

@@ -12,10 +12,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.pieces import Mask
-from shotc.geom.surface.sight import PAIRS_AT_ONCE, Billboards, candidates, cells
+from shotc.geom.surface.boards import Billboards, cells
+from shotc.geom.surface.sight import PAIRS_AT_ONCE, candidates
 from shotc.geom.surface.tree import Surface
-from shotc.geom.surface.triangles import cross, dot
+from shotc.geom.surface.triangles import cross, dot, without_size
 
 FRAMES_AT_ONCE = 64
 """Frames whose pairs with triangles fit the memory, as far as rays without an end go."""
@@ -41,7 +41,7 @@ def first_hits(surface: Surface, boards: Billboards, n: int, disc: float = 0.0) 
     """
     share = np.full((len(boards), n * n), np.inf)
     triangle = np.full((len(boards), n * n), NOTHING, dtype=np.intp)
-    points = _points(surface) if disc > 0.0 else None
+    points = without_size(surface.triangles) if disc > 0.0 else None
     for start in range(0, len(boards), FRAMES_AT_ONCE):
         which = slice(start, start + FRAMES_AT_ONCE)
         some = boards.pick(which)
@@ -62,12 +62,6 @@ def first_hits(surface: Surface, boards: Billboards, n: int, disc: float = 0.0) 
             share[frame] = np.where(closer, least, share[frame])
             triangle[frame] = np.where(closer, nearest, triangle[frame])
     return Hits(share.reshape(-1, n, n), triangle.reshape(-1, n, n))
-
-
-def _points(surface: Surface) -> Mask:
-    """Tell which triangles have no size."""
-    corners = surface.triangles
-    return np.asarray((corners[:, 0] == corners[:, 1]).all(axis=1) & (corners[:, 0] == corners[:, 2]).all(1))
 
 
 def _shares(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Array:

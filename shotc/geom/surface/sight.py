@@ -6,7 +6,6 @@ the cell: three products a triangle serve all rays (watertight on common sides, 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import sqrt
 
@@ -15,8 +14,10 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
+from shotc.geom.surface.boards import Billboards, billboards, cells
+from shotc.geom.surface.discs import stopped_by_discs
 from shotc.geom.surface.tree import Meets, Pairs, Surface, search
-from shotc.geom.surface.triangles import cross, dot, highest, lowest
+from shotc.geom.surface.triangles import cross, dot, highest, lowest, without_size
 
 FRAMES_AT_ONCE = 256
 """Frames whose pairs with triangles fit the cache."""
@@ -32,70 +33,6 @@ BESIDE_M = 1e-6
 _NONE = 1e-300  # instead of a length that is none, so that what is divided by it is far beyond any share
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Billboards:
-    """A parallelogram a frame, and the eye that looks at it; all of shape (F, 3), metres of W.
-
-    Its points are corner + a right + b up, 0 <= a, b <= 1.
-    """
-
-    eye: Array
-    corner: Array
-    right: Array
-    up: Array
-
-    def __len__(self) -> int:
-        return len(self.eye)
-
-    def pick(self, which: Mask | slice) -> Billboards:
-        """Return those of some frames, by a mask (F,) or a slice."""
-        return Billboards(self.eye[which], self.corner[which], self.right[which], self.up[which])
-
-    def mapped(self, put: Callable[[Array], Array]) -> Billboards:
-        """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
-        corner = put(self.corner)
-        right, up = (put(self.corner + side) - corner for side in (self.right, self.up))
-        return Billboards(put(self.eye), corner, right, up)
-
-
-def billboards(eye: Array, centre: Array, width: Array | float, height: Array | float) -> Billboards:
-    """Return the rectangles that face eyes (F, 3) about centres (F, 3), with level lower sides; metres.
-
-    width, height : (F,) or one for all. Seen from straight above, the lower side faces South.
-    """
-    away = centre - eye
-    level = np.column_stack([away[:, 1], -away[:, 0], np.zeros(len(away))])
-    size = np.linalg.norm(level, axis=1)
-    level[size <= 0.0] = [1.0, 0.0, 0.0]
-    level /= np.linalg.norm(level, axis=1)[:, None]
-    steep = cross(level, away)
-    steep /= np.maximum(np.linalg.norm(steep, axis=1), _NONE)[:, None]
-    right = level * np.broadcast_to(width, (len(eye),))[:, None]
-    up = steep * np.broadcast_to(height, (len(eye),))[:, None]
-    return Billboards(eye, centre - 0.5 * (right + up), right, up)
-
-
-def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
-    """Return the least such rectangles that hold what upright cylinders at centres (F, 3) show from far."""
-    away = centre - eye
-    far = np.maximum(np.linalg.norm(away, axis=1), _NONE)
-    upright = np.hypot(away[:, 0], away[:, 1]) / far
-    shown = height * upright + 2.0 * radius * np.abs(away[:, 2]) / far
-    return billboards(eye, centre, 2.0 * radius, shown)
-
-
-def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
-    """Return upright rectangles before upright cylinders about centres (F, 3), on the sides of eyes (F, 3).
-
-    What is within a cylinder's radius is behind its rectangle, but for what stands over the cylinder.
-    """
-    level = (eye - centre) * [1.0, 1.0, 0.0]
-    level /= np.maximum(np.linalg.norm(level, axis=1, keepdims=True), _NONE)
-    right = 2.0 * radius * np.column_stack([-level[:, 1], level[:, 0], level[:, 2]])
-    up = np.broadcast_to(np.array([0.0, 0.0, height]), eye.shape)
-    return Billboards(eye, centre + radius * level - 0.5 * (right + up), right, up)
-
-
 def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
     """Tell which of n x n cells a surface hides: shape (F, n, n), along right and up.
 
@@ -105,7 +42,9 @@ def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
     for start in range(0, len(boards), FRAMES_AT_ONCE):
         some = boards.pick(slice(start, start + FRAMES_AT_ONCE))
         reach = np.ones((len(some), n, n))
-        out[start : start + len(some)] = stopped(surface, some, candidates(surface, some), reach)
+        out[start : start + len(some)] = stopped(
+            surface, some, candidates(surface, some, about=surface.disc), reach
+        )
     return out
 
 
@@ -118,9 +57,9 @@ def in_the_way(surface: Surface, boards: Billboards, n: int) -> Pairs:
     items, triangles = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
     for start in range(0, len(boards), FRAMES_AT_ONCE):
         some = boards.pick(slice(start, start + FRAMES_AT_ONCE))
-        pairs = candidates(surface, some)
+        pairs = candidates(surface, some, about=surface.disc)
         corners = surface.triangles[pairs.triangle] - some.eye[pairs.item][:, None]
-        pairs = pairs.pick(_pyramids(some, n).may_meet(pairs.item, corners))
+        pairs = pairs.pick(_pyramids(some, n).may_meet(pairs.item, corners, surface.disc))
         items.append(pairs.item + start)
         triangles.append(pairs.triangle)
     return Pairs(np.concatenate(items), np.concatenate(triangles))
@@ -129,16 +68,23 @@ def in_the_way(surface: Surface, boards: Billboards, n: int) -> Pairs:
 def stopped(surface: Surface, boards: Billboards, pairs: Pairs, reach: Array) -> Mask:
     """Tell which rays the triangles of some pairs stop, shape (F, n, n).
 
-    pairs : of a frame and a triangle, as ``in_cones`` returns them
+    pairs : of a frame and a triangle, as ``in_the_way`` returns them
     reach : share of the way to a cell at which its ray ends, (F, n, n), at most 1
     """
     ends = SHORT_OF * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])
     out = np.zeros(ends.shape, dtype=bool)
     for first in range(0, len(pairs), PAIRS_AT_ONCE):
         part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
-        hits = _hits(surface.triangles[part.triangle], boards, (part.item, ends[part.item]))
-        frame, begin = np.unique(part.item, return_index=True)
-        out[frame] |= np.logical_or.reduceat(hits, begin, axis=0)
+        triangles = surface.triangles[part.triangle]
+        if surface.disc > 0.0:
+            loose = without_size(triangles)
+            of, to = (triangles[loose, 0], part.item[loose]), ends.reshape(reach.shape)
+            out[stopped_by_discs(of, boards, to, surface.disc)] = True
+            part, triangles = part.pick(~loose), triangles[~loose]
+        if len(part):
+            hits = _hits(triangles, boards, (part.item, ends[part.item]))
+            frame, begin = np.unique(part.item, return_index=True)
+            out[frame] |= np.logical_or.reduceat(hits, begin, axis=0)
     return out.reshape(reach.shape)
 
 
@@ -181,16 +127,27 @@ class _Pyramids:
     ends: Array
     sides: Array
 
-    def may_meet(self, frame: IntArray, corners: Array) -> Mask:
-        """Tell which triangles (K, 3, 3), from the eyes of frames (K,), are not parted from their rays."""
+    def may_meet(self, frame: IntArray, corners: Array, disc: float) -> Mask:
+        """Tell which triangles (K, 3, 3), from the eyes of frames (K,), are not parted from their rays.
+
+        disc : radius of those without size, metres
+        """
+        beside = max(BESIDE_M, disc)
+        if disc > 0.0 and without_size(corners).all():
+            may, corners = np.ones(len(frame), dtype=bool), corners[:, :1]
+        else:
+            may = self._reach_planes(frame, corners, beside)
+        inside = np.einsum("ksd,kvd->vsk", self.sides[frame[may]], corners[may])
+        may[may] = inside.max(axis=0).min(axis=0) >= -beside
+        return np.asarray(may)
+
+    def _reach_planes(self, frame: IntArray, corners: Array, beside: float) -> Mask:
+        """Tell the planes of which triangles rays come to, or as near as that, metres."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]
         far = dot(normal, corners[:, 0])
         nearest = (np.einsum("kd,ked->ek", normal, self.ends[frame]) * np.sign(far)).max(axis=0)
-        may = np.abs(far) - nearest <= BESIDE_M
-        inside = np.einsum("ksd,kvd->vsk", self.sides[frame[may]], corners[may])
-        may[may] = inside.max(axis=0).min(axis=0) >= -BESIDE_M
-        return np.asarray(may)
+        return np.asarray(np.abs(far) - nearest <= beside)
 
 
 def _pyramids(boards: Billboards, n: int) -> _Pyramids:
@@ -262,16 +219,3 @@ def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> M
     # The sum is the product with the triangle's own plane; the volume over it, the share of the way.
     whole = products[0] + products[1] + products[2]
     return np.asarray(inside & (whole * ends > np.abs(volume)[:, None]) & (volume != 0.0)[:, None])
-
-
-def cells_of(boards: Billboards, n: int) -> Array:
-    """Return the middles of all cells, shape (F n n, 3), metres of W."""
-    sides = np.stack([boards.corner, boards.right, boards.up], axis=1)
-    return np.asarray(cells(n).T @ sides).reshape(-1, 3)
-
-
-def cells(n: int) -> Array:
-    """Return 1, a and b of all cells' middles, shape (3, n * n)."""
-    middle = (np.arange(n) + 0.5) / n
-    a, b = np.meshgrid(middle, middle, indexing="ij")
-    return np.stack([np.ones(n * n), a.ravel(), b.ravel()])

@@ -43,12 +43,14 @@ class Surface:
     triangles : shape (N, 3, 3), metres of W; those of a leaf follow one another
     source    : shape (N,), which triangle of those given each one is, or is a part of
     low, high : corners of boxes, one array (n, 3) a level: leaves first, at most TOP nodes last
+    disc      : radius of the discs as which triangles without size hide, metres; 0 where they hide nothing
     """
 
     triangles: Array
     source: IntArray
     low: tuple[Array, ...]
     high: tuple[Array, ...]
+    disc: float = 0.0
 
     def __len__(self) -> int:
         return len(self.triangles)

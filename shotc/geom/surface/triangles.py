@@ -40,6 +40,12 @@ def highest(corners: Array) -> Array:
     return np.asarray(np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2]))
 
 
+def without_size(triangles: Array) -> Mask:
+    """Tell which triangles (K, 3, 3) are points; (K,)."""
+    first = triangles[:, 0]
+    return np.asarray(((first == triangles[:, 1]) & (first == triangles[:, 2])).all(axis=1))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Closest:
     """Points of triangles, shape (K, 3), and how far they are from what was asked, (K,), metres."""

@@ -195,6 +195,10 @@ def test_a_recording_is_looked_at_along_all_its_rows(folder):
         (folder / "ride.csv").write_text(text)
         found = faults(TRACKED.replace("TRACK", "{file: ride.csv}"), folder)
         assert {d.code for d in found} & {"G018"} == codes
+        over = "lift: {above: ground, height: 0.90 m}"
+        assert all(over in (d.help or "") for d in found if d.code == "G018")
+        mended = faults(TRACKED.replace("TRACK", f"{{file: ride.csv, {over}}}"), folder)
+        assert "G018" not in {d.code for d in mended}
 
 
 BEYOND = [

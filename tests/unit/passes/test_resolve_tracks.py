@@ -375,6 +375,21 @@ def test_a_lift_puts_the_centre_over_what_is_recorded(tmp_path: Path) -> None:
     assert [p[2] for p in points.points] == [2.5, 4.5]
 
 
+def test_a_lift_above_ground_leaves_heights_out(tmp_path: Path) -> None:
+    lift = ", lift: {above: ground, height: 1.1 m}"
+    for recording in ("t,x,y,z\n0,0,0,2\n9,9,0,4\n", "t,x,y,z\n0,0,0,-7\n9,9,0,40\n"):
+        track = track_of(above(recorded(tmp_path, recording) + lift), tmp_path)
+        assert [p[2] for p in track.points] == [1.1, 1.1]
+    track = track_of(above("points: [[0, 0, 2], [9, 0, 4]], speed: 1" + lift))
+    assert [p[2] for p in track.points] == [1.1, 1.1]
+
+
+def test_a_lift_counts_from_the_track_or_the_ground_alone() -> None:
+    told = only(above("points: [[0, 0, 2], [9, 0, 4]], speed: 1, lift: {above: origin, height: 1}"))
+    assert told.code == "S007"
+    assert "`above: ground`" in (told.help or "")
+
+
 @pytest.mark.parametrize(("lift", "z"), [("", 0.9), (", lift: 1.2", 1.2)])
 @pytest.mark.parametrize(
     "track",

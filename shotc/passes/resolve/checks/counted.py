@@ -35,7 +35,7 @@ class _Counted(NamedTuple):
 def check_counted(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[Diagnostic]:
     """Yield the targets, tracks and zones that count from ground that there is not.
 
-    level : names of targets whose tracks are of files without heights
+    level : names of targets whose tracks keep to the ground, whatever their places
     """
     terrain = mission.terrain
     if terrain is None:
@@ -69,7 +69,8 @@ def _targets(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> It
                 yield _Counted(words, (*target.path, *key), ((x, y),))
         if target.name in level and target.track is not None:
             places = tuple((x, y) for x, y, _ in target.track.points)
-            yield _Counted(words, (*target.path, "track", "file"), places)
+            of_file = written.track is not None and written.track.file is not None
+            yield _Counted(words, (*target.path, "track", "file" if of_file else "lift"), places)
 
 
 def _written(target: TargetSpec) -> Iterator[tuple[KeyPath, Place]]:

@@ -14,6 +14,7 @@ from shotc.ir.target import Target
 from shotc.kinds.base import stands
 from shotc.passes.resolve.lower.world import BURIED
 from shotc.rounding import at_least
+from shotc.spec.heights import AboveGround
 from shotc.spec.mission import MissionSpec
 from shotc.spec.world import TrackSpec
 
@@ -28,7 +29,7 @@ class _Deepest(NamedTuple):
 def check_underground(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[Diagnostic]:
     """Warn of every target that is deeper in the ground than its place may be rounded.
 
-    level : names of targets whose tracks are of files without heights
+    level : names of targets whose tracks keep to the ground, whatever their places
     """
     for target in mission.targets:
         written = spec.targets[str(target.path[1])].track
@@ -61,8 +62,7 @@ def _moving(mission: MissionIR, target: Target, written: TrackSpec, *, level: bo
         return
     x, y, z = target.foot_at(deepest.time)
     key = "file" if written.file is not None else "start" if written.points is None else "points"
-    stood = target.height / 2 if level or _without_heights(written) else 0.0
-    lift = (stood if written.lift is None else written.lift) - deepest.over
+    on_ground = level or _without_heights(written)
     yield Diagnostic(
         "G018",
         f"target `{target.name}` reaches {-deepest.over:.2f} m into the ground on its way",
@@ -72,8 +72,25 @@ def _moving(mission: MissionIR, target: Target, written: TrackSpec, *, level: bo
             f"the ground at z = {z - deepest.over:.2f}",
             "it goes straight from row to row, and the rows are its middle",
         ),
-        f"write `lift: {at_least(lift)} m` in the track, or give rows nearer to each other there",
+        _higher(target, written, -deepest.over, on_ground=on_ground),
     )
+
+
+def _higher(target: Target, written: TrackSpec, by: float, *, on_ground: bool) -> str:
+    """Say how a track leaves the ground.
+
+    by : metres that it is to be raised; on_ground : whether its places have no height
+    """
+    half, closer = target.height / 2, "or give rows nearer to each other there"
+    if isinstance(written.lift, AboveGround):
+        height = at_least(written.lift.height + by)
+        return f"write `lift: {{above: ground, height: {height} m}}` in the track, {closer}"
+    now = written.lift if written.lift is not None else half if on_ground else 0.0
+    raised = f"write `lift: {at_least(now + by)} m` in the track"
+    if on_ground:
+        return f"{raised}, {closer}"
+    keeps = f"`lift: {{above: ground, height: {at_least(half)} m}}` if it keeps to the ground"
+    return f"{raised}, or {keeps}, {closer}"
 
 
 def _deepest(mission: MissionIR, target: Target, track: Track) -> _Deepest | None:

@@ -17,9 +17,8 @@ from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.recordings import Recording, read_recording
 from shotc.passes.resolve.lower.track_jumps import Course, check_gap, check_jump, check_velocity
 from shotc.passes.resolve.lower.world import Put
-from shotc.spec.heights import STANDING
+from shotc.spec.heights import STANDING, AboveGround
 from shotc.spec.mission import MissionSpec
-from shotc.spec.places import Geodetic, Spot
 from shotc.spec.presets import TOP_SPEED
 from shotc.spec.world import TargetSpec, TrackSpec
 
@@ -30,7 +29,7 @@ FEW = 12  # times that are written out in a help
 class Tracks(NamedTuple):
     """The tracks that can be used, by target, and what is wrong with the others.
 
-    level : the targets whose tracks are of files without heights
+    level : the targets whose tracks keep to the ground: of files without heights, or lifted over it
     """
 
     tracks: Mapping[str, Track]
@@ -58,7 +57,7 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
         faults += wrong
         if not wrong:
             tracks[name] = _finished(target, track, put)
-            level |= {name} if track.level else set()
+            level |= {name} if track.level or isinstance(target.track.lift, AboveGround) else set()
             gap = check_gap(course, files.origins) if course.file else None
             faults += [] if gap is None else [gap]
     return Tracks(tracks, tuple(faults), frozenset(level))
@@ -68,13 +67,16 @@ def _standing(target: TargetSpec, put: Put) -> Put:
     """Return what puts the places of a track into W: its centre, over the ground where it has no height."""
     assert target.track is not None
     lift = target.track.lift
+    if isinstance(lift, AboveGround):
+        over = lift.height
+        return lambda place: _raised(put((*put(place)[:2], STANDING)), over)
     stood = target.tall / 2 if lift is None else lift
+    return lambda place: _raised(put(place), stood if stands(place) else lift or 0.0)
 
-    def centre(place: Spot | Geodetic) -> Vec3:
-        x, y, z = put(place)
-        return (x, y, z + (stood if stands(place) else lift or 0.0))
 
-    return centre
+def _raised(place: Vec3, by: float) -> Vec3:
+    x, y, z = place
+    return (x, y, z + by)
 
 
 def _finished(target: TargetSpec, recording: Recording, put: Put) -> Track:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.surface.boards import Billboards
 from shotc.geom.surface.hits import NOTHING, first_hits
-from shotc.geom.surface.sight import Billboards
 from shotc.geom.surface.tree import surface_of
 from tests.support.meshes import sphere_mesh
 from tests.support.surfaces import some_triangles

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.surface import sight
-from shotc.geom.surface.sight import Billboards, billboards, facing_cylinders, hidden
+from shotc.geom.surface.boards import Billboards, billboards, facing_cylinders
+from shotc.geom.surface.sight import hidden
 from shotc.geom.surface.tree import Surface, surface_of
 from tests.support.surfaces import grid, some_triangles
 

@@ -1,0 +1,76 @@
+"""Points of clouds as what hides: each is a disc across every ray that passes it.
+
+A ray passes few of the points that are in its frame's way, and a point is near few rays of a frame: those
+cells of a billboard are tried about which the point is seen.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.bspline import IntArray
+from shotc.geom.surface.boards import Billboards
+from shotc.geom.surface.triangles import cross, dot
+
+STEEP_COSINE = 0.1
+"""Of the angle between a line of sight and the normal of a billboard: below it all its cells are tried."""
+_NONE = 1e-300
+
+
+def stopped_by_discs(
+    of: tuple[Array, IntArray], boards: Billboards, reach: Array, radius: float
+) -> tuple[IntArray, IntArray]:
+    """Return which rays discs stop: their frames and their cells, (S,), some more than once.
+
+    of : the points, (K, 3), metres of W, and the frame of each, (K,); radius : of the discs, metres
+    reach : share of the way to a cell at which its ray ends, (F, n, n); what is nearer than the radius to
+        that end is one with what the ray leads to
+    """
+    (points, frame), n = of, reach.shape[1]
+    away = points - boards.eye[frame]
+    first, last = _cells_about(away, frame, boards, radius, n)
+    wide = np.maximum(last - first + 1, 0)
+    count = wide[:, 0] * wide[:, 1]
+    pair = np.repeat(np.arange(len(points)), count)
+    number = np.arange(len(pair)) - np.repeat(np.cumsum(count) - count, count)
+    a = first[pair, 0] + number // wide[pair, 1]
+    b = first[pair, 1] + number % wide[pair, 1]
+    its, to = frame[pair], away[pair]
+    way = boards.corner[its] - boards.eye[its]
+    way = way + ((a + 0.5) / n)[:, None] * boards.right[its] + ((b + 0.5) / n)[:, None] * boards.up[its]
+    square = np.maximum(dot(way, way), _NONE)
+    along = dot(to, way) / square
+    off = dot(to, to) - along**2 * square
+    met = (along > 0.0) & (off <= radius**2) & (along + radius / np.sqrt(square) < reach[its, a, b])
+    return its[met], (a * n + b)[met]
+
+
+def _cells_about(
+    away: Array, frame: IntArray, boards: Billboards, radius: float, n: int
+) -> tuple[IntArray, IntArray]:
+    """Return the first and the last cell, along right and up, whose rays may pass points, (K, 2) each.
+
+    away : the points from the eyes of their frames, (K, 3), metres
+    """
+    normal = cross(boards.right, boards.up)
+    normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]
+    corner = boards.corner - boards.eye
+    depth = dot(normal, corner)
+    side = np.sign(depth)
+    far, deep = np.sqrt(dot(away, away)), dot(away, normal[frame]) * side[frame]
+    cosine = (deep - radius) / np.maximum(far, _NONE)
+    clear = (cosine > STEEP_COSINE) & (deep > 2.0 * radius)
+    share = np.where(clear, deep / np.maximum(np.abs(depth), _NONE)[frame], 1.0)
+    on = away / share[:, None] - corner[frame]
+    reach = radius / np.where(clear, share * cosine, 1.0)
+    first, last = np.zeros((2, len(away), 2), dtype=np.intp)
+    for k, way in enumerate((boards.right, boards.up)):
+        square = np.maximum(dot(way, way), _NONE)[frame]
+        at, half = dot(on, way[frame]) / square, reach / np.sqrt(square)
+        low, high = np.ceil((at - half) * n - 0.5), np.floor((at + half) * n - 0.5)
+        first[:, k] = np.where(clear, np.clip(low, 0, n), 0)
+        last[:, k] = np.where(clear, np.clip(high, -1, n - 1), n - 1)
+    behind = deep < -radius
+    last[behind] = first[behind] - 1
+    return first, last
