@@ -17,12 +17,14 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets
-from shotc.ir.limits import Limits, Vec2
+from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.planning.clearances import Clearance
 
 __all__ = [
     "NO_TRAFFIC",
     "USUAL",
+    "USUAL_FRAMING",
+    "Appearance",
     "Array",
     "ChasePlanner",
     "ChaseProblem",
@@ -31,6 +33,11 @@ __all__ = [
     "Clearance",
     "Cone",
     "Cylinder",
+    "FilmedSubject",
+    "FramingPlanner",
+    "FramingProblem",
+    "FramingSituation",
+    "FramingWeights",
     "Horizon",
     "Keeping",
     "Limits",
@@ -163,18 +170,104 @@ class ChaseSituation:
     traffic: Traffic = NO_TRAFFIC
 
 
+class FramingWeights(NamedTuple):
+    """The weights of Naegeli et al., Eq. 14, each a stage; of squares where nothing else is said.
+
+    place : per half frame of a subject off its place (Eq. 7); size : of the logarithm of its size over that
+    wanted (Eq. 8); view : of the distance between unit vectors, from the subject to the camera (Eq. 9)
+    cover : by how much another body covers a subject's point, 1 where it does with its middle; not squared
+        (Eq. 11)
+    field : per metre in the field about a body (Eq. 12)
+    effort : per m/s^2 of acceleration; turning : per rad/s of the camera
+    """
+
+    place: float = 10.0
+    size: float = 2.0
+    view: float = 4.0
+    cover: float = 10.0
+    field: float = 2.0
+    effort: float = 0.02
+    turning: float = 0.05
+
+
+USUAL_FRAMING = FramingWeights()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FramingProblem:
+    """A shot that composes subjects: what holds for all its replans.
+
+    half : tan of half the horizontal and half the vertical field of view
+    rates : greatest yaw and pitch rate of the camera, rad/s
+    """
+
+    horizon: Horizon
+    keeping: Keeping
+    half: Vec2
+    rates: Vec2
+    weights: FramingWeights = USUAL_FRAMING
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Appearance:
+    """How a subject is to appear; None is free.
+
+    uv : place on screen of its point, half frames; size : of its diameter, over the frame's height
+    view : unit vectors from the subject to the camera, at the stages, shape (N + 1, 3)
+    """
+
+    uv: Vec2 | None = None
+    size: float | None = None
+    view: Array | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FilmedSubject:
+    """A subject, or another body that is kept clear of and may cover one.
+
+    point : what of it is framed, at the stages, predicted, shape (N + 1, 3); diameter : of what is sized
+    centre : of its ellipsoid, (N + 1, 3); semi_axes : of that along x, y and z, the drone's radius included
+    wanted : None for a body that is not filmed
+    """
+
+    point: Array
+    centre: Array
+    semi_axes: Vec3
+    diameter: float
+    wanted: Appearance | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FramingSituation:
+    """What is known at the moment of a replan of a shot that composes subjects.
+
+    time : of this moment, mission time; place, velocity : of the drone, measured, shape (3,)
+    aim : yaw and pitch of the camera, W, rad; subjects : the same ones in the same order at every replan
+    """
+
+    time: float
+    place: Array
+    velocity: Array
+    aim: Vec2
+    subjects: tuple[FilmedSubject, ...]
+    traffic: Traffic = NO_TRAFFIC
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
     """The motion that is planned.
 
     times : of the stages, mission time, shape (N + 1,); places, velocities : there, shape (N + 1, 3)
     accelerations : of the steps between them, each held over its step, shape (N, 3)
+    aim : yaw and pitch of the camera at the stages, W, rad, shape (N + 1, 2); yaw is continuous. None where
+        the camera is to look at the target.
     """
 
     times: Array
     places: Array
     velocities: Array
     accelerations: Array
+    aim: Array | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -205,6 +298,14 @@ class ChasePlanner(Protocol):
         ...
 
 
+class FramingPlanner(Protocol):
+    """Plans a shot that composes subjects."""
+
+    def replan(self, situation: FramingSituation, last: Plan | None) -> Replan:
+        """Plan from the measured state on; all as for ``ChasePlanner``, and the plan has an aim."""
+        ...
+
+
 class Replanner(Protocol):
     """What sits in the replanner seat (entry-point group ``shotc.replanners``)."""
 
@@ -214,4 +315,8 @@ class Replanner(Protocol):
 
     def chase(self, problem: ChaseProblem) -> ChasePlanner:
         """Return the planner of a shot of one target."""
+        ...
+
+    def framing(self, problem: FramingProblem) -> FramingPlanner:
+        """Return the planner of a shot that composes subjects."""
         ...

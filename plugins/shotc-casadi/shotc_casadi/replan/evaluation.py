@@ -25,8 +25,8 @@ class Stage(NamedTuple):
     allowed : the nearest input that the vehicle takes, by u and g
     following : the next state, by x, u and g
     residuals : whose squares are the cost, by u, y, p and g
-    rows : what is not negative where it is kept, by u, y, p and g; the worst one of a stage is priced
-    ends : the same of the last stage alone, by y and g
+    rows : what is not negative where it is kept, by u, y, p and g, in groups; the worst one of each is priced
+    ends : more of the first group at the last stage, by y and g
     inputs, states : lower and upper bounds of u, by g, and of y, by p
     """
 
@@ -38,7 +38,7 @@ class Stage(NamedTuple):
     allowed: Any
     following: Any
     residuals: Any
-    rows: Any
+    rows: tuple[Any, ...]
     ends: Any
     inputs: tuple[Any, Any]
     states: tuple[Any, Any]
@@ -47,11 +47,12 @@ class Stage(NamedTuple):
 class Prices(NamedTuple):
     """What steps cost besides.
 
-    lacking : what the worst row of a stage lacks; outside : what a state is out of its bounds, in the merit
+    lacking : what the worst row of a group lacks at a stage, for each group
+    outside : what a state is out of its bounds, in the merit alone
     damping : half the squares of the step itself, never of the slack
     """
 
-    lacking: float
+    lacking: tuple[float, ...]
     outside: float
     damping: float
 
@@ -72,7 +73,7 @@ class Horizon:
 class Motion(NamedTuple):
     """Inputs (N, U) that the vehicle takes, the states (N, X) that they lead to, and what these cost.
 
-    merit : with all prices; worst : what the worst row lacks
+    merit : with all prices; worst : what the worst row of the first group lacks
     """
 
     inputs: Array
@@ -89,23 +90,25 @@ def horizon(stage: Stage, stages: int, prices: Prices) -> Horizon:
     inputs, states = _rolled(s, n)(u, x0, g)
     cost, lack, excess = _judged(s, n)(inputs, states, p, g)
     last, late, slopes_last, laid_last = _ended(s, states[:, -1], g)
-    worst = ca.fmax(lack[-1], late)
-    merit = ca.sum2(cost) + prices.lacking * (ca.sum2(lack) + worst - lack[-1])
-    motion = [inputs, states, merit + prices.outside * ca.sum2(excess), ca.fmax(ca.mmax(lack), late)]
+    price = ca.DM(prices.lacking)
+    more = ca.fmax(late - lack[0, -1], 0)
+    merit = ca.sum2(cost) + ca.dot(price, ca.sum2(lack)) + price[0] * more + prices.outside * ca.sum2(excess)
+    motion = [inputs, states, merit, ca.fmax(ca.mmax(lack[0, :]), late)]
     derived, places = _derived(s, n, prices.damping)
     before = ca.horzcat(x0, states[:, :-1])
     gradient, hessian, rows, kept, onward, driven, low, high = derived(before, inputs, states, p, g)
-    pattern = Pattern(*places, laid_last, s.rows.numel(), s.ends.numel())
+    pattern = Pattern(*places, laid_last, tuple(each.numel() for each in s.rows), s.ends.numel())
     laid = layout(pattern, n, s.u.numel(), s.x.numel())
-    count, many = n * s.x.numel(), n * s.rows.numel() + s.ends.numel()
+    count, many = n * s.x.numel(), laid.bound.shape[0]
+    slack = ca.DM.zeros(len(prices.lacking), n)
     step = [
         _taken(laid.cost.order, [hessian]),
-        _with_slack(gradient, s, ca.DM(1, n) + prices.lacking),
+        _with_slack(gradient, s, ca.repmat(price, 1, n)),
         _taken(laid.motion.order, [driven, -ca.DM.ones(count), onward[:, 1:]]),
         _taken(laid.bound.order, [kept, slopes_last, ca.DM.ones(many)]),
         -ca.vertcat(ca.vec(rows), last),
-        _with_slack(low, s, ca.DM.zeros(1, n)),
-        _with_slack(high, s, ca.DM.inf(1, n)),
+        _with_slack(low, s, slack),
+        _with_slack(high, s, slack + ca.inf),
     ]
     given = [u, x0, p, g]
     made = ca.Function("motion", given, motion), ca.Function("step", given, [*motion, *step])
@@ -189,7 +192,9 @@ def _judged(s: Stage, stages: int) -> Any:
     """Return the function of all stages to cost, lack and excess of each."""
     low, high = s.states
     outside = ca.sum1(ca.fmax(s.y - high, 0) + ca.fmax(low - s.y, 0))
-    one = _function("judged", [s.u, s.y, s.p, s.g], [ca.sumsqr(s.residuals), _lack(s.rows), outside])
+    one = _function(
+        "judged", [s.u, s.y, s.p, s.g], [ca.sumsqr(s.residuals), ca.vertcat(*map(_lack, s.rows)), outside]
+    )
     return one.map("all_judged", "serial", stages, [3], [], {})
 
 
@@ -198,13 +203,14 @@ def _derived(s: Stage, stages: int, damping: float) -> tuple[Any, tuple[Places, 
     w = ca.vertcat(s.u, s.y)
     slope = ca.jacobian(s.residuals, w)
     squares = ca.triu(2 * slope.T @ slope + damping * ca.SX.eye(w.numel()))
-    kept = ca.jacobian(s.rows, w)
+    rows = ca.vertcat(*s.rows)
+    kept = ca.jacobian(rows, w)
     onward, driven = ca.jacobian(s.following, s.x), ca.jacobian(s.following, s.u)
     bounds = [ca.vertcat(i, y) - w for i, y in zip(s.inputs, s.states, strict=True)]
     out = [
         2 * slope.T @ s.residuals,
         _values(squares),
-        s.rows,
+        rows,
         _values(kept),
         _values(onward),
         _values(driven),
@@ -221,7 +227,7 @@ def _ended(s: Stage, end: Any, g: Any) -> tuple[Any, Any, Any, Places]:
 
 
 def _with_slack(of: Any, s: Stage, slack: Any) -> Any:
-    """Return rows of inputs and states with one for the slack between them, stage by stage."""
+    """Return rows of inputs and states with those of the slacks between them, stage by stage."""
     return ca.vec(ca.vertcat(of[: s.u.numel(), :], slack, of[s.u.numel() :, :]))
 
 

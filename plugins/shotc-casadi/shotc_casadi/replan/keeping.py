@@ -15,7 +15,7 @@ from shotc.plugin_api.replanner import Array, Keeping, Traffic
 from shotc_casadi.replan.solids import SHARP_M, TINY_M, Room, count, free_at, half_space, rooms
 
 STANDING_MS = 1e-3
-"""Added to speeds, whose direction would not be known at rest, m/s."""
+"""Added to speeds and accelerations, whose direction would not be known at 0, m/s and m/s^2."""
 REACH_M = 1.0
 """What stands farther off than this and the way of a horizon is left out, metres."""
 FEW = 3
@@ -96,13 +96,14 @@ def each(traffic: Traffic) -> Array:
     return np.hstack(sent)
 
 
-def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
+def rows(of: Kept, state: tuple[Any, Any, Any, Any], p: Any, g: Any) -> Any:
     """Return the rows of a stage, as a column.
 
-    state : place and velocity of the drone and place of the target; p, g : parameters of ``each``, ``common``
+    state : place, velocity and acceleration of the drone, and the unit vector against which its camera looks
+    p, g : parameters of ``each`` and ``common``
     """
-    place, v, target = state
-    step, speed, _, _, apart, half_angle, low, high = ca.vertsplit(g[:LIMITS])
+    place, v, a, back = state
+    step, speed, most, _, apart, half_angle, *_ = ca.vertsplit(g[:LIMITS])
     cut = ca.sumsqr(v) * step**2 / 8
     found = [free_at(shape, place, sizes) - cut * sizes[1] for shape, sizes in _rooms(of, g)]
     for i in range(of.others):
@@ -110,14 +111,15 @@ def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
         d = place - other
         # The way of one as seen from the other is straight, too, between two stages.
         cut = ca.sumsqr(step * v - way) / (8 * ca.fmax(apart, SHARP_M))
-        found.append(_length(d) - apart - cut)
+        found.append(length(d) - apart - cut)
         if of.framed:
-            found.append(beside_cone(d, (place - target) / _length(place - target), half_angle))
+            found.append(beside_cone(d, back, half_angle))
     for i in range(of.cones):
         at = 6 * (of.others + i)
         angle = g[of.common - of.cones + i]
         found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
-    found += _pitched(of, place - target, low, high)
+    # What is beyond is cut off before it is flown; a step that does not know it leads nowhere.
+    found.append(most - ca.sqrt(ca.sumsqr(a) + STANDING_MS**2))
     found.append(speed - ca.sqrt(ca.sumsqr(v[:2]) + STANDING_MS**2))
     return ca.vertcat(*found)
 
@@ -145,7 +147,7 @@ def beside_cone(d: Any, axis: Any, half_angle: Any) -> Any:
     across = ca.sqrt(ca.fmax(ca.sumsqr(d) - along**2, 0) + TINY_M**2)
     sine, cosine = ca.sin(half_angle), ca.cos(half_angle)
     behind = cosine * along + sine * across < 0
-    return ca.if_else(behind, _length(d), cosine * across - sine * along)
+    return ca.if_else(behind, length(d), cosine * across - sine * along)
 
 
 def _rooms(of: Kept, g: Any) -> Iterator[tuple[int, Any]]:
@@ -155,16 +157,21 @@ def _rooms(of: Kept, g: Any) -> Iterator[tuple[int, Any]]:
         at += count(shape)
 
 
-def _pitched(of: Kept, q: Any, low: Any, high: Any) -> list[Any]:
-    # Distances from the cones of the lowest and the highest line of sight; Eq. 12.g of Alcantara et al.
+def pitched(of: Kept, q: Any, g: Any) -> Any:
+    """Return the distances from the cones of the lowest and the highest line of sight, as a column.
+
+    Alcantara et al., Eq. 12.g. q : from the target to the camera
+    """
+    low, high = g[6], g[7]
     flat = ca.sqrt(ca.sumsqr(q[:2]) + TINY_M**2)
     found = []
     if of.low:
         found.append(-ca.sin(low) * flat - ca.cos(low) * q[2])
     if of.high:
         found.append(ca.sin(high) * flat + ca.cos(high) * q[2])
-    return found
+    return ca.vertcat(*found)
 
 
-def _length(d: Any) -> Any:
+def length(d: Any) -> Any:
+    """Return the length of a vector, whose slope is known at 0, too."""
     return ca.sqrt(ca.sumsqr(d) + TINY_M**2)

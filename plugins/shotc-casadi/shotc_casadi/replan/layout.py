@@ -1,6 +1,6 @@
 """Where the entries of a step's quadratic programme stand.
 
-The unknowns of a stage are the change of its input, its slack, and the change of the state it leads to. The
+The unknowns of a stage are the change of its input, its slacks, and the change of the state it leads to. The
 measured state is no unknown, so nothing is fixed.
 """
 
@@ -22,7 +22,7 @@ class Pattern(NamedTuple):
 
     hessian : of the upper triangle, by input and next state; onward, driven : of the next state, by the state
     and by the input; kept : of the rows, by input and next state; ends : of those of the end, by the state
-    rows : how many of each stage; last : how many at the end
+    rows : how many of each stage there are with each slack; last : how many at the end, with the first slack
     """
 
     hessian: Places
@@ -30,7 +30,7 @@ class Pattern(NamedTuple):
     driven: Places
     kept: Places
     ends: Places
-    rows: int
+    rows: tuple[int, ...]
     last: int
 
 
@@ -62,10 +62,10 @@ class Layout(NamedTuple):
 
 def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> Layout:
     """Return the matrices of so many stages."""
-    p, n = pattern, stages
-    width = inputs + states + 1
-    place = np.delete(np.arange(width), inputs)
-    after, first = np.arange(states) + inputs + 1, width * np.arange(n)[:, None]
+    p, n, slacks = pattern, stages, len(pattern.rows)
+    width = inputs + slacks + states
+    after, first = np.arange(states) + inputs + slacks, width * np.arange(n)[:, None]
+    place = np.append(np.arange(inputs), after)
     line, size, count = states * np.arange(n)[:, None], n * width, n * states
     cost = _sparse([first + place[p.hessian[0]]], [first + place[p.hessian[1]]], (size, size))
     motion = _sparse(
@@ -73,9 +73,11 @@ def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> Layout:
         [first + p.driven[1], first + after, first[:-1] + after[p.onward[1]]],
         (count, size),
     )
-    rows, ends = p.rows * np.arange(n)[:, None], n * p.rows + np.arange(p.last)
-    number = np.arange(n * p.rows + p.last)
-    slack = np.append(np.repeat(first, p.rows), np.full(p.last, first[-1])) + inputs
+    many = sum(p.rows)
+    rows, ends = many * np.arange(n)[:, None], n * many + np.arange(p.last)
+    number = np.arange(n * many + p.last)
+    own = first + inputs + np.repeat(np.arange(slacks), p.rows)
+    slack = np.append(own.ravel(), np.full(p.last, first[-1] + inputs))
     bound = _sparse(
         [rows + p.kept[0], ends[p.ends[0]], number],
         [first + place[p.kept[1]], first[-1] + after[p.ends[1]], slack],

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from shotc.plugin_api.replanner import ChasePlanner, ChaseProblem
+from shotc.plugin_api.replanner import ChasePlanner, ChaseProblem, FramingPlanner, FramingProblem
 from shotc_casadi.replan.chase import Chase
+from shotc_casadi.replan.framing import Framing
 
 
 class Ours:
@@ -18,6 +19,10 @@ class Ours:
     def chase(self, problem: ChaseProblem) -> ChasePlanner:
         """Return the planner of a shot of one target."""
         return Chase(problem)
+
+    def framing(self, problem: FramingProblem) -> FramingPlanner:
+        """Return the planner of a shot that composes subjects."""
+        return Framing(problem)
 
 
 OURS = Ours()

@@ -1,0 +1,121 @@
+"""What all planners do: keep what is kept, continue the plan that is flown, and tell what was done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from math import isfinite
+
+import numpy as np
+
+from shotc.plugin_api.replanner import (
+    NO_TRAFFIC,
+    Array,
+    Keeping,
+    Plan,
+    Replan,
+    Status,
+    Traffic,
+)
+from shotc.plugin_api.replanner import Horizon as Ahead
+from shotc_casadi.replan.evaluation import Horizon
+from shotc_casadi.replan.keeping import Kept, Standing, common, each, kept
+from shotc_casadi.replan.steps import Solver, Walk
+
+BEYOND = "the motion from here is beyond all numbers"
+BOUNDS = 6
+"""The first parameters of a stage: lower and upper bounds of the velocity."""
+
+
+class Flight:
+    """The solvers of one shot, one for each number of other drones and of what stands near.
+
+    Parameters of a stage begin with the bounds of the velocity and end with those of ``keeping.each``;
+    parameters of all end with those of ``keeping.common``. What is between is the planner's.
+    """
+
+    def __init__(
+        self,
+        keeping: Keeping,
+        ahead: Ahead,
+        made: Callable[[Kept], Horizon],
+        begun: Callable[[Solver], None],
+    ) -> None:
+        """Make the solver of a shot without traffic.
+
+        made : returns a horizon; begun : writes into a new solver what never changes
+        """
+        limits, n = keeping.limits, ahead.stages
+        self._keeping, self._step, self._made, self._begun = keeping, ahead.step, made, begun
+        self._standing = Standing(keeping)
+        self._solvers: dict[Kept, Solver] = {}
+        self.times = ahead.step * np.arange(n + 1)
+        self._way = float(self.times[-1])  # at a metre a second
+        self._back = limits.acceleration / np.sqrt(3.0) * self.times[1:, None] * np.ones(3)
+        self._lowest = np.array([-limits.speed, -limits.speed, -limits.descent])
+        self._highest = np.array([limits.speed, limits.speed, limits.climb])
+        self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))
+
+    def solver(self, place: Array, v: Array, traffic: Traffic) -> tuple[Solver, bool]:
+        """Return the solver with all that is kept written, and whether the velocity opens its bounds.
+
+        place, v : of the drone, shape (3,), written as the beginning of the measured state
+        """
+        fastest = max(self._keeping.limits.speed, float(np.linalg.norm(v)))
+        near = self._standing.near(place, fastest * self._way)
+        of = kept(self._keeping, near, traffic)
+        solver = self._solver(of)
+        into = solver.evaluation
+        into.start[:3], into.start[3:6] = place, v
+        if of.each:
+            into.given[:, -of.each :] = each(traffic)
+        angles = [cone.half_angle for cone in traffic.cones]
+        into.common[len(into.common) - of.common :] = common(self._keeping, near, self._step) + angles
+        return solver, self._bound(into.given, v)
+
+    def index(self, time: float, last: Plan) -> Array:
+        """Return which steps of the last plan those from now on are, (N,); its N-th is past its end."""
+        now = (time + self.times[:-1] - last.times[0]) / self._step
+        return np.asarray(np.fmin(np.fmax(now + 1e-6, 0.0), len(last.accelerations)).astype(np.int64))
+
+    def told(self, solver: Solver, done: Walk, time: float, widened: bool) -> Replan:
+        """Return what steps from a measured state came to."""
+        motion = done.motion
+        if not (isfinite(motion.worst) and isfinite(motion.states.sum())):
+            return Replan(None, "failed", BEYOND)
+        states = np.concatenate([solver.evaluation.start[None], motion.states])
+        aim = states[:, 6:8] if states.shape[1] > 6 else None
+        times = np.asarray(self.times + time)
+        plan = Plan(times, states[:, :3], states[:, 3:6], motion.inputs[:, :3], aim)
+        opened = done.opened or widened
+        status: Status = "stalled" if done.stalled else "opened" if opened else "planned"
+        return Replan(plan, status, "", motion.worst, done.steps)
+
+    def _solver(self, of: Kept) -> Solver:
+        if of not in self._solvers:
+            self._solvers[of] = Solver(self._made(of))
+            self._begun(self._solvers[of])
+        return self._solvers[of]
+
+    def _bound(self, given: Array, v: Array) -> bool:
+        """Bound the velocities, and tell whether the measured one opens these bounds.
+
+        Who is too fast gets back within them by the acceleration that can be had along every axis at once.
+        """
+        back = self._back[0]
+        given[:, :3], given[:, 3:BOUNDS] = self._lowest, self._highest
+        if (v >= self._lowest - back).all() and (v <= self._highest + back).all():
+            return False
+        given[:, :3] = np.minimum(self._lowest, v + self._back)
+        given[:, 3:BOUNDS] = np.maximum(self._highest, v - self._back)
+        return True
+
+
+def fault(given: Mapping[str, Sequence[Array]]) -> Replan:
+    """Return the failure of a replan, with the name of the first that is not finite."""
+    broken = (name for name, arrays in given.items() if not all(np.isfinite(a).all() for a in arrays))
+    return Replan(None, "failed", next((f"{name} is not finite" for name in broken), BEYOND))
+
+
+def sent(traffic: Traffic) -> list[Array]:
+    """Return all arrays that other drones have sent."""
+    return [traffic.others, *(a for cone in traffic.cones for a in (cone.apex, cone.axis))]

@@ -1,0 +1,194 @@
+"""Shots that compose subjects: Naegeli et al., Eq. 14, planned anew from every measured state.
+
+State: place, velocity, yaw and pitch of the camera; input: acceleration and the rates of both, held over a
+step. The paper's inputs are the body's roll and pitch, which stand for level acceleration, the upward
+velocity and the gimbal's pitch; here all of them have the limits of the drone and of its gimbal.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache, partial
+from math import isfinite
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from shotc.plugin_api.replanner import Appearance, Array, FramingProblem, FramingSituation, Plan, Replan
+from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
+from shotc_casadi.replan.flight import BOUNDS, Flight, fault, sent
+from shotc_casadi.replan.keeping import Kept, ends, rows
+from shotc_casadi.replan.pictures import (
+    COMMON,
+    EACH,
+    Camera,
+    Symbols,
+    clear,
+    in_field,
+    off_place,
+    off_size,
+    off_view,
+    uncovered,
+)
+from shotc_casadi.replan.steps import Solver, Until
+
+PRICES = Prices(lacking=(300.0, 1.0), outside=30.0, damping=0.1)  # a metre, a cover's weight, a m/s, of steps
+FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
+STATES, INPUTS = 8, 5
+SHARED = (
+    13  # parameters of all: weights, half the fields of view, greatest rates, pitch range; subjects follow
+)
+
+Cast = tuple[bool, ...]
+"""Which of the bodies are filmed."""
+
+
+class Framing:
+    """Plans a shot that composes subjects (``FramingPlanner``)."""
+
+    def __init__(self, problem: FramingProblem, until: Until = WARM) -> None:
+        """Take memory; until : where a replan stops that continues a plan, for those who want a finer one."""
+        self._problem, self._until = problem, until
+        self._flights: dict[Cast, Flight] = {}
+
+    def replan(self, situation: FramingSituation, last: Plan | None) -> Replan:
+        """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
+        s = situation
+        with np.errstate(all="ignore"):
+            flight = self._flight(tuple(body.wanted is not None for body in s.subjects))
+            solver, widened = flight.solver(s.place, s.velocity, s.traffic)
+            into = solver.evaluation
+            into.start[6:] = s.aim
+            _fill(s, into.given, into.common)
+            n = len(into.given)
+            start = np.zeros((n, INPUTS)) if last is None else _shifted(flight.index(s.time, last), last)
+            since = s.time - (0.0 if last is None else last.times[0])
+            if not (into.is_finite and isfinite(since) and isfinite(start.sum())):
+                return fault(_given(s, last))
+            done = solver.walk(start, FIRST if last is None else self._until)
+            return flight.told(solver, done, s.time, widened)
+
+    def _flight(self, cast: Cast) -> Flight:
+        if cast not in self._flights:
+            problem = self._problem
+            made = partial(_horizon, cast=cast, stages=problem.horizon.stages)
+            self._flights[cast] = Flight(problem.keeping, problem.horizon, made, self._begin)
+        return self._flights[cast]
+
+    def _begin(self, solver: Solver) -> None:
+        problem = self._problem
+        solver.evaluation.common[:SHARED] = [
+            *problem.weights,
+            *problem.half,
+            *problem.rates,
+            *problem.keeping.pitch,
+        ]
+
+
+def _fill(s: FramingSituation, given: Array, common: Array) -> None:
+    """Write subjects into parameters."""
+    for i, body in enumerate(s.subjects):
+        at, own = BOUNDS + EACH * i, SHARED + COMMON * i
+        wanted = body.wanted or Appearance()
+        given[:, at : at + 3], given[:, at + 3 : at + 6] = body.point[1:], body.centre[1:]
+        given[:, at + 6 : at + EACH] = 0.0 if wanted.view is None else wanted.view[1:]
+        common[own : own + COMMON] = [
+            *(wanted.uv or (0.0, 0.0)),
+            wanted.size or 1.0,
+            body.diameter,
+            *body.semi_axes,
+            wanted.uv is not None,
+            wanted.size is not None,
+            wanted.view is not None,
+        ]
+
+
+def _shifted(index: Array, last: Plan) -> Array:
+    """Return the inputs of the last plan from now on, and none after its end."""
+    aim = np.zeros((len(last.times), 2)) if last.aim is None else last.aim
+    rates = np.diff(aim, axis=0) / np.diff(last.times)[:, None]
+    flown = np.concatenate([np.hstack([last.accelerations, rates]), np.zeros((1, INPUTS))])
+    return np.asarray(flown[index])
+
+
+@lru_cache(maxsize=32)
+def _horizon(of: Kept, cast: Cast, stages: int) -> Horizon:
+    return horizon(stage(of, cast), stages, PRICES)
+
+
+def stage(of: Kept, cast: Cast) -> Stage:
+    """Return one stage of the problem in symbols."""
+    k = len(cast)
+    x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
+    own = BOUNDS + EACH * k
+    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", SHARED + COMMON * k + of.common)
+    shared = g[SHARED + COMMON * k :]
+    step, most, (turn, tilt) = shared[0], shared[2], (g[9], g[10])
+    bodies = [
+        Symbols.of(
+            p[BOUNDS + EACH * i : BOUNDS + EACH * (i + 1)], g[SHARED + COMMON * i : SHARED + COMMON * (i + 1)]
+        )
+        for i in range(k)
+    ]
+    camera = Camera(y[:3], y[6], y[7], g[7:9])
+    a, rate = u[:3], u[3:]
+    keep = [rows(of, (y[:3], y[3:6], a, -camera.ahead), p[own:], shared), *(clear(y[:3], b) for b in bodies)]
+    free, limit = ca.SX.inf(3), ca.vertcat(most, most, most, turn, tilt)
+    return Stage(
+        x,
+        u,
+        y,
+        p,
+        g,
+        allowed=ca.vertcat(
+            a * most / ca.fmax(ca.norm_2(a), most), ca.fmin(ca.fmax(rate, -limit[3:]), limit[3:])
+        ),
+        following=ca.vertcat(
+            x[:3] + step * (x[3:6] + 0.5 * step * a), x[3:6] + step * a, x[6:] + step * rate
+        ),
+        residuals=_residuals(camera, u, bodies, cast, g),
+        rows=(ca.vertcat(*keep), *_covers(y[:3], bodies, cast, g[3])),
+        ends=ends(of, y[:3], y[3:6], shared),
+        inputs=(-limit, limit),
+        states=(
+            ca.vertcat(-free, p[:3], -ca.inf, g[11]),
+            ca.vertcat(free, p[3:BOUNDS], ca.inf, g[12]),
+        ),
+    )
+
+
+def _residuals(camera: Camera, u: Any, bodies: list[Symbols], cast: Cast, g: Any) -> Any:
+    place, size, view, _, field, effort, turning = ca.vertsplit(g[:7])
+    found = [ca.sqrt(effort) * u[:3], ca.sqrt(turning) * u[3:]]
+    for body, filmed in zip(bodies, cast, strict=True):
+        if filmed:
+            found.append(ca.sqrt(place) * off_place(camera, body))
+            found.append(ca.sqrt(size) * off_size(camera, body))
+            found.append(ca.sqrt(view) * off_view(camera, body))
+        found.append(ca.sqrt(field) * in_field(camera.place, body))
+    return ca.vertcat(*found)
+
+
+def _covers(place: Any, bodies: list[Symbols], cast: Cast, weight: Any) -> tuple[Any, ...]:
+    """Return the rows of all pairs of a filmed subject and another body, where there are such."""
+    pairs = [
+        weight * uncovered(place, body, other)
+        for body, filmed in zip(bodies, cast, strict=True)
+        for other in bodies
+        if filmed and other is not body
+    ]
+    return (ca.vertcat(*pairs),) if pairs else (ca.SX(0, 1),)
+
+
+def _given(s: FramingSituation, last: Plan | None) -> dict[str, list[Array]]:
+    flown = [] if last is None else [last.times, last.accelerations]
+    flown += [] if last is None or last.aim is None else [last.aim]
+    views = [b.wanted.view for b in s.subjects if b.wanted is not None and b.wanted.view is not None]
+    return {
+        "the drone's measured state": [s.place, s.velocity, np.array(s.aim)],
+        "the subjects' predicted motion": [a for b in s.subjects for a in (b.point, b.centre)],
+        "a wanted view": views,
+        "a plan that was sent": sent(s.traffic),
+        "the last plan": flown,
+        "the time": [np.array([s.time])],
+    }

@@ -1,0 +1,107 @@
+"""How subjects appear, in symbols: the terms of Naegeli et al., Eq. 7 to 13."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import casadi as ca
+
+from shotc_casadi.replan.keeping import length
+
+INFLATED = 1.3
+"""How much larger than its ellipsoid a body is where it may cover a subject."""
+FIELD_M = 0.8
+"""How far the field about a body reaches beyond its ellipsoid, metres."""
+EACH, COMMON = 9, 10
+
+
+class Symbols(NamedTuple):
+    """A subject at a stage.
+
+    point, centre, view : as of ``FilmedSubject`` and ``Appearance``
+    uv, size, diameter, axes : likewise; placed, sized, viewed : whether there is such a wish, 1 or 0
+    """
+
+    point: Any
+    centre: Any
+    view: Any
+    uv: Any
+    size: Any
+    diameter: Any
+    axes: Any
+    placed: Any
+    sized: Any
+    viewed: Any
+
+    @classmethod
+    def of(cls, p: Any, g: Any) -> Symbols:
+        """Cut it out of its parameters, EACH of a stage and COMMON of all."""
+        return cls(p[:3], p[3:6], p[6:9], g[:2], g[2], g[3], g[4:7], g[7], g[8], g[9])
+
+
+class Camera(NamedTuple):
+    """Place, yaw, pitch and tan of half its fields of view (2,)."""
+
+    place: Any
+    yaw: Any
+    pitch: Any
+    half: Any
+
+    def seen(self, d: Any) -> Any:
+        """Return a vector of W in the camera: right, up, ahead."""
+        along = ca.cos(self.yaw) * d[0] + ca.sin(self.yaw) * d[1]
+        right = ca.sin(self.yaw) * d[0] - ca.cos(self.yaw) * d[1]
+        sine, cosine = ca.sin(self.pitch), ca.cos(self.pitch)
+        return ca.vertcat(right, cosine * d[2] - sine * along, cosine * along + sine * d[2])
+
+    @property
+    def ahead(self) -> Any:
+        """Return the unit vector along which it looks."""
+        level = ca.cos(self.pitch)
+        return ca.vertcat(level * ca.cos(self.yaw), level * ca.sin(self.yaw), ca.sin(self.pitch))
+
+
+def off_place(camera: Camera, subject: Symbols) -> Any:
+    """Return the difference of unit rays, in half frames near the middle (Eq. 7), as a column."""
+    ray, half = subject.point - camera.place, camera.half
+    wanted = ca.vertcat(subject.uv[0] * half[0], subject.uv[1] * half[1], 1)
+    apart = camera.seen(ray) / length(ray) - wanted / ca.norm_2(wanted)
+    return subject.placed * apart / ca.vertcat(half[0], half[1], half[0])
+
+
+def off_size(camera: Camera, subject: Symbols) -> Any:
+    """Return the logarithm of the wanted size over the size (Eq. 8)."""
+    away = length(subject.point - camera.place)
+    return subject.sized * ca.log(2 * camera.half[1] * away * subject.size / subject.diameter)
+
+
+def off_view(camera: Camera, subject: Symbols) -> Any:
+    """Return the difference of unit vectors from the subject to the camera (Eq. 9), as a column."""
+    ray = camera.place - subject.point
+    return subject.viewed * (ray / length(ray) - subject.view)
+
+
+def clear(place: Any, subject: Symbols) -> Any:
+    """Return about how many metres a place is off the ellipsoid (Eq. 13), exact along its axes."""
+    scaled = length((place - subject.centre) / subject.axes)
+    return (scaled - 1) * ca.mmin(subject.axes)
+
+
+def in_field(place: Any, subject: Symbols) -> Any:
+    """Return about how many metres a place is in the field about the ellipsoid (Eq. 12)."""
+    axes = subject.axes + FIELD_M
+    return ca.fmax(0, 1 - length((place - subject.centre) / axes)) * ca.mmin(axes)
+
+
+def uncovered(place: Any, subject: Symbols, other: Symbols) -> Any:
+    """Return by how much another body does not cover the subject's point; not negative where it is seen.
+
+    Eq. 11 by its horizon: where the body is a unit ball, the ray passes 1 or more from its middle, or the
+    point is before the plane through its horizon.
+    """
+    axes = INFLATED * other.axes
+    to_point, to_body = (subject.point - place) / axes, (other.centre - place) / axes
+    horizon = ca.sumsqr(to_body) - 1
+    along = ca.dot(to_point, to_body)
+    inside = along**2 / (ca.sumsqr(to_point) + 1e-9) - horizon
+    return -ca.fmin(inside, along - horizon)
