@@ -13,6 +13,7 @@ from shotc.cli.console import known
 from shotc.cli.plans import PlanPath, prove
 from shotc.plugins import not_installed
 from shotc.stream.clock import WallClock
+from shotc.stream.endings import as_interrupts
 from shotc.stream.endpoint import Endpoint, endpoint
 from shotc.stream.punctual import punctual
 
@@ -109,7 +110,7 @@ def _stream(
 def _fly(session: Session, aboard: Sequence[Aboard], report: PlanReport) -> int:
     from shotc.stream.report import told
 
-    with punctual() as granted:
+    with as_interrupts(), punctual() as granted:
         flown, pilots = session.fly(aboard)
     console.out(_outcome(flown, pilots))
     console.out(f"{told(flown.times)}{'; at real-time priority' * granted}")
@@ -144,11 +145,13 @@ def _outcome(flown: Flown, pilots: Sequence[Pilot]) -> str:
 
 
 def _end(flown: Flown, pilot: Pilot) -> str:
+    from shotc.stream.session import left_alone
+
     if pilot.done:
         return "landed"
     mode = dict(flown.holding).get(pilot.name)
     if mode is not None:
-        return f"in the air, {mode} was asked for: take it over"
+        return f"in the air, {mode} was asked for: take it over{left_alone(pilot.vehicle)}"
     return "taken over" if pilot.taken else "not in the air"
 
 

@@ -47,6 +47,13 @@ class LossTime(NamedTuple):
     optional: bool = False
 
 
+class SpeedLimit(NamedTuple):
+    """A parameter above which the autopilot follows no setpoint, m/s; axis : of the speed that it bounds."""
+
+    parameter: str
+    axis: Literal["level", "up", "down"]
+
+
 class Autopilot(NamedTuple):
     """An autopilot as a sender sees it.
 
@@ -55,6 +62,8 @@ class Autopilot(NamedTuple):
     lead : seconds before its lift-off in the plan at which a drone begins to get ready
     lift : metres to which it takes off by itself before it takes setpoints; 0 where it takes them on its pad
     bytewise : whether the float of a parameter holds the bytes of an integer
+    alone : the parameter that says what it does when the ground station falls silent, in any mode
+    speeds : what bounds the speed of what follows setpoints; versions may lack them
     station : parameters, any one of which says whose heartbeats count as the link
     """
 
@@ -69,17 +78,22 @@ class Autopilot(NamedTuple):
     bytewise: bool
     losses: tuple[LossRule, ...]
     times: tuple[LossTime, ...]
+    alone: str
+    speeds: tuple[SpeedLimit, ...] = ()
     station: tuple[str, ...] = ()
 
     @property
     def parameters(self) -> tuple[str, ...]:
         """The parameters that are read before a flight."""
-        return (*(r.parameter for r in self.losses), *(t.parameter for t in self.times), *self.station)
+        bounds = (row.parameter for row in self.speeds)
+        times = (row.parameter for row in self.times)
+        return (*(row.parameter for row in self.losses), *times, *bounds, *self.station)
 
     def can_lack(self, parameter: str) -> bool:
         """Tell whether some versions do without a parameter."""
-        rules = {row.parameter for row in self.losses if row.optional}
-        return parameter in rules | {row.parameter for row in self.times if row.optional} | set(self.station)
+        optional = {row.parameter for row in self.losses if row.optional}
+        optional |= {row.parameter for row in self.times if row.optional}
+        return parameter in optional | {row.parameter for row in self.speeds} | set(self.station)
 
 
 def _px4_mode(name: str, main: int, sub: int = 0) -> Mode:
@@ -113,6 +127,12 @@ PX4 = Autopilot(
         LossRule("NAV_DLL_ACT", {1: "hold", 2: "return", 3: "land"}, frozenset({0}), False, (2, "return")),
     ),
     times=(LossTime("COM_OF_LOSS_T", 5.0),),
+    alone="NAV_DLL_ACT",
+    speeds=(
+        SpeedLimit("MPC_XY_VEL_MAX", "level"),
+        SpeedLimit("MPC_Z_VEL_MAX_UP", "up"),
+        SpeedLimit("MPC_Z_VEL_MAX_DN", "down"),
+    ),
 )
 ARDUPILOT = Autopilot(
     name="ArduPilot",
@@ -135,6 +155,7 @@ ARDUPILOT = Autopilot(
         ),
     ),
     times=(LossTime("FS_GCS_TIMEOUT", 10.0, optional=True), LossTime("GUID_TIMEOUT", 5.0, optional=True)),
+    alone="FS_GCS_ENABLE",
     station=("MAV_GCS_SYSID", "SYSID_MYGCS"),
 )
 AUTOPILOTS = {"px4": PX4, "ardupilot": ARDUPILOT}

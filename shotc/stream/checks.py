@@ -6,7 +6,7 @@ Each returns diagnostics; a flight begins only where none of them is an error.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import degrees, dist, hypot, isfinite
+from math import degrees, dist, hypot, inf, isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +15,12 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.geom.earth import of_world, to_world
 from shotc.geom.vec import Vec3, minus
 from shotc.ir.mission import Drone, GeoOrigin, MissionIR
+from shotc.rounding import up
 from shotc.stream.autopilots import MULTIROTORS, NAMES, Action, LossRule
 from shotc.stream.messages import Place
 from shotc.stream.projection import LocalFrame
 from shotc.stream.reading import HEARTBEAT_S, READ_S, missing
-from shotc.stream.setpoints import Course, pitch_range
+from shotc.stream.setpoints import Course, pitch_range, speeds
 from shotc.stream.vehicle import Vehicle
 
 HOME_OFF_M = 1.0
@@ -38,6 +39,7 @@ STATES = {
     5: "critical",
     6: "in an emergency",
 }
+SPEED_SLACK = 0.01
 SLACK_RAD = 0.0175
 """A degree: what gimbals say of their range is rounded."""
 
@@ -84,7 +86,7 @@ def ready_to_fly(ready: Ready, origin: GeoOrigin, course: Course | None) -> list
     origin : of the plan; course : what would be sent to it, None where its place is not known
     """
     found = [*_state(ready), *_losses(ready), *_place(ready, origin)]
-    return found if course is None else [*found, *_gimbal(ready, course)]
+    return found if course is None else [*found, *_gimbal(ready, course), *_speeds(ready, course)]
 
 
 def frame_of(ready: Ready, origin: GeoOrigin) -> LocalFrame | None:
@@ -315,6 +317,20 @@ def _gimbal(ready: Ready, course: Course) -> Iterator[Diagnostic]:
             ),
             f"write its range into `drones.{name}.gimbal` and plan again",
         )
+
+
+def _speeds(ready: Ready, course: Course) -> Iterator[Diagnostic]:
+    asked = speeds(course)
+    for limit in ready.vehicle.autopilot.speeds:
+        most = ready.vehicle.parameters.get(limit.parameter, inf)
+        if asked[limit.axis] > most * (1 + SPEED_SLACK):
+            yield Diagnostic(
+                "A014",
+                f"the vehicle of `{ready.drone.name}` is not let fly as fast as the plan",
+                (ready.label("limits"),),
+                (f"it asks for {asked[limit.axis]:.1f} m/s {limit.axis}; {limit.parameter} is {most:g}",),
+                f"set {limit.parameter} to {up(asked[limit.axis], 1):g} or more, or plan with lower limits",
+            )
 
 
 def _said(vehicle: Vehicle) -> tuple[str, ...]:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from math import ceil, dist
+from math import ceil, degrees, dist
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.mission import GeoOrigin, MissionIR
+from shotc.ir.path import HFOV
+from shotc.ir.sampling import SAME_TIME
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.stream import checks
 from shotc.stream.aim import LiveAim
@@ -31,6 +35,7 @@ if TYPE_CHECKING:  # the sockets come from outside, and MAVLink with them
 BETWEEN_CUTS = RATE_HZ // 10
 """Ticks between the end of one recording and the begin of the next."""
 SILENT_TARGET_S = 5.0
+SAME_HFOV_RAD = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +132,7 @@ class Session:
             return None, found
         track = next(t for t in self._plan.trajectory.drones if t.drone == vehicle.drone)
         course = course_of(track, origin, frame, vehicle.autopilot.lift)
-        found = checks.ready_to_fly(ready, origin, course)
+        found = [*checks.ready_to_fly(ready, origin, course), *zoomed(self.mission, track)]
         return (None if has_errors(found) else Aboard(ready, track, course)), found
 
     def _mute_targets(self) -> Iterator[Diagnostic]:
@@ -199,6 +204,23 @@ def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
         )
 
 
+def zoomed(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
+    """Yield a warning for every shot whose field of view changes."""
+    for phase in track.phases:
+        if phase.shot is not None:
+            begins, ends = track.curve.breaks[:-1], track.curve.breaks[1:]
+            inside = (begins < phase.end - SAME_TIME) & (ends > phase.start + SAME_TIME)
+            hfov = track.curve.ctrl[inside][..., HFOV]
+            if np.ptp(hfov) > SAME_HFOV_RAD:
+                yield Diagnostic(
+                    "A031",
+                    f"the zoom of shot `{phase.shot}` is not sent",
+                    (mission.origins.value(mission.shot(phase.shot).path),),
+                    (f"its field of view is {degrees(hfov.min()):.0f} to {degrees(hfov.max()):.0f} degrees",),
+                    "zoom by hand, or give the shot one `hfov`",
+                )
+
+
 def summary(who: Aboard) -> list[tuple[str, str]]:
     """Return what was read of a vehicle that may fly, as pairs of what and how."""
     vehicle = who.ready.vehicle
@@ -221,6 +243,13 @@ def summary(who: Aboard) -> list[tuple[str, str]]:
         ("records", ", ".join(f"{cut.shot} from {cut.tick / RATE_HZ:.1f} s" for cut in cuts) or "nothing"),
         ("back on its pad", f"{who.track.curve.end:.1f} s"),
     ]
+
+
+def left_alone(vehicle: Vehicle) -> str:
+    """Return what a vehicle in the air does when this program has ended, as the end of a sentence."""
+    rule = vehicle.autopilot.alone
+    action = checks.actions_of(vehicle).get(rule)
+    return "" if action is None else f"; left alone it will {action} ({rule})"
 
 
 def _closed(whose: str, endpoint: Endpoint, error: OSError, option: str) -> Diagnostic:

@@ -132,6 +132,13 @@ def pitch_range(course: Course) -> tuple[float, float]:
     return float(pitch.min()), float(pitch.max())
 
 
+def speeds(course: Course) -> dict[str, float]:
+    """Return the largest speeds that are sent, m/s: level, up and down."""
+    north, east, down = course.velocity.T
+    level = float(np.hypot(north, east).max())
+    return {"level": level, "up": max(0.0, float(-down.min())), "down": max(0.0, float(down.max()))}
+
+
 def _reaches(height: Array, lift: float) -> int:
     """Return the first tick at which a drone is ``lift`` above its pad, or as high as it comes."""
     above = height - height[0]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import signal
 from types import SimpleNamespace
 
 import pytest
 
 from tests.cli.conftest import Run
 from tests.support.show_plans import plan as show_plan
-from tests.support.stream.autopilot import Script
+from tests.support.stream.autopilot import PX4_HOLD, Script
 from tests.support.stream.plans import hop_plan, with_target
 from tests.support.stream.worlds import World, free_port
 
@@ -73,7 +74,19 @@ def test_interrupted_it_ends_as_interrupted_and_says_who_is_in_the_air(run: Run,
     world.clock.events.append((world.clock.time + 22.0, stop))
     done = run("stream", "plan.json", *to, "--arm")
     assert done.code == 130
-    assert "in the air, HOLD was asked for: take it over" in done.out
+    assert "in the air, HOLD was asked for: take it over; left alone it will return (NAV_DLL_ACT)" in done.out
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="the system has no such signal")
+@pytest.mark.parametrize("ending", ["SIGTERM", "SIGHUP"])
+def test_ended_from_outside_the_drones_hold(run: Run, flying, ending) -> None:
+    number = getattr(signal, ending)
+    before = signal.getsignal(number)
+    world, to = flying(hop_plan())
+    world.clock.events.append((world.clock.time + 22.0, lambda: signal.raise_signal(number)))
+    assert run("stream", "plan.json", *to, "--arm").code == 130
+    assert world.autopilots["cam1"].mode == PX4_HOLD
+    assert signal.getsignal(number) is before
 
 
 def test_a_show_is_not_streamed(run: Run, monkeypatch) -> None:

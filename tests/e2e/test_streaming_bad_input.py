@@ -21,7 +21,7 @@ from tests.support.stream.autopilot import (
     VIDEO_START,
     Script,
 )
-from tests.support.stream.plans import hop_plan, without_origin
+from tests.support.stream.plans import hop_plan, with_zoom, without_origin
 from tests.support.stream.worlds import World
 
 BEFORE = {
@@ -47,6 +47,7 @@ BEFORE = {
     "away from home": (Script(stands=(1.5, 0.0, 0.0)), "A010", "1.5 m from its pad"),
     "a frame far away": (Script(tie=(47.3949, 8.5417, 408.0)), "A011", "2.1 km"),
     "no gimbal": (Script(mute=frozenset({"GIMBAL_MANAGER_INFORMATION"})), "A012", "GIMBAL_MANAGER"),
+    "a slow PX4": (Script(parameters={"MPC_Z_VEL_MAX_UP": 1.0}), "A014", "1.9 m/s up"),
     "a stiff gimbal": (Script(pitch=(-10.0, 10.0)), "A012", "from -10 to 10"),
 }  # fmt: skip
 
@@ -99,6 +100,15 @@ def test_a_dry_run_moves_nothing():
             assert autopilot.setpoints == []
             assert autopilot.aims == []
             assert {command[1] for command in autopilot.commands} <= {511}
+
+
+def test_a_zoom_is_told_and_flown_without():
+    with World(with_zoom(hop_plan())) as world:
+        aboard, found = world.check()
+    assert len(aboard) == 1
+    ((code, text),) = told(found)
+    assert code == "A031"
+    assert "40 to 70 degrees" in text
 
 
 def test_a_plan_without_a_place_is_not_streamed():

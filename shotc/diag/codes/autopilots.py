@@ -111,6 +111,13 @@ CODES: tuple[CodeInfo, ...] = (
         "once, as a JSON object or as another vehicle's GLOBAL_POSITION_INT, a datagram each.",
     ),
     _fault(
+        14,
+        "vehicle-slower",
+        "an autopilot is not let fly as fast as the plan",
+        "PX4 follows no setpoint faster than MPC_XY_VEL_MAX, MPC_Z_VEL_MAX_UP and MPC_Z_VEL_MAX_DN, whatever the "
+        "vehicle can do: it would fall behind the plan.",
+    ),
+    _fault(
         20,
         "vehicle-refuses",
         "a vehicle refuses a mode, its gimbal, to arm or to take off",
@@ -184,5 +191,12 @@ CODES: tuple[CodeInfo, ...] = (
         "fleets of shows are not streamed",
         "`shotc stream` films: it points cameras and looks after each vehicle. Drones of shows carry their part of a "
         "show themselves, as a .skyc file.",
+    ),
+    _warning(
+        31,
+        "zoom-not-sent",
+        "the zoom of a shot is not sent",
+        "What a zoom command means differs from camera to camera. The camera's path and angles are right, the field "
+        "of view stays as it is. Zoom by hand, or give the shot one `hfov`.",
     ),
 )

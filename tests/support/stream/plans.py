@@ -6,8 +6,9 @@ from math import pi, radians
 
 import numpy as np
 
-from shotc.geom.bernstein import concatenate, quintic_hermite
+from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.path import HFOV
 from shotc.ir.phases import Phase, Reference
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
 from tests.support.film_plans import SPEED, orbit_mission
@@ -81,6 +82,15 @@ def with_target(plan, name):
     mission = plan.trajectory.keyframes.mission
     more = mission.targets[0]._replace(name=name)
     return _of_mission(plan, mission._replace(targets=(*mission.targets, more)))
+
+
+def with_zoom(plan):
+    """The same plan of one drone, whose first move in a shot zooms."""
+    (track,) = plan.trajectory.drones
+    ctrl = track.curve.ctrl.copy()
+    ctrl[1, :, HFOV] = np.radians(np.linspace(70.0, 40.0, ctrl.shape[1]))
+    zooms = replace(track, curve=Piecewise(track.curve.breaks, ctrl))
+    return VerifiedIR(replace(plan.trajectory, drones=(zooms,)), plan.certificate)
 
 
 def _of_mission(plan, mission):
