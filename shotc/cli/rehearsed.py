@@ -13,6 +13,8 @@ from shotc.cli.console import clock, table
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import at_least, at_most, plain, up
+from shotc.simulation.film import film_of
+from shotc.simulation.guidance import replanned
 from shotc.simulation.judge import Course, Picture, Run
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.shows import FleetCourse
@@ -22,6 +24,11 @@ if TYPE_CHECKING:
 
 PICTURES = ("shot", "target", "whole in frame", "in the worst run", "off on screen", "95 %", "worst")
 COURSES = ("drone", "strays, RMS", "farthest", "run", "nearest", "to", "at", "run")
+LOOPS = {
+    "replay": "camera as planned",
+    "track": "camera follows what it sees",
+    "replan": "drone and camera follow what they see",
+}
 LARGEST_MARGIN = 2.0
 """Times the separation: with a larger margin a show has no pictures left."""
 FLEETS = ("fleet", "drones", "strays, RMS", "99 %", "farthest", "nearest", "asked", "margin")
@@ -64,7 +71,7 @@ def _conditions(done: Rehearsed) -> str:
     parts = [blows, f"gusts {plain(wind.gusts, 2)} m/s" if wind.gusts else "no gusts"]
     if done.ir.drones:
         parts.append(f"positions within {plain(gps.deviation, 2)} m")
-        parts.append("camera as planned" if conditions.loop == "replay" else "camera follows what it sees")
+        parts.append(LOOPS[conditions.loop])
     if conditions.truth.wander:
         parts.append(f"targets {plain(conditions.truth.wander, 2)} m off their tracks")
     return ", ".join(parts)
@@ -151,12 +158,38 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
     """Say what was not looked at, and what the margin of a show should be."""
     if done.ir.drones and (done.mission.zones or done.mission.meshes or len(done.mission.targets) > 1):
         yield "whether something hides a target is not judged here; framing.csv has it for the plan"
+    yield from _planned_anew(done)
     unasked = [p.shot for p in done.runs[0].pictures if p.error is None]
-    if unasked and done.conditions.loop == "track":
+    if unasked and done.conditions.loop != "replay":
         names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
         yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
     for i in range(len(done.runs[0].fleets)):
         yield from _margin(done, [run.fleets[i] for run in done.runs])
+
+
+def _planned_anew(done: Rehearsed) -> Iterator[str]:
+    """Say which shots were planned anew, and how often that failed."""
+    if done.conditions.loop != "replan":
+        return
+    mission = done.mission
+    films = [film_of(mission, track) for track in done.ir.drones]
+    anew = {each.phase.shot for film in films for each in replanned(mission, film)}
+    rest = [f"`{shot.id}`" for shot in mission.shots if shot.id not in anew]
+    if rest:
+        why = "they film no single target that moves, from beside it"
+        yield f"not planned anew, but flown as planned: {', '.join(rest)}; {why}"
+    for i, first in enumerate(done.runs[0].courses):
+        counts = [c for c in (run.courses[i].replans for run in done.runs) if c is not None]
+        if not counts:
+            continue
+        failed = sum(c.failed for c in counts)
+        total = failed + sum(c.planned + c.stalled + c.opened for c in counts)
+        yield (
+            f"{first.drone}: planned anew {total} times, {failed} in vain, "
+            f"{sum(c.opened for c in counts)} from beyond its limits, "
+            f"{sum(c.stalled for c in counts)} no better than before"
+        )
+        yield from (f"{first.drone}: {reason}" for reason in {c.reason: 0 for c in counts if c.reason})
 
 
 def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:

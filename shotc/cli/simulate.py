@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from shotc import plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.cli import console
-from shotc.cli.console import Progress
+from shotc.cli.console import Progress, known
 from shotc.cli.flight_options import stretches, true_tracks, wind_of
 from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
@@ -23,7 +24,9 @@ from shotc.output import write
 from shotc.spec.presets import RUNS
 
 if TYPE_CHECKING:
+    from shotc.diag.model import Diagnostic
     from shotc.ir.trajectory import VerifiedIR
+    from shotc.simulation.conditions import Conditions
     from shotc.source.file import SourceFile
 
 Input = Annotated[
@@ -31,11 +34,13 @@ Input = Annotated[
     typer.Argument(metavar="MISSION|PLAN", help="A mission, a plan.json or its folder, or - for a mission."),
 ]
 Loop = Annotated[
-    Literal["replay", "track"] | None,
+    Literal["replay", "track", "replan"] | None,
     typer.Option(
-        help="replay: drone and camera do what was planned; track: the camera follows what is seen [replay]."
+        help="replay: drone and camera do what was planned; track: the camera follows what is seen; "
+        "replan: the drone does, too, and plans its next seconds anew [replay]."
     ),
 ]
+ReplannerName = Annotated[str, typer.Option("--replanner", metavar="NAME", help="Who plans anew.")]
 Seeds = Annotated[
     int | None, typer.Option(min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}].")
 ]
@@ -78,6 +83,7 @@ FormatOption = Annotated[Format, typer.Option("--format", help="How to print wha
 def simulate(
     source: Input,
     loop: Loop = None,
+    replanner: ReplannerName = plugins.OUR_REFINER,
     seeds: Seeds = None,
     seed: Seed = 1,
     wind: WindSpeed = None,
@@ -128,9 +134,10 @@ def simulate(
             wander,
             Truth(tracks=true_tracks(mission, sources, truth or ())),
             seed,
+            replanner,
         )
         conditions = conditions_of(mission, asked)
-        faults = tuple(unflyable(plan.trajectory, conditions))
+        faults = (*_unable(conditions), *unflyable(plan.trajectory, conditions))
         if faults:
             console.report(faults, sources)
             raise typer.Exit(console.EXIT_REJECTED)
@@ -167,6 +174,14 @@ def _plan(
         console.report(diagnostics, sources)
         raise typer.Exit(console.EXIT_REJECTED)
     return plan, sources, output or beside
+
+
+def _unable(conditions: Conditions) -> tuple[Diagnostic, ...]:
+    """Say why the replanner that conditions need cannot be used."""
+    if conditions.loop != "replan":
+        return ()
+    known("--replanner", conditions.replanner, plugins.names("replanners"))
+    return plugins.one("replanners", conditions.replanner).diagnostics
 
 
 def _cores() -> int:

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from shotc.ir.origin import KeyPath
 
-Loop = Literal["replay", "track"]
+Loop = Literal["replay", "track", "replan"]
 Receiver = Literal["rtk", "plain"]
 
 

@@ -4,28 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal, get_args
 from zlib import crc32
 
 import numpy as np
 
+from shotc.ir.rehearsal import Loop
 from shotc.simulation.sensors import RTK, Detector, Gps
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
-
-Loop = Literal["replay", "track"]
-LOOPS: tuple[Loop, ...] = get_args(Loop)
-"""replay: drone and camera do what the plan says; track: the camera follows where its targets are seen."""
 
 
 @dataclass(frozen=True, slots=True)
 class Conditions:
     """What runs have in common.
 
+    loop : replay flies the plan; track lets the camera follow where its targets are taken to be; replan lets
+        the drone follow, too; replanner : who plans anew then, of ``plugins.names("replanners")``
     gps : the receivers of drones and of targets that move; detector : what finds targets in pictures, or None
     """
 
     loop: Loop = "replay"
+    replanner: str = "ours"
     wind: Wind = field(default_factory=Wind)
     gps: Gps = RTK
     detector: Detector | None = field(default_factory=Detector)

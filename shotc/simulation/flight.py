@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,10 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.film import Film, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
+from shotc.simulation.guidance import PERIOD_S, Guide, Replans, replanned
 from shotc.simulation.seen import Watched, watched
+from shotc.simulation.sent import Sent
+from shotc.simulation.tracker import Estimate
 from shotc.simulation.vehicle import STEP_S, State, Vehicle, moved
 from shotc.simulation.world import World
 
@@ -34,6 +38,7 @@ class Flown:
     """One drone in R runs at F instants.
 
     times : (F,), s; position, velocity : (F, R, 3), W; yaw, pitch, roll : of the camera, (F, R), rad
+    replans : of every run, () where nothing is planned anew
     """
 
     drone: str
@@ -44,16 +49,39 @@ class Flown:
     pitch: Array
     roll: Array
     estimated: tuple[Estimated, ...]
+    replans: tuple[Replans, ...] = ()
 
 
-def fly(world: World, track: DroneTrajectory) -> Flown:
-    """Fly the plan of one drone in all runs of a world; a run is the same whichever ran beside it."""
+def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[Flown, ...]:
+    """Fly the plans of several drones in all runs of a world, as many and in the same order.
+
+    Who plans anew does so one after the other: those of higher priority first, whose plans the others know.
+    """
+    ranks = {track.drone: (world.mission.drone(track.drone).priority, track.drone) for track in tracks}
+    done: dict[str, Flown] = {}
+    sent: tuple[Sent, ...] = ()
+    for track in sorted(tracks, key=lambda track: ranks[track.drone]):
+        film = film_of(world.mission, track)
+        own = Sent(film, PERIOD_S)
+        done[track.drone] = fly(world, film, sent, own)
+        sent = (*sent, own)
+    return tuple(done[track.drone] for track in tracks)
+
+
+def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> Flown:
+    """Fly the plan of one drone in all runs of a world.
+
+    A run is the same whichever ran beside it, up to rounding; with the same beside it, to the last digit.
+
+    sent : what drones of higher priority tell of their next seconds; own : takes what this one tells
+    """
     conditions, runs = world.conditions, world.runs
-    film = film_of(world.mission, track)
     name, count, n = film.drone.name, len(film.times), len(runs)
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
     error = conditions.gps.own_error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
     targets = _watched(world, film)
+    shots = replanned(world.mission, film) if conditions.loop == "replan" else ()
+    guide = Guide(world, film, shots, sent, own)
     vehicle, gimbal = Vehicle(), GimbalModel(film.drone.gimbal.rate)
     state = State.at_rest(np.tile(film.position[0], (n, 1)))
     first = axes_of(np.full(n, film.yaw[0]), np.full(n, film.pitch[0]))
@@ -69,8 +97,18 @@ def fly(world: World, track: DroneTrajectory) -> Flown:
                 target.learn(float(film.times[k]))
             wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
             attitude = turned(gimbal, attitude, wanted, rate, EVERY * STEP_S)
-        state = moved(vehicle, state, film.setpoint(k), world.steady + gusts[k], off)
-    return into.done(film)
+        asked = guide.setpoint(k, (state.position + off, state.velocity), _of(guide, targets, film, k))
+        state = moved(vehicle, state, asked, world.steady + gusts[k], off)
+    return into.done(film, guide)
+
+
+def _of(guide: Guide, targets: tuple[Watched, ...], film: Film, k: int) -> Estimate | None:
+    """Return what is known of the target of the shot that is planned anew at a step, if there is one."""
+    time = float(film.times[k])
+    shot = guide.shot_at(time)
+    if shot is None:
+        return None
+    return next(t for t in targets if t.name == shot.target).tracker.now(time)
 
 
 def _watched(world: World, film: Film) -> tuple[Watched, ...]:
@@ -152,7 +190,17 @@ class _Record:
             now = target.tracker.now(i * EVERY * STEP_S)
             into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
 
-    def done(self, film: Film) -> Flown:
+    def done(self, film: Film, guide: Guide) -> Flown:
         yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
         times = film.times[::EVERY]
-        return Flown(film.drone.name, times, self.position, self.velocity, yaw, pitch, roll, self.estimated)
+        return Flown(
+            film.drone.name,
+            times,
+            self.position,
+            self.velocity,
+            yaw,
+            pitch,
+            roll,
+            self.estimated,
+            tuple(guide.counts),
+        )

@@ -19,6 +19,7 @@ from shotc.ir.sampling import beside_cameras, clock, framed, references, subject
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import Nearest, between, nearest
 from shotc.simulation.flight import Flown
+from shotc.simulation.guidance import Replans
 from shotc.simulation.shows import FleetCourse
 from shotc.simulation.world import World, at_times
 
@@ -59,6 +60,7 @@ class Course:
     speed: float
     roll: float
     near: tuple[Nearest, ...]
+    replans: Replans | None = None
 
     @property
     def nearest(self) -> Nearest | None:
@@ -197,4 +199,5 @@ def _course(flown: Flown, track: DroneTrajectory, run: int, near: tuple[Nearest,
         speed=float(speed.max()),
         roll=float(np.abs(flown.roll[:, run]).max()),
         near=near,
+        replans=flown.replans[run] if flown.replans else None,
     )

@@ -36,6 +36,7 @@ class Asked(NamedTuple):
     wander: float | None = None
     truth: Truth = Truth()
     seed: int = 1
+    replanner: str = "ours"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,6 +84,7 @@ def conditions_of(mission: MissionIR, asked: Asked) -> Conditions:
         gps=_receiver(gps, asked),
         truth=replace(asked.truth, wander=wander),
         seed=asked.seed,
+        replanner=asked.replanner,
     )
 
 

@@ -12,7 +12,7 @@ from multiprocessing import get_context
 
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.flight import Flown, fly
+from shotc.simulation.flight import Flown, fly_all
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World
@@ -37,7 +37,7 @@ def simulated(ir: TrajectoryIR, conditions: Conditions, count: int, jobs: int, d
 def flown(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tuple[World, tuple[Flown, ...]]:
     """Fly the cameras of a plan in the runs of these numbers, for what is drawn or written of them."""
     world = World.of(ir, conditions, runs)
-    return world, tuple(fly(world, track) for track in ir.drones)
+    return world, fly_all(world, ir.drones)
 
 
 def _each(

@@ -76,8 +76,10 @@ class RehearseSpec(Model):
     wander: NonNegativeLength = Field(
         default=0.0, description="standard deviation of how far what moves is off its track"
     )
-    loop: Literal["replay", "track"] = Field(
-        default="replay", description="whether the camera does what was planned, or follows what is seen"
+    loop: Literal["replay", "track", "replan"] = Field(
+        default="replay",
+        description="replay: drone and camera do what was planned; track: the camera follows what is seen; "
+        "replan: the drone does, too",
     )
     runs: Runs = Field(default=presets.RUNS, description="number of runs")
     require: RehearsalPromiseSpec = section("what has to hold in the runs")

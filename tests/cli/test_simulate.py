@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 
 from shotc.api import PlanReport
+from shotc.geom.surface.ground import ground_of
 from shotc.ir.rehearsal import Rehearsal, RehearsalPromise
 from shotc.ir.show import Apart
+from shotc.ir.terrain import Terrain
 from tests.cli.conftest import Run
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
@@ -180,6 +182,27 @@ def test_a_truth_that_cannot_be_is_refused(run: Run, rows: str, words: str) -> N
 def test_options_that_mean_nothing_are_mistakes_of_usage(run: Run, options: tuple[str, ...]) -> None:
     Path("walker.yaml").write_text(WALKER)
     assert run("simulate", "walker.yaml", *options).code == 2
+
+
+def test_a_drone_that_plans_anew_is_told_of_and_one_that_cannot_is_refused(run: Run, given) -> None:
+    Path("walker.yaml").write_text(WALKER)
+    done = run("simulate", "walker.yaml", "--loop", "replan", "--seeds", "2")
+    assert re.search(r"cam: planned anew 24 times, 0 in vain", done.out)
+    assert run("simulate", "walker.yaml", "--loop", "replan", "--replanner", "nobody").code == 2
+    made = orbit_plan()
+    mission = made.trajectory.keyframes.mission
+    hill = Terrain(
+        ground_of(np.array([[-200.0, -200, 0], [200, -200, 0], [0, 300, 0]]), np.array([[0, 1, 2]])), "a"
+    )
+    keyframes = made.trajectory.keyframes._replace(mission=mission._replace(terrain=hill))
+    done = run(
+        "simulate",
+        given(replace(made, trajectory=replace(made.trajectory, keyframes=keyframes))),
+        "--loop",
+        "replan",
+    )
+    assert done.code == 1
+    assert "W005" in done.err
 
 
 def test_a_mission_without_a_plan_is_told_as_plan_tells_it(run: Run) -> None:

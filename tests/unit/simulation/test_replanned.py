@@ -1,0 +1,141 @@
+"""Films whose drones plan anew as they fly."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from shotc import plugins
+from shotc.api import PlanOptions, compile_source
+from shotc.geom.track import Track
+from shotc.plugin_api.replanner import Plan, Replan
+from shotc.simulation.conditions import Conditions
+from shotc.simulation.film import film_of
+from shotc.simulation.flight import fly_all
+from shotc.simulation.guidance import replanned
+from shotc.simulation.judge import judged
+from shotc.simulation.truth import Truth
+from shotc.simulation.wind import Wind
+from shotc.simulation.world import World, at_times
+
+pytestmark = pytest.mark.slow
+
+TWO = b"""\
+shotc: 1
+mission: two
+targets:
+  walker: {track: {start: [0, 0, 0.9], velocity: [1.2, 0, 0]}, radius: 0.4, height: 1.8}
+drones:
+  one: {model: x500, home: [-12, -10, 0]}
+  two: {model: x500, home: [-12, 14, 0], priority: 2}
+rules: {separation: 3 m}
+shots:
+  - {id: behind, kind: chase, drone: one, target: walker, distance: 8, altitude: 3,
+     timing: {start: 14, duration: 12}}
+  - {id: beside, kind: lateral, drone: two, target: walker, distance: 8, altitude: 4, side: left,
+     timing: {start: 14, duration: 12}}
+"""
+
+
+@cache
+def plan():
+    done = compile_source(TWO, "two.yaml", None, PlanOptions("none"))
+    assert done.plan is not None, done.diagnostics
+    return done.plan.trajectory
+
+
+WANDERS = Truth(1.0)
+
+
+def flown(loop="replan", runs=(0, 1, 2), truth=WANDERS):
+    conditions = Conditions(loop=loop, wind=Wind(2.0, None, 0.5), truth=truth)
+    world = World.of(plan(), conditions, runs)
+    return world, fly_all(world, plan().drones)
+
+
+def test_a_drone_that_plans_anew_keeps_its_place_beside_a_walker_who_leaves_the_track():
+    off = {}
+    veers = Track((0.0, 60.0), ((0.0, 0.0, 0.9), (72.0, 9.0, 0.9)))
+    for loop in ("track", "replan"):
+        world, tracks = flown(loop, truth=Truth(tracks=(("walker", veers),)))
+        times = np.arange(18.0, 26.0, 0.1)
+        walker = at_times(world.places["walker"], world.times, times)
+        beside = at_times(tracks[1].position, tracks[1].times, times) - walker
+        off[loop] = float(np.abs(np.linalg.norm(beside[..., :2], axis=2) - 8.0).mean())
+    assert off["replan"] < 0.7
+    assert off["track"] > 2.0
+
+
+def test_drones_that_plan_anew_keep_the_separation_and_come_back_to_their_plan():
+    world, tracks = flown()
+    runs = judged(world, plan(), tracks, ((),) * 3)
+    for run in runs:
+        apart = [n for c in run.courses for n in c.near if n.to == "drone two"]
+        assert [n.distance > 3.0 - 2 * world.mission.drone("one").radius for n in apart] == [True]
+        for course in run.courses:
+            assert course.replans is not None
+            assert course.replans.failed == 0
+            assert course.replans.planned > 20
+    for each, track in zip(tracks, plan().drones, strict=True):
+        end = track.curve.end - 5.0
+        off = at_times(each.position, each.times, np.array([end])) - track.curve(end)[:3]
+        assert np.abs(off).max() < 1.0
+
+
+def test_a_run_is_the_same_whichever_ran_beside_it():
+    _, several = flown(runs=(0, 1, 2))
+    _, alone = flown(runs=(2,))
+    assert several[1].position[:, 2] == pytest.approx(alone[1].position[:, 0], abs=1e-5)
+
+
+class _Bad:
+    """A replanner that fails in one way or another after its first plans."""
+
+    def __init__(self, what: str) -> None:
+        self.what, self.calls = what, 0
+
+    def chase(self, problem):
+        return self
+
+    def replan(self, situation, last):
+        self.calls += 1
+        if self.what == "raises":
+            raise ZeroDivisionError("no plan today")
+        if self.what == "nan":
+            bad = Plan(last.times, last.places * np.nan, last.velocities, last.accelerations)
+            return Replan(bad, "planned")
+        return Replan(None, "failed", "it does not know")
+
+
+@pytest.mark.parametrize(
+    ("what", "reason"),
+    [
+        ("raises", "ZeroDivisionError: no plan today"),
+        ("nan", "its plan holds numbers that are not finite"),
+        ("none", "it does not know"),
+    ],
+)
+def test_where_planning_anew_fails_the_drone_brakes_and_holds_and_it_is_told(monkeypatch, what, reason):
+    source = plugins.Source(_Bad(what), "theirs", "theirs:IT")
+    monkeypatch.setattr("shotc.plugins.one", lambda _group, _name: source)
+    world, tracks = flown(runs=(0,))
+    (run,) = judged(world, plan(), tracks, ((),))
+    for course in run.courses:
+        assert course.replans.failed == 24  # twice a second
+        assert course.replans.planned == 0
+        assert course.replans.reason == reason
+    # The first seconds of the plan are flown, then the drone stands.
+    speed = at_times(tracks[0].velocity, tracks[0].times, np.array([16.0, 24.0]))
+    assert np.linalg.norm(speed[0]) > 1.0
+    assert np.linalg.norm(speed[1]) < 0.8
+    assert np.isfinite(tracks[0].position).all()
+
+
+def test_shots_of_what_stands_and_of_several_are_flown_as_planned():
+    film = film_of(plan().keyframes.mission, plan().drones[0])
+    assert [each.phase.shot for each in replanned(plan().keyframes.mission, film)] == ["behind"]
+    mission = plan().keyframes.mission
+    still = mission._replace(targets=tuple(t._replace(track=None) for t in mission.targets))
+    assert not replanned(still, film)
