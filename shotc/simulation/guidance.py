@@ -37,7 +37,7 @@ PERIOD_S = 0.5
 STAGES = round(HORIZON_S / STAGE_S)
 
 WEIGHTS = ChaseWeights(end=20.0)
-"""With the paper's 1 a drone stays a metre and more behind a target that leaves its track; with 20 half of one,
+"""With the paper's 1 a drone stays a metre and more behind a target that leaves its track; with 20 half,
 and its acceleration grows by a twentieth (measured: a chase and a lateral at 1.2 m/s, horizon 4 s)."""
 
 STILL_M_S = 0.3
