@@ -17,6 +17,7 @@ API_VERSION = 1
 OPTIONAL = (
     *("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi"),
     "pymavlink",
+    "rotorpy",
 )
 """Libraries that the base install does without: a plugin that misses one is not broken."""
 OURS = "shotc"

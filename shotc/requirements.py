@@ -13,6 +13,7 @@ VIEWER = "rerun"
 PLACES = frozenset({"pyproj", "laspy", "lazrs"})
 """Libraries of the extra `geo`."""
 SENDER = "pymavlink"
+SECOND_VEHICLE = "rotorpy"
 
 
 def remedy(libraries: Sequence[str]) -> str:
@@ -25,6 +26,8 @@ def remedy(libraries: Sequence[str]) -> str:
                 "leave it out: the viewer has no release for Intel Macs; the output `storyboard` shows a "
                 "plan without it, and `shotc view` on another machine takes the plan.json of this one"
             )
+    if SECOND_VEHICLE in packages:
+        return f"run `{install_line(SECOND_VEHICLE)}`"
     if SENDER in packages:
         return f"run `{install_line('stream' if packages == {SENDER} else 'all')}`"
     if PLACES & packages:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from importlib.util import find_spec
 from os import cpu_count, sched_getaffinity
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -57,6 +58,10 @@ GpsGrade = Annotated[
     Literal["rtk", "plain"] | None,
     typer.Option("--gps", help="Receivers of drones and targets: rtk (0.02 m) or plain (1.5 m) [rtk]."),
 ]
+VehicleOption = Annotated[
+    Literal["lag", "rotorpy"],
+    typer.Option("--vehicle", help="What flies: ours, with a lag and drag, or RotorPy's rigid body (slow)."),
+]
 Bias = Annotated[float, typer.Option(help="What all satellite positions are off to the East, m.")]
 Lost = Annotated[
     list[str] | None,
@@ -90,6 +95,7 @@ def simulate(
     from_: WindFrom = None,
     gusts: Gusty = None,
     gps: GpsGrade = None,
+    vehicle: VehicleOption = "lag",
     bias: Bias = 0.0,
     lost: Lost = None,
     wander: Wander = None,
@@ -135,6 +141,7 @@ def simulate(
             Truth(tracks=true_tracks(mission, sources, truth or ())),
             seed,
             replanner,
+            vehicle,
         )
         conditions = conditions_of(mission, asked)
         faults = (*_unable(conditions), *unflyable(plan.trajectory, conditions))
@@ -177,7 +184,9 @@ def _plan(
 
 
 def _unable(conditions: Conditions) -> tuple[Diagnostic, ...]:
-    """Say why the replanner that conditions need cannot be used."""
+    """Say which vehicle or replanner that conditions need cannot be used."""
+    if conditions.vehicle == "rotorpy" and find_spec("rotorpy") is None:
+        return (plugins.not_installed("P004", "`--vehicle rotorpy`", ["rotorpy"]),)
     if conditions.loop != "replan":
         return ()
     known("--replanner", conditions.replanner, plugins.names("replanners"))

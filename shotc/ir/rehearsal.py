@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 from shotc.ir.origin import KeyPath
 
 Loop = Literal["replay", "track", "replan"]
+VehicleName = Literal["lag", "rotorpy"]
 Receiver = Literal["rtk", "plain"]
 
 

@@ -8,7 +8,7 @@ from zlib import crc32
 
 import numpy as np
 
-from shotc.ir.rehearsal import Loop
+from shotc.ir.rehearsal import Loop, VehicleName
 from shotc.simulation.sensors import RTK, Detector, Gps
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
@@ -20,12 +20,14 @@ class Conditions:
 
     loop : replay flies the plan; track lets the camera follow where its targets are taken to be; replan lets
         the drone follow, too; replanner : who plans anew then, of ``plugins.names("replanners")``
+    vehicle : what flies: "lag" is ours, "rotorpy" needs RotorPy
     gps : the receivers of drones and of targets that move; detector : what finds targets in pictures, or None
     """
 
     loop: Loop = "replay"
     replanner: str = "ours"
     wind: Wind = field(default_factory=Wind)
+    vehicle: VehicleName = "lag"
     gps: Gps = RTK
     detector: Detector | None = field(default_factory=Detector)
     truth: Truth = field(default_factory=Truth)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import hypot
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
+from shotc.ir.limits import Limits
+from shotc.ir.rehearsal import VehicleName
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.film import Film, film_of
@@ -17,8 +20,11 @@ from shotc.simulation.guidance import PERIOD_S, Guide, Replans, replanned
 from shotc.simulation.seen import Watched, watched
 from shotc.simulation.sent import Sent
 from shotc.simulation.tracker import Estimate
-from shotc.simulation.vehicle import STEP_S, State, Vehicle, moved
+from shotc.simulation.vehicle import STEP_S, Lagging, Plant, State, Vehicle, steered
 from shotc.simulation.world import World
+
+HEADROOM = 1.3
+"""Times the fastest speed of a plan, with which a controller may ask a drone to catch up."""
 
 EVERY = 2
 """Steps of the drone for one of the gimbal, and for one record: 50 a second."""
@@ -82,8 +88,12 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
     targets = _watched(world, film)
     shots = replanned(world.mission, film) if conditions.loop == "replan" else ()
     guide = Guide(world, film, shots, sent, own)
-    vehicle, gimbal = Vehicle(), GimbalModel(film.drone.gimbal.rate)
+    vehicle, gimbal = (
+        Vehicle(speed=HEADROOM * fastest(film.drone.limits)),
+        GimbalModel(film.drone.gimbal.rate),
+    )
     state = State.at_rest(np.tile(film.position[0], (n, 1)))
+    plant = plant_of(conditions.vehicle, vehicle, state)
     first = axes_of(np.full(n, film.yaw[0]), np.full(n, film.pitch[0]))
     attitude = Attitude(first, np.zeros((n, 3)))
     into = _Record.of(film, n, targets)
@@ -98,8 +108,22 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
             wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
             attitude = turned(gimbal, attitude, wanted, rate, EVERY * STEP_S)
         asked = guide.setpoint(k, (state.position + off, state.velocity), _of(guide, targets, film, k))
-        state = moved(vehicle, state, asked, world.steady + gusts[k], off)
+        state = plant.carried(state, *steered(vehicle, state, asked, off), world.steady + gusts[k])
     return into.done(film, guide)
+
+
+def plant_of(name: VehicleName, vehicle: Vehicle, first: State) -> Plant:
+    """Return the plant of a name; first : where drones hover at the start."""
+    if name == "lag":
+        return Lagging(vehicle)
+    from shotc.simulation.rotorpy_plant import RotorPyPlant
+
+    return RotorPyPlant(vehicle, first)
+
+
+def fastest(limits: Limits) -> float:
+    """Return the largest speed that limits allow, climbing or sinking included, m/s."""
+    return hypot(limits.speed, max(limits.climb, limits.descent))
 
 
 def _of(guide: Guide, targets: tuple[Watched, ...], film: Film, k: int) -> Estimate | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from shotc.ir.mission import MissionIR
-from shotc.ir.rehearsal import Loop, Receiver, RehearsalPromise, Wind
+from shotc.ir.rehearsal import Loop, Receiver, RehearsalPromise, VehicleName, Wind
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
 from shotc.simulation.conditions import Conditions
@@ -37,6 +37,7 @@ class Asked(NamedTuple):
     truth: Truth = Truth()
     seed: int = 1
     replanner: str = "ours"
+    vehicle: VehicleName = "lag"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,6 +86,7 @@ def conditions_of(mission: MissionIR, asked: Asked) -> Conditions:
         truth=replace(asked.truth, wander=wander),
         seed=asked.seed,
         replanner=asked.replanner,
+        vehicle=asked.vehicle,
     )
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import exp, radians, tan
+from typing import Protocol
 
 import numpy as np
 
@@ -71,21 +72,50 @@ class Setpoint:
     acceleration: Array
 
 
-def moved(vehicle: Vehicle, state: State, asked: Setpoint, wind: Array, error: Array | float = 0.0) -> State:
-    """Return the state a ``STEP_S`` later.
+class Plant(Protocol):
+    """What a drone does of what its controller asks."""
 
-    wind : (R, 3), m/s; error : of the position that the drone takes for its own, (R, 3), metres
+    def carried(self, state: State, pushed: Array, held: Array, wind: Array) -> State:
+        """Return the state a ``STEP_S`` later.
+
+        pushed : acceleration that the rotors are asked for, less gravity; held : of the integrator; wind
+        All have the shape (R, 3).
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Lagging:
+    """The plant by default: an acceleration that lags, and linear drag."""
+
+    vehicle: Vehicle
+
+    def carried(self, state: State, pushed: Array, held: Array, wind: Array) -> State:
+        """Return the state a ``STEP_S`` later."""
+        h, vehicle = STEP_S, self.vehicle
+        rotors = state.acceleration + (pushed - state.acceleration) * (1.0 - exp(-h / vehicle.lag))
+        velocity = state.velocity + h * (rotors + vehicle.drag * (wind - state.velocity))
+        return State(state.position + h * velocity, velocity, rotors, held)
+
+
+def steered(
+    vehicle: Vehicle, state: State, asked: Setpoint, error: Array | float = 0.0
+) -> tuple[Array, Array]:
+    """Return the acceleration that the controller asks of the rotors, and what its integrator holds, (R, 3).
+
+    error : of the position that the drone takes for its own, (R, 3), metres
     """
-    h = STEP_S
     gain_p, gain_v, gain_i = (np.array(g) for g in (vehicle.position, vehicle.velocity, vehicle.integral))
     wanted = within(asked.velocity + gain_p * (asked.position - state.position - error), vehicle.speed)
     missing = wanted - state.velocity
     pushed = _bounded(vehicle, asked.acceleration + gain_v * missing + state.held)
-    held = state.held + h * gain_i * missing
-    rotors = state.acceleration + (pushed - state.acceleration) * (1.0 - exp(-h / vehicle.lag))
-    velocity = state.velocity + h * (rotors + vehicle.drag * (wind - state.velocity))
     # What the integrator may ask is bounded as all else: it does not wind up while a drone is blown away.
-    return State(state.position + h * velocity, velocity, rotors, _bounded(vehicle, held))
+    return pushed, _bounded(vehicle, state.held + STEP_S * gain_i * missing)
+
+
+def moved(vehicle: Vehicle, state: State, asked: Setpoint, wind: Array, error: Array | float = 0.0) -> State:
+    """Return the state of the default plant a ``STEP_S`` later; arguments as above."""
+    return Lagging(vehicle).carried(state, *steered(vehicle, state, asked, error), wind)
 
 
 def within(vectors: Array, most: float) -> Array:
