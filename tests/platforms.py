@@ -27,7 +27,7 @@ PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 NO_WHEELS = {
     "jt-pyrvo23d": "built for Linux x86-64 and Windows, up to Python 3.13; only tests use it",
     "mavsdk": "from version 4 on built for macOS 15 and later; only a test uses it, which is left out there",
-    "rotorpy": "needs cvxopt, which has no wheels for new Pythons on macOS; only `--vehicle rotorpy` asks for it",
+    "rotorpy": "needs cvxopt, without wheels for new Pythons on macOS; only `--vehicle rotorpy` asks for it",
     "rerun-sdk": "its last wheels for Intel Macs are those of 0.26; a storyboard shows the plan there",
     "toppra": "built for Linux x86-64; Clarabel makes the same profiles elsewhere",
 }
