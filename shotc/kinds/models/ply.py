@@ -146,7 +146,26 @@ def _texts(_: bytes, lines: list[str], element: Element, order: str, wanted: tup
         raise ValueError("it ends too soon")
     if element.plain:
         return (list(table(rows, wanted).T) if wanted and rows else [np.zeros(0)] * len(wanted)), rest
+    if wanted == (0,) and len(element.properties) == 1:
+        same = _lists_as_long(rows)
+        if same is not None:
+            return [same], rest
     return [_lists([row.split() for row in rows], element, column) for column in wanted], rest
+
+
+def _lists_as_long(rows: list[str]) -> IntArray | None:
+    """Return rows that are a list each, all as long, (N, C); None where they are something else."""
+    width = len(rows[0].split()) if rows else 0
+    if width < 2 or len({row.rstrip().count(" ") for row in rows}) > 1:
+        return None
+    try:
+        numbers = np.array(" ".join(rows).split(), dtype=np.intp)
+    except (ValueError, OverflowError):
+        return None  # row by row, to say what is wrong
+    if len(numbers) != width * len(rows):
+        return None
+    found = numbers.reshape(-1, width)
+    return found[:, 1:] if (found[:, 0] == width - 1).all() else None
 
 
 def _lists(rows: list[list[str]], element: Element, column: int) -> Any:

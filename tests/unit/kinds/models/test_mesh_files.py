@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from shotc.kinds.models.mesh_file import read_mesh
-from shotc.kinds.models.parts import ModelFault, Part
+from shotc.kinds.models.parts import ModelFault, Part, wrong_corners
 from tests.support.meshes import chunks
 
 
@@ -101,6 +101,45 @@ def test_a_ply_of_polygons_and_properties_in_any_order():
     assert part.corners.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 2, 5]]
     assert part.triangles.tolist() == [[0, 1, 2], [0, 2, 3], [0, 1, 4]]
     assert part.colors.tolist()[3] == [0, 3, 4]
+
+
+TWO_FACES = """\
+ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+element face 2
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+"""
+
+
+@pytest.mark.parametrize(
+    ("rows", "corners"),
+    [
+        ("3 0 1 2\n3 0 2 3\n", [[0, 1, 2], [0, 2, 3]]),
+        ("3  0 1  2 \n3 0  2  3\n", [[0, 1, 2], [0, 2, 3]]),
+        ("3 0 1 2 9\n3 0 2 3 9\n", [[0, 1, 2], [0, 2, 3]]),
+        ("4 0 1 2 3\n3 0 2 3\n", [[0, 1, 2], [0, 2, 3], [0, 2, 3]]),
+    ],
+)
+def test_faces_of_a_ply_in_text_are_read_row_by_row(rows, corners):
+    (found,) = read_mesh("ply", (TWO_FACES + rows).encode())
+    assert found.triangles.tolist() == corners
+
+
+@pytest.mark.parametrize(
+    "rows", ["3 0 1\n2 3 0 1 2\n", "3 0 1 2\n3 0 1 99999999999999999999\n", "3 0 1 2\n3 0 1 a\n"]
+)
+def test_faces_of_a_ply_in_text_that_are_none_are_told(rows):
+    found = read_mesh("ply", (TWO_FACES + rows).encode())
+    assert isinstance(found, ModelFault) or wrong_corners(found, 1e9)
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
