@@ -295,7 +295,7 @@ def test_interrupted_while_it_lands_it_lands():
 
     with World(hop_plan()) as world:
         aboard, _ = world.check()
-        world.clock.events.append((world.clock.time + 36.2, stop))
+        world.clock.events.append((world.clock.time + 38.2, stop))
         flown, _ = world.session.fly(aboard)
         assert flown.interrupted
         assert flown.holding == []

@@ -133,14 +133,14 @@ def test_a_feed_that_ends_is_told_and_the_camera_comes_back():
     plan = hop_plan(pans=True)
     with World(plan, targets=["tower"]) as world:
         text = '{"x": 15, "y": -8, "z": 20}'
-        feeding(world, lambda: send_json(world.targets["tower"], text), world.clock.time + 18.0)
+        feeding(world, lambda: send_json(world.targets["tower"], text), world.clock.time + 20.0)
         flown, _ = world.fly()
         aims = np.array(world.autopilots["cam1"].aims)
         begins = world.autopilots["cam1"].setpoints[0][0]
     assert flown.landed
     assert [d.code for d in flown.diagnostics] == ["A026"]
     (track,) = plan.trajectory.drones
-    t = aims[:, 0] - begins - 6.0
+    t = aims[:, 0] - begins - PX4.lead
     off = np.abs(aims[:, 1] - track.curve(np.clip(t, 0, track.curve.end))[:, CAM_PITCH])
     assert off[(t > 10.0) & (t < 11.0)].max() > 0.1
     assert off[t > 14.0].max() < 0.01

@@ -128,7 +128,7 @@ CODES: tuple[CodeInfo, ...] = (
         21,
         "vehicle-late",
         "a vehicle is not ready when the plan has it lift off",
-        "All drones fly on one clock, so none can wait for another. A drone begins to get ready 6 s (PX4) or 15 s "
+        "All drones fly on one clock, so none can wait for another. A drone begins to get ready 8 s (PX4) or 15 s "
         "(ArduPilot, which takes off to 1 m by itself) before its lift-off. All other drones hold, or disarm where "
         "they stand.",
     ),
