@@ -124,16 +124,16 @@ def by_ipopt(of: Evaluation, s: Stage, inputs: np.ndarray) -> float:
     n, prices = of.of.stages, of.of.prices
     u, slack = ca.MX.sym("u", s.u.numel(), n), ca.MX.sym("slack", len(prices.lacking), n)
     x = ca.MX.sym("x", s.x.numel(), n)
-    out = [s.following, ca.sumsqr(s.residuals), *s.rows, *s.states]
+    out = [s.following, ca.sumsqr(s.residuals), *s.rows, s.firm, *s.states]
     one = ca.Function("one", [s.x, s.u, s.y, s.p, s.g], out)
     last = ca.Function("last", [s.y, s.g], [s.ends])
     cost, still, positive, before = 0.0, [], [], ca.DM(of.start)
     for k in range(n):
-        after, squares, hard, soft, least, most = one(before, u[:, k], x[:, k], of.given[k], of.common)
+        after, squares, hard, soft, firm, least, most = one(before, u[:, k], x[:, k], of.given[k], of.common)
         cost += squares + ca.dot(ca.DM(prices.lacking), slack[:, k])
         bounds = [x[3:6, k] - least[3:6], most[3:6] - x[3:6, k], x[7, k] - least[7], most[7] - x[7, k]]
         still.append(after - x[:, k])
-        positive += [hard + slack[0, k], soft + slack[1, k], *bounds]
+        positive += [hard + slack[0, k], soft + slack[1, k], firm, *bounds]
         before = x[:, k]
     positive += [last(before, of.common) + slack[0, n - 1], ca.vec(slack)]
     unknown, rows = ca.vertcat(ca.vec(u), ca.vec(slack), ca.vec(x)), ca.vertcat(*still, *positive)

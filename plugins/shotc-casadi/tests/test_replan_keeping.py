@@ -42,7 +42,7 @@ def found(
     own = each(traffic) if of.each else np.zeros((len(states), 0))
     x, t, p, g = ca.SX.sym("x", 6), ca.SX.sym("t", 3), ca.SX.sym("p", of.each), ca.SX.sym("g", len(shared))
     q = x[:3] - t
-    a = ca.vertcat(pitched(of, q, g), rows(of, (x[:3], x[3:], ca.SX.zeros(3), q / ca.norm_2(q)), p, g))
+    a = ca.vertcat(pitched(of, q, g), rows(of, (x[:3], x[3:], q / ca.norm_2(q)), p, g))
     b = ends(of, x[:3], x[3:], g)
     dense = [ca.densify(m) for m in (a, ca.jacobian(a, x), b, ca.jacobian(b, x))]
     function = ca.Function("all", [x, t, p, g], dense)

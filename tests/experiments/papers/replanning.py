@@ -1,6 +1,6 @@
 """Shots of one target, planned anew while they are flown: the moving-target paper's Table 3, and times.
 
-Run it alone by `python -m tests.experiments.papers --only replanning`.
+Run it with those of ``reframing`` by `python -m tests.experiments.papers --only replanning`.
 """
 
 from __future__ import annotations
@@ -16,21 +16,20 @@ from shotc_casadi.replan.chase import Chase
 from shotc.geom.bernstein import Array
 from shotc.plugin_api.replanner import ChaseProblem, ChaseSituation, Plan
 from shotc.simulation.sensors import Gps
-from shotc.simulation.tracker import PositionFix, Tracker
+from shotc.simulation.tracker import Motion, PositionFix, Tracker
 from shotc.simulation.vehicle import Setpoint, State, Vehicle, moved
 from shotc.simulation.wind import Wind
-from tests.experiments.papers import warm
+from tests.experiments.papers import reframing, warm
 from tests.experiments.papers.multidrone import LATERAL
-from tests.experiments.papers.report import Section, Table
+from tests.experiments.papers.report import Section, Table, spread
 from tests.support.replans import BESIDE, DT, PLANT_S, TREE, WALK, problem, sampled, situation, zone
 
 SECONDS, EVERY = 20.0, 0.5
 HORIZONS = {"0.5 s": 5, "2 s": 20, "4 s": 40, "8 s": 80}
 SEEDS = (1, 2, 3)
 VEHICLE = Vehicle()
-PERSON = 0.5  # m^2/s^3, of the tracker
+PERSON = Motion(agility=0.5)
 GUSTS = 0.3  # m/s
-ROUNDS = 3
 STAMPS_S, PLACES_M = 0.01, 0.001
 GOALS = {"0.5 s": (0.8, 1.5), "2 s": (1.6, 2.5), "4 s": (2.9, 3.0), "8 s": (10.0, 4.0)}
 TABLE_3 = (
@@ -101,7 +100,7 @@ class Record:
 
 
 def section(say: Callable[[str], None]) -> Section:
-    """Fly all horizons, calm and in gusts."""
+    """Fly all horizons, calm and in gusts, and the framings."""
     table, times, load = [], [], os.getloadavg()[0]
     for name, stages in HORIZONS.items():
         say(f"replanning: horizon {name}")
@@ -114,6 +113,7 @@ def section(say: Callable[[str], None]) -> Section:
         (
             Table("Lateral, receding (Table 3)", TABLE_3, tuple(table), NOTES),
             Table("Time of a replan", TIMES, tuple(times), TIME_NOTES),
+            reframing.table(say),
         ),
         (f"load of the machine {load:.1f} when it began, {os.getloadavg()[0]:.1f} when it ended",),
     )
@@ -215,7 +215,7 @@ def _times(name: str, stages: int, flights: Sequence[Record]) -> tuple[str, ...]
     task = problem(stages, zone(TREE))
     planner = Chase(task)
     planner.replan(asked[0][0], None)  # what is built once
-    rounds = [(_ours(planner, asked), _theirs(task, asked)) for _ in range(ROUNDS)]
+    rounds = [(_ours(planner, asked), _theirs(task, asked)) for _ in range(reframing.ROUNDS)]
     ours, theirs = 1e3 * np.min(rounds, axis=0)
     goal, wanted = GOALS[name]
     ratio = float(np.percentile(theirs, 95) / np.percentile(ours, 95))
@@ -243,8 +243,3 @@ def _theirs(task: ChaseProblem, asked: Sequence[tuple[ChaseSituation, Plan]]) ->
     done = [warm.solve(task, known, _shifted(known.time, last)) for known, last in asked]
     assert all(one.converged for one in done)
     return np.array([one.seconds for one in done])
-
-
-def spread(values: Array) -> str:
-    """Return the median, the 95th percentile and the largest."""
-    return " / ".join(f"{np.percentile(values, share):.2f}" for share in (50, 95, 100))

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 2em auto; color: #222 }
 table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums }
@@ -44,6 +47,11 @@ class Section:
     title: str
     tables: tuple[Table, ...]
     facts: tuple[str, ...] = ()
+
+
+def spread(values: ArrayLike) -> str:
+    """Return the median, the 95th percentile and the largest of times."""
+    return " / ".join(f"{np.percentile(values, share):.2f}" for share in (50, 95, 100))
 
 
 def text(table: Table) -> str:

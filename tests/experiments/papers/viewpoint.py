@@ -52,8 +52,8 @@ shots:
 """
 PERSON = "radius: 0.3, height: 1.8"
 NOTES = (
-    "planned whole, offline: every walk is known. The paper replans over N = 25 steps all the time; that, "
-    "and its Experiment 5 (the time of a replan), belong to the closed loop, which shotc has not yet",
+    "planned whole, offline: every walk is known. The paper replans over N = 25 steps all the time; its "
+    "Experiment 5 (the time of a replan) stands with replanning",
     "assumed, since the paper does not give it: 640 x 368 pixels and a focal length of 400 (77 deg across); "
     "a drone of 0.25 m with 2 m/s, 2 m/s^2 and 10 m/s^3; a room of 10 m and 4 m high; persons as cylinders "
     "of 0.3 m and 1.8 m, whose middle is framed and seen, where the paper frames heads; 0.3 m kept from "

@@ -9,7 +9,7 @@ import pytest
 from shotc_casadi.replan.chase import Chase
 from shotc_casadi.replan.steps import Until
 
-from tests.experiments.papers import warm
+from tests.experiments.papers import reframing, warm
 from tests.experiments.papers.multidrone import LATERAL
 from tests.experiments.papers.replanning import HORIZONS, Record, _shifted, fly, jerks
 from tests.support.replans import DT, TREE, problem, zone
@@ -61,3 +61,16 @@ def test_converged_it_costs_what_fatrop_s_replans_do(name):
         assert done.plan is not None
         mine, best = (warm.paid(task, known, u) for u in (done.plan.accelerations, theirs.inputs))
         assert mine <= best * 1.004 + 0.01
+
+
+def test_the_table_of_framings_has_a_row_a_case_with_both_costs(monkeypatch):
+    monkeypatch.setattr(reframing, "CASES", {(10, 1): (2.0, 9)})
+    monkeypatch.setattr(reframing, "SEEDS", (0,))
+    monkeypatch.setattr(reframing, "STEPS", 15)
+    ((name, *_, cost, off, nearest, told),) = reframing.table(lambda _said: None).rows
+    assert name == "10, 1"
+    ours, converged = (float(part) for part in cost.rstrip(")").split(" ("))
+    assert 0.0 < converged < 1.2 * ours
+    assert "(" in off
+    assert float(nearest) > 1.0
+    assert told == "0, 0"

@@ -17,7 +17,7 @@ from shotc.plugin_api.replanner import Array, ChaseProblem, ChaseSituation, Plan
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
 from shotc_casadi.replan.flight import BOUNDS, Flight, fault, sent
-from shotc_casadi.replan.keeping import Kept, ends, length, pitched, rows
+from shotc_casadi.replan.keeping import Kept, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, Until
 
 PRICES = Prices(lacking=(1e4,), outside=30.0, damping=1e-3)  # a metre, a m/s, and of steps
@@ -89,17 +89,18 @@ def _horizon(of: Kept, stages: int) -> Horizon:
         ca.sqrt(height) * (y[2] - g[11]),
         p[13] * ca.sqrt(end) * (y - g[5:11]),
     )
-    free = ca.SX.inf(3)
+    free, (allowed, firm) = ca.SX.inf(3), within(u, most)
     stage = Stage(
         x,
         u,
         y,
         p,
         g,
-        allowed=u * most / ca.fmax(ca.norm_2(u), most),
+        allowed=allowed,
         following=ca.vertcat(x[:3] + step * (x[3:] + 0.5 * step * u), x[3:] + step * u),
         residuals=residuals,
-        rows=(ca.vertcat(rows(of, (place, v, u, q / length(q)), p[OWN:], shared), pitched(of, q, shared)),),
+        rows=(ca.vertcat(rows(of, (place, v, q / length(q)), p[OWN:], shared), pitched(of, q, shared)),),
+        firm=firm,
         ends=ends(of, place, v, shared),
         inputs=(-most * ca.SX.ones(INPUTS), most * ca.SX.ones(INPUTS)),
         states=(ca.vertcat(-free, p[:3]), ca.vertcat(free, p[3:BOUNDS])),

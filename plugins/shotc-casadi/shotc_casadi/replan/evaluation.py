@@ -26,6 +26,7 @@ class Stage(NamedTuple):
     following : the next state, by x, u and g
     residuals : whose squares are the cost, by u, y, p and g
     rows : what is not negative where it is kept, by u, y, p and g, in groups; the worst one of each is priced
+    firm : rows that every allowed input keeps, by u and g
     ends : more of the first group at the last stage, by y and g
     inputs, states : lower and upper bounds of u, by g, and of y, by p
     """
@@ -39,6 +40,7 @@ class Stage(NamedTuple):
     following: Any
     residuals: Any
     rows: tuple[Any, ...]
+    firm: Any
     ends: Any
     inputs: tuple[Any, Any]
     states: tuple[Any, Any]
@@ -97,9 +99,10 @@ def horizon(stage: Stage, stages: int, prices: Prices) -> Horizon:
     derived, places = _derived(s, n, prices.damping)
     before = ca.horzcat(x0, states[:, :-1])
     gradient, hessian, rows, kept, onward, driven, low, high = derived(before, inputs, states, p, g)
-    pattern = Pattern(*places, laid_last, tuple(each.numel() for each in s.rows), s.ends.numel())
+    counts = tuple(each.numel() for each in s.rows)
+    pattern = Pattern(*places, laid_last, counts, s.firm.numel(), s.ends.numel())
     laid = layout(pattern, n, s.u.numel(), s.x.numel())
-    count, many = n * s.x.numel(), laid.bound.shape[0]
+    count, many = n * s.x.numel(), n * sum(counts) + s.ends.numel()
     slack = ca.DM.zeros(len(prices.lacking), n)
     step = [
         _taken(laid.cost.order, [hessian]),
@@ -203,7 +206,7 @@ def _derived(s: Stage, stages: int, damping: float) -> tuple[Any, tuple[Places, 
     w = ca.vertcat(s.u, s.y)
     slope = ca.jacobian(s.residuals, w)
     squares = ca.triu(2 * slope.T @ slope + damping * ca.SX.eye(w.numel()))
-    rows = ca.vertcat(*s.rows)
+    rows = ca.vertcat(*s.rows, s.firm)
     kept = ca.jacobian(rows, w)
     onward, driven = ca.jacobian(s.following, s.x), ca.jacobian(s.following, s.u)
     bounds = [ca.vertcat(i, y) - w for i, y in zip(s.inputs, s.states, strict=True)]

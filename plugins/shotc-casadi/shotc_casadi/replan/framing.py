@@ -17,7 +17,7 @@ import numpy as np
 from shotc.plugin_api.replanner import Appearance, Array, FramingProblem, FramingSituation, Plan, Replan
 from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
 from shotc_casadi.replan.flight import BOUNDS, Flight, fault, sent
-from shotc_casadi.replan.keeping import Kept, ends, rows
+from shotc_casadi.replan.keeping import Kept, ends, rows, within
 from shotc_casadi.replan.pictures import (
     COMMON,
     EACH,
@@ -132,7 +132,8 @@ def stage(of: Kept, cast: Cast) -> Stage:
     ]
     camera = Camera(y[:3], y[6], y[7], g[7:9])
     a, rate = u[:3], u[3:]
-    keep = [rows(of, (y[:3], y[3:6], a, -camera.ahead), p[own:], shared), *(clear(y[:3], b) for b in bodies)]
+    keep = [rows(of, (y[:3], y[3:6], -camera.ahead), p[own:], shared), *(clear(y[:3], b) for b in bodies)]
+    allowed, firm = within(a, most)
     free, limit = ca.SX.inf(3), ca.vertcat(most, most, most, turn, tilt)
     return Stage(
         x,
@@ -140,14 +141,13 @@ def stage(of: Kept, cast: Cast) -> Stage:
         y,
         p,
         g,
-        allowed=ca.vertcat(
-            a * most / ca.fmax(ca.norm_2(a), most), ca.fmin(ca.fmax(rate, -limit[3:]), limit[3:])
-        ),
+        allowed=ca.vertcat(allowed, ca.fmin(ca.fmax(rate, -limit[3:]), limit[3:])),
         following=ca.vertcat(
             x[:3] + step * (x[3:6] + 0.5 * step * a), x[3:6] + step * a, x[6:] + step * rate
         ),
         residuals=_residuals(camera, u, bodies, cast, g),
         rows=(ca.vertcat(*keep), *_covers(y[:3], bodies, cast, g[3])),
+        firm=firm,
         ends=ends(of, y[:3], y[3:6], shared),
         inputs=(-limit, limit),
         states=(

@@ -96,14 +96,14 @@ def each(traffic: Traffic) -> Array:
     return np.hstack(sent)
 
 
-def rows(of: Kept, state: tuple[Any, Any, Any, Any], p: Any, g: Any) -> Any:
+def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
     """Return the rows of a stage, as a column.
 
-    state : place, velocity and acceleration of the drone, and the unit vector against which its camera looks
+    state : place and velocity of the drone, and the unit vector against which its camera looks
     p, g : parameters of ``each`` and ``common``
     """
-    place, v, a, back = state
-    step, speed, most, _, apart, half_angle, *_ = ca.vertsplit(g[:LIMITS])
+    place, v, back = state
+    step, speed, _, _, apart, half_angle, *_ = ca.vertsplit(g[:LIMITS])
     cut = ca.sumsqr(v) * step**2 / 8
     found = [free_at(shape, place, sizes) - cut * sizes[1] for shape, sizes in _rooms(of, g)]
     for i in range(of.others):
@@ -118,10 +118,16 @@ def rows(of: Kept, state: tuple[Any, Any, Any, Any], p: Any, g: Any) -> Any:
         at = 6 * (of.others + i)
         angle = g[of.common - of.cones + i]
         found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
-    # What is beyond is cut off before it is flown; a step that does not know it leads nowhere.
-    found.append(most - ca.sqrt(ca.sumsqr(a) + STANDING_MS**2))
     found.append(speed - ca.sqrt(ca.sumsqr(v[:2]) + STANDING_MS**2))
     return ca.vertcat(*found)
+
+
+def within(a: Any, most: Any) -> tuple[Any, Any]:
+    """Return the nearest acceleration that is no larger, and how much larger it may be.
+
+    A step that does not know of that limit would be cut off by it, and lead where nothing gets better.
+    """
+    return a * most / ca.fmax(ca.norm_2(a), most), most - ca.sqrt(ca.sumsqr(a) + STANDING_MS**2)
 
 
 def ends(of: Kept, place: Any, v: Any, g: Any) -> Any:

@@ -22,7 +22,8 @@ class Pattern(NamedTuple):
 
     hessian : of the upper triangle, by input and next state; onward, driven : of the next state, by the state
     and by the input; kept : of the rows, by input and next state; ends : of those of the end, by the state
-    rows : how many of each stage there are with each slack; last : how many at the end, with the first slack
+    rows : how many of each stage there are with each slack; after them come as many as ``firm`` without one
+    last : how many at the end, with the first slack
     """
 
     hessian: Places
@@ -31,6 +32,7 @@ class Pattern(NamedTuple):
     kept: Places
     ends: Places
     rows: tuple[int, ...]
+    firm: int
     last: int
 
 
@@ -52,7 +54,7 @@ class Layout(NamedTuple):
     """The matrices of a programme over a horizon.
 
     cost : of the stages' Hessians; motion : of their ``driven``, then -1 for every state, then ``onward`` but
-    the first; bound : of ``kept``, then ``ends``, then 1 for every row
+    the first; bound : of ``kept``, then ``ends``, then 1 for every row with a slack
     """
 
     cost: Sparse
@@ -73,15 +75,15 @@ def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> Layout:
         [first + p.driven[1], first + after, first[:-1] + after[p.onward[1]]],
         (count, size),
     )
-    many = sum(p.rows)
+    soft, many = sum(p.rows), sum(p.rows) + p.firm
     rows, ends = many * np.arange(n)[:, None], n * many + np.arange(p.last)
-    number = np.arange(n * many + p.last)
+    yielding = np.append((rows + np.arange(soft)).ravel(), ends)
     own = first + inputs + np.repeat(np.arange(slacks), p.rows)
     slack = np.append(own.ravel(), np.full(p.last, first[-1] + inputs))
     bound = _sparse(
-        [rows + p.kept[0], ends[p.ends[0]], number],
+        [rows + p.kept[0], ends[p.ends[0]], yielding],
         [first + place[p.kept[1]], first[-1] + after[p.ends[1]], slack],
-        (len(number), size),
+        (n * many + p.last, size),
     )
     return Layout(cost, motion, bound)
 
