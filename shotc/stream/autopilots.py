@@ -1,7 +1,8 @@
 """What PX4 and ArduPilot want said differently, and what each does when its link is lost.
 
 Numbers are those of MAVLink, of PX4's commander (``px4_custom_mode.h``, ``commander_params.c``) and of
-ArduCopter (``mode.h``, ``Parameters.cpp``, ``events.cpp``).
+ArduCopter (``mode.h``, ``Parameters.cpp``, ``events.cpp``). What gimbal managers take is in PX4's
+``mavlink_receiver.cpp`` and ArduPilot's ``AP_Mount.cpp``.
 """
 
 from __future__ import annotations
@@ -62,6 +63,8 @@ class Autopilot(NamedTuple):
     lead : seconds before its lift-off in the plan at which a drone begins to get ready
     lift : metres to which it takes off by itself before it takes setpoints; 0 where it takes them on its pad
     bytewise : whether the float of a parameter holds the bytes of an integer
+    attitudes : whether its gimbal manager takes GIMBAL_MANAGER_SET_ATTITUDE, with rates beside the angles;
+        else it takes GIMBAL_MANAGER_SET_PITCHYAW, and neither angles nor rates where both are given
     alone : the parameter that says what it does when the ground station falls silent, in any mode
     speeds : what bounds the speed of what follows setpoints; versions may lack them
     station : parameters, any one of which says whose heartbeats count as the link
@@ -76,6 +79,7 @@ class Autopilot(NamedTuple):
     lead: float
     lift: float
     bytewise: bool
+    attitudes: bool
     losses: tuple[LossRule, ...]
     times: tuple[LossTime, ...]
     alone: str
@@ -114,6 +118,7 @@ PX4 = Autopilot(
     lead=8.0,
     lift=0.0,
     bytewise=True,
+    attitudes=True,
     losses=(
         LossRule(
             "COM_OBL_RC_ACT",
@@ -144,6 +149,7 @@ ARDUPILOT = Autopilot(
     lead=15.0,
     lift=1.0,
     bytewise=False,
+    attitudes=False,
     losses=(
         LossRule(
             "FS_GCS_ENABLE",

@@ -300,7 +300,7 @@ def _gimbal(ready: Ready, course: Course) -> Iterator[Diagnostic]:
             f"no gimbal answers on the vehicle of `{name}`",
             (ready.label("gimbal"),),
             ("GIMBAL_MANAGER_INFORMATION was asked for: the camera would not look where the plan does",),
-            "set up the gimbal as a MAVLink gimbal (PX4: MNT_MODE_OUT, ArduPilot: MNT1_TYPE)",
+            "set up the gimbal as a MAVLink gimbal (PX4: MNT_MODE_IN 4; ArduPilot: MNT1_TYPE)",
         )
         return
     low, high = pitch_range(course)

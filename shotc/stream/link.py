@@ -9,6 +9,7 @@ from __future__ import annotations
 import socket
 import struct
 from collections.abc import Callable, Iterator
+from math import cos, nan, sin
 from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -164,13 +165,27 @@ class Link:
 
     def aim(self, aim: Aim, gimbal: GimbalManager, *, pans: bool) -> None:
         """Send gimbal angles, level with the horizon; without pan the camera looks where its body does."""
-        flags = ROLL_LOCK | PITCH_LOCK | (YAW_LOCK if pans else 0)
-        yaw, yaw_rate = (aim.yaw, aim.yaw_rate) if pans else (0.0, 0.0)
+        yaw = aim.yaw if pans else 0.0
         self._send(
             self._mav.gimbal_manager_set_pitchyaw_encode(
-                self.system, gimbal.component, flags, gimbal.device, aim.pitch, yaw, aim.pitch_rate, yaw_rate
+                self.system, gimbal.component, _flags(pans=pans), gimbal.device, aim.pitch, yaw, nan, nan
             )
         )
+
+    def attitude(self, aim: Aim, gimbal: GimbalManager, *, pans: bool) -> None:
+        """Send what ``aim`` sends as an attitude (w, x, y, z) without roll, with its rates."""
+        yaw, yaw_rate = (aim.yaw, aim.yaw_rate) if pans else (0.0, 0.0)
+        cp, sp, cy, sy = cos(aim.pitch / 2), sin(aim.pitch / 2), cos(yaw / 2), sin(yaw / 2)
+        self._send(
+            self._mav.gimbal_manager_set_attitude_encode(
+                self.system, gimbal.component, _flags(pans=pans), gimbal.device,
+                [cy * cp, -sy * sp, cy * sp, sy * cp], 0.0, aim.pitch_rate, yaw_rate,
+            )
+        )  # fmt: skip
+
+
+def _flags(*, pans: bool) -> int:
+    return ROLL_LOCK | PITCH_LOCK | (YAW_LOCK if pans else 0)
 
 
 def decoded(mav: Any, data: bytes) -> list[Any]:

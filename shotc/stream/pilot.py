@@ -113,7 +113,8 @@ class Pilot:
             self.vehicle.link.setpoint(self.course.setpoint(tick), boot_ms)
             self.sent += 1
         if self.stage in (Stage.FLYING, Stage.LIFTING) and self.vehicle.gimbal is not None:
-            self.vehicle.link.aim(aim, self.vehicle.gimbal, pans=self.course.pans)
+            link, attitudes = self.vehicle.link, self.vehicle.autopilot.attitudes
+            (link.attitude if attitudes else link.aim)(aim, self.vehicle.gimbal, pans=self.course.pans)
 
     def step(self, tick: int, now: float) -> Iterator[Diagnostic]:
         """Go on to the next stage where this one has been reached; yield what makes flying on wrong."""

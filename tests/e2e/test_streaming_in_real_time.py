@@ -117,4 +117,5 @@ def test_mavsdk_understands_all_that_is_sent():
         recorded = [c["command"] for c in autopilot.commands if c["command"] in (2500, 2501)]
         assert recorded == [2500, 2501]
         assert min(s["z"] for s in autopilot.setpoints) == pytest.approx(-3.0, abs=0.01)
-        assert min(aim["pitch"] for aim in autopilot.aims) == pytest.approx(-0.2, abs=1e-4)
+        pitches = [2 * np.arctan2(aim["q"][2], aim["q"][0]) for aim in autopilot.aims]
+        assert min(pitches) == pytest.approx(-0.2, abs=1e-4)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -47,6 +48,8 @@ def test_a_setpoint_is_where_the_plan_is_at_its_tick(pilot, origin, raised, whic
     assert sent.acceleration == ((north, east, -up) if moves else (0.0, 0.0, 0.0))
     assert apart(sent.yaw, pi / 2 - pose[BODY_YAW]) < 1e-12
     aim = course.aim(tick)
+    turns = track.curve.derivative()(t) if moves else np.zeros(7)
+    assert (aim.pitch_rate, aim.yaw_rate) == (turns[CAM_PITCH], -turns[CAM_YAW])
     assert aim.pitch == pose[CAM_PITCH]
     assert apart(aim.yaw, pi / 2 - pose[CAM_YAW]) < 1e-12
 

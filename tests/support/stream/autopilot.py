@@ -1,7 +1,8 @@
 """A simulated autopilot: pymavlink on a loopback port, the simulated vehicle behind it.
 
-It follows the rules that matter for a sender: PX4 wants setpoints for a second before OFFBOARD, and falls
-out of it without them; ArduPilot takes setpoints only after its own take-off. `run` drives it, by any clock.
+It follows the rules that matter for a sender. PX4 wants setpoints for a second before OFFBOARD, falls out of
+it without them, and takes attitudes for its gimbal; ArduPilot takes setpoints only after its own take-off,
+and gimbal angles without rates. `run` drives it, from any clock.
 """
 
 from __future__ import annotations
@@ -136,7 +137,13 @@ class Autopilot:
             self._obey(raw, now)
         elif kind == "SET_POSITION_TARGET_LOCAL_NED":
             self._follow(raw, now)
-        elif kind == "GIMBAL_MANAGER_SET_PITCHYAW":
+        elif kind == "GIMBAL_MANAGER_SET_ATTITUDE" and self.kind == PX4:
+            w, x, y, z = raw.q
+            yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+            pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
+            assert abs(math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))) < 1e-6, "level"
+            self.aims.append((now, pitch, yaw, raw.flags, raw.angular_velocity_y, raw.angular_velocity_z))
+        elif kind == "GIMBAL_MANAGER_SET_PITCHYAW" and self.kind == ARDUPILOT and math.isnan(raw.pitch_rate):
             self.aims.append((now, raw.pitch, raw.yaw, raw.flags, raw.pitch_rate, raw.yaw_rate))
 
     def _tell_parameter(self, name):

@@ -57,7 +57,7 @@ class SdkAutopilot:
             provide(name, value)
         self._direct = MavlinkDirectServer(component)
         self._direct.subscribe_message("SET_POSITION_TARGET_LOCAL_NED", self._follow)
-        self._direct.subscribe_message("GIMBAL_MANAGER_SET_PITCHYAW", self._aim)
+        self._direct.subscribe_message("GIMBAL_MANAGER_SET_ATTITUDE", self._aim)
         for command in (SET_MODE, ARM, CLAIM, VIDEO_START, VIDEO_STOP, REQUEST, INTERVAL):
             self._direct.subscribe_command(command, self._obey)
 
