@@ -19,7 +19,6 @@ from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, t
 from shotc.simulation.guidance import PERIOD_S, Guide, Replans, replanned
 from shotc.simulation.seen import Watched, watched
 from shotc.simulation.sent import Sent
-from shotc.simulation.tracker import Estimate
 from shotc.simulation.vehicle import STEP_S, Lagging, Plant, State, Vehicle, steered
 from shotc.simulation.world import World
 
@@ -87,7 +86,7 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
     error = conditions.gps.own_error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
     targets = _watched(world, film)
     shots = replanned(world.mission, film) if conditions.loop == "replan" else ()
-    guide = Guide(world, film, shots, sent, own)
+    guide = Guide(world, film, shots, targets, sent, own)
     vehicle, gimbal = (
         Vehicle(speed=HEADROOM * fastest(film.drone.limits)),
         GimbalModel(film.drone.gimbal.rate),
@@ -107,7 +106,7 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
                 target.learn(float(film.times[k]))
             wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
             attitude = turned(gimbal, attitude, wanted, rate, EVERY * STEP_S)
-        asked = guide.setpoint(k, (state.position + off, state.velocity), _of(guide, targets, film, k))
+        asked = guide.setpoint(k, (state.position + off, state.velocity))
         state = plant.carried(state, *steered(vehicle, state, asked, off), world.steady + gusts[k])
     return into.done(film, guide)
 
@@ -124,15 +123,6 @@ def plant_of(name: VehicleName, vehicle: Vehicle, first: State) -> Plant:
 def fastest(limits: Limits) -> float:
     """Return the largest speed that limits allow, climbing or sinking included, m/s."""
     return hypot(limits.speed, max(limits.climb, limits.descent))
-
-
-def _of(guide: Guide, targets: tuple[Watched, ...], film: Film, k: int) -> Estimate | None:
-    """Return what is known of the target of the shot that is planned anew at a step, if there is one."""
-    time = float(film.times[k])
-    shot = guide.shot_at(time)
-    if shot is None:
-        return None
-    return next(t for t in targets if t.name == shot.target).tracker.now(time)
 
 
 def _watched(world: World, film: Film) -> tuple[Watched, ...]:

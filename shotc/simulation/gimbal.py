@@ -41,7 +41,7 @@ def axes_of(yaw: Array, pitch: Array) -> Array:
     cos_y, sin_y, cos_p, sin_p = np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch)
     right = np.stack([sin_y, -cos_y, np.zeros_like(yaw)], axis=-1)
     forward = np.stack([cos_p * cos_y, cos_p * sin_y, sin_p], axis=-1)
-    return np.stack([right, np.cross(forward, right), forward], axis=-1)
+    return np.stack([right, cross(forward, right), forward], axis=-1)
 
 
 def angles_of(axes: Array) -> tuple[Array, Array, Array]:
@@ -66,7 +66,7 @@ def turned(gimbal: GimbalModel, attitude: Attitude, wanted: Array, rate: Array, 
     which in W is half the sum of the cross products of the axes. The motors' lag follows, and
     R <- exp(omega h) R.
     """
-    error = 0.5 * np.cross(attitude.axes, wanted, axis=1).sum(axis=2)
+    error = 0.5 * cross(np.swapaxes(attitude.axes, 1, 2), np.swapaxes(wanted, 1, 2)).sum(axis=1)
     asked = within(gimbal.gain * error + rate, sqrt(2.0) * gimbal.rate)
     omega = attitude.rate + (asked - attitude.rate) * (1.0 - exp(-step / gimbal.lag))
     return Attitude(rotated(attitude.axes, omega * step), omega)
@@ -77,6 +77,16 @@ def rotated(axes: Array, by: Array) -> Array:
     angle = np.sqrt(np.einsum("rd,rd->r", by, by))
     along = np.sinc(angle / np.pi)[:, None, None]
     across = (0.5 * np.sinc(angle / (2 * np.pi)) ** 2)[:, None, None]
-    once = np.cross(by[:, None, :], axes, axisa=2, axisb=1, axisc=1)
-    twice = np.cross(by[:, None, :], once, axisa=2, axisb=1, axisc=1)
-    return np.asarray(axes + along * once + across * twice)
+    rows = np.swapaxes(axes, 1, 2)
+    once = cross(by[:, None, :], rows)
+    twice = cross(by[:, None, :], once)
+    return np.swapaxes(rows + along * once + across * twice, 1, 2)
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Return the cross products of vectors (..., 3); numpy's own takes five times as long for a few."""
+    out = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    out[..., 0] = a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1]
+    out[..., 1] = a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2]
+    out[..., 2] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return out

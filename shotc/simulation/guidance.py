@@ -24,6 +24,7 @@ from shotc.plugin_api.replanner import (
     Traffic,
 )
 from shotc.simulation.film import Film
+from shotc.simulation.seen import Watched
 from shotc.simulation.sent import Fading, Held, Sent
 from shotc.simulation.tracker import Estimate
 from shotc.simulation.vehicle import STEP_S, Setpoint
@@ -103,7 +104,7 @@ def _beside(shot: Shot) -> str | None:
 class Guide:
     """One drone of R runs.
 
-    shots : those that are planned anew; () flies the plan
+    shots : those that are planned anew; () flies the plan; targets : what is known of those that move
     sent : what the drones of higher priority have sent; own : what this one sends
     away : how far the setpoints are from the plan after a shot, and how that fades
     """
@@ -111,6 +112,7 @@ class Guide:
     world: World
     film: Film
     shots: tuple[Anew, ...]
+    targets: tuple[Watched, ...]
     sent: tuple[Sent, ...] = ()
     own: Sent | None = None
     counts: list[Replans] = field(default_factory=list)
@@ -120,27 +122,24 @@ class Guide:
     _active: Anew | None = None
     _course: Array | None = None
 
-    def setpoint(self, k: int, drone: tuple[Array, Array], known: Estimate | None) -> Setpoint:
+    def setpoint(self, k: int, drone: tuple[Array, Array]) -> Setpoint:
         """Return what the drone is asked for at a step.
 
-        drone : where it takes itself to be, and how it moves, (R, 3) each; known : of the shot's target
+        drone : where it takes itself to be, and how it moves, (R, 3) each
         """
         time = float(self.film.times[k])
-        shot = self.shot_at(time)
-        if shot is not None and known is not None:
+        shot = next((s for s in self.shots if s.phase.start <= time < s.phase.end), None)
+        if shot is not None:
             if shot is not self._active:
                 self._begin(shot)
             if round((time - self.film.times[self._first(shot)]) / STEP_S) % round(PERIOD_S / STEP_S) == 0:
-                self._replan(shot, time, drone, known)
+                known = next(t for t in self.targets if t.name == shot.target)
+                self._replan(shot, time, drone, known.tracker.now(time))
         elif self._active is not None:
             self._leave(time)
         if self._active is not None and self._held is not None:
             return self._held.setpoint(time)
         return self.film.setpoint(k) if self._back is None else self._back.setpoint(time)
-
-    def shot_at(self, time: float) -> Anew | None:
-        """Return the shot that is planned anew at a time."""
-        return next((s for s in self.shots if s.phase.start <= time < s.phase.end), None)
 
     def _first(self, shot: Anew) -> int:
         return int(np.searchsorted(self.film.times, shot.phase.start))

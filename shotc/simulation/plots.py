@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from io import BytesIO
 from math import isfinite
 from typing import Any, NamedTuple
@@ -13,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from shotc.emit.palette import CAMERA, FAINT, INK, KEEP_OUT, PAPER, QUIET, SUBJECT
-from shotc.geom.bernstein import Array
 from shotc.simulation.judge import Run
 from shotc.simulation.rehearsal import Rehearsed
+from shotc.simulation.runs import Strays
 
 DPI = 110.0
 WIDTH_IN = 11.0
@@ -23,15 +22,6 @@ PANEL_IN = 2.6
 
 HEAD_IN = 1.0
 BINS = 32
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Strays:
-    """How far the farthest drone is from its plan: times (F,), s; median and largest of the runs, (F,), m."""
-
-    times: Array
-    median: Array
-    largest: Array
 
 
 class _Panel(NamedTuple):
@@ -43,10 +33,10 @@ class _Panel(NamedTuple):
     limit: float | None
 
 
-def draw(done: Rehearsed, over_time: Strays | None) -> bytes:
-    """Return the page as PNG; the same rehearsal gives the same bytes. over_time : None for shows."""
+def draw(done: Rehearsed) -> bytes:
+    """Return the page as PNG; the same rehearsal gives the same bytes."""
     panels = _panels(done)
-    rows = (len(panels) + 1) // 2 + (over_time is not None)
+    rows = (len(panels) + 1) // 2 + (done.strays is not None)
     height = HEAD_IN + PANEL_IN * rows
     figure = Figure(figsize=(WIDTH_IN, height), dpi=DPI, facecolor=PAPER)
     top, bottom = 1 - 0.75 / height, 0.5 / height
@@ -56,8 +46,8 @@ def draw(done: Rehearsed, over_time: Strays | None) -> bytes:
     figure.suptitle(_title(done), x=0.07, y=1 - 0.2 / height, ha="left", va="top", color=INK, fontsize=12)
     for i, panel in enumerate(panels):
         _spread(figure.add_subplot(grid[i // 2, i % 2]), done, panel)
-    if over_time is not None:
-        _timeline(figure.add_subplot(grid[rows - 1, :]), done, over_time)
+    if done.strays is not None:
+        _timeline(figure.add_subplot(grid[rows - 1, :]), done, done.strays)
     into = BytesIO()
     figure.savefig(into, format="png", metadata={"Software": None})
     return into.getvalue()
@@ -105,10 +95,11 @@ def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
 
 
 def _timeline(axes: Any, done: Rehearsed, strays: Strays) -> None:
-    top = float(strays.largest.max())
+    median, largest = np.median(strays.metres, axis=1), strays.metres.max(axis=1)
+    top = float(largest.max())
     label = "largest of the runs"
-    axes.fill_between(strays.times, 0.0, strays.largest, color=SUBJECT, alpha=0.25, linewidth=0, label=label)
-    axes.plot(strays.times, strays.median, color=SUBJECT, linewidth=1.2, label="median")
+    axes.fill_between(strays.times, 0.0, largest, color=SUBJECT, alpha=0.25, linewidth=0, label=label)
+    axes.plot(strays.times, median, color=SUBJECT, linewidth=1.2, label="median")
     for row, track in enumerate(done.ir.drones):
         for phase in track.phases:
             if phase.shot is not None:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+import numpy as np
+
 from shotc.ir.mission import MissionIR
 from shotc.ir.rehearsal import Loop, Receiver, RehearsalPromise, VehicleName, Wind
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
-from shotc.simulation.runs import Done, simulated
+from shotc.simulation.runs import Block, Done, Strays, simulated
 from shotc.simulation.sensors import GRADES, Gps
 from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import Verdict, enough, held, verdicts
@@ -45,6 +47,7 @@ class Rehearsed:
     """What came of a rehearsal.
 
     held, needed : in how many runs all that is asked holds, and in how many it has to
+    strays : of cameras over time, None for shows
     """
 
     ir: TrajectoryIR
@@ -54,6 +57,7 @@ class Rehearsed:
     verdicts: tuple[Verdict, ...]
     held: int
     needed: int
+    strays: Strays | None
 
     @property
     def mission(self) -> MissionIR:
@@ -99,9 +103,18 @@ def rehearse(ir: TrajectoryIR, conditions: Conditions, count: int, jobs: int, do
     """Fly a plan in so many runs and judge them by what its mission asks."""
     written = ir.keyframes.mission.rehearsal
     promise = SILENT if written is None else written.promise
-    runs = simulated(ir, conditions, count, jobs, done)
+    blocks = simulated(ir, conditions, count, jobs, done)
+    runs = tuple(run for block in blocks for run in block.runs)
     found = verdicts(runs, promise)
-    return Rehearsed(ir, conditions, promise, runs, found, held(runs, found), enough(runs, promise))
+    kept, needed = held(runs, found), enough(runs, promise)
+    return Rehearsed(ir, conditions, promise, runs, found, kept, needed, _together(blocks))
+
+
+def _together(blocks: tuple[Block, ...]) -> Strays | None:
+    every = [block.strays for block in blocks if block.strays is not None]
+    if not every:
+        return None
+    return Strays(every[0].times, np.concatenate([each.metres for each in every], axis=1))
 
 
 def _receiver(gps: Gps, asked: Asked) -> Gps:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
+from functools import lru_cache
 from math import exp
 from typing import Protocol
 
@@ -183,12 +184,19 @@ def predicted(estimate: Estimate, time: float, model: Motion) -> Estimate:
     dt = time - estimate.time
     if dt <= 0.0:
         return estimate
+    forward, noise = _transition(dt, model)
+    spread = forward @ estimate.covariance @ forward.T + noise
+    return Estimate(time, estimate.mean @ forward.T, spread)
+
+
+@lru_cache(maxsize=1024)
+def _transition(dt: float, model: Motion) -> tuple[Array, Array]:
+    """Return F and Q over dt seconds, (9, 9) each."""
     kept = exp(-dt / BIAS_MEMORY_S)
-    forward = np.kron(np.array([[1.0, dt, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, kept]]), np.eye(3))
+    forward = np.array([[1.0, dt, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, kept]])
     q, fresh = model.agility, model.bias**2 * (1.0 - kept * kept)
     noise = np.array([[q * dt**3 / 3, q * dt**2 / 2, 0.0], [q * dt**2 / 2, q * dt, 0.0], [0.0, 0.0, fresh]])
-    spread = forward @ estimate.covariance @ forward.T + np.kron(noise, np.eye(3))
-    return Estimate(time, estimate.mean @ forward.T, spread)
+    return np.kron(forward, np.eye(3)), np.kron(noise, np.eye(3))
 
 
 def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) -> Estimate:
