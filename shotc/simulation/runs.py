@@ -50,7 +50,7 @@ class Block:
 def simulated(
     ir: TrajectoryIR, conditions: Conditions, count: int, jobs: int, done: Done
 ) -> tuple[Block, ...]:
-    """Fly a plan ``count`` times, in so many processes at most, and judge every run; blocks in their order."""
+    """Fly a plan ``count`` times, in so many processes at most, and judge every run."""
     blocks = [range(i, min(i + BLOCK, count)) for i in range(0, count, BLOCK)]
     found: dict[int, Block] = {}
     for block in _each(ir, conditions, blocks, jobs):
