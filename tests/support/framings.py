@@ -148,7 +148,7 @@ def appears(place: Array, aim: tuple[float, float], head: Array, wanted: Appeara
         apart = (inside / far - ray / np.linalg.norm(ray)) / np.array([*HALF, HALF[0]])
         cost += w.place * float(apart @ apart)
         uv = inside[:2] / inside[2] / np.array(HALF)
-        off = float(np.linalg.norm((uv - wanted.uv) * PIXELS))
+        off = float(np.linalg.norm((uv - wanted.uv) * PIXELS)) if inside[2] > 0 else np.inf
     if wanted.size is not None:
         cost += w.size * float(np.log(2 * HALF[1] * far * wanted.size / SIZE)) ** 2
     if wanted.view is not None:

@@ -50,7 +50,8 @@ rules: {{ground_clearance: 0.4, target_clearance: 0.3, allow: [jump-cut, fast-pa
 shots:
 {shots}
 """
-PERSON = "radius: 0.3, height: 1.8"
+PERSON_SIZE = (0.3, 1.8)  # radius and height, m
+PERSON = "radius: {:g}, height: {:g}".format(*PERSON_SIZE)
 NOTES = (
     "planned whole, offline: every walk is known. The paper replans over N = 25 steps all the time; its "
     "Experiment 5 (the time of a replan) stands with replanning",

@@ -9,7 +9,7 @@ import pytest
 from shotc_casadi.replan.chase import Chase
 from shotc_casadi.replan.steps import Until
 
-from tests.experiments.papers import reframing, warm
+from tests.experiments.papers import reframing, walked_by, warm
 from tests.experiments.papers.multidrone import LATERAL
 from tests.experiments.papers.replanning import HORIZONS, Record, _shifted, fly, jerks
 from tests.support.replans import DT, TREE, problem, zone
@@ -74,3 +74,13 @@ def test_the_table_of_framings_has_a_row_a_case_with_both_costs(monkeypatch):
     assert "(" in off
     assert float(nearest) > 1.0
     assert told == "0, 0"
+
+
+@pytest.mark.parametrize("name", walked_by.WALKS)
+def test_past_walkers_a_head_is_seen_and_nobody_is_touched(name):
+    one = walked_by.fly(walked_by.WALKS[name](1), 1, seconds=12.0)
+    assert one.hidden.mean() <= 0.01
+    assert one.value.min() >= 1.0
+    assert one.off.mean() < 5.0
+    assert one.off.max() < 30.0
+    assert set(one.told) <= {"planned", "stalled"}
