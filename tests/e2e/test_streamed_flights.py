@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import socket
+
 import numpy as np
 import pytest
+from pymavlink.dialects.v20 import common as mavlink
 from scipy.spatial import cKDTree
 
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.stream.clock import PERIOD_S
+from shotc.stream.endpoint import Endpoint
 from tests.support.film_plans import orbit_plan
 from tests.support.stream.autopilot import ARM, GUIDED, LAND, OFFBOARD, PX4_LAND, SET_MODE, TAKE_OFF, Script
 from tests.support.stream.globe import ardupilot_place, in_world, px4_place
-from tests.support.stream.plans import hop_plan
-from tests.support.stream.worlds import World
+from tests.support.stream.plans import brief_plan, hop_plan
+from tests.support.stream.worlds import World, free_port
 
 pytestmark = pytest.mark.slow
 
@@ -97,6 +101,41 @@ def test_two_drones_fly_by_one_clock():
     # Both rise 5 s after each other, to the tick.
     leaves = [rows[np.argmax(rows[:, 3] < rows[0, 3] - 1.0), 0] for rows in (near, far)]
     assert leaves[1] - leaves[0] == pytest.approx(5.0, abs=1e-6)
+
+
+def test_a_camera_of_its_own_records():
+    with World(hop_plan(), cam1=Script(camera=True)) as world:
+        flown, _ = world.fly()
+        assert flown.diagnostics == []
+        assert [on for _, on in world.autopilots["cam1"].recording] == [True, False]
+
+
+def test_a_vehicle_is_called_where_it_waits():
+    with World(brief_plan()) as world:
+        autopilot = world.autopilots["cam1"]
+        autopilot.to = ("127.0.0.1", free_port())
+        there = Endpoint("127.0.0.1", autopilot.socket.getsockname()[1], True)
+        assert world.session.open({"cam1": there}, {}) == []
+        aboard, found = world.session.check()
+        assert found == []
+        assert world.session.fly(aboard)[0].landed
+
+
+def test_what_others_send_to_the_port_is_not_believed():
+    with World(brief_plan()) as world, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+        aboard, _ = world.check()
+        mav = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+        port = ("127.0.0.1", world.ports["cam1"])
+
+        def lie():
+            stranger.sendto(mav.heartbeat_encode(2, 12, 129, 3 << 16, 4).pack(mav), port)
+            stranger.sendto(mav.local_position_ned_encode(0, 500.0, 0.0, 0.0, 0.0, 0.0, 0.0).pack(mav), port)
+            world.clock.events.append((world.clock.time + 0.3, lie))
+
+        lie()
+        flown, _ = world.session.fly(aboard)
+    assert flown.landed
+    assert flown.diagnostics == []
 
 
 def test_a_local_frame_that_begins_elsewhere_changes_nothing_on_the_globe():

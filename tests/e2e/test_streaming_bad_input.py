@@ -21,7 +21,7 @@ from tests.support.stream.autopilot import (
     VIDEO_START,
     Script,
 )
-from tests.support.stream.plans import hop_plan, with_zoom, without_origin
+from tests.support.stream.plans import brief_plan, hop_plan, with_zoom, without_origin
 from tests.support.stream.worlds import World
 
 BEFORE = {
@@ -125,6 +125,25 @@ def test_a_port_in_use_is_told():
     assert code == "A002"
     assert f"udp:127.0.0.1:{world.ports['cam1']}" in text
     assert "in use" in text
+
+
+def test_a_port_of_a_target_in_use_is_told():
+    with (
+        World(hop_plan(), targets=["tower"]) as world,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other,
+    ):
+        other.bind(("127.0.0.1", world.targets["tower"].port))
+        _, found = world.check()
+    ((code, text),) = told(found)
+    assert code == "A002"
+    assert "target `tower`" in text
+
+
+@pytest.mark.slow
+def test_a_vehicle_that_keeps_its_motors_on_is_told():
+    with World(brief_plan(), cam1=Script(lands=False)) as world:
+        flown, _ = world.fly()
+    assert [d.code for d in flown.diagnostics] == ["A028"]
 
 
 def test_an_address_that_is_not_of_this_machine_is_told():

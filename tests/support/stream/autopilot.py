@@ -22,6 +22,7 @@ OFFBOARD, PX4_HOLD, PX4_LAND = 6 << 16, 4 << 16 | 3 << 24, 4 << 16 | 6 << 24
 GUIDED, BRAKE, LAND = 4, 17, 9
 SET_MODE, ARM, TAKE_OFF, CLAIM = 176, 400, 22, 1001
 VIDEO_START, VIDEO_STOP = 2500, 2501
+CAMERA = 100
 PX4_PARAMETERS = {"COM_OBL_RC_ACT": 5, "NAV_DLL_ACT": 2, "COM_OF_LOSS_T": 1.0}
 ARDUPILOT_PARAMETERS = {
     "FS_GCS_ENABLE": 1.0,
@@ -43,7 +44,8 @@ class Script:
     refuses : results of commands by number; answers_after : seconds before it answers commands
     vanishes : when it falls silent, takes_over : when its pilot changes the mode, on the clock of the test
     mute : messages that it never sends; stuck : it does not move; texts : what it says when asked to arm
-    pitch : what its gimbal reaches, degrees
+    pitch : what its gimbal reaches, degrees; camera : it has a camera with a heartbeat of its own
+    lands : whether it stops its motors on the ground
     """
 
     kind: int | None = None
@@ -62,6 +64,8 @@ class Script:
     stuck: bool = False
     texts: tuple[str, ...] = ()
     pitch: tuple[float, float] = (-90.0, 30.0)
+    camera: bool = False
+    lands: bool = True
 
 
 class Autopilot:
@@ -118,7 +122,8 @@ class Autopilot:
 
     def _receive(self):
         try:
-            return self.socket.recv(65536)
+            data, self.to = self.socket.recvfrom(65536)
+            return data
         except OSError:
             return None
 
@@ -176,6 +181,8 @@ class Autopilot:
             for text in self.script.texts:
                 self._send(self._mav.statustext_encode(2, text.encode()))
         result = self.script.refuses.get(raw.command)
+        if raw.command in (VIDEO_START, VIDEO_STOP) and self.script.camera and raw.target_component != CAMERA:
+            result = mavlink.MAV_RESULT_UNSUPPORTED
         if result is None:
             result = self._does(raw.command, params, now)
         ack = self._mav.command_ack_encode(raw.command, result)
@@ -236,7 +243,7 @@ class Autopilot:
             place = state.position.copy()
             place[0, 2] = self.pad[0, 2]
             state = State(place, still, still, still)
-            if self.mode in (PX4_LAND, LAND):
+            if self.mode in (PX4_LAND, LAND) and self.script.lands:
                 self.armed = False
         self.state = state
         self.flown.append((self.time, *state.position[0]))
@@ -260,6 +267,10 @@ class Autopilot:
                     4 if self.armed else self.script.status,
                 )
             )
+            if self.script.camera:
+                self._mav.srcComponent = CAMERA
+                self._send(self._mav.heartbeat_encode(30, 8, 0, 0, 4))
+                self._mav.srcComponent = 1
         if now - self._told >= 0.1:
             self._told = now
             place, rate = self.state.position[0], self.state.velocity[0]
