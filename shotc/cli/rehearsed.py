@@ -14,10 +14,10 @@ from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import at_least, at_most, plain, up
 from shotc.simulation.film import film_of
-from shotc.simulation.guidance import replanned
 from shotc.simulation.judge import Course, Picture, Run
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.shows import FleetCourse
+from shotc.simulation.situations import replanned
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
@@ -176,7 +176,7 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
     anew = {each.phase.shot for film in films for each in replanned(mission, film)}
     rest = [f"`{shot.id}`" for shot in mission.shots if shot.id not in anew]
     if rest:
-        why = "they film no single target that moves, from beside it"
+        why = "they film nothing that moves, or a pose of their own binds them"
         yield f"not planned anew, but flown as planned: {', '.join(rest)}; {why}"
     for i, first in enumerate(done.runs[0].courses):
         counts = [c for c in (run.courses[i].replans for run in done.runs) if c is not None]

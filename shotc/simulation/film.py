@@ -52,6 +52,10 @@ class Film:
     half: Array
     framed: tuple[Framed, ...]
 
+    def step(self, time: float) -> int:
+        """Return the step at a time, or the first after it."""
+        return min(int(np.ceil(time / STEP_S - 1e-6)), len(self.times) - 1)
+
     def setpoint(self, k: int) -> Setpoint:
         """Return what the drone is asked for at a step."""
         return Setpoint(self.position[k, None], self.velocity[k, None], self.acceleration[k, None])

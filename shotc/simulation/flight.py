@@ -16,9 +16,10 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.film import Film, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
-from shotc.simulation.guidance import PERIOD_S, Guide, Replans, replanned
+from shotc.simulation.guidance import PERIOD_S, Guide, Replans
 from shotc.simulation.seen import Watched, watched
 from shotc.simulation.sent import Sent
+from shotc.simulation.situations import replanned
 from shotc.simulation.vehicle import STEP_S, Lagging, Plant, State, Vehicle, steered
 from shotc.simulation.world import World
 

@@ -14,8 +14,8 @@ from shotc.plugin_api.replanner import Plan, Replan
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
-from shotc.simulation.guidance import replanned
 from shotc.simulation.judge import judged
+from shotc.simulation.situations import replanned
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
 from shotc.simulation.world import World, at_times
@@ -139,3 +139,32 @@ def test_shots_of_what_stands_and_of_several_are_flown_as_planned():
     mission = plan().keyframes.mission
     still = mission._replace(targets=tuple(t._replace(track=None) for t in mission.targets))
     assert not replanned(still, film)
+
+
+DUO = b"""\
+shotc: 1
+mission: duo
+targets:
+  ann: {track: {start: [0, 0, 0.9], velocity: [1.0, 0, 0]}, radius: 0.4, height: 1.8}
+  bob: {track: {start: [0, 2.5, 0.9], velocity: [1.0, 0, 0]}, radius: 0.4, height: 1.8}
+drones: {cam: {model: x500, home: [-15, -15, 0]}}
+shots:
+  - {id: both, kind: framing, drone: cam, timing: {start: 15, duration: 12},
+     subjects: [{target: ann, frame: left-third}, {target: bob, frame: right-third}]}
+"""
+
+
+def test_a_framing_is_planned_anew_where_its_subjects_part():
+    done = compile_source(DUO, "duo.yaml", None, PlanOptions("none"))
+    assert done.plan is not None, done.diagnostics
+    ir = done.plan.trajectory
+    parts = Track((0.0, 14.0, 90.0), ((0.0, 2.5, 0.9), (14.0, 2.5, 0.9), (90.0, 20.0, 0.9)))
+    error = {}
+    for loop in ("track", "replan"):
+        conditions = Conditions(loop=loop, truth=Truth(tracks=(("bob", parts),)))
+        world = World.of(ir, conditions, (0,))
+        (run,) = judged(world, ir, fly_all(world, ir.drones), ((),))
+        error[loop] = run.error
+    assert run.courses[0].replans.planned > 15
+    assert run.courses[0].replans.failed == 0
+    assert error["replan"] < 0.8 * error["track"]

@@ -1,0 +1,222 @@
+"""Shots that are planned anew while they are flown, and what is known at the moment of a replan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import cos, sin
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.camera import yaw_of
+from shotc.ir.mission import Drone, MissionIR, Shot, Subject
+from shotc.ir.path import CAM_PITCH, CAM_YAW
+from shotc.ir.phases import Phase
+from shotc.ir.target import Target
+from shotc.plugin_api.replanner import (
+    Appearance,
+    ChasePlanner,
+    ChaseProblem,
+    ChaseSituation,
+    ChaseWeights,
+    FilmedSubject,
+    FramingPlanner,
+    FramingProblem,
+    FramingSituation,
+    Horizon,
+    Keeping,
+    Replanner,
+    Traffic,
+)
+from shotc.simulation.film import Film
+from shotc.simulation.tracker import Estimate
+
+STAGE_S = 0.1
+CHASE_STAGES, FRAMING_STAGES = 30, 25
+"""Stages that are planned ahead, of STAGE_S seconds each."""
+
+WEIGHTS = ChaseWeights(end=20.0)
+"""With the paper's 1 a drone stays a metre and more behind a target that leaves its track; with 20 half,
+and its acceleration grows by a twentieth (measured: a chase and a lateral at 1.2 m/s, horizon 4 s)."""
+
+LEVEL_M = 0.1
+"""Metres by which the height of a shot may change over a horizon and count as one height."""
+
+Known = Mapping[str, Estimate]
+"""What is known of the targets that move, by name, in R runs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chased:
+    """A shot of one target from beside it; turns : whether its place turns with the way the target goes."""
+
+    phase: Phase
+    target: str
+    turns: bool
+
+    @property
+    def stages(self) -> int:
+        """How many stages are planned ahead."""
+        return CHASE_STAGES
+
+    def planner(self, by: Replanner, _film: Film, keeping: Keeping) -> ChasePlanner:
+        """Return who plans it anew."""
+        return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), keeping, WEIGHTS))
+
+    def situation(
+        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
+    ) -> ChaseSituation:
+        """Return what is known of one run at the first of the stages, mission times (N + 1,).
+
+        drone : where it takes itself to be, and how it moves, (3,) each
+        """
+        target, moves = predicted(mission.target(self.target), stages, of)
+        goal = min(float(stages[-1]), self.phase.end)
+        beside = np.asarray(film.track.curve(goal))[:3] - np.array(mission.target(self.target).at(goal))
+        level = film.track.curve(stages[stages <= goal])[:, 2]
+        c, s = cos(of.turn), sin(of.turn)
+        wanted = target[-1] + np.array(
+            [c * beside[0] - s * beside[1], s * beside[0] + c * beside[1], beside[2]]
+        )
+        return ChaseSituation(
+            time=float(stages[0]),
+            place=drone[0],
+            velocity=drone[1],
+            target=target,
+            target_velocity=np.tile(moves, (len(stages), 1)),
+            wanted=wanted,
+            wanted_velocity=moves,
+            height=float(wanted[2]) if np.ptp(level) <= LEVEL_M else None,
+            traffic=of.traffic,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Composed:
+    """A shot that is found from how its subjects are to appear."""
+
+    phase: Phase
+    subjects: tuple[Subject, ...]
+
+    @property
+    def stages(self) -> int:
+        """How many stages are planned ahead."""
+        return FRAMING_STAGES
+
+    def planner(self, by: Replanner, film: Film, keeping: Keeping) -> FramingPlanner:
+        """Return who plans it anew."""
+        k = int(np.searchsorted(film.times, self.phase.start))
+        half = (float(film.half[k, 0]), float(film.half[k, 1]))
+        rates = (film.drone.gimbal.rate, film.drone.gimbal.rate)
+        return by.framing(FramingProblem(Horizon(FRAMING_STAGES, STAGE_S), keeping, half, rates))
+
+    def situation(
+        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
+    ) -> FramingSituation:
+        """Return what is known of one run; arguments as of ``Chased``."""
+        filmed = {each.target: each for each in self.subjects}
+        wanted = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
+        bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
+        aim = np.asarray(film.track.curve(float(stages[0])))
+        return FramingSituation(
+            time=float(stages[0]),
+            place=drone[0],
+            velocity=drone[1],
+            aim=(float(aim[CAM_YAW]), float(aim[CAM_PITCH])),
+            subjects=tuple(
+                _filmed(mission, film.drone, target, filmed.get(target.name), (stages, of, wanted))
+                for target in bodies
+            ),
+            traffic=of.traffic,
+        )
+
+
+Anew = Chased | Composed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moment:
+    """What is known of one run at the moment of a replan.
+
+    known : of the targets, in R runs; run : which of them; turn : by how much the way that the target of a
+        ``Chased`` goes is off the plan's, rad; traffic : the plans that others have sent
+    """
+
+    known: Known
+    run: int
+    turn: float
+    traffic: Traffic
+
+
+def replanned(mission: MissionIR, film: Film) -> tuple[Anew, ...]:
+    """Return the shots that are planned anew: of what moves, from beside it or by how it is to appear."""
+    return tuple(_anew(mission, film))
+
+
+def _anew(mission: MissionIR, film: Film) -> Iterator[Anew]:
+    framed = {each.target for each in film.framed}
+    for phase in film.track.phases:
+        shot = None if phase.shot is None else mission.shot(phase.shot)
+        if shot is None or shot.ideal is None:
+            continue
+        own = set() if shot.subject is None else {shot.subject}
+        films = {each.target for each in shot.subjects} or own
+        if not films <= framed or any(mission.target(name).parts for name in films):
+            continue
+        if shot.ideal.framed:
+            if any(mission.target(name).track is not None for name in films):
+                yield Composed(phase, shot.subjects)
+        elif films == {shot.ideal.target} and _moves(mission, shot):
+            assert shot.ideal.target is not None
+            yield Chased(phase, shot.ideal.target, shot.ideal.frame == "heading")
+
+
+def _moves(mission: MissionIR, shot: Shot) -> bool:
+    name = None if shot.ideal is None else shot.ideal.target
+    return name is not None and mission.target(name).track is not None
+
+
+def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:
+    """Return where a target will be at the stages, (N + 1, 3), and its velocity over ground, (3,).
+
+    Up and down it goes as planned: a velocity that is known to 0.3 m/s is no climb.
+    """
+    if target.name not in of.known:
+        return np.array([target.at(t) for t in stages.tolist()]), np.zeros(3)
+    now = of.known[target.name]
+    moves = now.velocity[of.run] * np.array([1.0, 1.0, 0.0])
+    out = now.position[of.run] + (stages - stages[0])[:, None] * moves
+    out[:, 2] += np.array([target.at(t)[2] for t in stages.tolist()]) - target.at(float(stages[0]))[2]
+    return out, moves
+
+
+def _filmed(
+    mission: MissionIR,
+    drone: Drone,
+    target: Target,
+    subject: Subject | None,
+    at: tuple[Array, Moment, Mapping[str, Array]],
+) -> FilmedSubject:
+    stages, of, wanted = at
+    points, _ = predicted(target, stages, of)
+    beside = mission.rules.beside_target(drone.radius)
+    return FilmedSubject(
+        point=points,
+        centre=points,
+        semi_axes=(target.radius + beside, target.radius + beside, target.height / 2 + beside),
+        diameter=target.height,
+        wanted=None if subject is None else _appearance(subject, wanted.get(target.name), len(stages)),
+    )
+
+
+def _appearance(subject: Subject, uv: Array | None, count: int) -> Appearance:
+    """Return how a subject is to appear; a view with a free angle is free."""
+    place = None if uv is None or np.isnan(uv).any() else (float(uv[0]), float(uv[1]))
+    azimuth, elevation = subject.view or (None, None)
+    view = None
+    if azimuth is not None and elevation is not None:
+        yaw = yaw_of(azimuth)
+        way = [cos(elevation) * cos(yaw), cos(elevation) * sin(yaw), sin(elevation)]
+        view = np.tile(way, (count, 1))
+    return Appearance(place, subject.size, view)
