@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -15,6 +16,10 @@ from shotc.ir.obstacle_mesh import ObstacleMesh
 
 LEVEL, CONTRAST = 0.86, 0.4
 """How light a face is that the light goes along, and how much lighter one that faces it."""
+
+
+_Planes = tuple[Array, Array, Array]
+_NONE = (np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,21 +35,34 @@ def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
 
     A point of a cloud is a square that faces the eye, as large as what the point stands for.
     """
-    parts = [_turned(mesh, eye) for mesh in meshes]
-    triangles = np.concatenate([np.zeros((0, 3, 3)), *parts])
-    normal = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    size = np.linalg.norm(normal, axis=1, keepdims=True)
-    normal = normal / np.where(size > 0.0, size, 1.0)
-    away = np.einsum("nd,nd->n", normal, eye - triangles.mean(axis=1)) < 0.0
+    parts = [
+        _NONE,
+        *(_whole(mesh) if mesh.spacing <= 0.0 else _planes(_turned(mesh, eye)) for mesh in meshes),
+    ]
+    triangles, normal, middle = (np.concatenate([part[k] for part in parts]) for k in range(3))
+    away = np.einsum("nd,nd->n", normal, eye - middle) < 0.0
     normal[away] *= -1.0
     light = np.clip(LEVEL + CONTRAST * (normal @ LIGHT), 0.45, 1.3)
     return Faces(triangles, shades(np.array(STONE), light))
 
 
+@lru_cache(maxsize=4)
+def _whole(mesh: ObstacleMesh) -> _Planes:
+    """Return the triangles of a mesh; kept, for a storyboard has many pictures of it."""
+    return _planes(mesh.surface.triangles)
+
+
+def _planes(triangles: Array) -> _Planes:
+    """Return triangles (N, 3, 3), unit normals, which are 0 of those without an area, and middles, (N, 3)."""
+    normal = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    return triangles, normal / np.where(size > 0.0, size, 1.0), triangles.mean(axis=1)
+
+
 def _turned(mesh: ObstacleMesh, eye: Array) -> Array:
     triangles = mesh.surface.triangles
     points = (triangles == triangles[:, :1]).all(axis=(1, 2))
-    if mesh.spacing <= 0.0 or not points.any():
+    if not points.any():
         return triangles
     p = triangles[points, 0]
     to = eye - p

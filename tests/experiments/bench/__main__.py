@@ -204,11 +204,9 @@ def main() -> None:
             for name, path in shows.large(Path(folder)).items()
         }
         processes(1, "cvxpy, scipy.spatial, rerun", rows)
-        ways = {
-            name: [*SHOTC, "plan", str(path), "-o", folder]
-            for name, path in places.missions(Path(folder)).items()
-        }
-        processes(3, "cvxpy, casadi, toppra, rerun", ways)
+        for paths in (places.missions(Path(folder)), places.scenes(Path(folder))):
+            both = {name: [*SHOTC, "plan", str(path), "-o", folder] for name, path in paths.items()}
+            processes(3, "cvxpy, casadi, toppra, rerun", both)
         places.in_one_process(Path(folder))
     fleets()
     shows.growth()

@@ -1,4 +1,4 @@
-"""Missions of a flight of 3 km, over flat ground and over the elevation model that matplotlib ships."""
+"""What places cost: a flight of 3 km over terrain that matplotlib ships, and shots beside a large scene."""
 
 from __future__ import annotations
 
@@ -25,6 +25,25 @@ shots:
   - {id: along, kind: follow-path, drone: cam, look_at: mast, points: [POINTS]}
 """
 
+BESIDE = """\
+shotc: 1
+mission: village
+world: {origin: {lat: 46.68, lon: 7.68, alt: 500}SCENE}
+targets:
+  statue: {at: [60, 0], radius: 1, height: 4}
+drones:
+  cam: {model: x500, home: [0, -40]}
+rules: {max_height: 100 m}
+shots:
+  - {id: round, kind: orbit, drone: cam, target: statue, radius: 20, sweep: 200 deg,
+     altitude: {above: target, height: 14}}
+  - {id: rise, kind: crane, drone: cam, target: statue, azimuth: 200 deg, distance: 12,
+     altitude: {above: target, height: [6, 26]}}
+"""
+TRIANGLES, SEED = 102_400, 4
+FREE_M = 22.0
+"""About the statue, and half as much about the home, in which no house stands."""
+
 RUNS = 3
 
 
@@ -44,6 +63,27 @@ def missions(folder: Path) -> dict[str, Path]:
     paths = {f"shotc plan, 3 km over {name}": folder / f"{i}.yaml" for i, name in enumerate(found)}
     for path, terrain in zip(paths.values(), found.values(), strict=True):
         path.write_text(MISSION.replace("POINTS", points).replace("TERRAIN", terrain))
+    return paths
+
+
+def scenes(folder: Path) -> dict[str, Path]:
+    """Write shots into a folder, without and with houses of many triangles about them."""
+    import numpy as np
+
+    from tests.support.meshes import ply
+    from tests.support.scenes import fine, house, turned
+
+    random, parts = np.random.default_rng(SEED), []
+    while sum(map(len, parts)) < TRIANGLES:
+        x, y = random.uniform(-150.0, 150.0, 2)
+        if np.hypot(x - 60.0, y) > FREE_M and np.hypot(x, y + 40.0) > FREE_M / 2:
+            made = house(random.uniform(8, 14), random.uniform(6, 10), 6.0, 9.0)
+            parts.append(fine(turned(made, random.uniform(0.0, 3.0), (x, y)), 3))
+    (folder / "houses.ply").write_bytes(ply(np.concatenate(parts)))
+    found = {"alone": "", f"beside {TRIANGLES} triangles": ", scene: {file: houses.ply, units: m}"}
+    paths = {f"shotc plan, two shots {name}": folder / f"scene-{i}.yaml" for i, name in enumerate(found)}
+    for path, scene in zip(paths.values(), found.values(), strict=True):
+        path.write_text(BESIDE.replace("SCENE", scene))
     return paths
 
 
