@@ -63,7 +63,7 @@ def strayed(vehicle: Vehicle, away: float, most: float) -> Diagnostic:
         "A024",
         f"the vehicle of `{vehicle.drone}` is {away:.1f} m from where the plan has it",
         notes=(f"at most {most:g} m: farther away nothing that was proved holds",),
-        help="look at its speed limits and at the wind: it has to be able to fly what the plan asks",
+        help="put it back on its pad, or in the air look at its speed limits and at the wind",
     )
 
 

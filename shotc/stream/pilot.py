@@ -27,6 +27,8 @@ SPOOL = RATE_HZ
 """Ticks that motors are given from arming to lift-off."""
 SILENT_S = 2.0
 """Seconds without a heartbeat after which a vehicle counts as vanished; they come once a second."""
+PAD_OFF_M = 2.0
+"""How far from its pad a vehicle may be when it arms: a metre, and as much drift while it waited."""
 STRAY_M = 10.0
 """A vehicle farther from its setpoint flies something else than the plan."""
 LIFTED = 0.85
@@ -185,6 +187,10 @@ class Pilot:
             if tick - self._armed_since >= SPOOL:
                 self._go(Stage.LIFTING if self.vehicle.autopilot.lift > 0 else Stage.FLYING, tick)
             return
+        away = self._away(tick)
+        if away > PAD_OFF_M:
+            yield faults.strayed(self.vehicle, away, PAD_OFF_M)
+            return
         yield from self._late_or_refused(tick, ARM_DISARM, "to arm")
         if self._again(tick) and self.vehicle.answers.get(ARM_DISARM) != ACCEPTED:
             self.vehicle.link.arm(armed=True)
@@ -198,12 +204,11 @@ class Pilot:
             self.vehicle.link.take_off(self.course.height)
 
     def _fly(self, tick: int) -> Iterator[Diagnostic]:
-        if self.vehicle.position is not None:
-            away = dist(self.vehicle.position, self.course.setpoint(tick).position)
-            self.farthest = max(self.farthest, away)
-            if away > STRAY_M:
-                yield faults.strayed(self.vehicle, away, STRAY_M)
-                return
+        away = self._away(tick)
+        self.farthest = max(self.farthest, away)
+        if away > STRAY_M:
+            yield faults.strayed(self.vehicle, away, STRAY_M)
+            return
         yield from self._record(tick)
         if tick >= self.course.last:
             self._landing_since = tick
@@ -261,5 +266,12 @@ class Pilot:
 
     def _height(self) -> float:
         """Return how high the vehicle is above its pad, metres."""
-        down = self.course.position[0, 2]
-        return float(down - self.vehicle.position[2]) if self.vehicle.position is not None else 0.0
+        assert self.vehicle.position is not None, "it was read before the flight"
+        return float(self.course.position[0, 2] - self.vehicle.position[2])
+
+    def _away(self, tick: int) -> float:
+        """Return how far the vehicle is from where the plan has it, from its pad before it flies, metres."""
+        assert self.vehicle.position is not None, "it was read before the flight"
+        on_pad = self.stage is not Stage.FLYING
+        planned = self.course.position[0].tolist() if on_pad else self.course.setpoint(tick).position
+        return dist(self.vehicle.position, planned)

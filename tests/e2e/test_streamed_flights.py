@@ -83,6 +83,7 @@ def test_ardupilot_takes_off_by_itself_and_is_taken_over_above_its_pad():
         assert rises[8] == pytest.approx(1.0, abs=0.05)
         modes = [c[3] for c in autopilot.commands if c[1] == SET_MODE]
         assert (modes[0], modes[-1]) == (GUIDED, LAND)
+        assert 0.8 < autopilot.taken_over_at < 1.1
         got = on_the_plan(world, "cam1", ardupilot_place)
         # Nothing is asked below the height at which it was taken over before the way down.
         assert (-got[: len(got) // 2, 3]).min() >= rises[8] - 1e-3

@@ -281,6 +281,23 @@ def test_a_vehicle_that_does_not_follow_is_stopped():
 
 
 @pytest.mark.slow
+def test_a_vehicle_that_was_moved_while_it_waited_is_not_armed():
+    with World(hop_plan("near", "far", waits=15.0)) as world:
+        aboard, _ = world.check()
+        near, far = world.autopilots["near"], world.autopilots["far"]
+
+        def pushed():
+            far.state.position[0, 1] += 3.0
+
+        world.clock.events.append((world.clock.time + 10.0, pushed))
+        flown, _ = world.session.fly(aboard)
+        assert [d.code for d in flown.diagnostics] == ["A024"]
+        assert not far.armed
+        assert ARM not in [command[1] for command in far.commands]
+        assert near.mode == PX4_HOLD
+
+
+@pytest.mark.slow
 def test_a_camera_that_does_not_answer_is_told_of_and_the_flight_goes_on():
     with World(hop_plan(), cam1=Script(refuses={VIDEO_START: 4})) as world:
         flown, _ = world.fly()

@@ -69,17 +69,25 @@ def test_a_target_where_the_plan_has_it_changes_nothing():
         assert aim.at(tick, tick / RATE_HZ) == pytest.approx(course.aim(tick), abs=1e-9)
 
 
-def test_the_camera_turns_no_faster_than_its_gimbal_and_stays_in_its_range():
+@pytest.mark.parametrize(
+    ("spot", "axis"),
+    [((0.5, -49.0, 80.0), "pitch"), ((3.0, -150.0, 12.0), "yaw")],
+    ids=["overhead", "behind"],
+)
+def test_the_camera_turns_no_faster_than_its_gimbal_and_stays_in_its_range(spot, axis):
     plan = hop_plan(pans=True)
     gimbal = plan.trajectory.keyframes.mission.drones[0].gimbal
-    aim, course, track = live(plan, (200.0, -90.0, 80.0))
-    off = []
+    aim, course, track = live(plan, spot)
+    off, at_its_end = [], False
     for tick in range(course.last):
         sent, planned = aim.at(tick, tick / RATE_HZ), course.aim(tick)
         off.append((sent.pitch - planned.pitch, (planned.yaw - sent.yaw + np.pi) % (2 * np.pi) - np.pi))
         pan = np.pi / 2 - sent.yaw - track.curve(tick / RATE_HZ)[BODY_YAW]
         assert gimbal.pitch[0] - 1e-9 <= sent.pitch <= gimbal.pitch[1] + 1e-9
         assert gimbal.yaw[0] - 1e-9 <= (pan + np.pi) % (2 * np.pi) - np.pi <= gimbal.yaw[1] + 1e-9
+        reached = {"pitch": sent.pitch, "yaw": (pan + np.pi) % (2 * np.pi) - np.pi}[axis]
+        at_its_end |= min(abs(reached - end) for end in getattr(gimbal, axis)) < 1e-6
+    assert at_its_end
     steps = np.abs(np.diff(off, axis=0)).max()
     assert 0.9 * gimbal.rate * PERIOD_S < steps <= gimbal.rate * PERIOD_S + 1e-9
 

@@ -150,7 +150,8 @@ CODES: tuple[CodeInfo, ...] = (
         "vehicle-strays",
         "a vehicle is far from where the plan has it",
         "What is proved of a plan holds along its path. More than 10 m from it a vehicle flies something else, in "
-        "wind that is too strong for it or below limits of its own. All drones hold.",
+        "wind that is too strong for it or below limits of its own. A vehicle that waits for its lift-off is not "
+        "armed more than 2 m from its pad. All drones in the air hold.",
     ),
     _fault(
         25,

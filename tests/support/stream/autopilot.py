@@ -83,7 +83,7 @@ class Autopilot:
         self.asked = None
         self.rising = None
         self.setpoints, self.aims, self.commands, self.stations = [], [], [], set()
-        self.flown = []
+        self.taken_over_at = None
         self.recording = []
         self.time = None
         self._flowing = self._last = -math.inf
@@ -163,6 +163,8 @@ class Autopilot:
         assert raw.type_mask == 2048
         assert raw.coordinate_frame == 1
         place, rate, push = (raw.x, raw.y, raw.z), (raw.vx, raw.vy, raw.vz), (raw.afx, raw.afy, raw.afz)
+        if not self.setpoints:
+            self.taken_over_at = self._height()
         self.setpoints.append((now, *place, *rate, *push, raw.yaw))
         if now - self._last > 0.5:
             self._flowing = now
@@ -246,7 +248,6 @@ class Autopilot:
             if self.mode in (PX4_LAND, LAND) and self.script.lands:
                 self.armed = False
         self.state = state
-        self.flown.append((self.time, *state.position[0]))
 
     def _tell(self, now):
         due = [ack for when, ack in self._later if when <= now]
