@@ -12,7 +12,7 @@ from shotc_casadi.replan.chase import Chase
 from shotc_casadi.replan.steps import Until
 
 from shotc.geom.solids import Cylinder, box
-from shotc.plugin_api.replanner import ChaseWeights, Cone, Traffic
+from shotc.plugin_api.replanner import ChaseWeights, Cone, Plan, Traffic
 from tests.experiments.papers import chase as oracle
 from tests.support.replans import (
     BESIDE,
@@ -320,6 +320,17 @@ def test_a_replan_takes_one_step_and_the_first_one_a_few():
     one = flown(40, None)
     assert {r.steps for r in one.replans[1:]} == {1}
     assert one.replans[0].steps <= 30
+
+
+def test_a_plan_of_other_steps_is_continued_too():
+    planner, coarse = Chase(problem(20)), situation(20)
+    times = np.array([0.0, 0.05, 0.3, 1.0])
+    braking = np.array([[-0.5, 0.0, 0.0], [-1.0, 0.0, 0.0], [-0.2, 0.0, 0.0]])
+    last = Plan(times, np.zeros((4, 3)), np.zeros((4, 3)), braking)
+    index = planner._flight.index(0.1, last)
+    assert index[:3].tolist() == [1, 1, 2]
+    assert index[8:].tolist() == [2] + [3] * 11
+    assert planner.replan(coarse, last).plan is not None
 
 
 def test_a_plan_that_has_ended_is_continued_without_acceleration():

@@ -22,6 +22,8 @@ from shotc_casadi.replan.keeping import Kept, Standing, common, each, kept
 from shotc_casadi.replan.steps import Solver, Walk
 
 BEYOND = "the motion from here is beyond all numbers"
+SOON_S = 1e-6
+"""What begins so soon has begun, seconds."""
 BOUNDS = 6
 """The first parameters of a stage: lower and upper bounds of the velocity."""
 
@@ -73,9 +75,9 @@ class Flight:
         return solver, self._bound(into.given, v)
 
     def index(self, time: float, last: Plan) -> Array:
-        """Return which steps of the last plan those from now on are, (N,); its N-th is past its end."""
-        now = (time + self.times[:-1] - last.times[0]) / self._step
-        return np.asarray(np.fmin(np.fmax(now + 1e-6, 0.0), len(last.accelerations)).astype(np.int64))
+        """Return which steps of the last plan those from now on are, (N,); past its end, one more than its last."""
+        now = time + self.times[:-1] + SOON_S
+        return np.asarray(np.maximum(np.searchsorted(last.times, now, side="right") - 1, 0))
 
     def told(self, solver: Solver, done: Walk, time: float, widened: bool) -> Replan:
         """Return what steps from a measured state came to."""

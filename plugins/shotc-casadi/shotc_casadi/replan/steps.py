@@ -16,7 +16,8 @@ from shotc_casadi.replan.evaluation import Evaluation, Horizon, Motion
 
 SHORTER = 0.4
 TRIES = 5
-TOLERANCE = 1e-4
+TOLERANCE, GAP = 1e-4, 1e-3
+"""Of PIQP: of what is to hold, and of the cost, relative and absolute."""
 ITERATIONS = 50
 """Of PIQP: about 10 are usual, and a programme without a solution takes all of them."""
 
@@ -106,6 +107,6 @@ def _solver() -> Any:
     solver = piqp.SparseSolver()
     settings = solver.settings
     settings.eps_abs = settings.eps_rel = TOLERANCE
-    settings.eps_duality_gap_abs = settings.eps_duality_gap_rel = TOLERANCE
+    settings.eps_duality_gap_abs = settings.eps_duality_gap_rel = GAP
     settings.max_iter, settings.preconditioner_iter = ITERATIONS, 0
     return solver
