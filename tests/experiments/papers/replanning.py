@@ -52,7 +52,7 @@ TIMES = (
 )
 NOTES = (
     "The lateral shot of 20 s, 8 m to the side and 3 m high, target at 1.5 m/s, planned anew at 2 Hz by the "
-    "replanner `ours`; weights w1 = w4 = 1 and w2 = 100 as the paper prints them, height held by 10^4. Its "
+    "replanner `ours`; weights w1 = w4 = 1 and w2 = 100 as the paper prints them, height held by 100. Its "
     "circle of 2 m lies 0.5 m off the drone's line, with a margin of 0.15 m.",
     "The vehicle of `simulate` (a cascade as PX4's, 10 ms a step) flies the plan. Calm: nothing is wrong, as "
     "in the paper's simulation. Gusts: 0.3 m/s of each axis, the target known by RTK (2 cm, 5 Hz, late by "

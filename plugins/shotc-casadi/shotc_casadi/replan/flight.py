@@ -75,7 +75,7 @@ class Flight:
         return solver, self._bound(into.given, v)
 
     def index(self, time: float, last: Plan) -> Array:
-        """Return which steps of the last plan those from now on are, (N,); past its end, one more than its last."""
+        """Return which steps of the last plan those from now on are, (N,); past its end, their number."""
         now = time + self.times[:-1] + SOON_S
         return np.asarray(np.maximum(np.searchsorted(last.times, now, side="right") - 1, 0))
 
