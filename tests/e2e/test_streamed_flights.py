@@ -122,11 +122,13 @@ def test_a_vehicle_is_called_where_it_waits():
         assert world.session.fly(aboard)[0].landed
 
 
-def test_what_others_send_to_the_port_is_not_believed():
-    with World(brief_plan()) as world, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+@pytest.mark.parametrize("system", [1, 9], ids=["from elsewhere", "by the same radio"])
+def test_what_others_send_to_the_port_is_not_believed(system):
+    with World(brief_plan()) as world, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
         aboard, _ = world.check()
-        mav = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+        mav = mavlink.MAVLink(None, srcSystem=system, srcComponent=1)
         port = ("127.0.0.1", world.ports["cam1"])
+        stranger = other if system == 1 else world.autopilots["cam1"].socket
 
         def lie():
             stranger.sendto(mav.heartbeat_encode(2, 12, 129, 3 << 16, 4).pack(mav), port)
