@@ -92,8 +92,6 @@ class Feed:
         return None if x is None or y is None else _near((x, y, _number(told.get("z"))))
 
     def _of_place(self, place: Place) -> Spot | None:
-        if abs(place.lat) > 90 or abs(place.lon) > 360:
-            return None
         return _near(to_world((place.lat, place.lon, place.alt), self._origin))
 
 
