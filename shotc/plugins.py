@@ -18,6 +18,7 @@ OPTIONAL = (
     *("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi"),
     "pymavlink",
     "rotorpy",
+    "distributed",
 )
 """Libraries that the base install does without: a plugin that misses one is not broken."""
 OURS = "shotc"

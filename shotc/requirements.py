@@ -13,7 +13,8 @@ VIEWER = "rerun"
 PLACES = frozenset({"pyproj", "laspy", "lazrs"})
 """Libraries of the extra `geo`."""
 SENDER = "pymavlink"
-SECOND_VEHICLE = "rotorpy"
+ALONE = {"rotorpy": "rotorpy", "distributed": "dask"}
+"""Libraries of which each is an extra by itself."""
 
 
 def remedy(libraries: Sequence[str]) -> str:
@@ -26,8 +27,8 @@ def remedy(libraries: Sequence[str]) -> str:
                 "leave it out: the viewer has no release for Intel Macs; the output `storyboard` shows a "
                 "plan without it, and `shotc view` on another machine takes the plan.json of this one"
             )
-    if SECOND_VEHICLE in packages:
-        return f"run `{install_line(SECOND_VEHICLE)}`"
+    if packages <= ALONE.keys():
+        return f"run `{install_line(','.join(sorted(ALONE[name] for name in packages)))}`"
     if SENDER in packages:
         return f"run `{install_line('stream' if packages == {SENDER} else 'all')}`"
     if PLACES & packages:

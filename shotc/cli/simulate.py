@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 from importlib.util import find_spec
 from os import cpu_count, sched_getaffinity
 from pathlib import Path
@@ -20,14 +21,18 @@ from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
 from shotc.cli.refiner import told
 from shotc.cli.verify import Format
+from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
 from shotc.output import write
+from shotc.simulation.hands import NoCluster
 from shotc.spec.presets import RUNS
 
 if TYPE_CHECKING:
-    from shotc.diag.model import Diagnostic
     from shotc.ir.trajectory import VerifiedIR
     from shotc.simulation.conditions import Conditions
+    from shotc.simulation.rehearsal import Rehearsed
+    from shotc.simulation.runs import Block
+    from shotc.simulation.unfinished import Unfinished
     from shotc.source.file import SourceFile
 
 Input = Annotated[
@@ -78,6 +83,10 @@ TruthFiles = Annotated[
 Jobs = Annotated[
     int | None, typer.Option(min=1, metavar="N", help="Processes that fly side by side [the cores].")
 ]
+Workers = Annotated[
+    str | None,
+    typer.Option(metavar="tcp://HOST:PORT", help="The scheduler of a Dask cluster that flies instead."),
+]
 Output = Annotated[
     Path | None,
     typer.Option("-o", "--output", help="Folder for the files [that of the plan, or out/MISSION]."),
@@ -101,6 +110,7 @@ def simulate(
     wander: Wander = None,
     truth: TruthFiles = None,
     jobs: Jobs = None,
+    workers: Workers = None,
     output: Output = None,
     format: FormatOption = Format.TEXT,
 ) -> None:
@@ -126,7 +136,9 @@ def simulate(
         from shotc.simulation.faults import not_kept, unflyable
         from shotc.simulation.outputs import artifacts
         from shotc.simulation.rehearsal import Asked, conditions_of, rehearse, runs_of
+        from shotc.simulation.runs import simulated
         from shotc.simulation.truth import Truth
+        from shotc.simulation.unfinished import Unfinished
 
         mission = plan.trajectory.keyframes.mission
         asked = Asked(
@@ -144,16 +156,20 @@ def simulate(
             vehicle,
         )
         conditions = conditions_of(mission, asked)
-        faults = (*_unable(conditions), *unflyable(plan.trajectory, conditions))
+        faults = (*_unable(conditions, workers), *unflyable(plan.trajectory, conditions))
         if faults:
             console.report(faults, sources)
             raise typer.Exit(console.EXIT_REJECTED)
         count = runs_of(mission, asked, RUNS)
         progress(f"flying {count} runs")
-        hands = jobs or _cores()
-        done = rehearse(plan.trajectory, conditions, count, hands, lambda n: progress(f"{n} of {count} runs"))
+        kept = Unfinished.of(folder, plan.trajectory, conditions)
+        blocks = _kept(
+            simulated(plan.trajectory, conditions, count, workers or jobs or _cores(), kept.done()), kept
+        )
+        done = _rehearsed(partial(rehearse, plan.trajectory, conditions), blocks, count, progress)
         made = artifacts(done, progress)
     paths, faults = write(made.artifacts, folder)
+    kept.forget()
     found = (*made.diagnostics, *not_kept(done), *faults)
     console.report(found, sources)
     console.out(json_text(done) if format is Format.JSON else text(done, paths))
@@ -183,8 +199,34 @@ def _plan(
     return plan, sources, output or beside
 
 
-def _unable(conditions: Conditions) -> tuple[Diagnostic, ...]:
-    """Say which vehicle or replanner that conditions need cannot be used."""
+def _kept(blocks: Iterator[Block], kept: Unfinished) -> Iterator[Block]:
+    """Keep every block of runs as it comes."""
+    before = {block.runs[0].number for block in kept.done()}
+    for block in blocks:
+        if block.runs[0].number not in before:
+            kept.add(block)
+        yield block
+
+
+def _rehearsed(
+    judge: Callable[[Iterator[Block], Callable[[int], None]], Rehearsed],
+    blocks: Iterator[Block],
+    count: int,
+    progress: Callable[[str], None],
+) -> Rehearsed:
+    """Judge runs as they come; where no cluster answers, say so and exit."""
+    try:
+        return judge(blocks, lambda n: progress(f"{n} of {count} runs"))
+    except NoCluster as error:
+        help_ = "start one with `dask scheduler`, or leave `--workers` out"
+        console.report([Diagnostic("W006", f"no scheduler answers: {error}", help=help_)], {})
+        raise typer.Exit(console.EXIT_REJECTED) from None
+
+
+def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ...]:
+    """Say which vehicle, replanner or cluster cannot be used."""
+    if workers is not None and find_spec("distributed") is None:
+        return (plugins.not_installed("P004", "`--workers`", ["distributed"]),)
     if conditions.vehicle == "rotorpy" and find_spec("rotorpy") is None:
         return (plugins.not_installed("P004", "`--vehicle rotorpy`", ["rotorpy"]),)
     if conditions.loop != "replan":

@@ -122,7 +122,7 @@ class Guide:
         plans = []
         for r, count in enumerate(self.counts):
             sent = np.array([each.places(r, stages) for each in self.sent]).reshape(-1, len(stages), 3)
-            of = Moment(known, r, float(turn[r]), Traffic(sent))
+            of = Moment(known, self._held.plans[r], r, float(turn[r]), Traffic(sent))
             mine = (drone[0][r], drone[1][r])
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
             plans.append(self._asked(situation, self._held.plans[r], count))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
-from shotc.simulation.runs import Block, Done, Strays, simulated
+from shotc.simulation.runs import Block, Strays
 from shotc.simulation.sensors import GRADES, Gps
 from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import Verdict, enough, held, verdicts
@@ -99,18 +100,27 @@ def runs_of(mission: MissionIR, asked: Asked, usual: int) -> int:
     return asked.runs or (usual if mission.rehearsal is None else mission.rehearsal.runs)
 
 
-def rehearse(ir: TrajectoryIR, conditions: Conditions, count: int, jobs: int, done: Done) -> Rehearsed:
-    """Fly a plan in so many runs and judge them by what its mission asks."""
+def rehearse(
+    ir: TrajectoryIR, conditions: Conditions, blocks: Iterable[Block], done: Callable[[int], None]
+) -> Rehearsed:
+    """Judge runs by what the mission of their plan asks.
+
+    blocks : of all runs, in any order; done : called with how many runs have come
+    """
     written = ir.keyframes.mission.rehearsal
     promise = SILENT if written is None else written.promise
-    blocks = simulated(ir, conditions, count, jobs, done)
-    runs = tuple(run for block in blocks for run in block.runs)
-    found = verdicts(runs, promise)
-    kept, needed = held(runs, found), enough(runs, promise)
-    return Rehearsed(ir, conditions, promise, runs, found, kept, needed, _together(blocks))
+    found: list[Block] = []
+    for block in blocks:
+        found.append(block)
+        done(sum(len(each.runs) for each in found))
+    found.sort(key=lambda block: block.runs[0].number)
+    runs = tuple(run for block in found for run in block.runs)
+    told = verdicts(runs, promise)
+    kept, needed = held(runs, told), enough(runs, promise)
+    return Rehearsed(ir, conditions, promise, runs, told, kept, needed, _together(found))
 
 
-def _together(blocks: tuple[Block, ...]) -> Strays | None:
+def _together(blocks: list[Block]) -> Strays | None:
     every = [block.strays for block in blocks if block.strays is not None]
     if not every:
         return None

@@ -6,9 +6,10 @@ A run depends on the seed and its own number alone, and blocks are the same howe
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import get_context
 
 import numpy as np
@@ -17,6 +18,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.flight import Flown, fly_all
+from shotc.simulation.hands import Hands
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
@@ -26,9 +28,6 @@ BLOCK = 25
 
 STRAYS_S = 0.2
 """Seconds between the instants of ``Strays``."""
-
-Done = Callable[[int], None]
-"""Called with the number of runs that are done."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,15 +47,19 @@ class Block:
 
 
 def simulated(
-    ir: TrajectoryIR, conditions: Conditions, count: int, jobs: int, done: Done
-) -> tuple[Block, ...]:
-    """Fly a plan ``count`` times, in so many processes at most, and judge every run."""
-    blocks = [range(i, min(i + BLOCK, count)) for i in range(0, count, BLOCK)]
-    found: dict[int, Block] = {}
-    for block in _each(ir, conditions, blocks, jobs):
-        found[block.runs[0].number] = block
-        done(sum(len(each.runs) for each in found.values()))
-    return tuple(found[first] for first in sorted(found))
+    ir: TrajectoryIR, conditions: Conditions, count: int, hands: Hands, earlier: Sequence[Block] = ()
+) -> Iterator[Block]:
+    """Fly a plan ``count`` times and judge every run; yields blocks of runs as they are done.
+
+    earlier : blocks that were done before; those of as many runs as are needed now are not flown again
+    """
+    needed = {i: range(i, min(i + BLOCK, count)) for i in range(0, count, BLOCK)}
+    for block in earlier:
+        first = block.runs[0].number
+        if [run.number for run in block.runs] == list(needed.get(first, ())):
+            del needed[first]
+            yield block
+    yield from _each(ir, conditions, list(needed.values()), hands)
 
 
 def flown(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tuple[World, tuple[Flown, ...]]:
@@ -65,18 +68,24 @@ def flown(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tupl
     return world, fly_all(world, ir.drones)
 
 
-def _each(ir: TrajectoryIR, conditions: Conditions, blocks: list[range], jobs: int) -> Iterator[Block]:
-    workers = min(jobs, len(blocks))
+def _each(ir: TrajectoryIR, conditions: Conditions, blocks: list[range], hands: Hands) -> Iterator[Block]:
+    if isinstance(hands, str):
+        from shotc.simulation.cluster import on_cluster
+
+        yield from on_cluster(hands, partial(fly_block, ir, conditions), blocks)
+        return
+    workers = min(hands, len(blocks))
     if workers < 2:
-        yield from (_block(ir, conditions, block) for block in blocks)
+        yield from (fly_block(ir, conditions, block) for block in blocks)
         return
     context = get_context("fork" if sys.platform == "linux" else "spawn")
     with ProcessPoolExecutor(workers, context) as pool:
-        waiting = [pool.submit(_block, ir, conditions, block) for block in blocks]
+        waiting = [pool.submit(fly_block, ir, conditions, block) for block in blocks]
         yield from (each.result() for each in as_completed(waiting))
 
 
-def _block(ir: TrajectoryIR, conditions: Conditions, block: range) -> Block:
+def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> Block:
+    """Fly a plan in the runs of these numbers and judge them."""
     fleets = fly_fleets(ir, conditions, block)
     if not ir.drones:
         runs = tuple(Run(number, (), (), each) for number, each in zip(block, fleets, strict=True))

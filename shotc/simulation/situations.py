@@ -26,6 +26,7 @@ from shotc.plugin_api.replanner import (
     FramingSituation,
     Horizon,
     Keeping,
+    Plan,
     Replanner,
     Traffic,
 )
@@ -118,12 +119,11 @@ class Composed:
         filmed = {each.target: each for each in self.subjects}
         wanted = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
         bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
-        aim = np.asarray(film.track.curve(float(stages[0])))
         return FramingSituation(
             time=float(stages[0]),
             place=drone[0],
             velocity=drone[1],
-            aim=(float(aim[CAM_YAW]), float(aim[CAM_PITCH])),
+            aim=_aim(film, float(stages[0]), of.last),
             subjects=tuple(
                 _filmed(mission, film.drone, target, filmed.get(target.name), (stages, of, wanted))
                 for target in bodies
@@ -139,11 +139,12 @@ Anew = Chased | Composed
 class Moment:
     """What is known of one run at the moment of a replan.
 
-    known : of the targets, in R runs; run : which of them; turn : by how much the way that the target of a
+    known : of the targets, in R runs; last : the plan that the drone flies; run : which of the runs; turn : by how much the way that the target of a
         ``Chased`` goes is off the plan's, rad; traffic : the plans that others have sent
     """
 
     known: Known
+    last: Plan
     run: int
     turn: float
     traffic: Traffic
@@ -189,6 +190,15 @@ def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:
     out = now.position[of.run] + (stages - stages[0])[:, None] * moves
     out[:, 2] += np.array([target.at(t)[2] for t in stages.tolist()]) - target.at(float(stages[0]))[2]
     return out, moves
+
+
+def _aim(film: Film, time: float, last: Plan) -> tuple[float, float]:
+    """Return yaw and pitch of the camera as it was last planned, rad."""
+    if last.aim is None:
+        pose = np.asarray(film.track.curve(time))
+        return float(pose[CAM_YAW]), float(pose[CAM_PITCH])
+    yaw, pitch = (float(np.interp(time, last.times, last.aim[:, i])) for i in range(2))
+    return yaw, pitch
 
 
 def _filmed(

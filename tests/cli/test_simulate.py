@@ -263,3 +263,11 @@ def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, given) -> No
     said = run("simulate", given(plan(mission(fleets=(tight,)))), "--seeds", "1", "--gusts", "3").out
     assert "do not fly this show in such wind" in said
     assert "{margin:" not in said
+
+
+def test_where_no_cluster_answers_it_is_told(run: Run, given, monkeypatch) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("shotc.simulation.cluster.ANSWERS_S", 1)
+    done = run("simulate", given(orbit_plan()), "--seeds", "2", "--workers", "tcp://127.0.0.1:9")
+    assert done.code == 1
+    assert "W006" in done.err

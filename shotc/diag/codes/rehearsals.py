@@ -65,4 +65,16 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "W006",
+        "no-cluster",
+        Severity.ERROR,
+        "no scheduler answers where a simulation is to fly",
+        "`shotc simulate --workers tcp://HOST:PORT` hands its runs to the Dask scheduler at that address, within ten "
+        "seconds. Start one with `dask scheduler`, and workers with `dask worker tcp://HOST:PORT` in an environment "
+        "that has the same shotc.",
+        "",
+        "",
+        "other",
+    ),
 )
