@@ -139,8 +139,9 @@ Anew = Chased | Composed
 class Moment:
     """What is known of one run at the moment of a replan.
 
-    known : of the targets, in R runs; last : the plan that the drone flies; run : which of the runs; turn : by how much the way that the target of a
-        ``Chased`` goes is off the plan's, rad; traffic : the plans that others have sent
+    known : of the targets, in R runs; last : the plan that the drone flies; run : which of the runs
+    turn : by how much the way that the target of a ``Chased`` goes is off the plan's, rad
+    traffic : the plans that others have sent
     """
 
     known: Known
