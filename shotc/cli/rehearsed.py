@@ -22,7 +22,16 @@ from shotc.simulation.situations import replanned
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
 
-PICTURES = ("shot", "target", "whole in frame", "in the worst run", "off on screen", "95 %", "worst")
+PICTURES = (
+    "shot",
+    "target",
+    "whole in frame",
+    "in the worst run",
+    "in sight",
+    "off on screen",
+    "95 %",
+    "worst",
+)
 COURSES = ("drone", "strays, RMS", "farthest", "run", "nearest", "to", "at", "run")
 LOOPS = {
     "replay": "camera as planned",
@@ -86,7 +95,8 @@ def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:
 
 def _picture_row(first: Picture, every: list[Picture]) -> tuple[str, ...]:
     shares = [p.in_frame for p in every]
-    whole = (f"{at_most(100 * float(np.mean(shares)), 1)} %", f"{at_most(100 * min(shares), 1)} %")
+    sight = min(p.in_sight for p in every)
+    whole = tuple(f"{at_most(100 * share, 1)} %" for share in (float(np.mean(shares)), min(shares), sight))
     if first.error is None:
         return (first.shot, first.target, *whole, "-", "-", "-")
     off = (
@@ -149,15 +159,13 @@ def _fleet_row(done: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
 def _limit(key: str, limit: float) -> str:
     return (
         f"{plain(100 * limit, 1)} %"
-        if key == "in_frame"
+        if key in ("in_frame", "in_sight")
         else f"{plain(limit)}{'' if key == 'mean_error' else ' m'}"
     )
 
 
 def _remarks(done: Rehearsed) -> Iterator[str]:
-    """Say what was not looked at, and what the margin of a show should be."""
-    if done.ir.drones and (done.mission.zones or done.mission.meshes or len(done.mission.targets) > 1):
-        yield "whether something hides a target is not judged here; framing.csv has it for the plan"
+    """Say what is flown as planned, what failed, and what the margin of a show should be."""
     yield from _planned_anew(done)
     unasked = [p.shot for p in done.runs[0].pictures if p.error is None]
     if unasked and done.conditions.loop != "replay":

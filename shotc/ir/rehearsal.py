@@ -27,6 +27,7 @@ class RehearsalPromise(NamedTuple):
     """What has to hold in a share of the runs; None asks for nothing.
 
     in_frame : least share of the frames of each shot with the whole target in them, 0 to 1
+    in_sight : least share of the instants of each shot at which half of the target's outline or more is free
     mean_error : largest mean over the frames of a shot of the distance on screen between target and reference
     clearance : least distance from a drone's body to all else, metres; of fleets, from drone to drone
     stray : largest distance of a drone from where the plan has it at the same time, metres
@@ -34,6 +35,7 @@ class RehearsalPromise(NamedTuple):
     """
 
     in_frame: float | None = None
+    in_sight: float | None = None
     mean_error: float | None = None
     clearance: float | None = None
     stray: float | None = None

@@ -18,8 +18,10 @@ from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.verdict import Verdict
 from shotc.spec.presets import TOP_SPEED
 
+SHARES = ("in_frame", "in_sight")
 WORDS = {
     "in_frame": "the whole target is in {} of a shot's frames",
+    "in_sight": "the target is in sight at {} of a shot's instants",
     "mean_error": "the target is {} of half a frame off in the mean of a shot",
     "clearance": "a drone's body comes within {}",
     "stray": "a drone strays {} from its plan",
@@ -99,7 +101,7 @@ def _touches(done: Rehearsed, each: Verdict) -> Diagnostic:
 
 def _where(done: Rehearsed, each: Verdict) -> Iterator[str]:
     run = next(run for run in done.runs if run.number == each.run)
-    if each.key in ("in_frame", "mean_error"):
+    if each.key in ("in_frame", "in_sight", "mean_error"):
         yield from (_picture(run, each),)
     elif each.key == "clearance":
         near = [(c.drone, n) for c in run.courses for n in c.near if n.distance == each.worst]
@@ -118,6 +120,9 @@ def _where(done: Rehearsed, each: Verdict) -> Iterator[str]:
 def _picture(run: Run, each: Verdict) -> str:
     if each.key == "in_frame":
         shown = min(run.pictures, key=lambda p: p.in_frame)
+    elif each.key == "in_sight":
+        shown = min(run.pictures, key=lambda p: p.in_sight)
+        return f"target `{shown.target}` in shot `{shown.shot}`"
     else:
         shown = max(run.pictures, key=lambda p: p.error or 0.0)
     return f"target `{shown.target}` in shot `{shown.shot}`, worst at {shown.time:.1f} s"
@@ -134,7 +139,7 @@ def _help(done: Rehearsed, each: Verdict) -> str:
 
 
 def _kept(each: Verdict) -> str:
-    if each.key == "in_frame":
+    if each.key in SHARES:
         return f"{max(0.0, down(100 * each.kept, 1)):g} %"
     return f"{up(each.kept, 3):g}" if each.upper else f"{max(0.0, down(each.kept)):g}"
 
@@ -144,7 +149,7 @@ def _words(each: Verdict, value: float) -> str:
 
 
 def _amount(each: Verdict, value: float) -> str:
-    if each.key == "in_frame":
+    if each.key in SHARES:
         return f"{at_most(100 * value, 1)} %"
     if each.key == "mean_error":
         return at_least(value, 3) if isfinite(value) else "infinitely many times"

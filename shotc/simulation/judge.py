@@ -12,6 +12,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Cameras, frames
 from shotc.ir.bodies import shapes
+from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.phases import Phase
@@ -23,6 +24,9 @@ from shotc.simulation.guidance import Replans
 from shotc.simulation.shows import FleetCourse
 from shotc.simulation.world import World, at_times
 
+SIGHT_S = 0.2
+"""Seconds between the instants at which it is looked at what hides a target."""
+
 
 @dataclass(frozen=True, slots=True)
 class Picture:
@@ -32,6 +36,7 @@ class Picture:
     error, usual, worst : distance from where it is to be on screen, half frames: its mean, what 95 % of
         frames do not exceed, the largest; None where the shot asks for no place. Infinite behind the camera
     time : of the largest, or of the frame that it is farthest out of, s
+    in_sight : share of instants at which nothing that stands or is filmed hides more than half of its outline
     """
 
     shot: str
@@ -42,6 +47,7 @@ class Picture:
     usual: float | None
     worst: float | None
     time: float
+    in_sight: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +87,11 @@ class Run:
     def in_frame(self) -> float:
         """The least share of frames that show a whole target, over the shots; 1 where nothing is filmed."""
         return min((p.in_frame for p in self.pictures), default=1.0)
+
+    @property
+    def in_sight(self) -> float:
+        """The least share of instants that leave half of a target free, over the shots; 1 without targets."""
+        return min((p.in_sight for p in self.pictures), default=1.0)
 
     @property
     def error(self) -> float:
@@ -174,6 +185,7 @@ def _picture(
         None,
         None,
         float(times[np.argmin(seen.margin)]),
+        _in_sight(world, track, flown, (run, name), times),
     )
     if len(known):
         worst = int(np.nanargmax(error))
@@ -185,6 +197,15 @@ def _picture(
             time=float(times[worst]),
         )
     yield picture
+
+
+def _in_sight(world: World, track: DroneTrajectory, flown: Flown, of: tuple[int, str], times: Array) -> float:
+    run, name = of
+    at = np.arange(times[0], times[-1] + 1e-9, SIGHT_S)
+    targets = tuple(world.target(target.name, run, at) for target in world.mission.targets)
+    eyes = cameras_of(world.mission, track, flown, run, at).position
+    share = coverage(world.mission._replace(targets=targets), (), name, eyes, at).share
+    return float(np.mean(share <= HALF_SHARE))
 
 
 def _course(flown: Flown, track: DroneTrajectory, run: int, near: tuple[Nearest, ...]) -> Course:

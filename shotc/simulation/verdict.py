@@ -13,6 +13,7 @@ Key = str
 
 MEASURES: dict[Key, tuple[Callable[[Run], float], bool]] = {
     "in_frame": (lambda run: run.in_frame, False),
+    "in_sight": (lambda run: run.in_sight, False),
     "mean_error": (lambda run: run.error, True),
     "clearance": (lambda run: run.clearance, False),
     "stray": (lambda run: run.stray, True),

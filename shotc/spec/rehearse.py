@@ -52,6 +52,10 @@ class RehearsalPromiseSpec(Model):
     in_frame: Share | None = Field(
         default=None, description="least share of the frames of each shot with the whole target in them"
     )
+    in_sight: Share | None = Field(
+        default=None,
+        description="least share of the instants of each shot at which half of the target or more is free",
+    )
     mean_error: ScreenDistance | None = Field(
         default=None, description="largest mean distance on screen between target and reference, over a shot"
     )

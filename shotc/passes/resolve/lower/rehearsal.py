@@ -18,7 +18,9 @@ def rehearsal(written: RehearseSpec | None) -> Rehearsal | None:
         return None
     asked = written.require
     return Rehearsal(
-        promise=RehearsalPromise(asked.in_frame, asked.mean_error, asked.clearance, asked.stray, asked.of),
+        promise=RehearsalPromise(
+            asked.in_frame, asked.in_sight, asked.mean_error, asked.clearance, asked.stray, asked.of
+        ),
         path=("rehearse",),
         runs=written.runs,
         loop=written.loop,
