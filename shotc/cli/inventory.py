@@ -22,6 +22,7 @@ class Group(StrEnum):
     KINDS = "kinds"
     DRONES = "drones"
     REFINERS = "refiners"
+    REPLANNERS = "replanners"
     EMITTERS = "emitters"
     SALIENCY = "saliency"
     COMPOSITIONS = "compositions"
@@ -32,6 +33,7 @@ GROUPS: dict[str, str] = {
     Group.KINDS: "what sorts of shots there are",
     Group.DRONES: "models of drones, with their limits",
     Group.REFINERS: "who refines a path, for `plan --refiner`",
+    Group.REPLANNERS: "who plans anew in flight, for `simulate --replanner`",
     Group.EMITTERS: "what can be written, for `output: {emit: [...]}` and `emit`",
     Group.SALIENCY: "who guesses what a picture is about, for `identify --saliency`",
     Group.COMPOSITIONS: "places and sets of places on screen, for `composition` and `frame`",
@@ -51,7 +53,8 @@ GroupArgument = Annotated[Group | None, typer.Argument(help="What to list; witho
 
 
 def show(group: GroupArgument = None) -> None:
-    """List what a mission can name: kinds, drones, refiners, emitters, saliency, compositions or headings.
+    """List what a mission can name: kinds, drones, refiners, replanners, emitters, saliency, compositions
+    or headings.
 
     Example: `shotc list kinds`
     """
