@@ -16,11 +16,15 @@ from shotc.simulation.film import Film
 from shotc.simulation.seen import Watched
 from shotc.simulation.sent import Fading, Held, Sent
 from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, Moment
+from shotc.simulation.time_limit import TooLate, time_limit
 from shotc.simulation.vehicle import STEP_S, Setpoint
 from shotc.simulation.world import World
 
 PERIOD_S = 0.5
 """Seconds between two plans."""
+
+LIMIT_S = 10.0
+"""Seconds after which a planner is given up: it hangs, for nobody could fly with it."""
 
 STILL_M_S = 0.3
 """Speed below which the course of a target is not known."""
@@ -133,7 +137,12 @@ class Guide:
     def _asked(self, situation: Any, last: Plan, count: Replans) -> Plan | None:
         """Return a new plan, or None where there is none: then the last one is flown to its end."""
         try:
-            done = self._planner.replan(situation, last)
+            with time_limit(LIMIT_S):
+                done = self._planner.replan(situation, last)
+        except TooLate:
+            count.failed += 1
+            count.reason = f"it took more than {LIMIT_S:g} s"
+            return None
         except Exception as error:  # noqa: BLE001  whatever it is, the drone is in the air
             count.failed += 1
             count.reason = f"{type(error).__name__}: {error}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from time import sleep
 
 import numpy as np
 import pytest
@@ -103,6 +104,9 @@ class _Bad:
         self.calls += 1
         if self.what == "raises":
             raise ZeroDivisionError("no plan today")
+        if self.what == "hangs":
+            while True:
+                sleep(0.001)
         if self.what == "nan":
             bad = Plan(last.times, last.places * np.nan, last.velocities, last.accelerations)
             return Replan(bad, "planned")
@@ -115,9 +119,13 @@ class _Bad:
         ("raises", "ZeroDivisionError: no plan today"),
         ("nan", "its plan holds numbers that are not finite"),
         ("none", "it does not know"),
+        ("hangs", "it took more than 0.01 s"),
     ],
 )
 def test_where_planning_anew_fails_the_drone_brakes_and_holds_and_it_is_told(monkeypatch, what, reason):
+    plan()  # with the refiner that is installed
+    if what == "hangs":
+        monkeypatch.setattr("shotc.simulation.guidance.LIMIT_S", 0.01)
     source = plugins.Source(_Bad(what), "theirs", "theirs:IT")
     monkeypatch.setattr("shotc.plugins.one", lambda _group, _name: source)
     world, tracks = flown(runs=(0,))
