@@ -17,7 +17,7 @@ from shotc.ir.rehearsal import Rehearsal, RehearsalPromise
 from shotc.ir.show import Apart
 from shotc.ir.terrain import Terrain
 from tests.cli.conftest import Run
-from tests.support.film_plans import orbit_plan
+from tests.support.compiled import compiled_text
 from tests.support.records import replace
 from tests.support.show_plans import PADS, fleet, mission, plan
 
@@ -29,10 +29,10 @@ mission: walker
 world: {wind: {speed: 2 m/s, from: 270 deg}}
 targets:
   walker: {track: {start: [0, 0, 0.9], velocity: [1.2, 0, 0]}, radius: 0.4, height: 1.8}
-drones: {cam: {model: x500, home: [-12, -10, 0]}}
+drones: {cam: {model: x500, home: [-4, 0, 0]}}
 shots:
   - {id: follow, kind: chase, drone: cam, target: walker, distance: 8, altitude: 3,
-     timing: {start: 12, duration: 6}}
+     timing: {start: 7.5, duration: 5}}
 rehearse:
   gusts: 1 m/s
   runs: 4
@@ -40,9 +40,36 @@ rehearse:
 """
 
 
+def walk():
+    """The plan of ``WALKER``, a flight of 22 s."""
+    done = compiled_text(WALKER, "none")
+    assert done.plan is not None, done.diagnostics
+    return done.plan
+
+
+def asking(promise: RehearsalPromise | None = None):
+    """Return the same flight in a mission without wind, which asks something of rehearsals or nothing."""
+    asked = promise and Rehearsal(promise, ("rehearse",), 3, "replay", None, 0.5, "rtk", 0.0)
+    return with_mission(walk(), rehearsal=asked, wind=0.0, wind_toward=None)
+
+
+def with_mission(made, **changes):
+    """Return a plan whose mission is another one."""
+    keyframes = made.trajectory.keyframes
+    keyframes = keyframes._replace(mission=keyframes.mission._replace(**changes))
+    return replace(made, trajectory=replace(made.trajectory, keyframes=keyframes))
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave pictures and recordings empty, for tests that do not look at them."""
+    monkeypatch.setattr("shotc.simulation.outputs.draw", lambda _done: b"")
+    monkeypatch.setattr("shotc.simulation.recording.recording", lambda *_: b"")
+
+
 @pytest.fixture
 def given(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    """Give the command a plan made by hand, which has no mission in a file that it could be held to."""
+    """Give the command a plan that has no mission in a file that it could be held to."""
 
     def made(flown) -> str:
         report = PlanReport(flown, (), (), {})
@@ -53,21 +80,12 @@ def given(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     return made
 
 
-def asking(promise: RehearsalPromise):
-    """Return the half orbit with a mission that asks something of rehearsals."""
-    made = orbit_plan()
-    asked = Rehearsal(promise, ("rehearse",), 3, "replay", None, 0.5, "rtk", 0.0)
-    keyframes = made.trajectory.keyframes
-    keyframes = keyframes._replace(mission=keyframes.mission._replace(rehearsal=asked))
-    return replace(made, trajectory=replace(made.trajectory, keyframes=keyframes))
-
-
 def document(folder: str = "out"):
     return json.loads((Path(folder) / "simulate.json").read_text())
 
 
 def test_a_film_is_flown_and_written(run: Run, given) -> None:
-    done = run("simulate", given(orbit_plan()), "--seeds", "3", "--gusts", "0.5", "--wind", "2")
+    done = run("simulate", given(asking()), "--seeds", "3", "--gusts", "0.5", "--wind", "2")
     assert done.code == 0
     assert "3 runs, wind 2 m/s from any side, gusts 0.5 m/s" in done.out
     assert {path.name for path in Path("out").iterdir()} == {
@@ -88,16 +106,18 @@ def test_a_film_is_flown_and_written(run: Run, given) -> None:
     assert np.linalg.norm(off, axis=1).max() == pytest.approx(course["farthest"], abs=0.01)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_same_seed_gives_the_same_bytes_however_many_processes_fly(run: Run, given, monkeypatch) -> None:
     monkeypatch.setattr("shotc.simulation.runs.BLOCK", 2)
     documents = []
     for more in (("--jobs", "1"), ("--jobs", "2"), ("--seed", "2")):
-        run("simulate", given(orbit_plan()), "--seeds", "5", "--gusts", "0.5", "--gps", "plain", *more)
+        run("simulate", given(asking()), "--seeds", "3", "--gusts", "0.5", "--gps", "plain", *more)
         documents.append(Path("out/simulate.json").read_text())
     assert documents[0] == documents[1]
     assert documents[0] != documents[2]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_too_few_runs_keep_is_an_error_at_its_line(run: Run, given) -> None:
     done = run("simulate", given(asking(RehearsalPromise(stray=0.01, of=0.6))))
     assert done.code == 1
@@ -111,6 +131,7 @@ def test_what_too_few_runs_keep_is_an_error_at_its_line(run: Run, given) -> None
     assert not document()["kept"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_the_help_proposes_is_kept(run: Run, given) -> None:
     first = run("simulate", given(asking(RehearsalPromise(mean_error=0.0, clearance=1000.0))))
     error = float(re.search(r"`mean_error: ([\d.]+)`", first.err)[1])
@@ -120,12 +141,13 @@ def test_what_the_help_proposes_is_kept(run: Run, given) -> None:
 
 
 def test_wind_as_fast_as_the_drone_is_refused_before_anything_flies(run: Run, given) -> None:
-    done = run("simulate", given(orbit_plan()), "--wind", "30")
+    done = run("simulate", given(asking()), "--wind", "30")
     assert done.code == 1
     assert "W003" in done.err
     assert not list(Path("out").iterdir())
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_mission_is_planned_and_flown_in_its_own_wind(run: Run) -> None:
     Path("walker.yaml").write_text(WALKER)
     done = run("simulate", "walker.yaml")
@@ -134,19 +156,20 @@ def test_a_mission_is_planned_and_flown_in_its_own_wind(run: Run) -> None:
     assert "loop: track" in done.err
     assert re.search(r"walker.yaml:13:\d+\n", done.err)
     replayed = [each["pictures"][0]["error"] for each in document("out/walker")["runs"]]
-    run("simulate", "walker.yaml", "--loop", "track")
+    assert run("plan", "walker.yaml", "--refiner", "none", "--emit", "csv").code == 0
+    run("simulate", "out/walker", "--loop", "track")
     tracked = [each["pictures"][0]["error"] for each in document("out/walker")["runs"]]
     assert np.mean(tracked) < 0.5 * np.mean(replayed)
     assert document("out/walker")["conditions"]["loop"] == "track"
 
 
-def test_a_target_may_really_go_elsewhere(run: Run) -> None:
-    Path("walker.yaml").write_text(WALKER)
+@pytest.mark.usefixtures("undrawn")
+def test_a_target_may_really_go_elsewhere(run: Run, given) -> None:
     Path("late.csv").write_text("t,x,y,z\n0,0,0,0.9\n60,66,6,0.9\n")
-    run("simulate", "walker.yaml", "--truth", "walker=late.csv", "--seeds", "1")
-    replayed = document("out/walker")["runs"][0]["pictures"][0]["error"]
-    run("simulate", "walker.yaml", "--truth", "walker=late.csv", "--seeds", "1", "--loop", "track")
-    tracked = document("out/walker")["runs"][0]["pictures"][0]["error"]
+    run("simulate", given(walk()), "--truth", "walker=late.csv", "--seeds", "1")
+    replayed = document()["runs"][0]["pictures"][0]["error"]
+    run("simulate", given(walk()), "--truth", "walker=late.csv", "--seeds", "1", "--loop", "track")
+    tracked = document()["runs"][0]["pictures"][0]["error"]
     assert tracked < 0.05
     assert replayed > 0.15
 
@@ -159,14 +182,13 @@ def test_a_target_may_really_go_elsewhere(run: Run) -> None:
         ("t,x,y,z\n0,0,0,0.9\n", "the file has one row"),
     ],
 )
-def test_a_truth_that_cannot_be_is_refused(run: Run, rows: str, words: str) -> None:
-    Path("walker.yaml").write_text(WALKER)
+def test_a_truth_that_cannot_be_is_refused(run: Run, given, rows: str, words: str) -> None:
     Path("true.csv").write_text(rows)
-    done = run("simulate", "walker.yaml", "--truth", "walker=true.csv")
+    done = run("simulate", given(walk()), "--truth", "walker=true.csv")
     assert done.code == 1
     assert words in done.err
     assert "Traceback" not in done.err
-    assert not Path("out").exists()
+    assert not list(Path("out").iterdir())
 
 
 @pytest.mark.parametrize(
@@ -179,28 +201,18 @@ def test_a_truth_that_cannot_be_is_refused(run: Run, rows: str, words: str) -> N
         ("--loop", "no"),
     ],
 )
-def test_options_that_mean_nothing_are_mistakes_of_usage(run: Run, options: tuple[str, ...]) -> None:
-    Path("walker.yaml").write_text(WALKER)
-    assert run("simulate", "walker.yaml", *options).code == 2
+def test_options_that_mean_nothing_are_mistakes_of_usage(run: Run, given, options: tuple[str, ...]) -> None:
+    assert run("simulate", given(walk()), *options).code == 2
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_drone_that_plans_anew_is_told_of_and_one_that_cannot_is_refused(run: Run, given) -> None:
-    Path("walker.yaml").write_text(WALKER)
-    done = run("simulate", "walker.yaml", "--loop", "replan", "--seeds", "2")
-    assert re.search(r"cam: planned anew 24 times, 0 in vain", done.out)
-    assert run("simulate", "walker.yaml", "--loop", "replan", "--replanner", "nobody").code == 2
-    made = orbit_plan()
-    mission = made.trajectory.keyframes.mission
-    hill = Terrain(
-        ground_of(np.array([[-200.0, -200, 0], [200, -200, 0], [0, 300, 0]]), np.array([[0, 1, 2]])), "a"
-    )
-    keyframes = made.trajectory.keyframes._replace(mission=mission._replace(terrain=hill))
-    done = run(
-        "simulate",
-        given(replace(made, trajectory=replace(made.trajectory, keyframes=keyframes))),
-        "--loop",
-        "replan",
-    )
+    done = run("simulate", given(walk()), "--loop", "replan", "--seeds", "2")
+    assert re.search(r"cam: planned anew 20 times, 0 in vain", done.out)
+    assert run("simulate", "out", "--loop", "replan", "--replanner", "nobody").code == 2
+    corners = np.array([[-200.0, -200, 0], [200, -200, 0], [0, 300, 0]])
+    hill = Terrain(ground_of(corners, np.array([[0, 1, 2]])), "a")
+    done = run("simulate", given(with_mission(walk(), terrain=hill)), "--loop", "replan")
     assert done.code == 1
     assert "W005" in done.err
 
@@ -227,17 +239,19 @@ def test_fleets_are_flown_and_their_strays_told(run: Run, show: str) -> None:
     assert {path.name for path in Path("out").iterdir()} == {"simulate.json", "simulate.png"}
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_gusts_take_from_the_separation(run: Run, show: str) -> None:
     def near(*more: str) -> list[float]:
-        run("simulate", show, "--seeds", "2", *more)
+        run("simulate", show, *more)
         return [each["fleets"][0]["flown"]["near"]["distance"] for each in document()["runs"]]
 
-    assert near() == pytest.approx([4.0, 4.0], abs=1e-6)
-    one, other = near("--gusts", "0.5")
+    assert near("--seeds", "1") == pytest.approx([4.0], abs=1e-6)
+    one, other = near("--seeds", "2", "--gusts", "0.5")
     assert one != other
     assert max(one, other) < 4.0
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(
     ("margin", "verdict"),
     [(0.8, "no two drones can come too near in this wind"), (0.0, "the margin was enough in these runs")],
@@ -252,12 +266,14 @@ def test_the_margin_is_judged(run: Run, given, margin: float, verdict: str) -> N
         assert 2 * farthest <= proposed <= 2 * farthest + 0.1
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_drones_nearer_than_asked_are_told(run: Run, given) -> None:
     tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 3.9, 3.9, 0.0))
     done = run("simulate", given(plan(mission(fleets=(tight,)))), "--seeds", "1", "--gusts", "0.5")
     assert "nearer than the separation" in done.out
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, given) -> None:
     tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 0.5, 0.5, 0.0))
     said = run("simulate", given(plan(mission(fleets=(tight,)))), "--seeds", "1", "--gusts", "3").out

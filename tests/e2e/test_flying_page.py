@@ -7,19 +7,24 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.command import run
+from shotc.simulation.faults import not_kept
+from shotc.simulation.rehearsal import Asked, conditions_of, rehearse
+from tests.support.compiled import compiled_text
 
 pytestmark = pytest.mark.slow
 
 PAGE = (Path(__file__).parents[2] / "shotc" / "docs" / "flying.md").read_text(encoding="utf-8")
 
 
-def test_following_what_is_seen_keeps_what_the_plan_alone_does_not(tmp_path: Path) -> None:
+def test_following_what_is_seen_keeps_what_the_plan_alone_does_not() -> None:
     (text,) = re.findall(r"```yaml\n(# walker.yaml\n.*?)```", PAGE, re.DOTALL)
-    (tmp_path / "walker.yaml").write_text(text)
-    assert run("plan", "walker.yaml", "--emit", "csv", folder=tmp_path).code == 0
-    replayed = run("simulate", "out/walker", "--seeds", "6", folder=tmp_path)
-    assert replayed.code == 1
-    assert "W001" in replayed.err
-    tracked = run("simulate", "out/walker", "--seeds", "6", "--loop", "track", folder=tmp_path)
-    assert tracked.code == 0, tracked.err
+    plan = compiled_text(text).plan
+    assert plan is not None
+
+    def broken(asked: Asked) -> list[str]:
+        conditions = conditions_of(plan.trajectory.keyframes.mission, asked)
+        done = rehearse(plan.trajectory, conditions, 6, 1, lambda _: None)
+        return [each.code for each in not_kept(done)]
+
+    assert set(broken(Asked())) == {"W001"}
+    assert broken(Asked(loop="track")) == []
