@@ -284,6 +284,6 @@ def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, given) -> No
 def test_where_no_cluster_answers_it_is_told(run: Run, given, monkeypatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr("shotc.simulation.cluster.ANSWERS_S", 1)
-    done = run("simulate", given(orbit_plan()), "--seeds", "2", "--workers", "tcp://127.0.0.1:9")
+    done = run("simulate", given(walk()), "--seeds", "2", "--workers", "tcp://127.0.0.1:9")
     assert done.code == 1
     assert "W006" in done.err
