@@ -21,6 +21,7 @@ from shotc.simulation.situations import replanned
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
+    from shotc.simulation.sensors import Gps
 
 PICTURES = (
     "shot",
@@ -77,13 +78,22 @@ def _conditions(done: Rehearsed) -> str:
         blows += " from any side"
     if not wind.speed:
         blows = "no steady wind"
-    parts = [blows, f"gusts {plain(wind.gusts, 2)} m/s" if wind.gusts else "no gusts"]
+    parts = [f"gusts {plain(wind.gusts, 2)} m/s" if wind.gusts else "no gusts"]
     if done.ir.drones:
-        parts.append(f"positions within {plain(gps.deviation, 2)} m")
+        parts.insert(0, blows)
+        parts.append(f"positions within {plain(gps.deviation, 2)} m{_beside(gps)}")
         parts.append(LOOPS[conditions.loop])
     if conditions.truth.wander:
         parts.append(f"targets {plain(conditions.truth.wander, 2)} m off their tracks")
     return ", ".join(parts)
+
+
+def _beside(gps: Gps) -> str:
+    """Say what else positions are off, and when there are none."""
+    east = gps.offset[0]
+    away = f" of {plain(abs(east), 2)} m too far {'east' if east > 0 else 'west'}" if east else ""
+    lost = " and ".join(f"{plain(start, 1)} to {plain(end, 1)} s" for start, end in gps.lost)
+    return f"{away}, none of targets from {lost}" if lost else away
 
 
 def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:
@@ -171,6 +181,8 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
     if unasked and done.conditions.loop != "replay":
         names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
         yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
+    if done.runs[0].fleets and done.conditions.wind.speed:
+        yield "fleets fly in gusts alone: their drones hold their speed over ground in any steady wind"
     for i in range(len(done.runs[0].fleets)):
         yield from _margin(done, [run.fleets[i] for run in done.runs])
 

@@ -35,6 +35,9 @@ if TYPE_CHECKING:
     from shotc.simulation.unfinished import Unfinished
     from shotc.source.file import SourceFile
 
+FASTEST, FARTHEST = 100.0, 1000.0
+"""Largest wind, m/s, and largest error of a place, m, that are flown: beyond all that a drone meets."""
+
 Input = Annotated[
     str,
     typer.Argument(metavar="MISSION|PLAN", help="A mission, a plan.json or its folder, or - for a mission."),
@@ -51,13 +54,16 @@ Seeds = Annotated[
     int | None, typer.Option(min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}].")
 ]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of the first run; all others follow from it.")]
-WindSpeed = Annotated[float | None, typer.Option("--wind", min=0.0, help="Steady wind, m/s [the world's].")]
+WindSpeed = Annotated[
+    float | None, typer.Option("--wind", min=0.0, max=FASTEST, help="Steady wind, m/s [the world's].")
+]
 WindFrom = Annotated[
     float | None,
     typer.Option("--from", min=-360.0, max=360.0, help="Compass bearing it comes from, deg [any: drawn]."),
 ]
 Gusty = Annotated[
-    float | None, typer.Option("--gusts", min=0.0, help="Standard deviation of gusts on each axis, m/s [0].")
+    float | None,
+    typer.Option("--gusts", min=0.0, max=FASTEST, help="Standard deviation of gusts on each axis, m/s [0]."),
 ]
 GpsGrade = Annotated[
     Literal["rtk", "plain"] | None,
@@ -67,14 +73,19 @@ VehicleOption = Annotated[
     Literal["lag", "rotorpy"],
     typer.Option("--vehicle", help="What flies: ours, with a lag and drag, or RotorPy's rigid body (slow)."),
 ]
-Bias = Annotated[float, typer.Option(help="What all satellite positions are off to the East, m.")]
+Bias = Annotated[
+    float,
+    typer.Option(min=-FARTHEST, max=FARTHEST, help="What all satellite positions are off to the East, m."),
+]
 Lost = Annotated[
     list[str] | None,
-    typer.Option(metavar="FROM:TO", help="Seconds of the mission without satellite positions; repeatable."),
+    typer.Option(metavar="FROM:TO", help="Seconds without satellite positions of targets; repeatable."),
 ]
 Wander = Annotated[
     float | None,
-    typer.Option(min=0.0, help="Standard deviation of how far what moves is off its track, m [0]."),
+    typer.Option(
+        min=0.0, max=FARTHEST, help="Standard deviation of how far what moves is off its track, m [0]."
+    ),
 ]
 TruthFiles = Annotated[
     list[str] | None,

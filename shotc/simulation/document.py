@@ -44,14 +44,14 @@ def json_text(done: Rehearsed) -> str:
 
 
 def _finite(value: Any) -> Any:
-    """Return a document without the numbers that JSON has not: None takes their place."""
+    """Return a document without the numbers that JSON has not: infinite ones are words, as in plan.json."""
     if isinstance(value, dict):
         return {key: _finite(each) for key, each in value.items()}
     if isinstance(value, tuple) and hasattr(value, "_asdict"):
         return _finite(value._asdict())
     if isinstance(value, list | tuple):
         return [_finite(each) for each in value]
-    return None if isinstance(value, float) and not isfinite(value) else value
+    return str(value) if isinstance(value, float) and not isfinite(value) else value
 
 
 def flight_table(done: Rehearsed, world: World, flown: Sequence[Flown]) -> str:
@@ -80,7 +80,9 @@ def _rows(done: Rehearsed, world: World, flown: Flown, times: Any) -> Iterator[s
     for k, time in enumerate(times.tolist()):
         numbers = ",".join(NUMBER % (value + 0.0) for value in own[k].tolist())
         for name, known in of_targets or [("", None)]:
-            cells = ",,,,,," if known is None else ",".join(NUMBER % value for value in known[k].tolist())
+            cells = (
+                ",,,,,," if known is None else ",".join(NUMBER % (value + 0.0) for value in known[k].tolist())
+            )
             yield f"{head % time},{numbers},{name},{cells}"
 
 

@@ -32,13 +32,15 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
     """Yield what keeps conditions from being flown: too strong a wind, a truth that cannot be."""
     mission, wind = ir.keyframes.mission, conditions.wind.speed
     end = max((track.curve.end for track in ir.drones), default=0.0)
-    for drone in mission.drones:
-        most = drone.limits.speed + mission.wind
+    carried = [(f"drone `{drone.name}`", drone.limits, drone.path) for drone in mission.drones]
+    carried += [(f"fleet `{fleet.name}`", fleet.limits, fleet.path) for fleet in mission.fleets]
+    for name, limits, path in carried:
+        most = limits.speed + mission.wind
         if wind >= most:
             yield Diagnostic(
                 "W003",
-                f"a wind of {wind:g} m/s carries drone `{drone.name}` away: it flies {most:g} m/s",
-                (mission.origins.value(drone.path),),
+                f"a wind of {wind:g} m/s carries {name} away: it flies {most:g} m/s",
+                (mission.origins.value(path),),
                 help=f"rehearse with less than {most:g} m/s of wind, or take a faster drone",
             )
     if conditions.loop == "replan":
@@ -92,7 +94,7 @@ def _broken(done: Rehearsed, each: Verdict) -> Diagnostic:
 def _touches(done: Rehearsed, each: Verdict) -> Diagnostic:
     return Diagnostic(
         "W002",
-        f"{_words(each, each.worst)} in run {each.run}: it touches something",
+        f"a drone's body is {at_least(-each.worst)} m into something in run {each.run}",
         tuple(_touched(done, each)),
         tuple(_where(done, each)),
         "plan with a larger clearance, or fly in less wind",

@@ -55,7 +55,7 @@ class Course:
     """How a drone kept to its plan in one run.
 
     stray, farthest : distance from where the plan has it at the same time, m: root of the mean square, the
-        largest; time : of the largest, s; speed, climb : the largest over ground, m/s
+        largest; time : of the largest, s; speed : the largest over ground, m/s
     roll : the largest that its picture was tilted, rad
     """
 
@@ -112,9 +112,9 @@ class Run:
         )
 
     @property
-    def merit(self) -> tuple[bool, float, float, float]:
-        """Order from the worst run to the best: what hits something, what shows least, what is off most."""
-        return (self.clearance >= 0.0, self.in_frame, -self.error, -self.stray)
+    def merit(self) -> tuple[float, float, float, float]:
+        """Order from the worst run to the best: what goes deepest into a thing, shows least, is off most."""
+        return (min(self.clearance, 0.0), self.in_frame, -self.error, -self.stray)
 
 
 def judged(
@@ -192,7 +192,9 @@ def _picture(
         picture = replace(
             picture,
             error=float(known.mean()),
-            usual=float(np.quantile(known, 0.95)),
+            usual=float(
+                np.quantile(known, 0.95, method="higher")
+            ),  # a frame's: between two it may be inf - inf
             worst=float(error[worst]),
             time=float(times[worst]),
         )

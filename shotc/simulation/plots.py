@@ -22,6 +22,8 @@ PANEL_IN = 2.6
 
 HEAD_IN = 1.0
 BINS = 32
+HEADROOM = 1.3
+"""Times the tallest bar: the legend is above them."""
 
 
 class _Panel(NamedTuple):
@@ -80,17 +82,25 @@ def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
         low, high = float(values.min()), float(values.max())
         if panel.limit is not None:
             low, high = min(low, panel.limit), max(high, panel.limit)
-        around = max(high - low, 1e-2 * max(abs(high), 1e-3))
-        axes.hist(values, bins=np.linspace(low - 0.05 * around, high + 0.05 * around, BINS), color=SUBJECT)
+        around = max(high - low, 0.1 * max(abs(high), 1e-3))
+        drawn, _, _ = axes.hist(
+            values, bins=np.linspace(low - 0.05 * around, high + 0.05 * around, BINS), color=SUBJECT
+        )
         axes.plot(values, np.zeros(len(values)), "|", color=INK, markersize=8, clip_on=False)
+        axes.set_ylim(0.0, HEADROOM * float(drawn.max()))
     worst = panel.measure(done.worst)
     if isfinite(worst):
-        axes.axvline(worst, color=CAMERA, linewidth=2.0, label=f"run {done.worst.number}, the worst")
+        axes.axvline(
+            worst, ymax=1 / HEADROOM, color=CAMERA, linewidth=2.0, label=f"run {done.worst.number}, the worst"
+        )
     if panel.limit is not None:
-        axes.axvline(panel.limit, color=KEEP_OUT, linewidth=1.5, linestyle="--", label="asked")
+        axes.axvline(
+            panel.limit, ymax=1 / HEADROOM, color=KEEP_OUT, linewidth=1.5, linestyle="--", label="asked"
+        )
     axes.xaxis.set_major_locator(MaxNLocator(6))
+    axes.ticklabel_format(axis="x", useOffset=False)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
-    axes.legend(loc="best", fontsize=9, frameon=False, labelcolor=QUIET)
+    axes.legend(loc="upper left", ncols=2, fontsize=9, frameon=False, labelcolor=QUIET)
     _labels(axes, panel.title, panel.unit, "runs")
 
 

@@ -18,6 +18,9 @@ from shotc.simulation.tracker import Measurement, Motion, PictureFix, PositionFi
 from shotc.simulation.vehicle import STEP_S
 from shotc.simulation.world import World
 
+ROUNDING_S = 1e-6
+"""Seconds by which the sum of a stamp and a delay may come out late: 0.2 + 0.1 is more than 0.3."""
+
 AGILITY = 1.0
 """q of the trackers, m^2/s^3: between a person (0.5) and a car (2)."""
 
@@ -55,7 +58,7 @@ class Watched:
 
     def learn(self, time: float) -> None:
         """Take in what has arrived by a time."""
-        while self.waiting and self.waiting[0][0] <= time:
+        while self.waiting and self.waiting[0][0] <= time + ROUNDING_S:
             self.tracker.take(heappop(self.waiting)[2])
 
 

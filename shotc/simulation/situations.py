@@ -80,6 +80,8 @@ class Chased:
         wanted = target[-1] + np.array(
             [c * beside[0] - s * beside[1], s * beside[0] + c * beside[1], beside[2]]
         )
+        # A target that is taken to be in the ground leads no drone there: the floor is only a price.
+        wanted[2] = max(wanted[2], mission.rules.over_ground(film.drone.radius))
         return ChaseSituation(
             time=float(stages[0]),
             place=drone[0],

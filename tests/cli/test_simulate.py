@@ -148,6 +148,19 @@ def test_wind_as_fast_as_the_drone_is_refused_before_anything_flies(run: Run, gi
 
 
 @pytest.mark.usefixtures("undrawn")
+@pytest.mark.filterwarnings("error")
+def test_gusts_that_nobody_flies_in_leave_numbers_finite(run: Run, given) -> None:
+    done = run("simulate", given(walk()), "--gusts", "30", "--seeds", "3", "--bias", "2.5")
+    assert done.code == 1
+    assert "positions within 0.02 m of 2.5 m too far east" in done.out
+    made = document()
+    depth = [min(n["distance"] for c in each["courses"] for n in c["near"]) for each in made["runs"]]
+    assert made["worst_run"] == int(np.argmin(depth))
+    assert re.search(rf"a drone's body is [\d.]+ m into something in run {made['worst_run']}", done.err)
+    assert "NaN" not in Path("out/simulate.json").read_text()
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_a_mission_is_planned_and_flown_in_its_own_wind(run: Run) -> None:
     Path("walker.yaml").write_text(WALKER)
     done = run("simulate", "walker.yaml")
@@ -199,6 +212,9 @@ def test_a_truth_that_cannot_be_is_refused(run: Run, given, rows: str, words: st
         ("--truth", "nobody=x.csv"),
         ("--truth", "walker"),
         ("--loop", "no"),
+        ("--bias", "nan"),
+        ("--gusts", "inf"),
+        ("--wander", "inf"),
     ],
 )
 def test_options_that_mean_nothing_are_mistakes_of_usage(run: Run, given, options: tuple[str, ...]) -> None:
@@ -249,6 +265,16 @@ def test_gusts_take_from_the_separation(run: Run, show: str) -> None:
     one, other = near("--seeds", "2", "--gusts", "0.5")
     assert one != other
     assert max(one, other) < 4.0
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_show_says_that_it_feels_no_steady_wind_and_refuses_one_above_its_speed(run: Run, show) -> None:
+    done = run("simulate", show, "--seeds", "1", "--wind", "1")
+    assert ": 1 run, no gusts\n" in done.out
+    assert "fleets fly in gusts alone" in done.out
+    done = run("simulate", show, "--seeds", "1", "--wind", "90")
+    assert done.code == 1
+    assert "carries fleet `swarm` away" in done.err
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import re
+from dataclasses import fields
 from pathlib import Path
+
+import pytest
 
 import shotc
 from shotc.emit.csv_table import FRAMING, GEODETIC, LIGHT, TRAJECTORY
@@ -15,10 +19,25 @@ from shotc.ir.phases import Reference
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.planfile.write import document
+from shotc.simulation.clearance import Nearest
+from shotc.simulation.conditions import Conditions
+from shotc.simulation.document import FLIGHT, json_text
+from shotc.simulation.fleets.near import Near
+from shotc.simulation.fleets.rehearse import Rehearsal
+from shotc.simulation.guidance import Replans
+from shotc.simulation.judge import Course, Picture
+from shotc.simulation.rehearsal import rehearse
+from shotc.simulation.runs import simulated
+from shotc.simulation.sensors import Detector, Gps
+from shotc.simulation.shows import FleetCourse
+from shotc.simulation.truth import Truth
+from shotc.simulation.verdict import Verdict
+from shotc.simulation.wind import Wind
 from tests.support.film_plans import orbit_plan
 
 PAGE = (Path(shotc.__file__).parent / "docs" / "outputs.md").read_text(encoding="utf-8")
 NAMED = set(re.findall(r"`([^`]+)`", PAGE))
+BOLD = set(re.findall(r"\*\*(\w+)\*\*", PAGE))
 RECORDS = (
     Claim,
     DroneTrajectory,
@@ -32,7 +51,7 @@ RECORDS = (
 
 
 def test_every_column_of_the_tables_is_explained():
-    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT},{FRAMING}".split(",")
+    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT},{FRAMING},{FLIGHT}".split(",")
     assert [column for column in columns if column not in NAMED] == []
 
 
@@ -45,3 +64,14 @@ def test_every_part_of_a_plan_is_explained():
 def test_every_field_of_what_a_plan_holds_is_explained():
     fields = [name for record in RECORDS for name in field_names(record)]
     assert [name for name in fields if name not in NAMED] == []
+
+
+@pytest.mark.slow
+def test_every_part_of_simulate_json_is_explained():
+    ir, conditions = orbit_plan().trajectory, Conditions()
+    done = rehearse(ir, conditions, simulated(ir, conditions, 1, 1), lambda _runs: None)
+    run = json.loads(json_text(done))
+    records = (Course, Picture, Verdict, Replans, Near, Rehearsal, FleetCourse, Wind, Gps, Detector, Truth)
+    named = [field.name for record in records for field in fields(record)]
+    parts = [*run, *run["conditions"], *run["asked"], *run["runs"][0], *Nearest._fields, *named]
+    assert [part for part in parts if part not in NAMED | BOLD] == []

@@ -11,12 +11,13 @@ import pytest
 from shotc import plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.geom.track import Track
-from shotc.plugin_api.replanner import Plan, Replan
+from shotc.plugin_api.replanner import Plan, Replan, Traffic
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
-from shotc.simulation.situations import replanned
+from shotc.simulation.situations import STAGE_S, Moment, replanned
+from shotc.simulation.tracker import Estimate
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
 from shotc.simulation.world import World, at_times
@@ -89,6 +90,22 @@ def test_a_run_is_the_same_whichever_ran_beside_it():
     _, several = flown(runs=(0, 1, 2))
     _, alone = flown(runs=(2,))
     assert several[1].position[:, 2] == pytest.approx(alone[1].position[:, 0], abs=1e-5)
+
+
+def test_a_target_that_is_taken_to_be_in_the_ground_leads_no_drone_there():
+    mission = plan().keyframes.mission
+    film = film_of(mission, plan().drones[0])
+    (shot,) = replanned(mission, film)
+    stages = 20.0 + STAGE_S * np.arange(shot.stages + 1)
+    sunk = np.array([[24.0, 0.0, -50.0, 1.2, 0.0, 0.0, 0.0, 0.0, 0.0]])
+    known = {"walker": Estimate(20.0, sunk, np.eye(9)[None])}
+    drone = (film.position[film.step(20.0)], film.velocity[film.step(20.0)])
+    free = Traffic(np.empty((0, len(stages), 3)))
+    places, moves = (np.tile(each, (len(stages), 1)) for each in drone)
+    last = Plan(stages, places, moves, np.zeros((shot.stages, 3)))
+    of = Moment(known=known, last=last, run=0, turn=0.0, traffic=free)
+    wanted = shot.situation(mission, film, stages, drone, of).wanted
+    assert wanted[2] == mission.rules.over_ground(mission.drone("one").radius)
 
 
 class _Bad:

@@ -1,3 +1,5 @@
+from heapq import heappush
+
 import numpy as np
 import pytest
 
@@ -7,8 +9,9 @@ from shotc.ir.target import Target
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.gimbal import axes_of
+from shotc.simulation.seen import Watched
 from shotc.simulation.sensors import PLAIN, Detector, Gps
-from shotc.simulation.tracker import projection
+from shotc.simulation.tracker import Motion, PositionFix, Tracker, projection
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind, wandering
 
@@ -66,6 +69,18 @@ def test_no_position_arrives_while_it_is_lost():
     assert gps.arrives(9.9)
     assert not gps.arrives(10.0)
     assert gps.arrives(15.0)
+
+
+def test_a_position_is_known_at_the_step_on_which_it_arrives():
+    stamp = 0.2 + 0.1 - 0.1  # the sum with its delay is a little more than 0.3
+    fix = PositionFix(stamp, np.ones((1, 3)), 0.02, np.ones(1, dtype=bool))
+    tracker = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), Motion(1.0))
+    seen = Watched("walker", np.zeros((1, 1, 3)), np.zeros(1), [fix], tracker, chances(1))
+    heappush(seen.waiting, (stamp + 0.1, 0, fix))
+    assert stamp + 0.1 > 0.3
+    seen.learn(0.3)
+    assert not seen.waiting
+    assert tracker.now(0.3).position[0, 0] > 0.9
 
 
 def test_detections_are_missed_as_often_as_said_and_never_out_of_the_picture():
