@@ -21,6 +21,7 @@ OUT = ROOT / "out" / "papers"
 PAGE = ROOT / "shotc" / "docs" / "papers.md"
 PARTS = (
     "framing",
+    "flown",
     "houses",
     "identification",
     "yaw",
@@ -103,6 +104,10 @@ def _films(
         found.append(lenses.section(drafts, conditions, say))
         if "ours" in conditions:
             found.append(solvers.section(drafts, say))
+    if "flown" in parts and "ours" in conditions and "ours" in plugins.names("replanners"):
+        from tests.experiments.papers import flown
+
+        found.append(flown.section(drafts, say))
     if "houses" in parts:
         found.append(houses.section(drafts, conditions, say))
     return found

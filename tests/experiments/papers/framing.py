@@ -86,9 +86,10 @@ def one(mission: str, condition: str, path: PathIR) -> Result:
 
 @dataclass(frozen=True, eq=False)
 class Flown:
-    """One mission refined, timed and verified, and what its film shows."""
+    """One mission refined, timed and verified, and what its film shows; leg : its path, which was timed."""
 
     plan: VerifiedIR
+    leg: MovingLeg
     flight: DroneTrajectory
     shown: Shown
 
@@ -108,7 +109,7 @@ def fly(condition: str, path: PathIR) -> Flown | tuple[str, ...]:
     (placed,) = (placed for placed in trajectory.keyframes.shots if placed.shot.id == FILMED)
     (flight,) = (flight for flight in trajectory.drones if flight.drone == placed.shot.drone)
     seen = shown(trajectory.keyframes.mission, placed.keyframes, leg, flight)
-    return Flown(done.value, flight, seen)
+    return Flown(done.value, leg, flight, seen)
 
 
 def _solved_again(refiner: object, path: PathIR) -> Solve | None:

@@ -7,6 +7,7 @@ keyframe's to the next one's with progress along the path (f_t and v_d, Sec. 4).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -68,25 +69,48 @@ def percentile(values: Array, share: float) -> float:
     return float(ordered[int(np.ceil(share * len(ordered))) - 1])
 
 
+class Pictures(NamedTuple):
+    """What frames show, as in ``Shown``."""
+
+    error: Array
+    margin: Array
+    points: Array
+
+
 def shown(
     mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...], leg: MovingLeg, flown: DroneTrajectory
 ) -> Shown:
     """Measure one shot that moves; leg : the path that was timed, flown : what came of it."""
     (phase,) = (p for p in flown.phases if p.shot == leg.shot)
-    t = np.linspace(phase.start, phase.end, int(np.ceil((phase.end - phase.start) * RATE)) + 1)
     motion = polynomial(flown.curve)
-    states = motion(t)
-    centre, radius, height, place = wanted(mission, keyframes, leg, _places(leg, motion, t))
-    lens = Lens.of(states, mission.drone(flown.drone).aspect)
+    jerk = _rms_jerk(motion, phase.start, phase.end)
+    seen = pictures(mission, keyframes, leg, flown, motion)
+    return Shown(*seen, jerk=jerk, duration=phase.end - phase.start)
+
+
+def pictures(
+    mission: MissionIR,
+    keyframes: tuple[PlacedKeyframe, ...],
+    leg: MovingLeg,
+    plan: DroneTrajectory,
+    eyes: Callable[[Array], Array],
+) -> Pictures:
+    """Look at the frames of one shot that moves, wherever the camera is.
+
+    plan : from which the picture that is wanted at a time is told; eyes : states (M, 7) at times (M,)
+    """
+    (phase,) = (p for p in plan.phases if p.shot == leg.shot)
+    t = np.linspace(phase.start, phase.end, int(np.ceil((phase.end - phase.start) * RATE)) + 1)
+    states = eyes(t)
+    centre, radius, height, place = wanted(mission, keyframes, leg, _places(leg, polynomial(plan.curve), t))
+    lens = Lens.of(states, mission.drone(plan.drone).aspect)
     offset = centre - states[:, :3]
     screen, depth = lens.project(offset)
     away = np.linalg.norm(offset, axis=1)
-    return Shown(
+    return Pictures(
         error=np.where(depth > 0, np.linalg.norm(screen - place, axis=1), np.inf),
         margin=lens.inside(offset, radius, height) / away,
         points=np.min([lens.inside(point) for point in four_points(offset, radius, height)], axis=0) / away,
-        jerk=_rms_jerk(motion, phase.start, phase.end),
-        duration=phase.end - phase.start,
     )
 
 
