@@ -9,6 +9,7 @@ import pytest
 
 from shotc.simulation.faults import not_kept
 from shotc.simulation.rehearsal import Asked, conditions_of, rehearse
+from shotc.simulation.runs import simulated
 from tests.support.compiled import compiled_text
 
 pytestmark = pytest.mark.slow
@@ -23,7 +24,8 @@ def test_following_what_is_seen_keeps_what_the_plan_alone_does_not() -> None:
 
     def broken(asked: Asked) -> list[str]:
         conditions = conditions_of(plan.trajectory.keyframes.mission, asked)
-        done = rehearse(plan.trajectory, conditions, 6, 1, lambda _: None)
+        runs = simulated(plan.trajectory, conditions, 6, 1)
+        done = rehearse(plan.trajectory, conditions, runs, lambda _: None)
         return [each.code for each in not_kept(done)]
 
     assert set(broken(Asked())) == {"W001"}
