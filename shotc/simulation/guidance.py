@@ -26,6 +26,9 @@ PERIOD_S = 0.5
 LIMIT_S = 10.0
 """Seconds after which a planner is given up: it hangs, for nobody could fly with it."""
 
+LOST_M = 4.0
+"""Standard deviation of a target's place beyond which nobody flies beside it, metres."""
+
 STILL_M_S = 0.3
 """Speed below which the course of a target is not known."""
 
@@ -123,11 +126,17 @@ class Guide:
         stages = time + STAGE_S * np.arange(shot.stages + 1, dtype=np.float64)
         known = {each.name: each.tracker.now(time) for each in self.targets}
         turn = self._turn(shot, time, known)
-        plans = []
+        plans: list[Plan | None] = []
         for r, count in enumerate(self.counts):
             sent = np.array([each.places(r, stages) for each in self.sent]).reshape(-1, len(stages), 3)
             of = Moment(known, self._held.plans[r], r, float(turn[r]), Traffic(sent))
             mine = (drone[0][r], drone[1][r])
+            lost = _lost(known, r)
+            if lost:
+                count.failed += 1
+                count.reason = lost
+                plans.append(None)
+                continue
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
             plans.append(self._asked(situation, self._held.plans[r], count))
         self._held = self._held.replaced(plans)
@@ -166,6 +175,15 @@ class Guide:
             course = np.arctan2(now.velocity[:, 1], now.velocity[:, 0])
             self._course = np.where(moves, wrapped(course - track.heading(time)), self._course)
         return self._course
+
+
+def _lost(known: Known, run: int) -> str:
+    """Say which target is not known well enough to be flown beside; empty where all are."""
+    for name, now in known.items():
+        deviation = float(np.sqrt(np.trace(now.covariance[run, :3, :3]) / 3.0))
+        if deviation > LOST_M:
+            return f"`{name}` is known to {LOST_M:g} m at best: the drone brakes and holds"
+    return ""
 
 
 def _finite(plan: Plan) -> bool:

@@ -16,6 +16,7 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
+from shotc.simulation.sensors import Gps
 from shotc.simulation.situations import STAGE_S, Moment, replanned
 from shotc.simulation.tracker import Estimate
 from shotc.simulation.truth import Truth
@@ -97,10 +98,11 @@ def test_a_target_that_is_taken_to_be_in_the_ground_leads_no_drone_there():
     mission = plan().keyframes.mission
     film = film_of(mission, plan().drones[0])
     (shot,) = replanned(mission, film)
-    stages = 20.0 + STAGE_S * np.arange(shot.stages + 1)
+    at = shot.phase.start + 2.0
+    stages = at + STAGE_S * np.arange(shot.stages + 1)
     sunk = np.array([[24.0, 0.0, -50.0, 1.2, 0.0, 0.0, 0.0, 0.0, 0.0]])
-    known = {"walker": Estimate(20.0, sunk, np.eye(9)[None])}
-    drone = (film.position[film.step(20.0)], film.velocity[film.step(20.0)])
+    known = {"walker": Estimate(at, sunk, np.eye(9)[None])}
+    drone = (film.position[film.step(at)], film.velocity[film.step(at)])
     free = Traffic(np.empty((0, len(stages), 3)))
     places, moves = (np.tile(each, (len(stages), 1)) for each in drone)
     last = Plan(stages, places, moves, np.zeros((shot.stages, 3)))
@@ -157,6 +159,16 @@ def test_where_planning_anew_fails_the_drone_brakes_and_holds_and_it_is_told(mon
     assert np.linalg.norm(speed[0]) > 1.0
     assert np.linalg.norm(speed[1]) < 0.8
     assert np.isfinite(tracks[0].position).all()
+
+
+def test_a_drone_whose_target_is_lost_stops_and_it_is_told():
+    lost = Gps(lost=((0.0, 100.0),))
+    conditions = Conditions(loop="replan", gps=lost, detector=None)
+    world = World.of(plan(), conditions, (0,))
+    (run,) = judged(world, plan(), fly_all(world, plan().drones), ((),))
+    for course in run.courses:
+        assert course.replans.planned == 0
+        assert course.replans.reason.startswith("`walker` is known to 4 m at best")
 
 
 def test_shots_of_what_stands_and_of_several_are_flown_as_planned():
