@@ -16,7 +16,7 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.film import Film, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
-from shotc.simulation.guidance import PERIOD_S, Guide, Replans
+from shotc.simulation.guidance import PERIOD_S, Guidance, Replans
 from shotc.simulation.seen import Watched, watched
 from shotc.simulation.sent import Sent
 from shotc.simulation.situations import replanned
@@ -87,7 +87,7 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
     error = conditions.gps.own_error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
     targets = _watched(world, film)
     shots = replanned(world.mission, film) if conditions.loop == "replan" else ()
-    guide = Guide(world, film, shots, targets, sent, own)
+    guidance = Guidance(world, film, shots, targets, sent, own)
     vehicle, gimbal = (
         Vehicle(speed=HEADROOM * fastest(film.drone.limits)),
         GimbalModel(film.drone.gimbal.rate),
@@ -107,9 +107,9 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
                 target.learn(float(film.times[k]))
             wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
             attitude = turned(gimbal, attitude, wanted, rate, EVERY * STEP_S)
-        asked = guide.setpoint(k, (state.position + off, state.velocity))
+        asked = guidance.setpoint(k, (state.position + off, state.velocity))
         state = plant.carried(state, *steered(vehicle, state, asked, off), world.steady + gusts[k])
-    return into.done(film, guide)
+    return into.done(film, guidance)
 
 
 def plant_of(name: VehicleName, vehicle: Vehicle, first: State) -> Plant:
@@ -205,7 +205,7 @@ class _Record:
             now = target.tracker.now(i * EVERY * STEP_S)
             into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
 
-    def done(self, film: Film, guide: Guide) -> Flown:
+    def done(self, film: Film, guidance: Guidance) -> Flown:
         yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
         times = film.times[::EVERY]
         return Flown(
@@ -217,5 +217,5 @@ class _Record:
             pitch,
             roll,
             self.estimated,
-            tuple(guide.counts),
+            tuple(guidance.counts),
         )

@@ -49,7 +49,7 @@ class Replans:
 
 
 @dataclass(slots=True)
-class Guide:
+class Guidance:
     """One drone of R runs.
 
     shots : those that are planned anew; () flies the plan; targets : what is known of those that move
