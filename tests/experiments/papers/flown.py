@@ -17,7 +17,7 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import cameras_of
 from shotc.simulation.runs import flown
 from shotc.simulation.wind import Wind
-from tests.experiments.papers import framing, weaving
+from tests.experiments.papers import framing, tracked, weaving
 from tests.experiments.papers.missions import Draft, convex_path
 from tests.experiments.papers.report import Section, Table
 from tests.experiments.papers.shown import Pictures, percentile, pictures
@@ -39,7 +39,8 @@ class Rehearsed:
 
 def section(drafts: Sequence[Draft], say: Callable[[str], None]) -> Section:
     """Run all of it."""
-    return Section("Films as they are flown", (in_wind(drafts, RUNS, say), *weaving.tables(say)))
+    tables = (in_wind(drafts, RUNS, say), *weaving.tables(say), tracked.table(say))
+    return Section("Films as they are flown", tables)
 
 
 def in_wind(drafts: Sequence[Draft], runs: int, say: Callable[[str], None]) -> Table:

@@ -14,6 +14,7 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.flight import Flown
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.runs import flown
+from shotc.simulation.sensors import Gps
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
 from shotc.simulation.world import at_times
@@ -25,6 +26,9 @@ GUSTS = Wind(gusts=0.5)
 WEAVES = Truth(0.5)
 CASES = {
     "replay, straight walker": Conditions(loop="replay", wind=GUSTS),
+    "replan, straight walker, places known exactly": Conditions(
+        loop="replan", wind=GUSTS, gps=Gps(noise=1e-6), detector=None
+    ),
     "replan, straight walker": Conditions(loop="replan", wind=GUSTS),
     "replan, weaving walker": Conditions(loop="replan", wind=GUSTS, truth=WEAVES),
 }
@@ -38,7 +42,8 @@ NOTES = (
     f"(standard deviation of each axis), RTK; the walker is {WEAVES.wander:g} m off the straight way "
     "(standard deviation along East and along North), seeded",
     "way, acceleration and error are means over the runs; the rest is the worst of them. Accelerations are "
-    f"differences of the flown velocity over {STEP_S:g} s; the rows of `replay` tell what gusts alone cost",
+    f"differences of the flown velocity over {STEP_S:g} s; the rows of `replay` tell what gusts alone cost, "
+    "and those of places known exactly that the rest is the estimate of the walker's velocity, led 3 s ahead",
     "to be reached were 0.2 m/s^2, the whole walker in every frame, and the paper's least distance",
     "the paper planned 10 s ahead every 2 s, with a walk that is not published",
 )

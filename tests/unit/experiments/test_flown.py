@@ -8,8 +8,9 @@ import pytest
 from shotc.api import PlanOptions, compile_source
 from shotc.simulation import judge, runs
 from shotc.simulation.conditions import Conditions
+from shotc.simulation.gimbal import axes_of
 from shotc.simulation.sensors import Gps
-from tests.experiments.papers import flown, framing, lenses, weaving
+from tests.experiments.papers import flown, framing, lenses, tracked, weaving
 from tests.experiments.papers.missions import convex_path
 
 pytestmark = pytest.mark.slow
@@ -84,3 +85,21 @@ def test_the_mean_acceleration_of_a_circle_is_its_centripetal_one():
     way, acceleration = weaving._motion(place, velocity)
     assert way == pytest.approx(1.5 * 59.9, rel=1e-3)
     assert acceleration == pytest.approx(0.45, rel=1e-3)
+
+
+def test_a_camera_that_looks_beside_a_target_is_off_by_that_angle_and_may_lose_it():
+    away = np.tile([2.0, 0.0, 0.0], (50, 1))
+    yaw = np.repeat([0.3, 0.9], 25)
+    told = tracked.measured(away, yaw, axes_of(yaw, 0 * yaw), np.full((50, 2), np.tan(0.6)), 0.1)
+    assert told.out == 0.5
+    assert told.off == pytest.approx(0.6)
+    assert told.turning == pytest.approx(0.6 / 49 / 0.1)
+    assert (told.away, told.spread) == (2.0, 0.0)
+
+
+def test_a_robot_that_keeps_its_way_is_in_the_middle_and_as_far_as_planned():
+    ir = tracked.trajectory()
+    (told,) = tracked.fly(ir, Conditions(loop="track", gps=EXACT), 1, (22.0, 26.0))
+    assert told.out == 0.0
+    assert told.off < 0.02
+    assert told.away == pytest.approx(np.hypot(1.8, 0.9), abs=0.05)
