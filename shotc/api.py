@@ -45,7 +45,7 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import Claim, VerifiedIR
     from shotc.passes.refine_path import Seat
 
-SOLVERS = ("numpy", "scipy", "cvxpy", "clarabel", "matplotlib", "pymap3d", "threadpoolctl")
+SOLVERS = ("numpy", "scipy", "clarabel", "matplotlib", "pymap3d", "threadpoolctl")
 
 
 def _ignore(_mission: MissionIR) -> None:

@@ -15,7 +15,7 @@ from shotc.requirements import remedy
 
 API_VERSION = 1
 OPTIONAL = (
-    *("numpy", "scipy", "cvxpy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi"),
+    *("numpy", "scipy", "clarabel", "toppra", "pymap3d", "matplotlib", "rerun", "casadi"),
     "pymavlink",
     "rotorpy",
     "distributed",

@@ -13,7 +13,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import DEGREE, IntArray, Rows
-from shotc.solvers.cone_rows import Term
+from shotc.solvers.cone_rows import ConeRows, Term
 
 EVERY = (0, 1, 2)
 
@@ -114,3 +114,14 @@ def terms(rows: Rows, factor: Array | float = 1.0, first: int = 0) -> list[Term]
     """
     columns = rows.piece + first
     return [(columns + k, rows.weight[:, k] * factor) for k in range(DEGREE + 1)]
+
+
+def bounded(rows: ConeRows, size: int, cone: Cones, more: list[Term]) -> None:
+    """Demand that norms are at most their bounds and what is added to them; of one component, its size."""
+    parts = [terms(cone.rows, first=axis * size) for axis in cone.axes]
+    if len(parts) > 1:
+        rows.second_order(cone.bound, [more, *parts], rest=list(-cone.centre.T))
+        return
+    for sign in (1.0, -1.0):
+        part = [(columns, -sign * values) for columns, values in parts[0]]
+        rows.positive(cone.bound + sign * cone.centre[:, 0], more + part)

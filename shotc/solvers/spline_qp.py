@@ -17,7 +17,16 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import Rows
 from shotc.solvers.cone_rows import ConeRows, Near, Term
 from shotc.solvers.conic import Status
-from shotc.solvers.spline_problem import EVERY, Cones, Goal, SplineProblem, centred, scalar_map, terms
+from shotc.solvers.spline_problem import (
+    EVERY,
+    Cones,
+    Goal,
+    SplineProblem,
+    bounded,
+    centred,
+    scalar_map,
+    terms,
+)
 
 MISS = 1e-6  # metres that a solution may miss an equality by
 TOLERANCE = 1e-8
@@ -179,7 +188,7 @@ def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) 
             rows.positive(0.0 * one, more)
             price.append(cone.price)
             at += len(one)
-        _bounded(rows, problem.size, cone, more)
+        bounded(rows, problem.size, cone, more)
     hessian, slope = _quadratic(problem, squares, slacks)
     near = Near(np.zeros(rows.unknowns), 1.0)
     status, x = rows.solve((slope + np.concatenate(price)) / unit, TOLERANCE, hessian / unit, near=near)
@@ -190,17 +199,6 @@ def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) 
         return SplineSolution(Status.FAILED, None, float("nan"), float("nan"))
     excess = float(np.concatenate(price)[3 * problem.size :] @ x[3 * problem.size :])
     return SplineSolution(status, coef, _energy(problem, coef), excess)
-
-
-def _bounded(rows: ConeRows, size: int, cone: Cones, more: list[Term]) -> None:
-    """Demand that norms are at most their bounds and what is added to them; of one component, its size."""
-    parts = [terms(cone.rows, first=axis * size) for axis in cone.axes]
-    if len(parts) > 1:
-        rows.second_order(cone.bound, [more, *parts], rest=list(-cone.centre.T))
-        return
-    for sign in (1.0, -1.0):
-        part = [(columns, -sign * values) for columns, values in parts[0]]
-        rows.positive(cone.bound + sign * cone.centre[:, 0], more + part)
 
 
 def _quadratic(problem: SplineProblem, squares: list[Square], slacks: int) -> tuple[Any, Array]:

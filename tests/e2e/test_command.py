@@ -102,7 +102,7 @@ def test_usage_errors(planned: Path, arguments: list[str]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("moment", ["shotc.passes.place_keyframes", "cvxpy", "matplotlib", "1", "4"])
+@pytest.mark.parametrize("moment", ["shotc.passes.place_keyframes", "clarabel", "matplotlib", "1", "4"])
 def test_an_interrupt_leaves_the_old_files(place: Path, moment: str) -> None:
     """While loading, while solving, while drawing, while writing the first file and the last one."""
     before = content(place / "out" / "small")
@@ -161,7 +161,9 @@ def test_a_reader_that_leaves_early_is_no_error(place: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("library", ["cvxpy", "matplotlib", SOLVERS], ids=["cvxpy", "matplotlib", "all"])
+@pytest.mark.parametrize(
+    "library", ["clarabel", "matplotlib", SOLVERS], ids=["clarabel", "matplotlib", "all"]
+)
 def test_planning_without_its_libraries_says_what_to_install(planned: Path, library: str) -> None:
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": library}
     result = run(*PLAN, "small.yaml", "-o", "none", folder=planned, env=env)

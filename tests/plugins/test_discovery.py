@@ -103,7 +103,7 @@ def test_both_ways_to_the_kinds_find_the_same(install):
 @pytest.mark.parametrize(
     ("libraries", "extra"),
     [
-        (["cvxpy", "clarabel"], "plan"),
+        (["scipy", "clarabel"], "plan"),
         (["rerun"], "view"),
         (["rerun.blueprint"], "view"),
         (["rerun", "numpy"], "all"),

@@ -68,7 +68,7 @@ CODES: tuple[CodeInfo, ...] = (
         "library-not-installed",
         Severity.ERROR,
         "what was asked for needs a library that is not installed",
-        "The base install checks missions and explains codes. Planning needs numpy, cvxpy, Clarabel and others, "
+        "The base install checks missions and explains codes. Planning needs numpy, scipy, Clarabel and others, "
         "which weigh several hundred megabytes and come with the extra `plan`; the rerun recording comes with the extra "
         "`view`, and `all` is both. The help has the command that installs them from where shotc came from.",
         "",
