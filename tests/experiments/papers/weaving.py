@@ -38,9 +38,9 @@ PAPER = {"cam1": (95.0, 0.125, 9.543), "cam2": (141.4, 0.108, 9.543), "cam3": (9
 """Table 4: way, m, mean acceleration, m/s^2, and the least distance across, m."""
 
 NOTES = (
-    f"the mission of the table above, planned and then flown {RUNS} times: gusts of {GUSTS.gusts:g} m/s "
-    f"(standard deviation of each axis), RTK; the walker is {WEAVES.wander:g} m off the straight way "
-    "(standard deviation along East and along North), seeded",
+    f"the mission of the other table of Sec. 6, planned and then flown {RUNS} times: gusts of "
+    f"{GUSTS.gusts:g} m/s (standard deviation of each axis), RTK; the walker is "
+    f"{WEAVES.wander:g} m off the straight way (standard deviation along East and along North), seeded",
     "way, acceleration and error are means over the runs; the rest is the worst of them. Accelerations are "
     f"differences of the flown velocity over {STEP_S:g} s; the rows of `replay` tell what gusts alone cost, "
     "and those of places known exactly that the rest is the estimate of the walker's velocity, led 3 s ahead",
