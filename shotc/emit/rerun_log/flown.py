@@ -15,7 +15,7 @@ from shotc.emit.rerun_log.layout import camera_view, overview, panels, plot_view
 from shotc.emit.rerun_log.motion import camera_entity, log_motion
 from shotc.emit.rerun_log.opening import filmed_span, first_stand
 from shotc.emit.rerun_log.recording import frustum_length, recorded
-from shotc.emit.rerun_log.world import log_scene, scene_bounds
+from shotc.emit.rerun_log.world import log_flights, log_scene, scene_bounds
 from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import VerifiedIR
 
@@ -50,6 +50,7 @@ def _fill(
     stream = recording if span is None else Clocked(recording, span[0])
     bounds = scene_bounds(plan)
     log_scene(stream, flown)
+    log_flights(stream, flown)
     for flight in plan.trajectory.drones:
         _ghost(stream, flight.drone, *_sampled(flight.curve))
     plots = {
