@@ -97,6 +97,7 @@ def test_a_flight_frames_its_subjects_and_comes_near_none(count):
     assert one.off.mean() < (20.0 if count == 1 else 80.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 2])
 def test_one_step_a_replan_costs_hardly_more_than_converged_ones(count):
     people = Swaying(count, 1, 12.0)

@@ -22,6 +22,9 @@ from tests.support.records import replace
 EXACT = Conditions(gps=Gps(noise=0.0))
 
 
+pytestmark = pytest.mark.slow  # the flight that they share takes a second
+
+
 @pytest.fixture(scope="module")
 def behind_a_tree():
     """Return the half orbit round a tower, with a tree half-way between the two in the middle of the shot."""
