@@ -5,8 +5,10 @@ from __future__ import annotations
 import csv
 import json
 import re
+import sys
 from io import StringIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from shotc.geom.surface.ground import ground_of
 from shotc.ir.rehearsal import Rehearsal, RehearsalPromise
 from shotc.ir.show import Apart
 from shotc.ir.terrain import Terrain
+from shotc.simulation.hands import NoCluster
 from tests.cli.conftest import Run
 from tests.support.compiled import compiled_text
 from tests.support.records import replace
@@ -308,8 +311,11 @@ def test_wind_that_no_margin_makes_up_for_is_told_as_that(run: Run, given) -> No
 
 
 def test_where_no_cluster_answers_it_is_told(run: Run, given, monkeypatch) -> None:
-    pytest.importorskip("distributed")
-    monkeypatch.setattr("shotc.simulation.cluster.ANSWERS_S", 1)
+    def nobody(*_: object) -> object:
+        raise NoCluster("timed out")
+
+    # Whoever loads the library itself has threads from then on.
+    monkeypatch.setitem(sys.modules, "shotc.simulation.cluster", SimpleNamespace(on_cluster=nobody))
     done = run("simulate", given(walk()), "--seeds", "2", "--workers", "tcp://127.0.0.1:9")
     assert done.code == 1
     assert "W006" in done.err

@@ -59,7 +59,9 @@ def beside_meshes(itinerary: Itinerary, placed: PlacedShot, trouble: NoMotion) -
         return None
     places = _places(mission, placed, trouble.start)
     blocked, lack = _blocked(space, *places), max(lacks.values())
-    drops = [share * lack for share in SHARES] + ([] if blocked is None else [blocked.lack + FINE_M])
+    # The ways to the shot and from it need a little more room than the shot.
+    drops = [share * lack + FINE_M / 2 for share in SHARES]
+    drops += [] if blocked is None else [blocked.lack + FINE_M]
     found = _closer(itinerary, placed, trouble.start, drops)
     return BesideMeshes(blocked, found or _higher(itinerary, placed, trouble.start, places[1]))
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from shotc.simulation import runs
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.hands import NoCluster
 from shotc.simulation.runs import Block, simulated
 from shotc.simulation.unfinished import NAME, Unfinished
 from shotc.simulation.wind import Wind
@@ -18,6 +20,7 @@ from tests.support.show_plans import plan as show_plan
 
 pytestmark = pytest.mark.slow
 
+ROOT = Path(__file__).parents[3]
 WINDY = Conditions(wind=Wind(2.0, None, 0.5))
 
 
@@ -92,18 +95,30 @@ def test_what_belongs_to_other_conditions_is_passed_over(tmp_path, ir, first) ->
     assert document["key"] != Unfinished.of(tmp_path, ir, replace(WINDY, loop="track")).key
 
 
-def test_a_cluster_flies_the_same_runs(ir, first) -> None:
-    distributed = pytest.importorskip("distributed")
-    cluster = distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
-    )
-    with cluster:
-        (block,) = list(simulated(ir, WINDY, 2, cluster.scheduler_address))
-    assert block.runs == first.runs
+CLUSTER = """
+import sys
+from distributed import LocalCluster
+from shotc.simulation import cluster, runs
+from shotc.simulation.hands import NoCluster
+from tests.support.film_plans import orbit_plan
+from tests.unit.simulation.test_runs import WINDY
+
+cluster.ANSWERS_S = 1
+ir = orbit_plan().trajectory
+try:
+    list(runs.simulated(ir, WINDY, 2, "tcp://127.0.0.1:9"))
+except NoCluster:
+    print("nobody answers")
+with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as here:
+    (block,) = runs.simulated(ir, WINDY, 2, here.scheduler_address)
+print(repr(block.runs))
+"""
 
 
-def test_where_no_scheduler_answers_it_is_told(monkeypatch, ir) -> None:
+def test_a_cluster_flies_the_same_runs_and_where_none_answers_it_is_told(first) -> None:
+    """In a process of its own: a cluster leaves threads, and where there are threads nothing may fork."""
     pytest.importorskip("distributed")
-    monkeypatch.setattr("shotc.simulation.cluster.ANSWERS_S", 1)
-    with pytest.raises(NoCluster):
-        list(simulated(ir, WINDY, 2, "tcp://127.0.0.1:9"))
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", CLUSTER], capture_output=True, text=True, check=False, cwd=ROOT
+    )
+    assert done.stdout.splitlines() == ["nobody answers", repr(first.runs)], done.stderr
