@@ -17,8 +17,15 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 EVERY = 2.0
 """Seconds between the rows of a drone."""
 
-SAME = 1.5e-3
-"""Metres, radians, seconds or shares by which two numbers may differ: half of it is rounding."""
+SAME = 3e-3
+"""Metres, radians or seconds by which two numbers may differ.
+
+Plans of one commit differ by up to 2e-3 between two x86-64 processors (specs/statue-moves.yaml): libraries
+choose other instructions there, and a flat optimum moves. The rest is rounding.
+"""
+
+SAME_SHARE = 1.5e-3
+"""Shares of frames by which two numbers may differ: half of it is rounding."""
 
 IN_FRAME = " in frame"
 
@@ -66,11 +73,12 @@ def differences(recorded: str, now: str) -> list[str]:
 
 
 def _alike(old: Sequence[str], new: Sequence[str]) -> bool:
-    return len(old) == len(new) and all(map(_same, old, new))
+    most = SAME_SHARE if old[:1] == ["shot"] else SAME
+    return len(old) == len(new) and all(_same(a, b, most) for a, b in zip(old, new, strict=True))
 
 
-def _same(a: str, b: str) -> bool:
+def _same(a: str, b: str, most: float) -> bool:
     try:
-        return abs(float(a) - float(b)) <= SAME
+        return abs(float(a) - float(b)) <= most
     except ValueError:
         return a == b
