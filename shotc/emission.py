@@ -22,6 +22,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from shotc.cores import cores
 from shotc.emit.base import Artifact, Emission, Emitter, Prepares
 
 if TYPE_CHECKING:  # the base install has no numpy
@@ -40,7 +41,7 @@ Outcome = Emission | Exception | str
 
 def usual_jobs() -> int:
     """Return how many processes are used where nothing is said: the cores that we may use, at most MOST."""
-    return min(MOST, len(os.sched_getaffinity(0))) if sys.platform == "linux" else 1
+    return min(MOST, cores()) if sys.platform == "linux" else 1
 
 
 class Crew:

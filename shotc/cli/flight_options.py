@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite, pi, radians
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,10 +10,8 @@ import typer
 
 from shotc.cli import console
 from shotc.diag.model import Diagnostic
-from shotc.geom.camera import yaw_of
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR
-from shotc.ir.rehearsal import Wind
 from shotc.passes.resolve.lower.files import Files, Reader
 from shotc.passes.resolve.lower.recordings import read_recording
 
@@ -21,16 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from shotc.source.file import SourceFile
-
-
-def wind_of(mission: MissionIR, speed: float | None, bearing: float | None) -> Wind | None:
-    """Return the wind that options ask for, None where they say nothing; bearing : it comes from, deg."""
-    if speed is None and bearing is None:
-        return None
-    written = mission.rehearsal.wind if mission.rehearsal is not None and mission.rehearsal.wind else None
-    usual = written or Wind(mission.wind, mission.wind_toward)
-    toward = usual.toward if bearing is None else yaw_of(radians(bearing) + pi)
-    return Wind(usual.speed if speed is None else speed, toward)
 
 
 def stretches(lost: Sequence[str]) -> tuple[tuple[float, float], ...]:

@@ -13,11 +13,11 @@ from shotc.cli.console import clock, table
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import at_least, at_most, plain, up
-from shotc.simulation.film import film_of
 from shotc.simulation.judge import Course, Picture, Run
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.shows import FleetCourse
 from shotc.simulation.situations import replanned
+from shotc.simulation.verdict import Verdict
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
@@ -58,7 +58,7 @@ def _lines(done: Rehearsed, paths: Sequence[Path]) -> Iterator[str]:
             yield from (f"  {line}" for line in table(rows))
     yield ""
     for each in done.verdicts:
-        asked = f"{each.key} {_limit(each.key, each.limit)}" if each.written else "touch nothing"
+        asked = f"{each.key} {_limit(each)}" if each.written else "touch nothing"
         yield f"  asked     {asked}: {each.held} of {total} runs"
     if done.promise.of < 1.0 or len(done.verdicts) > 1:
         yield f"  asked     all of it in {done.needed} of {total} runs: {done.held} keep it"
@@ -166,12 +166,10 @@ def _fleet_row(done: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
     )
 
 
-def _limit(key: str, limit: float) -> str:
-    return (
-        f"{plain(100 * limit, 1)} %"
-        if key in ("in_frame", "in_sight")
-        else f"{plain(limit)}{'' if key == 'mean_error' else ' m'}"
-    )
+def _limit(each: Verdict) -> str:
+    if each.unit == "share":
+        return f"{plain(100 * each.limit, 1)} %"
+    return f"{plain(each.limit)}{' m' if each.unit == 'm' else ''}"
 
 
 def _remarks(done: Rehearsed) -> Iterator[str]:
@@ -192,8 +190,7 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
     if done.conditions.loop != "replan":
         return
     mission = done.mission
-    films = [film_of(mission, track) for track in done.ir.drones]
-    anew = {each.phase.shot for film in films for each in replanned(mission, film)}
+    anew = {each.phase.shot for track in done.ir.drones for each in replanned(mission, track)}
     rest = [f"`{shot.id}`" for shot in mission.shots if shot.id not in anew]
     if rest:
         why = "they film nothing that moves, or a pose of their own binds them"

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
-from os import cpu_count, sched_getaffinity
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -16,11 +14,12 @@ from shotc import plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.cli import console
 from shotc.cli.console import Progress, known
-from shotc.cli.flight_options import stretches, true_tracks, wind_of
+from shotc.cli.flight_options import stretches, true_tracks
 from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
 from shotc.cli.refiner import told
 from shotc.cli.verify import Format
+from shotc.cores import cores
 from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
 from shotc.output import write
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
     from shotc.simulation.conditions import Conditions
     from shotc.simulation.rehearsal import Rehearsed
     from shotc.simulation.runs import Block
-    from shotc.simulation.unfinished import Unfinished
     from shotc.source.file import SourceFile
 
 FASTEST, FARTHEST = 100.0, 1000.0
@@ -155,7 +153,8 @@ def simulate(
         asked = Asked(
             loop,
             seeds,
-            wind_of(mission, wind, from_),
+            wind,
+            from_,
             gusts,
             gps,
             bias,
@@ -171,11 +170,12 @@ def simulate(
         if faults:
             console.report(faults, sources)
             raise typer.Exit(console.EXIT_REJECTED)
-        count = runs_of(mission, asked, RUNS)
+        count = runs_of(mission, asked)
         progress(f"flying {count} runs")
         kept = Unfinished.of(folder, plan.trajectory, conditions)
-        blocks = _kept(
-            simulated(plan.trajectory, conditions, count, workers or jobs or _cores(), kept.done()), kept
+        earlier = kept.done()
+        blocks = kept.keeping(
+            simulated(plan.trajectory, conditions, count, workers or jobs or cores(), earlier), earlier
         )
         done = _rehearsed(partial(rehearse, plan.trajectory, conditions), blocks, count, progress)
         made = artifacts(done, progress)
@@ -210,15 +210,6 @@ def _plan(
     return plan, sources, output or beside
 
 
-def _kept(blocks: Iterator[Block], kept: Unfinished) -> Iterator[Block]:
-    """Keep every block of runs as it comes."""
-    before = {block.runs[0].number for block in kept.done()}
-    for block in blocks:
-        if block.runs[0].number not in before:
-            kept.add(block)
-        yield block
-
-
 def _rehearsed(
     judge: Callable[[Iterator[Block], Callable[[int], None]], Rehearsed],
     blocks: Iterator[Block],
@@ -244,7 +235,3 @@ def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ..
         return ()
     known("--replanner", conditions.replanner, plugins.names("replanners"))
     return plugins.one("replanners", conditions.replanner).diagnostics
-
-
-def _cores() -> int:
-    return len(sched_getaffinity(0)) if sys.platform == "linux" else cpu_count() or 1

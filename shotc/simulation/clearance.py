@@ -55,9 +55,8 @@ def nearest(world: World, flown: Flown, track: DroneTrajectory, times: Array) ->
     rows = [(name, away.reshape(shape)) for name, away in _standing(mission, drone, flat)]
     for target in mission.targets:
         really = at_times(world.places[target.name], world.times, free)
-        body = target._replace(track=None) if target.track is None else target
         moved = (places - (really - np.array(target.centre))).reshape(-1, 3)
-        away = signed_distance(body.kept_clear, moved) - drone.radius
+        away = signed_distance(target.kept_clear, moved) - drone.radius
         rows.append((f"target {target.name}", away.reshape(shape)))
     return [tuple(_least(name, away[:, r], free) for name, away in rows) for r in range(shape[1])]
 

@@ -18,7 +18,6 @@ from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.verdict import Verdict
 from shotc.spec.presets import TOP_SPEED
 
-SHARES = ("in_frame", "in_sight")
 WORDS = {
     "in_frame": "the whole target is in {} of a shot's frames",
     "in_sight": "the target is in sight at {} of a shot's instants",
@@ -141,7 +140,7 @@ def _help(done: Rehearsed, each: Verdict) -> str:
 
 
 def _kept(each: Verdict) -> str:
-    if each.key in SHARES:
+    if each.unit == "share":
         return f"{max(0.0, down(100 * each.kept, 1)):g} %"
     return f"{up(each.kept, 3):g}" if each.upper else f"{max(0.0, down(each.kept)):g}"
 
@@ -151,9 +150,9 @@ def _words(each: Verdict, value: float) -> str:
 
 
 def _amount(each: Verdict, value: float) -> str:
-    if each.key in SHARES:
+    if each.unit == "share":
         return f"{at_most(100 * value, 1)} %"
-    if each.key == "mean_error":
+    if each.unit == "half frames":
         return at_least(value, 3) if isfinite(value) else "infinitely many times"
     return f"{at_least(value) if each.upper else at_most(value)} m"
 

@@ -86,7 +86,7 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
     error = conditions.gps.own_error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
     targets = _watched(world, film)
-    shots = replanned(world.mission, film) if conditions.loop == "replan" else ()
+    shots = replanned(world.mission, film.track) if conditions.loop == "replan" else ()
     guidance = Guidance(world, film, shots, targets, sent, own)
     vehicle, gimbal = (
         Vehicle(speed=HEADROOM * fastest(film.drone.limits)),

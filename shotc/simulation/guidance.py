@@ -119,7 +119,7 @@ class Guidance:
         now, k = self._held.setpoint(time), film.step(time)
         off = now.position - film.position[k], now.velocity - film.velocity[k]
         lasts = max(BACK_S, 4.0 * float(np.abs(off[0]).max()) / speed)
-        self._back = Fading(film, time, lasts, *off)
+        self._back = Fading.of(film, time, lasts, *off)
 
     def _replan(self, shot: Anew, time: float, drone: tuple[Array, Array]) -> None:
         assert self._held is not None

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from shotc.ir.bodies import shapes
 from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import HFOV
-from shotc.ir.phases import Phase
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import Nearest, between, nearest
@@ -127,13 +127,17 @@ def judged(
     for (i, one), (_, other) in combinations(enumerate(flown), 2):
         for r, each in enumerate(between(mission, one, other, ticks)):
             near[i][r] = (*near[i][r], each)
+    filmed = [tuple(_filmed(mission, track)) for track in ir.drones]
+    astray = [_away(f, t) for f, t in zip(flown, ir.drones, strict=True)]
     return tuple(
         Run(
             number,
-            tuple(p for f, t in zip(flown, ir.drones, strict=True) for p in _pictures(world, t, f, r)),
             tuple(
-                _course(f, t, r, near[d][r]) for d, (f, t) in enumerate(zip(flown, ir.drones, strict=True))
+                _picture(world, track, flown[d], r, each)
+                for d, track in enumerate(ir.drones)
+                for each in filmed[d]
             ),
+            tuple(_course(f, r, astray[d][:, r], near[d][r]) for d, f in enumerate(flown)),
             fleets[r],
         )
         for r, number in enumerate(world.runs)
@@ -151,28 +155,35 @@ def cameras_of(mission: MissionIR, track: DroneTrajectory, flown: Flown, run: in
     )
 
 
-def _pictures(world: World, track: DroneTrajectory, flown: Flown, run: int) -> Iterator[Picture]:
+class _Filmed(NamedTuple):
+    """A target of a shot at the frames in which it is to be seen.
+
+    times : (M,), s; wanted : where on screen it is to be, (M, 2), NaN where no place is asked
+    """
+
+    shot: str
+    target: str
+    times: Array
+    wanted: Array
+
+
+def _filmed(mission: MissionIR, track: DroneTrajectory) -> Iterator[_Filmed]:
     for phase in track.phases:
-        if phase.shot is not None:
-            for target in subjects(world.mission, track, phase.shot):
-                yield from _picture(world, track, flown, run, (phase, target))
+        if phase.shot is None:
+            continue
+        ticks = clock(mission.rate, phase.end)
+        ticks = ticks[ticks >= phase.start]
+        for name in subjects(mission, track, phase.shot):
+            times = ticks[framed(track, phase.shot, name, ticks)]
+            if len(times):
+                yield _Filmed(phase.shot, name, times, references(track, phase.shot, name, times))
 
 
-def _picture(
-    world: World, track: DroneTrajectory, flown: Flown, run: int, of: tuple[Phase, str]
-) -> Iterator[Picture]:
-    phase, name = of
-    shot = phase.shot
-    assert shot is not None
-    ticks = clock(world.mission.rate, phase.end)
-    times = ticks[(ticks >= phase.start) & (ticks <= phase.end)]
-    times = times[framed(track, shot, name, times)]
-    if not len(times):
-        return
+def _picture(world: World, track: DroneTrajectory, flown: Flown, run: int, filmed: _Filmed) -> Picture:
+    shot, name, times, wanted = filmed
     target = world.target(name, run, times)
     eyes = cameras_of(world.mission, track, flown, run, times)
     seen = frames(beside_cameras(eyes, target, times), target.centre, shapes(target, times))
-    wanted = references(track, shot, name, times)
     error = np.hypot(seen.u - wanted[:, 0], seen.v - wanted[:, 1])
     error = np.where(np.isnan(seen.u) & ~np.isnan(wanted[:, 0]), np.inf, error)
     known = error[~np.isnan(error)]
@@ -187,18 +198,16 @@ def _picture(
         float(times[np.argmin(seen.margin)]),
         _in_sight(world, track, flown, (run, name), times),
     )
-    if len(known):
-        worst = int(np.nanargmax(error))
-        picture = replace(
-            picture,
-            error=float(known.mean()),
-            usual=float(
-                np.quantile(known, 0.95, method="higher")
-            ),  # a frame's: between two it may be inf - inf
-            worst=float(error[worst]),
-            time=float(times[worst]),
-        )
-    yield picture
+    if not len(known):
+        return picture
+    worst = int(np.nanargmax(error))
+    return replace(
+        picture,
+        error=float(known.mean()),
+        usual=float(np.quantile(known, 0.95, method="higher")),  # a frame's: between two it may be inf - inf
+        worst=float(error[worst]),
+        time=float(times[worst]),
+    )
 
 
 def _in_sight(world: World, track: DroneTrajectory, flown: Flown, of: tuple[int, str], times: Array) -> float:
@@ -210,12 +219,18 @@ def _in_sight(world: World, track: DroneTrajectory, flown: Flown, of: tuple[int,
     return float(np.mean(share <= HALF_SHARE))
 
 
-def _course(flown: Flown, track: DroneTrajectory, run: int, near: tuple[Nearest, ...]) -> Course:
-    off = np.linalg.norm(flown.position[:, run] - track.curve(flown.times)[:, :3], axis=1)
+def _away(flown: Flown, track: DroneTrajectory) -> Array:
+    """Return how far a drone is from its plan at its instants in each run, (F, R), metres."""
+    plan = track.curve(flown.times)[:, None, :3]
+    return np.asarray(np.linalg.norm(flown.position - plan, axis=2))
+
+
+def _course(flown: Flown, run: int, off: Array, near: tuple[Nearest, ...]) -> Course:
+    """Return how a drone kept to its plan; off : how far it was from it at its instants, (F,), metres."""
     k = int(np.argmax(off))
     speed = np.linalg.norm(flown.velocity[:, run], axis=1)
     return Course(
-        drone=track.drone,
+        drone=flown.drone,
         stray=float(np.sqrt(np.mean(off**2))),
         farthest=float(off[k]),
         time=float(flown.times[k]),

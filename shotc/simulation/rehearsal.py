@@ -4,34 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from math import pi, radians
 from typing import NamedTuple
 
 import numpy as np
 
+from shotc.geom.camera import yaw_of
 from shotc.ir.mission import MissionIR
-from shotc.ir.rehearsal import Loop, Receiver, RehearsalPromise, VehicleName, Wind
+from shotc.ir.rehearsal import Loop, Receiver, Rehearsal, RehearsalPromise, VehicleName, Wind
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
 from shotc.simulation.runs import Block, Strays
-from shotc.simulation.sensors import GRADES, Gps
+from shotc.simulation.sensors import GRADES
 from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import Verdict, enough, held, verdicts
+from shotc.spec.presets import RUNS
 
-SILENT = RehearsalPromise()
+SILENT = Rehearsal(
+    RehearsalPromise(), path=(), runs=RUNS, loop="replay", wind=None, gusts=0.0, gps="rtk", wander=0.0
+)
+"""What is asked of the rehearsals of a mission that says nothing of them."""
 
 
 class Asked(NamedTuple):
     """What a command line says in the place of the mission; None leaves it to the mission.
 
-    wind, gusts : m/s; gps : a name of GRADES; bias : offset of all positions to the East, m
+    wind : of the steady wind, m/s; bearing : compass bearing that it comes from, deg; gusts : m/s
+    gps : a name of GRADES; bias : offset of all positions to the East, m
     lost : stretches without satellite positions, s; wander : m
     """
 
     loop: Loop | None = None
     runs: int | None = None
-    wind: Wind | None = None
+    wind: float | None = None
+    bearing: float | None = None
     gusts: float | None = None
     gps: Receiver | None = None
     bias: float = 0.0
@@ -78,26 +86,30 @@ class Rehearsed:
 
 def conditions_of(mission: MissionIR, asked: Asked) -> Conditions:
     """Return the conditions that a mission and a command line ask for."""
-    written = mission.rehearsal
-    wind = asked.wind or (None if written is None else written.wind)
-    blowing = wind or Wind(mission.wind, mission.wind_toward)
-    gusts = asked.gusts if asked.gusts is not None else (0.0 if written is None else written.gusts)
-    gps = GRADES[asked.gps or ("rtk" if written is None else written.gps)]
-    wander = asked.wander if asked.wander is not None else (0.0 if written is None else written.wander)
+    usual = mission.rehearsal or SILENT
+    wind = usual.wind or Wind(mission.wind, mission.wind_toward)
     return Conditions(
-        loop=asked.loop or ("replay" if written is None else written.loop),
-        wind=air.Wind(blowing.speed, blowing.toward, gusts),
-        gps=_receiver(gps, asked),
-        truth=replace(asked.truth, wander=wander),
+        loop=asked.loop or usual.loop,
+        wind=air.Wind(
+            speed=_either(asked.wind, wind.speed),
+            toward=wind.toward if asked.bearing is None else yaw_of(radians(asked.bearing) + pi),
+            gusts=_either(asked.gusts, usual.gusts),
+        ),
+        gps=replace(GRADES[asked.gps or usual.gps], offset=(asked.bias, 0.0, 0.0), lost=asked.lost),
+        truth=replace(asked.truth, wander=_either(asked.wander, usual.wander)),
         seed=asked.seed,
         replanner=asked.replanner,
         vehicle=asked.vehicle,
     )
 
 
-def runs_of(mission: MissionIR, asked: Asked, usual: int) -> int:
-    """Return how many runs a mission and a command line ask for; usual : where neither says it."""
-    return asked.runs or (usual if mission.rehearsal is None else mission.rehearsal.runs)
+def _either(asked: float | None, usual: float) -> float:
+    return usual if asked is None else asked
+
+
+def runs_of(mission: MissionIR, asked: Asked) -> int:
+    """Return how many runs a mission and a command line ask for."""
+    return asked.runs or (mission.rehearsal or SILENT).runs
 
 
 def rehearse(
@@ -107,8 +119,7 @@ def rehearse(
 
     blocks : of all runs, in any order; done : called with how many runs have come
     """
-    written = ir.keyframes.mission.rehearsal
-    promise = SILENT if written is None else written.promise
+    promise = (ir.keyframes.mission.rehearsal or SILENT).promise
     found: list[Block] = []
     for block in blocks:
         found.append(block)
@@ -125,7 +136,3 @@ def _together(blocks: list[Block]) -> Strays | None:
     if not every:
         return None
     return Strays(every[0].times, np.concatenate([each.metres for each in every], axis=1))
-
-
-def _receiver(gps: Gps, asked: Asked) -> Gps:
-    return replace(gps, offset=(asked.bias, 0.0, 0.0), lost=asked.lost)

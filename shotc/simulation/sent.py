@@ -8,54 +8,37 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.plugin_api.replanner import Plan
 from shotc.simulation.film import Film
-from shotc.simulation.vehicle import STEP_S, Setpoint
+from shotc.simulation.vehicle import Setpoint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fading:
     """How drones of R runs come back to their plan.
 
-    start, lasts : seconds; off, rate : where they are beside it then, and how that changes, (R, 3) each
+    off : where they are beside it: a curve of 3 R components, run by run, that ends at rest; metres, seconds
     """
 
     film: Film
-    start: float
-    lasts: float
-    off: Array
-    rate: Array
+    off: Piecewise
+
+    @staticmethod
+    def of(film: Film, start: float, lasts: float, off: Array, rate: Array) -> Fading:
+        """Return the way back from ``off`` metres beside the plan, and its rate there, (R, 3) each."""
+        ends = np.zeros((2, off.size))
+        places, rates = ends.copy(), ends.copy()
+        places[0], rates[0] = off.ravel(), rate.ravel()
+        return Fading(film, quintic_hermite(np.array([start, start + lasts]), places, rates, ends))
 
     def setpoint(self, time: float) -> Setpoint:
-        """Return the plan's setpoint with what is left of the way back: a quintic that ends at rest."""
-        plan = self.film.setpoint(min(round(time / STEP_S), len(self.film.times) - 1))
-        x, d = min(1.0, (time - self.start) / self.lasts), self.lasts
-        place, slope, bend = _fade(x)
-        along, along_slope, along_bend = _fade_rate(x)
-        return Setpoint(
-            plan.position + place * self.off + d * along * self.rate,
-            plan.velocity + slope / d * self.off + along_slope * self.rate,
-            plan.acceleration + bend / d**2 * self.off + along_bend / d * self.rate,
-        )
-
-
-def _fade(x: float) -> tuple[float, float, float]:
-    """Return the quintic from 1 to 0 with no slope and no bend at its ends, and its derivatives."""
-    return (
-        1 - x**3 * (10 - 15 * x + 6 * x * x),
-        -30 * x * x * (1 - x) ** 2,
-        -60 * x * (1 - x) * (1 - 2 * x),
-    )
-
-
-def _fade_rate(x: float) -> tuple[float, float, float]:
-    """Return the quintic from 0 to 0 with slope 1 at its start and no other slope or bend at its ends."""
-    return (
-        x - 6 * x**3 + 8 * x**4 - 3 * x**5,
-        1 - 18 * x * x + 32 * x**3 - 15 * x**4,
-        -36 * x + 96 * x * x - 60 * x**3,
-    )
+        """Return the plan's setpoint with what is left of the way back."""
+        plan = self.film.setpoint(self.film.step(time))
+        if time >= self.off.end:
+            return plan
+        off, rate, bend = (self.off.derivative(n)(time).reshape(-1, 3) for n in range(3))
+        return Setpoint(plan.position + off, plan.velocity + rate, plan.acceleration + bend)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import cos, sin
+from typing import ClassVar
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import yaw_of
-from shotc.ir.mission import Drone, MissionIR, Shot, Subject
+from shotc.ir.mission import Drone, MissionIR, Subject
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.phases import Phase
 from shotc.ir.target import Target
+from shotc.ir.trajectory import DroneTrajectory
 from shotc.plugin_api.replanner import (
     Appearance,
     ChasePlanner,
@@ -52,14 +54,10 @@ Known = Mapping[str, Estimate]
 class Chased:
     """A shot of one target from beside it; turns : whether its place turns with the way the target goes."""
 
+    stages: ClassVar = CHASE_STAGES
     phase: Phase
     target: str
     turns: bool
-
-    @property
-    def stages(self) -> int:
-        """How many stages are planned ahead."""
-        return CHASE_STAGES
 
     def planner(self, by: Replanner, _film: Film, keeping: Keeping) -> ChasePlanner:
         """Return who plans it anew."""
@@ -99,13 +97,9 @@ class Chased:
 class Composed:
     """A shot that is found from how its subjects are to appear."""
 
+    stages: ClassVar = FRAMING_STAGES
     phase: Phase
     subjects: tuple[Subject, ...]
-
-    @property
-    def stages(self) -> int:
-        """How many stages are planned ahead."""
-        return FRAMING_STAGES
 
     def planner(self, by: Replanner, film: Film, keeping: Keeping) -> FramingPlanner:
         """Return who plans it anew."""
@@ -153,14 +147,14 @@ class Moment:
     traffic: Traffic
 
 
-def replanned(mission: MissionIR, film: Film) -> tuple[Anew, ...]:
+def replanned(mission: MissionIR, track: DroneTrajectory) -> tuple[Anew, ...]:
     """Return the shots that are planned anew: of what moves, from beside it or by how it is to appear."""
-    return tuple(_anew(mission, film))
+    return tuple(_anew(mission, track))
 
 
-def _anew(mission: MissionIR, film: Film) -> Iterator[Anew]:
-    framed = {each.target for each in film.framed}
-    for phase in film.track.phases:
+def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
+    framed = {span.target for span in track.framing if span.reference is not None}
+    for phase in track.phases:
         shot = None if phase.shot is None else mission.shot(phase.shot)
         if shot is None or shot.ideal is None:
             continue
@@ -171,14 +165,10 @@ def _anew(mission: MissionIR, film: Film) -> Iterator[Anew]:
         if shot.ideal.framed:
             if any(mission.target(name).track is not None for name in films):
                 yield Composed(phase, shot.subjects)
-        elif films == {shot.ideal.target} and _moves(mission, shot):
-            assert shot.ideal.target is not None
-            yield Chased(phase, shot.ideal.target, shot.ideal.frame == "heading")
-
-
-def _moves(mission: MissionIR, shot: Shot) -> bool:
-    name = None if shot.ideal is None else shot.ideal.target
-    return name is not None and mission.target(name).track is not None
+            continue
+        target = shot.ideal.target
+        if target is not None and films == {target} and mission.target(target).track is not None:
+            yield Chased(phase, target, shot.ideal.frame == "heading")
 
 
 def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:

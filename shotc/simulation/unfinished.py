@@ -7,7 +7,7 @@ to other conditions, is passed over. The file goes when the simulation is finish
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from hashlib import sha256
@@ -66,6 +66,13 @@ class Unfinished:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             with self.path.open("a", encoding="ascii") as stream:
                 stream.write(json.dumps(document) + "\n")
+
+    def keeping(self, blocks: Iterator[Block], earlier: Sequence[Block]) -> Iterator[Block]:
+        """Yield blocks as they come, and keep those that are not among the earlier ones."""
+        for block in blocks:
+            if not any(block is each for each in earlier):
+                self.add(block)
+            yield block
 
     def forget(self) -> None:
         """Remove the file."""

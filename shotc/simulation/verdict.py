@@ -5,20 +5,32 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, inf
+from typing import Literal, NamedTuple
 
 from shotc.ir.rehearsal import RehearsalPromise
 from shotc.simulation.judge import Run
 
 Key = str
 
-MEASURES: dict[Key, tuple[Callable[[Run], float], bool]] = {
-    "in_frame": (lambda run: run.in_frame, False),
-    "in_sight": (lambda run: run.in_sight, False),
-    "mean_error": (lambda run: run.error, True),
-    "clearance": (lambda run: run.clearance, False),
-    "stray": (lambda run: run.stray, True),
+Unit = Literal["share", "half frames", "m"]
+
+
+class Measure(NamedTuple):
+    """What is measured of a run, and whether it is to stay below what is asked."""
+
+    of: Callable[[Run], float]
+    upper: bool
+    unit: Unit
+
+
+MEASURES: dict[Key, Measure] = {
+    "in_frame": Measure(lambda run: run.in_frame, False, "share"),
+    "in_sight": Measure(lambda run: run.in_sight, False, "share"),
+    "mean_error": Measure(lambda run: run.error, True, "half frames"),
+    "clearance": Measure(lambda run: run.clearance, False, "m"),
+    "stray": Measure(lambda run: run.stray, True, "m"),
 }
-"""What is measured of a run for each key of the promise, and whether it is to stay below what is asked."""
+"""What is measured for each key of the promise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +51,11 @@ class Verdict:
     kept: float
     written: bool
 
+    @property
+    def unit(self) -> Unit:
+        """Unit of its values."""
+        return MEASURES[self.key].unit
+
 
 def verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> tuple[Verdict, ...]:
     """Judge runs by what is asked of them; that nothing is touched is always asked."""
@@ -56,20 +73,20 @@ def enough(runs: Sequence[Run], promise: RehearsalPromise) -> int:
 
 
 def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[Verdict]:
-    for key, (measure, upper) in MEASURES.items():
+    for key, measure in MEASURES.items():
         asked = getattr(promise, key)
         if asked is None and key != "clearance":
             continue
         limit = 0.0 if asked is None else asked
-        values = [(measure(run), run.number) for run in runs]
-        ordered = sorted(values, reverse=not upper)  # the best first
+        values = [(measure.of(run), run.number) for run in runs]
+        ordered = sorted(values, reverse=not measure.upper)  # the best first
         worst, number = ordered[-1]
         kept = ordered[enough(runs, promise) - 1][0]
         count = sum(_holds(key, run, limit) for run in runs)
-        yield Verdict(key, limit, upper, count, worst, number, kept, asked is not None)
+        yield Verdict(key, limit, measure.upper, count, worst, number, kept, asked is not None)
 
 
 def _holds(key: Key, run: Run, limit: float) -> bool:
-    measure, upper = MEASURES[key]
-    value = measure(run)
-    return value <= limit if upper else value >= limit or value == inf
+    measure = MEASURES[key]
+    value = measure.of(run)
+    return value <= limit if measure.upper else value >= limit or value == inf

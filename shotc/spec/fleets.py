@@ -1,10 +1,8 @@
 """Fleets as a mission writes them: how many drones, where they stand, how far apart they stay."""
 
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Literal
 
-from pydantic import Field, GetJsonSchemaHandler
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
+from pydantic import Field
 
 from shotc.spec import presets
 from shotc.spec.drones import LimitsSpec, ModelName
@@ -18,9 +16,8 @@ from shotc.spec.fields import (
 )
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.quantities import Quantity
+from shotc.spec.shorthand import QuantityModel
 from shotc.units import SMALLEST
-
-_DISTANCE = Quantity("PositiveLength", "length", SMALLEST["length"])
 
 
 class GridSpec(Model):
@@ -49,8 +46,10 @@ class LayoutSpec(Model):
     )
 
 
-class SeparationSpec(Model):
+class SeparationSpec(QuantityModel):
     """How far two drones of a fleet stay apart, centre to centre."""
+
+    SHORT: ClassVar = ("horizontal", Quantity("PositiveLength", "length", SMALLEST["length"]))
 
     horizontal: PositiveLength = Field(description="least distance side by side")
     vertical: PositiveLength | None = Field(
@@ -62,19 +61,6 @@ class SeparationSpec(Model):
     margin: NonNegativeLength = Field(
         default=0.0, description="more on either distance, for how far a drone strays from its plan"
     )
-
-    @classmethod
-    def shorthand(cls, data: Any) -> Any:
-        """Return the mapping for one distance that counts every way."""
-        return {"horizontal": _DISTANCE.read(data)} if isinstance(data, str | int | float) else data
-
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Return the mapping's schema beside one distance."""
-        schema = handler.resolve_ref_schema(handler(core_schema))
-        return {"anyOf": [_DISTANCE.reference(), schema]}
 
 
 class FleetSpec(Model):

@@ -1,10 +1,8 @@
 """Wind, and what a mission asks of its rehearsals (`shotc simulate`)."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field, GetJsonSchemaHandler
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
+from pydantic import Field
 
 from shotc.spec import presets
 from shotc.spec.fields import (
@@ -19,31 +17,20 @@ from shotc.spec.fields import (
 from shotc.spec.fieldtypes import Integer
 from shotc.spec.model import Model, section
 from shotc.spec.quantities import Quantity
+from shotc.spec.shorthand import QuantityModel
 
-_SPEED = Quantity("NonNegativeSpeed", "speed", 0.0)
 Runs = Annotated[int, Integer("Runs", 1, 100_000)]
 
 
-class WindSpec(Model):
+class WindSpec(QuantityModel):
     """How fast the wind blows, and where it comes from."""
+
+    SHORT: ClassVar = ("speed", Quantity("NonNegativeSpeed", "speed", 0.0))
 
     speed: NonNegativeSpeed = Field(default=0.0, description="how fast it blows")
     from_: Heading | None = Field(
         default=None, alias="from", description="compass bearing it comes from; any, if silent"
     )
-
-    @classmethod
-    def shorthand(cls, data: Any) -> Any:
-        """Return the mapping for a speed whose direction is not known."""
-        return {"speed": _SPEED.read(data)} if isinstance(data, str | int | float) else data
-
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Return the mapping's schema beside one speed."""
-        schema = handler.resolve_ref_schema(handler(core_schema))
-        return {"anyOf": [_SPEED.reference(), schema]}
 
 
 class RehearsalPromiseSpec(Model):

@@ -9,7 +9,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.fleets.follow import Gains, Reference, preferred
-from shotc.simulation.fleets.vehicle import Gusts, State, Vehicle, moved, within
+from shotc.simulation.fleets.vehicle import Gusts, State, Vehicle, moved
+from shotc.simulation.vehicle import within
 
 PERIOD_S = 0.05
 """Seconds between commands."""

@@ -11,6 +11,7 @@ from math import exp, sqrt
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.simulation.vehicle import within
 
 STEP_S = 0.01
 """Longest step of integration, seconds: a fifteenth of the fastest lag."""
@@ -85,9 +86,3 @@ def moved(vehicle: Vehicle, state: State, command: Array, step: float) -> State:
         velocity = velocity + h * acceleration
         position = position + h * (velocity + state.gust)
     return State(position, velocity, acceleration, state.gust)
-
-
-def within(vectors: Array, most: float) -> Array:
-    """Return vectors (n, 3) shortened to a largest norm."""
-    size = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors * np.minimum(1.0, most / np.maximum(size, 1e-12)))

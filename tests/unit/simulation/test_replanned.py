@@ -97,7 +97,7 @@ def test_a_run_is_the_same_whichever_ran_beside_it():
 def test_a_target_that_is_taken_to_be_in_the_ground_leads_no_drone_there():
     mission = plan().keyframes.mission
     film = film_of(mission, plan().drones[0])
-    (shot,) = replanned(mission, film)
+    (shot,) = replanned(mission, film.track)
     at = shot.phase.start + 2.0
     stages = at + STAGE_S * np.arange(shot.stages + 1)
     sunk = np.array([[24.0, 0.0, -50.0, 1.2, 0.0, 0.0, 0.0, 0.0, 0.0]])
@@ -172,11 +172,10 @@ def test_a_drone_whose_target_is_lost_stops_and_it_is_told():
 
 
 def test_shots_of_what_stands_and_of_several_are_flown_as_planned():
-    film = film_of(plan().keyframes.mission, plan().drones[0])
-    assert [each.phase.shot for each in replanned(plan().keyframes.mission, film)] == ["behind"]
+    assert [each.phase.shot for each in replanned(plan().keyframes.mission, plan().drones[0])] == ["behind"]
     mission = plan().keyframes.mission
     still = mission._replace(targets=tuple(t._replace(track=None) for t in mission.targets))
-    assert not replanned(still, film)
+    assert not replanned(still, plan().drones[0])
 
 
 DUO = b"""\

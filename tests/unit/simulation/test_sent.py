@@ -20,6 +20,9 @@ class _Film:
             np.zeros((2, 3)),
         )
 
+    def step(self, time):
+        return round(time / 0.01)
+
     def setpoint(self, k):
         t = self.times[k]
         return Setpoint(np.array([[2.0 * t, 0, 5]]), np.array([[2.0, 0, 0]]), np.zeros((1, 3)))
@@ -58,7 +61,7 @@ def test_where_a_plan_fails_the_last_one_is_kept():
 
 def test_the_way_back_to_the_plan_leads_smoothly_from_one_to_the_other():
     off, rate = np.array([[3.0, -2.0, 1.0]]), np.array([[0.5, 0.0, -0.2]])
-    back, film = Fading(_Film(), 2.0, 4.0, off, rate), _Film()
+    back, film = Fading.of(_Film(), 2.0, 4.0, off, rate), _Film()
     begins, ends = back.setpoint(2.0), back.setpoint(6.0)
     assert begins.position - film.setpoint(200).position == pytest.approx(off)
     assert begins.velocity - film.setpoint(200).velocity == pytest.approx(rate)
