@@ -47,9 +47,9 @@ class Bound:
 
 
 def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> Bound:
-    """Bound the supremum of a convex function along polynomial pieces.
+    """Bound the supremum of a convex function along polynomial pieces, or of a quasi-convex one.
 
-    value : convex, maps control points (..., D) to numbers (...)
+    value : (quasi-)convex, maps control points (..., D) to numbers (...)
     gap   : how far ``proven`` may stay above ``attained``, given the largest value found so far
     No pieces: both are -inf.
     """

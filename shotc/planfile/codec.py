@@ -31,6 +31,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.track import Track
 from shotc.ir.fleet import Colors, FleetTrajectory, Lights
+from shotc.ir.limits import Limits
 from shotc.ir.records import field_names
 from shotc.ir.rules import Rules
 from shotc.ir.show import Display, Fleet
@@ -43,6 +44,8 @@ UNLIMITED = {
     (Prism, "bottom"),
     (Prism, "top"),
     (Rules, "max_height"),
+    (Limits, "tilt"),
+    (Limits, "thrust_to_weight"),
     (Claim, "limit"),
     (Claim, "worst"),
     (Track, "until"),

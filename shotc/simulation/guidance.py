@@ -100,7 +100,7 @@ class Guidance:
         self._planner = shot.planner(by, self.film, keeping)
         first = self._planned(time, shot.stages)
         n = len(self.world.runs)
-        self._active, self._held = shot, Held((first,) * n, drone.limits.acceleration)
+        self._active, self._held = shot, Held((first,) * n, drone.limits.usable_acceleration)
         self.counts = self.counts or [Replans() for _ in range(n)]
         self._course = np.zeros(n)
 

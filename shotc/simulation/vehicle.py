@@ -14,12 +14,10 @@ from typing import Protocol
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.ir.limits import G_M_S2
 
 STEP_S = 0.01
 """Step of integration, seconds: a tenth of the fastest lag."""
-
-G_M_S2 = 9.80665
-"""Standard gravity."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """Drones as a mission writes them: a preset, and what overrides it."""
 
-from math import atan, degrees
+from math import atan, degrees, radians
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
@@ -31,6 +31,10 @@ from shotc.spec.quantities import Quantity, Tuple
 from shotc.units import SMALLEST
 
 ModelName = Annotated[str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model")]
+
+# A drone that leans or lifts less than the lowest of these can hardly leave its place.
+Tilt = Annotated[float, Quantity("Tilt", "angle", radians(1.0), radians(80.0), noun="tilt")]
+ThrustToWeight = Annotated[float, Quantity("ThrustToWeight", "ratio", 1.02, 20.0, noun="ratio")]
 
 SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
 
@@ -68,6 +72,12 @@ class LimitsSpec(Model):
     jerk: Jerk | None = Field(default=None, description="jerk in space")
     yaw_rate: AngularRate | None = Field(default=None, description="turning rate of the body")
     yaw_acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
+    tilt: Tilt | None = Field(
+        default=None, description="angle of the rotors' thrust from the vertical; not limited if silent"
+    )
+    thrust_to_weight: ThrustToWeight | None = Field(
+        default=None, description="thrust over weight, above 1; not limited if silent"
+    )
 
 
 class CameraSpec(Model):

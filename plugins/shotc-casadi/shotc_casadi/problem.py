@@ -204,7 +204,7 @@ def _pinned(
 def _shares(subject: Subject) -> Array:
     """Return one over the limit of every rate and acceleration of the state, 0 for the rest of it."""
     limits, shares = subject.drone.limits, np.zeros(STATES)
-    shares[VELOCITY], shares[ACCELERATION] = 1.0 / limits.speed, 1.0 / limits.acceleration
+    shares[VELOCITY], shares[ACCELERATION] = 1.0 / limits.speed, 1.0 / limits.usable_acceleration
     for index, bound in _turning(subject).items():
         shares[index] = 1.0 / bound
     return shares
@@ -251,6 +251,6 @@ def _held(subject: Subject, walls: Array, margins: Margins) -> tuple[Array, Arra
     planes = walls.shape[1]
     low = np.concatenate([[-inf, -inf], np.zeros(planes)])
     high = np.concatenate(
-        [[(pace * limits.speed) ** 2, (pace * limits.acceleration) ** 2], np.full(planes, inf)]
+        [[(pace * limits.speed) ** 2, (pace * limits.usable_acceleration) ** 2], np.full(planes, inf)]
     )
     return low, high

@@ -56,6 +56,26 @@ _LIMITS = (
         ),
     ),
     verified(
+        53,
+        "leans-too-far",
+        (
+            "the tilt limit is broken",
+            "`tilt` binds the angle between the rotors' thrust and the vertical at every instant. The thrust makes "
+            "the acceleration and carries the weight; the drag of the air is not counted. A shot that is given more "
+            "time leans less.",
+        ),
+    ),
+    verified(
+        54,
+        "too-much-thrust",
+        (
+            "the limit of thrust is broken",
+            "`thrust_to_weight` binds the rotors' thrust as a multiple of the weight at every instant. The thrust "
+            "makes the acceleration and carries the weight; the drag of the air is not counted. A shot that is given "
+            "more time needs less.",
+        ),
+    ),
+    verified(
         4,
         "body-turns-too-fast",
         (

@@ -94,7 +94,8 @@ def for_its_limits(flight: Flight, way: Way) -> float:
     rise = np.maximum(rates[:, 2] - limits.climb, -rates[:, 2] - limits.descent)
     behind = np.hypot(np.maximum(level - limits.speed, 0.0), np.maximum(rise, 0.0)) @ steps
     fastest = min(float(level.max()), limits.speed) + min(float(np.abs(rates[:, 2]).max()), limits.climb)
-    stops = fastest * fastest / (2.0 * limits.acceleration) + fastest * limits.acceleration / limits.jerk
+    brake = limits.usable_acceleration
+    stops = fastest * fastest / (2.0 * brake) + fastest * brake / limits.jerk
     return float(behind + stops)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from math import pi, radians
+from math import inf, pi, radians
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, norm, sup_channel, sup_convex
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.thrust import lean, thrust_to_weight
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
@@ -42,6 +43,19 @@ def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
     yield bounded(flight, descent, falling)
     yield make("acceleration", acceleration, limits.acceleration, "m/s^2")
     yield make("jerk", acceleration.derivative(), limits.jerk, "m/s^3")
+    yield from _thrust(flight, acceleration)
+
+
+def _thrust(flight: Flight, acceleration: Pieces) -> Iterator[Claim]:
+    """Claim tilt and thrust where the mission limits them: functions of the acceleration alone."""
+    limits = flight.drone.limits
+    for key, value, limit, unit in (
+        ("tilt", lean, limits.tilt, "rad"),
+        ("thrust_to_weight", thrust_to_weight, limits.thrust_to_weight, "times the weight"),
+    ):
+        if limit < inf:
+            wanted = Limit(key.replace("_", " "), limit, unit, _path(flight, "limits", key))
+            yield bounded(flight, wanted, sup_convex(acceleration, value, gap(limit)))
 
 
 def _body_yaw(flight: Flight, yaw: Pieces) -> Iterator[Claim]:

@@ -30,6 +30,8 @@ RULES = {
     "descent": Rule("V001", 1.0),
     "acceleration": Rule("V002", 1 / 2),
     "jerk": Rule("V003", 1 / 3),
+    "tilt": Rule("V053"),
+    "thrust to weight": Rule("V054"),
     "body yaw rate": Rule("V004", 1.0),
     "body yaw acceleration": Rule("V004", 1 / 2),
     "gimbal pitch min": Rule("V005"),

@@ -71,7 +71,7 @@ def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
     cones = []
     for order, axes, bound in (
         (1, (0, 1), limits.speed),
-        (2, (0, 1, 2), limits.acceleration),
+        (2, (0, 1, 2), limits.usable_acceleration),
         (3, (0, 1, 2), limits.jerk),
     ):
         rows = hull_rows(breaks, order)

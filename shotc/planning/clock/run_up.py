@@ -58,8 +58,8 @@ class RunUp:
         """Return the way that ends so far aside, and takes the time for that."""
         level, rise = float(np.hypot(aside[0], aside[1])), abs(float(aside[2]))
         needed = max(
-            rest_to_rest(level, limits.speed, limits.acceleration, limits.jerk),
-            rest_to_rest(rise, min(limits.climb, limits.descent), limits.acceleration, limits.jerk),
+            rest_to_rest(level, limits.speed, limits.usable_acceleration, limits.jerk),
+            rest_to_rest(rise, min(limits.climb, limits.descent), limits.usable_acceleration, limits.jerk),
         )
         least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
         return replace(self, seconds=least / (1.0 - GOES_ON) if aside.any() else self.seconds, aside=aside)
@@ -99,15 +99,16 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
     level, up = hypot(velocity[0], velocity[1]), velocity[2]
     share = max(level / limits.speed, up / limits.climb, -up / limits.descent, 1.0)
     velocity = velocity / share
-    least = least_time(float(np.linalg.norm(velocity)), limits.acceleration, limits.jerk)
+    least = least_time(float(np.linalg.norm(velocity)), limits.usable_acceleration, limits.jerk)
     return RunUp(max(SHORTEST_S, SPLINE_RATIO * least + SETTLE_S), here, velocity)
 
 
 def way_time(limits: Limits, way: Array) -> float:
     """Return the seconds of a straight way from rest to rest, shape (3,), metres; its two parts at once."""
-    level = rest_to_rest(float(np.linalg.norm(way[:2])), limits.speed, limits.acceleration, limits.jerk)
+    push = limits.usable_acceleration
+    level = rest_to_rest(float(np.linalg.norm(way[:2])), limits.speed, push, limits.jerk)
     speed = limits.climb if way[2] > 0.0 else limits.descent
-    return max(level, rest_to_rest(abs(float(way[2])), speed, limits.acceleration, limits.jerk))
+    return max(level, rest_to_rest(abs(float(way[2])), speed, push, limits.jerk))
 
 
 def rest_to_rest(distance: float, speed: float, acceleration: float, jerk: float) -> float:

@@ -175,7 +175,7 @@ def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProb
     goals = [Goal(jerk, np.zeros((len(jerk.piece), 3)))]
     direction, speed = _nominal(stretch, limits, breaks)
     if len(stretch.bound) + len(stretch.pulled_at) < 3:
-        bend = min(float(speed.min()) ** 2 / limits.acceleration, 0.25 * float(s[-1] - s[0]))
+        bend = min(float(speed.min()) ** 2 / limits.usable_acceleration, 0.25 * float(s[-1] - s[0]))
         slope = _scaled(energy_rows(breaks, 1), scale**0.5 * (scale / bend) ** 2)
         unit = slope.apply(greville(breaks)[:, None])
         goals.append(Goal(slope, unit * direction[slope.piece]))
@@ -219,7 +219,7 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
     return (
         cone(first, (0, 1), limits.speed / v1, unit),
         cone(first, (2,), min(limits.climb, limits.descent) / v1, unit),
-        cone(second, (0, 1, 2), limits.acceleration / v2**2, unit * scale),
+        cone(second, (0, 1, 2), limits.usable_acceleration / v2**2, unit * scale),
     )
 
 

@@ -105,7 +105,7 @@ class FilmedCurve:
         first, second = self.curve.derivative()(s), self.curve.derivative(2)(s)
         along = np.maximum(np.linalg.norm(first, axis=1), NO_LENGTH)
         bend = np.linalg.norm(np.cross(first, second), axis=1) / along**3
-        most = self.limits.acceleration
+        most = self.limits.usable_acceleration
         square = np.minimum(most / np.maximum(bend, NO_LENGTH), self.limits.speed**2)
         long = np.linalg.norm(np.diff(self.curve(s), axis=0), axis=1)
         square[[0, -1]] = 0.0

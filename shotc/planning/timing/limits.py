@@ -74,7 +74,7 @@ def ceiling_of(drone: Drone) -> Ceiling:
         limits.speed,
         limits.climb,
         limits.descent,
-        limits.acceleration,
+        limits.usable_acceleration,
         limits.jerk,
         limits.yaw_rate,
         limits.yaw_acceleration,

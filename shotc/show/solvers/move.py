@@ -78,7 +78,7 @@ class _Ceilings:
             named = ("speed", "climb", "descent")
             return _Ceilings(
                 scale * rates.min(axis=0),
-                scale * limits.acceleration / far,
+                scale * limits.usable_acceleration / far,
                 scale * limits.jerk / far,
                 [named[k] for k in rates.argmin(axis=0)],
             )

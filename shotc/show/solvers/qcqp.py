@@ -66,7 +66,7 @@ class Bounds:
                 speed=motion.speed * factor,
                 climb=motion.climb * factor,
                 descent=motion.descent * factor,
-                acceleration=motion.acceleration * factor,
+                acceleration=motion.usable_acceleration * factor,
                 jerk=motion.jerk * factor,
             ),
         )
@@ -149,8 +149,8 @@ def _excess(values: Array, order: int, bounds: Bounds) -> Array:
         up, down = values[..., 2] / limits.climb, -values[..., 2] / limits.descent
         return np.asarray(np.maximum(across, np.maximum(up, down)) - 1.0)
     if order == 2 and bounds.per_axis:
-        return np.asarray(np.abs(values).max(axis=-1) / limits.acceleration - 1.0)
-    limit = limits.acceleration if order == 2 else limits.jerk
+        return np.asarray(np.abs(values).max(axis=-1) / limits.usable_acceleration - 1.0)
+    limit = limits.usable_acceleration if order == 2 else limits.jerk
     return np.asarray(np.sqrt(np.einsum("nrd,nrd->nr", values, values)) / limit - 1.0)
 
 
@@ -255,10 +255,10 @@ class Programme:
             rows.positive(limits.descent * part.scale + base[:, 2], entry(2))
         elif part.order == 2 and self.bounds.per_axis:
             for axis in range(3):
-                rows.positive(limits.acceleration * part.scale - base[:, axis], entry(axis, -1.0))
-                rows.positive(limits.acceleration * part.scale + base[:, axis], entry(axis))
+                rows.positive(limits.usable_acceleration * part.scale - base[:, axis], entry(axis, -1.0))
+                rows.positive(limits.usable_acceleration * part.scale + base[:, axis], entry(axis))
         else:
-            limit = limits.acceleration if part.order == 2 else limits.jerk
+            limit = limits.usable_acceleration if part.order == 2 else limits.jerk
             rest = [base[:, axis] for axis in range(3)]
             rows.second_order(limit * part.scale, [[], *(entry(axis) for axis in range(3))], rest)
 
@@ -276,10 +276,10 @@ def _project(values: Array, part: _Rows, bounds: Bounds) -> None:
         values[..., :2] *= np.minimum(1.0, limits.speed * scale / np.maximum(across, 1e-300))[..., None]
         np.clip(values[..., 2], -limits.descent * scale, limits.climb * scale, out=values[..., 2])
     elif part.order == 2 and bounds.per_axis:
-        ceiling = (limits.acceleration * scale)[..., None]
+        ceiling = (limits.usable_acceleration * scale)[..., None]
         np.clip(values, -ceiling, ceiling, out=values)
     else:
-        limit = (limits.acceleration if part.order == 2 else limits.jerk) * scale
+        limit = (limits.usable_acceleration if part.order == 2 else limits.jerk) * scale
         far = np.sqrt(np.einsum("rnd,rnd->rn", values, values))
         values *= np.minimum(1.0, limit / np.maximum(far, 1e-300))[..., None]
 
@@ -336,7 +336,7 @@ class _State:
     def _violation(self, rows: Array, z: Array) -> Array:
         """Return how far the rows are from what is within the bounds, as a share of these."""
         limits, worst = self.programme.bounds.limits, np.zeros(rows.shape[1])
-        least = min(limits.speed, limits.climb, limits.descent), limits.acceleration, limits.jerk
+        least = min(limits.speed, limits.climb, limits.descent), limits.usable_acceleration, limits.jerk
         for part in self.programme.rows:
             gap = np.abs(rows[part.span] - z[part.span]) / part.scale[:, None, None]
             worst = np.maximum(worst, gap.max(axis=(0, 2), initial=0.0) / least[part.order - 1])

@@ -129,7 +129,7 @@ def problem(
     if not sizes.subjects:
         least[SLACK] = 0.0
     speed, acceleration, jerk = (
-        (use.share * bound) ** 2 for bound in (limits.speed, limits.acceleration, limits.jerk)
+        (use.share * bound) ** 2 for bound in (limits.speed, limits.usable_acceleration, limits.jerk)
     )
     low = np.zeros(sizes.limits + count * POINTS + sizes.occluders + sizes.bodies)
     low[:3] = -inf, -inf, -use.share * limits.descent

@@ -47,7 +47,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
         "speed": (norm(first[:, :, :2], axis=2), limits.speed, "m/s"),
         "climb": (first[:, :, 2], limits.climb, "m/s"),
         "descent": (-first[:, :, 2], limits.descent, "m/s"),
-        "acceleration": (norm(second, axis=2), limits.acceleration, "m/s^2"),
+        "acceleration": (norm(second, axis=2), limits.usable_acceleration, "m/s^2"),
         "jerk": (norm(third, axis=2), limits.jerk, "m/s^3"),
     }
     worst: Gap | None = None

@@ -52,7 +52,7 @@ class Flight:
         self._solvers: dict[Kept, Solver] = {}
         self.times = ahead.step * np.arange(n + 1)
         self._way = float(self.times[-1])  # at a metre a second
-        self._back = limits.acceleration / np.sqrt(3.0) * self.times[1:, None] * np.ones(3)
+        self._back = limits.usable_acceleration / np.sqrt(3.0) * self.times[1:, None] * np.ones(3)
         self._lowest = np.array([-limits.speed, -limits.speed, -limits.descent])
         self._highest = np.array([limits.speed, limits.speed, limits.climb])
         self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))

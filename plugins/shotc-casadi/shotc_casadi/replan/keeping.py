@@ -84,7 +84,13 @@ def kept(keeping: Keeping, near: tuple[Room, ...], traffic: Traffic) -> Kept:
 def common(keeping: Keeping, near: tuple[Room, ...], step: float) -> list[float]:
     """Return the parameters that all stages share, but the half angles of cones, which come after them."""
     limits, given = keeping.limits, keeping
-    numbers = [step, limits.speed, limits.acceleration, given.reaction, given.separation + given.margin]
+    numbers = [
+        step,
+        limits.speed,
+        limits.usable_acceleration,
+        given.reaction,
+        given.separation + given.margin,
+    ]
     numbers += [given.half_angle or 0.0, *given.pitch]
     return [*numbers, *(number for room in near for number in room.parameters)]
 

@@ -6,11 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from math import degrees
+from math import asin, degrees, inf
 
 import numpy as np
 
 from shotc.diag.model import Label
+from shotc.ir.limits import G_M_S2
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.flown import usages
@@ -26,6 +27,8 @@ ROOM = 1.004
 # Raising a limit further than this is no advice; so many halvings find the least within that.
 HIGHEST = 4.0
 HALVINGS = 7
+# Sine of the steepest tilt that is advised, 60 deg.
+HIGHEST_TILT = 0.866
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +44,8 @@ _SHOWN = {
     "climb": _Shown(("limits", "climb"), "climb", "m/s"),
     "descent": _Shown(("limits", "descent"), "descent", "m/s"),
     "acceleration": _Shown(("limits", "acceleration"), "acceleration", "m/s^2"),
+    "tilt": _Shown(("limits", "tilt"), "tilt", "deg", True),
+    "thrust_to_weight": _Shown(("limits", "thrust_to_weight"), "thrust", "times the weight"),
     "jerk": _Shown(("limits", "jerk"), "jerk", "m/s^3"),
     "yaw_rate": _Shown(("limits", "yaw_rate"), "yaw rate", "deg/s", True),
     "yaw_acceleration": _Shown(("limits", "yaw_acceleration"), "yaw acceleration", "deg/s^2", True),
@@ -130,7 +135,8 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
     """Return labels on the lines of the limits that bind, at most two, and on the wind that lowers one."""
     by_span: dict[Span, Label] = {}
     for name in holdup.names[:2]:
-        label = mission.origins.value((*drone.path, *_SHOWN[name].key), _SHOWN[name].words)
+        shown = _shown(drone, name)
+        label = mission.origins.value((*drone.path, *shown.key), shown.words)
         before = by_span.get(label.span)
         by_span[label.span] = (
             label if before is None else before._replace(text=f"{before.text} and {label.text}")
@@ -152,11 +158,28 @@ def raises(
     texts = []
     for name in names:
         factor = _least_factor(partial(_with, enough, full, name))
-        if factor is not None:
-            texts.append(
-                f"raise `{'.'.join(_SHOWN[name].key)}` to {limit_text(mission, drone, name, factor)}"
-            )
+        if factor is not None and ROOM * factor <= _alone(drone, name):
+            key = ".".join(_shown(drone, name).key)
+            texts.append(f"raise `{key}` to {limit_text(mission, drone, name, factor)}")
     return texts
+
+
+def _shown(drone: Drone, name: str) -> _Shown:
+    """Return how the mission's limit is shown that stands behind a limit of the ceiling."""
+    if name != "acceleration":
+        return _SHOWN[name]
+    bounds = drone.limits.acceleration_bounds
+    return _SHOWN[min(bounds, key=lambda bound: bounds[bound])]
+
+
+def _alone(drone: Drone, name: str) -> float:
+    """Return the factor up to which a limit of the ceiling rises with one limit of the mission alone."""
+    if name != "acceleration":
+        return inf
+    least, following, _ = sorted(drone.limits.acceleration_bounds.values())
+    if _shown(drone, name) is _SHOWN["tilt"]:
+        following = min(following, HIGHEST_TILT * G_M_S2)
+    return following / least
 
 
 def _with(enough: Callable[[Ceiling], bool], full: Ceiling, name: str, factor: float) -> bool:
@@ -176,15 +199,23 @@ def _least_factor(enough: Callable[[float], bool]) -> float | None:
 def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
     """Return a limit with its name in words, and what the wind takes of it."""
     wind = f" less {mission.wind:.2f} m/s of wind" if name == "speed" and mission.wind > 0 else ""
-    return f"{_SHOWN[name].words} {limit_text(mission, drone, name)}{wind}"
+    return f"{_shown(drone, name).words} {limit_text(mission, drone, name)}{wind}"
 
 
 def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
     """Return a limit as the mission writes it, times a factor and then rounded up."""
-    shown = _SHOWN[name]
+    shown = _shown(drone, name)
     value = factor * getattr(ceiling_of(drone), name)
+    if factor == 1.0:
+        return f"{_written(mission, shown, value):.2f} {shown.unit}"
+    return f"{up(_written(mission, shown, value, ROOM)):.2f} {shown.unit}"
+
+
+def _written(mission: MissionIR, shown: _Shown, value: float, room: float = 1.0) -> float:
+    """Return a limit of the ceiling, SI, as the number that the mission writes for it, times some room."""
+    if shown is _SHOWN["tilt"]:
+        return degrees(asin(room * value / G_M_S2))
+    if shown is _SHOWN["thrust_to_weight"]:
+        return 1.0 + room * value / G_M_S2
     value = degrees(value) if shown.angular else value
-    value += mission.wind if name == "speed" else 0.0
-    if factor != 1.0:
-        value = up(ROOM * value)
-    return f"{value:.2f} {shown.unit}"
+    return room * (value + mission.wind if shown is _SHOWN["speed"] else value)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_pieces import rates, velocity
 from shotc.geom.proof import norm, sup_channel, sup_convex
+from shotc.ir.thrust import lean, thrust_to_weight
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded, of_drone
@@ -31,10 +33,21 @@ def motion(flight: FleetFlight) -> Iterator[Claim]:
     for order, name, unit in ((2, "acceleration", "m/s^2"), (3, "jerk", "m/s^3")):
         size = norm(rates(flight.track.breaks, flight.track.coef, order))
         yield _largest(flight, _limit(flight, name, unit), size)
+    yield from _thrust(flight)
+
+
+def _thrust(flight: FleetFlight) -> Iterator[Claim]:
+    """Claim tilt and thrust where the mission limits them; both are largest at a break."""
+    limits, acceleration = flight.fleet.limits, rates(flight.track.breaks, flight.track.coef, 2)
+    if limits.tilt < inf:
+        yield _largest(flight, _limit(flight, "tilt", "rad"), lean(acceleration))
+    if limits.thrust_to_weight < inf:
+        wanted = _limit(flight, "thrust_to_weight", "times the weight")
+        yield _largest(flight, wanted, thrust_to_weight(acceleration))
 
 
 def _limit(flight: FleetFlight, name: str, unit: str) -> Limit:
-    return Limit(name, getattr(flight.fleet.limits, name), unit, flight.key("limits", name))
+    return Limit(name.replace("_", " "), getattr(flight.fleet.limits, name), unit, flight.key("limits", name))
 
 
 def _largest(flight: FleetFlight, limit: Limit, size: Array) -> Claim:

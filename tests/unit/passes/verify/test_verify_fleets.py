@@ -303,6 +303,8 @@ BROKEN: list[tuple[str, TrajectoryIR, str]] = [
     ("descent", with_limits(descent=4.1), "V001"),
     ("acceleration", with_limits(acceleration=3.7), "V002"),
     ("jerk", with_limits(jerk=3.7), "V003"),
+    ("tilt", with_limits(tilt=0.2), "V053"),
+    ("thrust", with_limits(thrust_to_weight=1.05), "V054"),
     ("endurance", with_mission(fleets=(fleet()._replace(endurance=45.0),)), "V013"),
     ("a control point", with_coef(lift), "V001"),
     ("a start off its pad", with_coef(lambda c: c.__setitem__((0, slice(0, 3), 0), 0.5)), "V012"),

@@ -1,0 +1,34 @@
+"""Thrust and tilt of a quadrotor from its acceleration (Alcantara et al., Eq. 2 and 4).
+
+The rotors push along the body's upward axis: T / m = |a + g e_z|, and that axis leans from the vertical by
+the angle of a + g e_z. Air drag is neglected, as there. In the paper's Euler angles of Eq. 4 the lean is
+arccos(cos phi cos theta), whatever the yaw.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.proof import norm
+from shotc.ir.limits import G_M_S2
+
+
+def thrust_to_weight(acceleration: Array) -> Array:
+    """Return |a + g e_z| / g (...) of accelerations (..., 3), m/s^2; convex."""
+    return norm(_pushed(acceleration)) / G_M_S2
+
+
+def lean(acceleration: Array) -> Array:
+    """Return the angle between a + g e_z and the vertical, rad (...), of accelerations (..., 3), m/s^2.
+
+    A thrust that does not point up counts as pi. So all accelerations below any angle are a convex set, and
+    nothing between control points leans further than the control point that leans furthest.
+    """
+    pushed = _pushed(acceleration)
+    angle = np.arctan2(norm(pushed[..., :2]), pushed[..., 2])
+    return np.asarray(np.where(pushed[..., 2] > 0.0, angle, np.pi))
+
+
+def _pushed(acceleration: Array) -> Array:
+    return np.asarray(acceleration + np.array([0.0, 0.0, G_M_S2]))
