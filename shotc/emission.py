@@ -11,19 +11,17 @@ from __future__ import annotations
 
 import os
 import re
-import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import contextmanager, suppress
-from multiprocessing import Pipe, active_children, get_context, parent_process
+from multiprocessing import Pipe
 from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from shotc.cores import cores
 from shotc.emit.base import Artifact, Emission, Emitter, Prepares
+from shotc.parallel import cores, pool_of, uninterrupted
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import VerifiedIR
@@ -106,35 +104,16 @@ def crew(jobs: int, load: Load) -> Iterator[Crew]:
         return
     pipes = [Pipe(duplex=False) for _ in range(jobs - 1)]
     orders, plans = [end for end, _ in pipes], [start for _, start in pipes]
-    others, workers = set(active_children()), set[BaseProcess]()
-    pool = ProcessPoolExecutor(jobs - 1, get_context("fork"), _begin, (load, orders, plans))
     try:
-        with _uninterrupted():
-            pool.submit(os.getpid)  # it forks all its workers at the first task, before it starts a thread
-            workers = set(active_children()) - others
-        for end in orders:
-            end.close()
-        yield Crew(pool, plans, load)
+        with pool_of(jobs - 1, _begin, (load, orders, plans)) as pool:
+            with uninterrupted():
+                pool.submit(os.getpid)  # it forks all its workers at the first task
+            for end in orders:
+                end.close()
+            yield Crew(pool, plans, load)
     finally:
-        with _uninterrupted():
-            for worker in workers:
-                worker.kill()  # it writes nothing to the disk
-            pool.shutdown()
-            for start in plans:
-                start.close()
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Hold interrupts back: no worker is to be forgotten, and none is to meet one before it ignores them."""
-    if sys.platform == "win32":
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for start in plans:
+            start.close()
 
 
 _HERE: list[Any] = []
@@ -142,19 +121,10 @@ _HERE: list[Any] = []
 
 
 def _begin(load: Load, orders: Sequence[Connection], plans: Sequence[Connection]) -> None:
-    """Begin as a worker; one whose parent is killed ends, too."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """Begin as a worker: keep its own ends of the pipes."""
     for start in plans:
         start.close()
     _HERE[:] = load, orders
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-    os._exit(0)
 
 
 def _made(i: int, names: Sequence[str]) -> dict[str, Emission]:

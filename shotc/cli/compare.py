@@ -14,7 +14,7 @@ from shotc import plugins
 from shotc.cli import console
 from shotc.cli.console import Progress, known, listed, table
 from shotc.cli.inputs import read_mission
-from shotc.cli.plan import Deadline, Spec
+from shotc.cli.plan import Deadline
 from shotc.filenames import file_name
 from shotc.output import write
 
@@ -34,6 +34,7 @@ class Format(StrEnum):
     MARKDOWN = "markdown"
 
 
+Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
 Refiners = Annotated[
     str | None,
     typer.Option(

@@ -53,14 +53,15 @@ def gather(specs: Sequence[str], stdin_name: str | None = None) -> Gathered:
     gathered = Gathered()
     seen: set[str] = set()
     for spec in specs:
-        if spec != STDIN and _is_folder(spec):
+        if spec != STDIN and is_folder(spec):
             _gather_folder(Path(spec), gathered, seen)
         elif _is_new(spec, seen):
             _keep(_read(spec, stdin_name), gathered)
     return gathered
 
 
-def _is_folder(spec: str) -> bool:
+def is_folder(spec: str) -> bool:
+    """Tell whether an argument names a folder."""
     try:
         return Path(spec).is_dir()
     except OSError:  # a name that is too long; reading the file will say so

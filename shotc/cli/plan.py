@@ -12,11 +12,14 @@ from shotc import plugins
 from shotc.api import Compilation, PlanOptions, compile_source, crew, emit_plan
 from shotc.cli import console
 from shotc.cli.console import Progress, known, listed
-from shotc.cli.inputs import read_mission
+from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
+from shotc.cli.hands import Workers
+from shotc.cli.inputs import gather, is_folder, read_mission
+from shotc.cli.plan_many import one_mission_only, plan_many
 from shotc.cli.refiner import told
 from shotc.filenames import file_name
 from shotc.ir.text import dump
-from shotc.output import earlier, left_over, write
+from shotc.output import write
 from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
 
@@ -33,8 +36,21 @@ def _positive(seconds: float | None) -> float | None:
 
 
 _PASSES = f"Passes: {', '.join(PASS_NAMES)}."
-Spec = Annotated[str, typer.Argument(metavar="SPEC", help="The mission file, or - for standard input.")]
-Output = Annotated[Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION].")]
+Specs = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="SPEC",
+        help="The mission file, or - for standard input; several files, or folders.",
+    ),
+]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        help="Folder for the files [out/MISSION]; of several, for their folders [out].",
+    ),
+]
 Emit = Annotated[str | None, typer.Option(help="Emitters to run, separated by commas.", metavar="LIST")]
 RefinerName = Annotated[
     str | None,
@@ -77,14 +93,15 @@ Jobs = Annotated[
     typer.Option(
         min=1,
         metavar="N",
-        help="Processes that make the files side by side [the cores, up to 4]; the files stay the same.",
+        help="Processes that make the files side by side [the cores, up to 4], or plan several missions [the "
+        "cores]; the files stay the same.",
     ),
 ]
 Seed = Annotated[int, typer.Option(help="Seed for refiners that use chance.")]
 
 
 def plan(
-    spec: Spec,
+    specs: Specs,
     output: Output = None,
     emit: Emit = None,
     refiner: RefinerName = None,
@@ -95,6 +112,7 @@ def plan(
     dump_ir: DumpIr = None,
     time_passes: TimePasses = False,
     jobs: Jobs = None,
+    workers: Workers = None,
     seed: Seed = 0,
 ) -> None:
     """Compile a mission: validate it, plan it, prove the plan, write its files.
@@ -102,6 +120,11 @@ def plan(
     Nothing is written unless every hard constraint is proved to hold. Example:
 
         shotc plan tower.yaml -o out/tower --emit csv,mavlink
+
+    Missions of a folder are planned side by side, each into a folder of its own, with a table at the end.
+    Where that is stopped, the same command goes on from there. Example:
+
+        shotc plan missions/ --jobs 8
     """
     emitters = listed(emit)
     for name in emitters or ():
@@ -110,7 +133,14 @@ def plan(
     known("--headings", headings, list(METHODS))
     known("--stop-after", stop_after, list(PASS_NAMES))
     known("--dump-ir", dump_ir, list(PASS_NAMES))
-    source = read_mission(spec)
+    if len(specs) > 1 or is_folder(specs[0]):
+        single = {"--stop-after": stop_after, "--dump-ir": dump_ir, "--time-passes": time_passes}
+        one_mission_only(single)
+        options = PlanOptions(refiner, deadline, autopilot, seed=seed, headings=headings)
+        raise typer.Exit(plan_many(gather(specs), options, emitters, output, workers or jobs))
+    if workers is not None:
+        raise typer.BadParameter("it is for several missions, not for one", param_hint="--workers")
+    source = read_mission(specs[0])
     stop = stop_after or dump_ir
     with crew(1 if stop else jobs) as hands, Progress() as progress:
 
@@ -137,7 +167,7 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
     folder = output or Path("out") / (file_name(done.mission) if done.mission else "")
     if done.plan is None:
         console.report(done.diagnostics, done.sources)
-        _warn_of_earlier(folder)
+        warn_of_earlier(folder)
         return console.exit_code(done.diagnostics)
     from shotc.cli.summary import summary
 
@@ -148,30 +178,10 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
     console.report(diagnostics, done.sources)
     if paths:
         console.out(summary(done.plan, paths, emitted.notes))
-        _tell_left_over(folder, {path.name for path in paths})
+        tell_left_over(folder, {path.name for path in paths})
     else:
-        _warn_of_earlier(folder)
+        warn_of_earlier(folder)
     return console.exit_code(diagnostics)
-
-
-def _warn_of_earlier(folder: Path) -> None:
-    """Say that a folder holds what an earlier run wrote: it could be flown for this mission."""
-    files = earlier(folder)
-    if files is None:
-        return
-    whose = "" if files.mission is None else f" of mission `{files.mission}`"
-    console.complain(
-        f"note: {folder}/ still holds the outputs of an earlier run{whose}, not of this one: "
-        f"{', '.join(files.files)}"
-    )
-
-
-def _tell_left_over(folder: Path, written: set[str]) -> None:
-    """Name the outputs of an earlier run that this one has not replaced: they are not of this plan."""
-    left = left_over(folder, written)
-    if left:
-        names = ", ".join(left)
-        console.complain(f"note: {folder}/ also holds outputs of an earlier run, not of this plan: {names}")
 
 
 def _dump(done: Compilation, name: str) -> None:

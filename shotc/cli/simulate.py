@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -15,22 +14,20 @@ from shotc.api import PlanOptions, compile_source
 from shotc.cli import console
 from shotc.cli.console import Progress, known
 from shotc.cli.flight_options import stretches, true_tracks
+from shotc.cli.hands import Workers, at_work, no_cluster
 from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
 from shotc.cli.refiner import told
 from shotc.cli.verify import Format
-from shotc.cores import cores
 from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
 from shotc.output import write
-from shotc.simulation.hands import NoCluster
+from shotc.parallel import cores
 from shotc.spec.presets import RUNS
 
 if TYPE_CHECKING:
     from shotc.ir.trajectory import VerifiedIR
     from shotc.simulation.conditions import Conditions
-    from shotc.simulation.rehearsal import Rehearsed
-    from shotc.simulation.runs import Block
     from shotc.source.file import SourceFile
 
 FASTEST, FARTHEST = 100.0, 1000.0
@@ -91,10 +88,6 @@ TruthFiles = Annotated[
 ]
 Jobs = Annotated[
     int | None, typer.Option(min=1, metavar="N", help="Processes that fly side by side [the cores].")
-]
-Workers = Annotated[
-    str | None,
-    typer.Option(metavar="tcp://HOST:PORT", help="The scheduler of a Dask cluster that flies instead."),
 ]
 Output = Annotated[
     Path | None,
@@ -177,7 +170,8 @@ def simulate(
         blocks = kept.keeping(
             simulated(plan.trajectory, conditions, count, workers or jobs or cores(), earlier), earlier
         )
-        done = _rehearsed(partial(rehearse, plan.trajectory, conditions), blocks, count, progress)
+        with at_work():
+            done = rehearse(plan.trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
         made = artifacts(done, progress)
     paths, faults = write(made.artifacts, folder)
     kept.forget()
@@ -210,25 +204,10 @@ def _plan(
     return plan, sources, output or beside
 
 
-def _rehearsed(
-    judge: Callable[[Iterator[Block], Callable[[int], None]], Rehearsed],
-    blocks: Iterator[Block],
-    count: int,
-    progress: Callable[[str], None],
-) -> Rehearsed:
-    """Judge runs as they come; where no cluster answers, say so and exit."""
-    try:
-        return judge(blocks, lambda n: progress(f"{n} of {count} runs"))
-    except NoCluster as error:
-        help_ = "start one with `dask scheduler`, or leave `--workers` out"
-        console.report([Diagnostic("W006", f"no scheduler answers: {error}", help=help_)], {})
-        raise typer.Exit(console.EXIT_REJECTED) from None
-
-
 def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ...]:
     """Say which vehicle, replanner or cluster cannot be used."""
-    if workers is not None and find_spec("distributed") is None:
-        return (plugins.not_installed("P004", "`--workers`", ["distributed"]),)
+    if faults := no_cluster(workers):
+        return faults
     if conditions.vehicle == "rotorpy" and find_spec("rotorpy") is None:
         return (plugins.not_installed("P004", "`--vehicle rotorpy`", ["rotorpy"]),)
     if conditions.loop != "replan":

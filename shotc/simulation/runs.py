@@ -5,20 +5,17 @@ A run depends on the seed and its own number alone, and blocks are the same howe
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import TrajectoryIR
+from shotc.parallel import Hands, as_done
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.flight import Flown, fly_all
-from shotc.simulation.hands import Hands
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
@@ -59,29 +56,13 @@ def simulated(
         if [run.number for run in block.runs] == list(needed.get(first, ())):
             del needed[first]
             yield block
-    yield from _each(ir, conditions, list(needed.values()), hands)
+    yield from as_done(partial(fly_block, ir, conditions), list(needed.values()), hands)
 
 
 def flown(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tuple[World, tuple[Flown, ...]]:
     """Fly the cameras of a plan in the runs of these numbers, for what is drawn or written of them."""
     world = World.of(ir, conditions, runs)
     return world, fly_all(world, ir.drones)
-
-
-def _each(ir: TrajectoryIR, conditions: Conditions, blocks: list[range], hands: Hands) -> Iterator[Block]:
-    if isinstance(hands, str):
-        from shotc.simulation.cluster import on_cluster
-
-        yield from on_cluster(hands, partial(fly_block, ir, conditions), blocks)
-        return
-    workers = min(hands, len(blocks))
-    if workers < 2:
-        yield from (fly_block(ir, conditions, block) for block in blocks)
-        return
-    context = get_context("fork" if sys.platform == "linux" else "spawn")
-    with ProcessPoolExecutor(workers, context) as pool:
-        waiting = [pool.submit(fly_block, ir, conditions, block) for block in blocks]
-        yield from (each.result() for each in as_completed(waiting))
 
 
 def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> Block:

@@ -18,7 +18,7 @@ from shotc.geom.surface.ground import ground_of
 from shotc.ir.rehearsal import Rehearsal, RehearsalPromise
 from shotc.ir.show import Apart
 from shotc.ir.terrain import Terrain
-from shotc.simulation.hands import NoCluster
+from shotc.parallel import NoCluster
 from tests.cli.conftest import Run
 from tests.support.compiled import compiled_text
 from tests.support.records import replace
@@ -315,7 +315,7 @@ def test_where_no_cluster_answers_it_is_told(run: Run, given, monkeypatch) -> No
         raise NoCluster("timed out")
 
     # Whoever loads the library itself has threads from then on.
-    monkeypatch.setitem(sys.modules, "shotc.simulation.cluster", SimpleNamespace(on_cluster=nobody))
+    monkeypatch.setitem(sys.modules, "shotc.cluster", SimpleNamespace(on_cluster=nobody))
     done = run("simulate", given(walk()), "--seeds", "2", "--workers", "tcp://127.0.0.1:9")
     assert done.code == 1
     assert "W006" in done.err

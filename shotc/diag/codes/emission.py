@@ -286,4 +286,16 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "other",
     ),
+    CodeInfo(
+        "E115",
+        "one-folder-for-two",
+        Severity.ERROR,
+        "two missions of a folder would be written to one place",
+        "`shotc plan FOLDER` writes every mission into a folder of its name. Two missions have one name, or names that make "
+        "one folder, such as `a b` and `a-b`: the second would replace the files of the first, and nobody could tell whose "
+        "they are. Nothing is planned.",
+        "",
+        "",
+        "other",
+    ),
 )

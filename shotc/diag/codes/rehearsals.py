@@ -69,10 +69,22 @@ CODES: tuple[CodeInfo, ...] = (
         "W006",
         "no-cluster",
         Severity.ERROR,
-        "no scheduler answers where a simulation is to fly",
-        "`shotc simulate --workers tcp://HOST:PORT` hands its runs to the Dask scheduler at that address, within ten "
-        "seconds. Start one with `dask scheduler`, and workers with `dask worker tcp://HOST:PORT` in an environment "
+        "no scheduler answers where work is to be done by a cluster",
+        "`--workers tcp://HOST:PORT` hands the runs of `shotc simulate`, or the missions of `shotc plan FOLDER`, to the "
+        "Dask scheduler at that address, which has to answer within ten seconds. Start one with `dask scheduler`, and workers with `dask worker tcp://HOST:PORT` in an environment "
         "that has the same shotc.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "W007",
+        "worker-lost",
+        Severity.ERROR,
+        "a process was killed while it worked beside others",
+        "`shotc simulate` and `shotc plan FOLDER` work in several processes. One of them is gone before its work was done: "
+        "somebody killed it, or the machine has too little memory for so many. What the others had done is kept; the same "
+        "command goes on from there.",
         "",
         "",
         "other",

@@ -98,8 +98,9 @@ def test_what_belongs_to_other_conditions_is_passed_over(tmp_path, ir, first) ->
 CLUSTER = """
 import sys
 from distributed import LocalCluster
-from shotc.simulation import cluster, runs
-from shotc.simulation.hands import NoCluster
+from shotc import cluster
+from shotc.simulation import runs
+from shotc.parallel import NoCluster
 from tests.support.film_plans import orbit_plan
 from tests.unit.simulation.test_runs import WINDY
 

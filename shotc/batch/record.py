@@ -1,0 +1,92 @@
+"""Missions of a batch that are planned while others are not: a batch that is killed goes on from there.
+
+One line of JSON a mission. A line that was not written to its end, or that belongs to another text, another
+version or other options, is passed over, and so is one of whose files any has changed since.
+The file goes when the batch is finished.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from shotc import __version__
+from shotc.batch.work import Job, Outcome, Planned
+from shotc.filenames import file_name
+
+NAME = "plan.unfinished.jsonl"
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """The missions of a batch that are planned; path : of the file."""
+
+    path: Path
+
+    def done(self) -> dict[str, dict[str, Any]]:
+        """Return what is kept, by the key of its job; nothing where the file cannot be read."""
+        try:
+            lines = self.path.read_text(encoding="ascii").splitlines()
+        except (OSError, ValueError):
+            return {}
+        return {entry["key"]: entry for line in lines for entry in _entry(line)}
+
+    def add(self, job: Job, made: Planned) -> None:
+        """Keep a mission whose files are written; a disk that does not take it is no reason to stop."""
+        entry = {
+            "key": key_of(job),
+            "outcome": made.outcome._asdict(),
+            "read": made.read,
+            "written": [(each.name, sha256(each.data).hexdigest()) for each in made.artifacts],
+        }
+        with suppress(OSError), self.path.open("a", encoding="ascii") as stream:
+            stream.write(json.dumps(entry) + "\n")
+
+    def forget(self) -> None:
+        """Remove the file."""
+        with suppress(OSError):
+            self.path.unlink(missing_ok=True)
+
+
+def key_of(job: Job) -> str:
+    """Return what tells a job from all others: its text, the version and all options."""
+    options = job.options
+    chosen = (options.refiner, options.deadline, options.autopilot, options.seed, options.headings)
+    told = repr((__version__, job.name, str(job.folder), chosen, job.emitters))
+    return sha256(told.encode() + job.data).hexdigest()
+
+
+def still_true(job: Job, entry: dict[str, Any], root: Path) -> Outcome | None:
+    """Return what came of a job before, or None where it has to be planned again.
+
+    entry : of ``Record.done``; root : of the folders of all missions
+    """
+    with suppress(OSError, KeyError, TypeError, ValueError):
+        outcome = Outcome(**entry["outcome"])
+        kept = [(folder_of(outcome, root), each) for each in entry["written"]]
+        kept += [(job.folder, each) for each in entry["read"]]
+        if all(_digest(folder / name) == digest for folder, (name, digest) in kept):
+            return outcome
+    return None
+
+
+def folder_of(outcome: Outcome, root: Path) -> Path:
+    """Return the folder for the files of a mission; root : of the folders of all missions."""
+    return root / file_name(outcome.mission or "")
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as stream:
+        return sha256(stream.read()).hexdigest()
+
+
+def _entry(line: str) -> Iterator[dict[str, Any]]:
+    with suppress(ValueError):
+        entry = json.loads(line)
+        if isinstance(entry, dict) and isinstance(entry.get("key"), str):
+            yield entry

@@ -1,0 +1,94 @@
+"""One mission of many: planned in whichever process, with what is printed and written of it."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from shotc.api import PlanOptions, compile_source, emit_plan
+from shotc.diag.model import Diagnostic, Severity
+from shotc.diag.registry import severity_of
+from shotc.emit.base import Artifact
+from shotc.source.file import SourceFile
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.ir.source import MissionSource
+    from shotc.ir.trajectory import VerifiedIR
+
+
+class Job(NamedTuple):
+    """A mission and how to plan it; it is pickled.
+
+    name : how the file is shown; folder : of the files that it names, absolute
+    emitters : None means those that the mission asks for
+    """
+
+    data: bytes
+    name: str
+    folder: Path
+    options: PlanOptions
+    emitters: tuple[str, ...] | None
+
+
+class Outcome(NamedTuple):
+    """What came of a mission, in one row.
+
+    name : of its file; mission : its name, None where the file says none
+    in_the_air : from the first take-off to the last landing, s; proved : number of claims
+    """
+
+    name: str
+    mission: str | None
+    errors: int
+    warnings: int
+    in_the_air: float
+    proved: int
+
+
+class Planned(NamedTuple):
+    """A mission that was planned, or why not.
+
+    artifacts : none where an error rejects the mission
+    read : (name, SHA-256, hexadecimal) of all files that it names
+    """
+
+    outcome: Outcome
+    artifacts: tuple[Artifact, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    sources: dict[str, SourceFile]
+    read: tuple[tuple[str, str], ...] = ()
+
+
+def planned(job: Job) -> Planned:
+    """Plan a mission and make its files."""
+    done = compile_source(job.data, job.name, job.folder, job.options)
+    if done.plan is None:
+        outcome = _outcome(job, done.mission, None, done.diagnostics)
+        return Planned(outcome, (), done.diagnostics, done.sources)
+    emitted = emit_plan(done.plan, job.emitters)
+    diagnostics = (*done.diagnostics, *emitted.diagnostics)
+    outcome = _outcome(job, done.mission, done.plan, diagnostics)
+    source = done.plan.trajectory.keyframes.mission.source
+    return Planned(outcome, emitted.artifacts, diagnostics, done.sources, tuple(_read(source)))
+
+
+def _outcome(
+    job: Job, mission: str | None, plan: VerifiedIR | None, diagnostics: tuple[Diagnostic, ...]
+) -> Outcome:
+    weights = [severity_of(each) for each in diagnostics]
+    ends = [] if plan is None else [track.curve.end for track in plan.trajectory.drones]
+    ends += [] if plan is None else [float(fleet.breaks[-1]) for fleet in plan.trajectory.fleets]
+    return Outcome(
+        job.name,
+        mission,
+        weights.count(Severity.ERROR),
+        weights.count(Severity.WARNING),
+        max(ends, default=0.0),
+        0 if plan is None else len(plan.certificate),
+    )
+
+
+def _read(source: MissionSource) -> list[tuple[str, str]]:
+    held = [(name, sha256(data).hexdigest()) for name, data in source.tables]
+    return [*held, *source.drawn, *source.linked]

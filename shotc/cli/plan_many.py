@@ -1,0 +1,157 @@
+"""``shotc plan`` of a folder: its missions side by side, a row for each, and none planned twice."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import typer
+
+from shotc import plugins
+from shotc.api import PlanOptions
+from shotc.batch.record import NAME, Record, folder_of, key_of, still_true
+from shotc.batch.work import Job, Outcome, Planned, planned
+from shotc.checking import models_of
+from shotc.cli import console
+from shotc.cli.console import Progress, clock, table
+from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
+from shotc.cli.hands import at_work, no_cluster
+from shotc.cli.inputs import Gathered, MissionText
+from shotc.diag.model import Diagnostic
+from shotc.diag.registry import has_errors
+from shotc.filenames import file_name
+from shotc.output import write
+from shotc.parallel import Hands, as_done, cores
+from shotc.source.file import SourceFile
+from shotc.spec.load import load
+
+HEAD = ("mission", "in the air", "proved", "warnings", "files")
+
+
+def plan_many(
+    gathered: Gathered,
+    options: PlanOptions,
+    emitters: Sequence[str] | None,
+    output: Path | None,
+    hands: Hands | None,
+) -> int:
+    """Plan missions side by side, write their files, report all, and return the exit status.
+
+    output : folder of the folders of all missions, None for ``out``; hands : None for all cores
+    """
+    root = output or Path("out")
+    clashes, sources = _clashes(gathered.missions)
+    faults = (*gathered.diagnostics, *no_cluster(hands if isinstance(hands, str) else None), *clashes)
+    if options.refiner is None and plugins.usual_refiner() == plugins.NO_REFINER:
+        faults = (*faults, plugins.no_refiner())
+    console.report(faults, sources)
+    if has_errors(faults):
+        return console.EXIT_REJECTED
+    asked = None if emitters is None else tuple(emitters)
+    jobs = [Job(text.data, text.name, text.folder.resolve(), options, asked) for text in gathered.missions]
+    batch = _Batch(jobs, root)
+    with Progress() as progress, at_work():
+        progress(f"0 of {len(jobs)} missions")
+        for made in as_done(planned, batch.left, hands or cores()):
+            batch.take(made)
+            progress(f"{len(batch.outcomes)} of {len(jobs)} missions")
+    batch.record.forget()
+    console.out("\n".join(_lines(batch, gathered.skipped)))
+    rejected = any(each.errors for each in batch.outcomes.values())
+    return console.EXIT_REJECTED if rejected else console.EXIT_CLEAN
+
+
+class _Batch:
+    """Missions as they are done: their files are written, and told in the order of the missions."""
+
+    def __init__(self, jobs: list[Job], root: Path) -> None:
+        self.jobs = {job.name: job for job in jobs}
+        self.root = root
+        self.record = Record(root / NAME)
+        entries = self.record.done()
+        earlier = {job.name: still_true(job, entries.get(key_of(job), {}), root) for job in jobs}
+        self.outcomes = {name: outcome for name, outcome in earlier.items() if outcome is not None}
+        self.before = len(self.outcomes)
+        self.left = [job for job in jobs if job.name not in self.outcomes]
+        self._waiting: dict[str, Planned] = {}
+        self._due = deque(job.name for job in self.left)
+
+    def take(self, made: Planned) -> None:
+        """Write the files of a mission, keep that it is done, and tell what is due."""
+        name, folder = made.outcome.name, folder_of(made.outcome, self.root)
+        if made.artifacts:
+            made = _written(made, folder)
+        if not made.outcome.errors:
+            self.record.add(self.jobs[name], made)
+        elif made.outcome.mission is not None:
+            warn_of_earlier(folder)
+        self.outcomes[name] = made.outcome
+        self._waiting[name] = made
+        while self._due and self._due[0] in self._waiting:
+            due = self._waiting.pop(self._due.popleft())
+            console.report(due.diagnostics, due.sources)
+
+
+def _written(made: Planned, folder: Path) -> Planned:
+    """Write the files of a mission; return it with what kept them from being written."""
+    paths, faults = write(made.artifacts, folder)
+    if paths:
+        tell_left_over(folder, {path.name for path in paths})
+    outcome = made.outcome._replace(errors=made.outcome.errors + len(faults))
+    return made._replace(diagnostics=(*made.diagnostics, *faults), outcome=outcome)
+
+
+def _lines(batch: _Batch, skipped: int) -> Iterator[str]:
+    outcomes = [batch.outcomes[name] for name in batch.jobs]
+    yield from table([HEAD, *(_row(batch, outcome) for outcome in outcomes)])
+    yield ""
+    good = sum(not outcome.errors for outcome in outcomes)
+    text = f"planned {good} of {len(outcomes)} missions"
+    if batch.before:
+        text += f"; {batch.before} of them before this run was stopped, whose warnings were told then"
+    if skipped:
+        files = "file" if skipped == 1 else "files"
+        text += f"; passed over {skipped} YAML {files} without a top-level key `shotc`"
+    yield text
+
+
+def _row(batch: _Batch, outcome: Outcome) -> tuple[str, ...]:
+    warnings = str(outcome.warnings) if outcome.warnings else "-"
+    if outcome.errors:
+        errors = "1 error" if outcome.errors == 1 else f"{outcome.errors} errors"
+        return (outcome.name, "-", "-", warnings, f"none: {errors}")
+    folder = f"{folder_of(outcome, batch.root)}/"
+    return (outcome.name, clock(outcome.in_the_air), str(outcome.proved), warnings, folder)
+
+
+def _clashes(missions: Sequence[MissionText]) -> tuple[list[Diagnostic], dict[str, SourceFile]]:
+    """Say which missions have one name: their files would be written into one folder."""
+    kinds = plugins.shot_kinds()
+    first: dict[str, str] = {}
+    clashes, sources = [], {}
+    for text in missions:
+        loaded = load(text.data, text.name, text.folder, models_of(kinds.plugins), kinds.unusable)
+        sources[text.name] = loaded.file
+        if loaded.title is None or loaded.mission is None:
+            continue
+        folder = file_name(loaded.title)
+        if folder in first:
+            clashes.append(
+                Diagnostic(
+                    "E115",
+                    f"`{loaded.title}` would be written over another mission, into {folder}/",
+                    (loaded.mission.origins.value(("mission",)),),
+                    (f"{first[folder]} has that name, too",),
+                    "give one of them another name, or plan them one by one with `-o`",
+                )
+            )
+        first.setdefault(folder, text.name)
+    return clashes, sources
+
+
+def one_mission_only(given: Mapping[str, object]) -> None:
+    """Refuse options that are of use for one mission alone; given : options and their values."""
+    for option, value in given.items():
+        if value:
+            raise typer.BadParameter("it is for one mission, not for several", param_hint=option)
