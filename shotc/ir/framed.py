@@ -1,7 +1,8 @@
 """The ideal of a framing: from where its subjects appear as asked, over the time of the shot. Plain Python.
 
-One subject is a closed form: the camera goes along with it at one offset. Several are a least-squares course,
-knot after knot, each begun where the last one ended. What is silent is free, and is settled by rule:
+One subject is a closed form: the camera goes along with it at one offset, or at one for every knot where
+setpoints change what is asked. Several are a least-squares course, knot after knot, each begun where the last
+one ended. What is silent is free, and is settled by rule:
 
 - a bearing: the one from which the drone comes, else the nearest to it from which nothing stands before the
   subjects and the camera has room, over the whole shot;
@@ -12,8 +13,7 @@ knot after knot, each begun where the last one ended. What is silent is free, an
   several, each place of the composition once.
 """
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from itertools import permutations
 from math import atan2, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
@@ -35,7 +35,7 @@ from shotc.geom.viewpoint import (
 )
 from shotc.ir.framed_scene import Scene, wanted_at
 from shotc.ir.keyed import is_keyed, settled
-from shotc.ir.mission import Composition, MissionIR, Shot, Subject
+from shotc.ir.mission import Composition, MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
 TURN = pi / 36  # between bearings that are tried for one subject
@@ -89,37 +89,73 @@ def places_of(composition: Composition) -> list[Vec2]:
 
 
 def _alone(scene: Scene) -> Course:
-    """Return the course of one subject: an offset from it that stays."""
+    """Return the course of one subject: an offset from it, which stays where nothing changes."""
     subject = scene.shot.subjects[0]
     target = scene.mission.target(subject.target)
     lowest = min((target.at(t) for t in scene.looks), key=lambda c: c[2])
-    wanted = wanted_at(scene.mission, subject, scene.start)._replace(centre=lowest)
     sizes = SMALLER if subject.size is None else (subject.size,)
-    places = places_of(subject.composition)
-    tried = ((_stood(scene, wanted, uv, size), uv, size) for size in sizes for uv in places)
-    fits = (
-        (offset, uv, size)
-        for offset, uv, size in tried
-        if not wanted.whole or whole(_aimed(lowest, offset, uv, scene.lens), scene.lens, wanted)
-    )
-    first = (_stood(scene, wanted, places[0], sizes[0]), places[0], sizes[0])
-    offset, uv, size = next(fits, None) or first
-    if wanted.azimuth is None:
-        offset = _clear_bearing(scene, target, partial(_turned, scene, wanted, offset, (uv, size)))
+    tried = (_Beside(scene, lowest, uv, size) for size in sizes for uv in places_of(subject.composition))
+    first = _Beside(scene, lowest, places_of(subject.composition)[0], sizes[0])
+    beside = next((one for one in tried if one.is_whole()), first)
+    points = beside.points(0.0)
+    if beside.wanted[0].azimuth is None:
+        points = _clear_bearing(scene, target, beside)
     ideal = scene.shot.ideal
     assert ideal is not None
-    shot = scene.shot._replace(
-        ideal=ideal._replace(points=((0.0, offset), (1.0, offset))),
-        subjects=(_at_place(subject, uv),),
+    shot = scene.shot._replace(ideal=ideal._replace(points=points), subjects=(_at_place(subject, beside.uv),))
+    poses = tuple(
+        _aimed(target.at(t), scene.along(points, t), beside.place_at(t), scene.lens) for t in scene.times
     )
-    poses = tuple(_aimed(target.at(t), offset, uv, scene.lens) for t in scene.times)
-    blocked, hidden = scene.shares([(t, plus(target.at(t), offset)) for t in scene.looks])
+    blocked, hidden = scene.shares([(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks])
     return Course(shot, scene.times, poses, blocked, hidden)
 
 
-def _stood(scene: Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
-    """Return the camera's offset from a subject that it shows at a place on screen in a size."""
-    azimuth, wanted = wanted.azimuth or 0.0, wanted._replace(uv=uv)
+class _Beside:
+    """A camera that goes along with one subject, which at first it shows at a place on screen in a size.
+
+    wanted : the subject as it is to appear at the knots of the course, where it is lowest; at the first alone
+        where nothing changes
+    """
+
+    def __init__(self, scene: Scene, lowest: Vec3, uv: Vec2, size: float) -> None:
+        mission, start, subject = scene.mission, scene.start, scene.shot.subjects[0]
+        self.scene, self.uv = scene, uv
+        self.subject = _at_place(subject, uv)._replace(size=size)
+        knots = scene.times if subject.setpoints else (start,)
+        self.wanted = tuple(wanted_at(mission, self.subject, start, t)._replace(centre=lowest) for t in knots)
+
+    def place_at(self, t: float) -> Vec2:
+        """Return the subject's place on screen at a mission time."""
+        return self.subject.asked(t - self.scene.start).place or self.uv
+
+    def is_whole(self) -> bool:
+        """Tell whether all of the subject is in the frame wherever it is to be."""
+        lens = self.scene.lens
+        return all(
+            not w.whole or whole(_aimed(w.centre, _stood(self.scene, w, 0.0), w.uv or self.uv, lens), lens, w)
+            for w in self.wanted
+        )
+
+    def points(self, azimuth: float) -> OffsetPoints:
+        """Return the camera's offsets as of ``Ideal``; azimuth : its bearing where none is asked."""
+        offsets = tuple(_stood(self.scene, wanted, azimuth) for wanted in self.wanted)
+        return _evenly(offsets * 2 if len(offsets) == 1 else offsets)
+
+    def turned(self, points: OffsetPoints, azimuth: float) -> OffsetPoints:
+        """Return offsets, given to the North, on another bearing."""
+        if self.scene.mission.terrain is not None:
+            return self.points(azimuth)
+        away = [(share, hypot(x, y), z) for share, (x, y, z) in points]
+        return tuple((share, (far * sin(azimuth), far * cos(azimuth), z)) for share, far, z in away)
+
+
+def _evenly(offsets: Sequence[Vec3]) -> OffsetPoints:
+    return tuple((i / (len(offsets) - 1), offset) for i, offset in enumerate(offsets))
+
+
+def _stood(scene: Scene, wanted: Wanted, bearing: float) -> Vec3:
+    """Return the camera's offset from a subject; bearing : the camera's, where none is asked."""
+    azimuth, size = bearing if wanted.azimuth is None else wanted.azimuth, wanted.size or WHOLE_SIZE
     offset = stand(wanted, scene.lens, scene.room, azimuth, size)
     if scene.mission.terrain is None:
         return offset
@@ -130,21 +166,13 @@ def _stood(scene: Scene, wanted: Wanted, uv: Vec2, size: float) -> Vec3:
     return offset
 
 
-def _turned(scene: Scene, wanted: Wanted, offset: Vec3, shown: tuple[Vec2, float], azimuth: float) -> Vec3:
-    """Return an offset, given to the North, on another bearing; shown : place on screen and size."""
-    if scene.mission.terrain is not None:
-        return _stood(scene, wanted._replace(azimuth=azimuth), *shown)
-    away = hypot(offset[0], offset[1])
-    return (away * sin(azimuth), away * cos(azimuth), offset[2])
-
-
-def _clear_bearing(scene: Scene, target: Target, stood: Callable[[float], Vec3]) -> Vec3:
-    """Return the offset on the bearing nearest to the drone's that is clear; stood : offsets by bearing."""
-    first = scene.comes_from(target.at(scene.start))
-    best, least = stood(0.0), (2.0, 2.0)
+def _clear_bearing(scene: Scene, target: Target, beside: _Beside) -> OffsetPoints:
+    """Return the offsets on the bearing nearest to the drone's that is clear."""
+    first, north = scene.comes_from(target.at(scene.start)), beside.points(0.0)
+    best, least = beside.turned(north, 0.0), (2.0, 2.0)
     for k in range(round(2 * pi / TURN)):
-        turned = stood(first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1))
-        found = scene.shares([(t, plus(target.at(t), turned)) for t in scene.looks])
+        turned = beside.turned(north, first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1))
+        found = scene.shares([(t, plus(target.at(t), scene.along(turned, t))) for t in scene.looks])
         if found < least:
             best, least = turned, found
         if least == (0.0, 0.0):
@@ -159,11 +187,7 @@ def _several(scene: Scene) -> Course:
     first, subjects = _opening(scene)
     poses = _follow(scene, subjects, first, scene.times)
     lead = scene.mission.target(subjects[0].target)
-    pieces = len(scene.times) - 1
-    points = tuple(
-        (i / pieces, minus((p[0], p[1], p[2]), lead.at(t)))
-        for i, (t, p) in enumerate(zip(scene.times, poses, strict=True))
-    )
+    points = _evenly([minus((p[0], p[1], p[2]), lead.at(t)) for t, p in zip(scene.times, poses, strict=True)])
     blocked, hidden = scene.shares([(t, (p[0], p[1], p[2])) for t, p in zip(scene.times, poses, strict=True)])
     made = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
     return Course(made, scene.times, poses, blocked, hidden)

@@ -7,22 +7,22 @@ from shotc.geom.vec import Vec3, plus
 from shotc.geom.viewpoint import Lens, Room, Wanted
 from shotc.ir.begins import first_start
 from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
-from shotc.ir.ideal import ideal_place
-from shotc.ir.mission import Drone, MissionIR, Shot, Subject
+from shotc.ir.ideal import ideal_place, offset_at
+from shotc.ir.mission import Drone, MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
 KNOT = 0.5  # seconds between the knots of a course
+CHANGING_KNOT = 0.25  # and where what is asked changes over the shot
 FEWEST, MOST = 8, 240  # stretches of a course
 LOOKS = 24  # stretches at which a bearing is looked at
 LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
 
 
-def wanted_at(mission: MissionIR, subject: Subject, t: float) -> Wanted:
-    """Return a subject and how it is to appear, at a mission time."""
-    target = mission.target(subject.target)
-    azimuth, elevation = subject.view or (None, None)
-    uv = subject.composition.points[0] if len(subject.composition.points) == 1 else None
-    return Wanted(target.at(t), target.shape_at(t), uv, subject.size, azimuth, elevation)
+def wanted_at(mission: MissionIR, subject: Subject, start: float, t: float) -> Wanted:
+    """Return a subject and how it is to appear, at a mission time; start : of its shot's first frame."""
+    target, asked = mission.target(subject.target), subject.asked(t - start)
+    azimuth, elevation = asked.view or (None, None)
+    return Wanted(target.at(t), target.shape_at(t), asked.place, asked.size, azimuth, elevation)
 
 
 def lens_of(drone: Drone) -> Lens:
@@ -41,7 +41,8 @@ class Scene:
 
     def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
         duration = shot.timing.duration or 0.0
-        pieces = int(min(MOST, max(FEWEST, ceil(duration / KNOT))))
+        knot = CHANGING_KNOT if any(s.setpoints for s in shot.subjects) else KNOT
+        pieces = int(min(MOST, max(FEWEST, ceil(duration / knot))))
         self.mission, self.shot, self.start = mission, shot, start
         self.drone = mission.drone(shot.drone)
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
@@ -66,9 +67,13 @@ class Scene:
             need.append(self.mission.ground(x, y) - z + offset[2])
         return room_of(self.mission, self.drone, max(need) + lowest[2])
 
+    def along(self, points: OffsetPoints, t: float) -> Vec3:
+        """Return the offset that is at a mission time, of offsets over the shot."""
+        return offset_at(points, (t - self.start) / max(self.times[-1] - self.start, 1e-9))
+
     def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
         """Return all subjects as they are wanted at a time."""
-        return tuple(wanted_at(self.mission, s, t) for s in subjects)
+        return tuple(wanted_at(self.mission, s, self.start, t) for s in subjects)
 
     def comes_from(self, subject: Vec3) -> float:
         """Return the bearing from a subject to where the drone was before the shot."""

@@ -5,7 +5,7 @@ from math import cos, sin
 
 from shotc.ir.keyed import way_at
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import MissionIR, Shot
+from shotc.ir.mission import MissionIR, OffsetPoints, Shot
 
 TO_CATCH_UP = 1.25
 """Times the speed of a place that goes on, with which a drone that is behind comes to it in good time."""
@@ -21,7 +21,7 @@ def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
     assert duration is not None
     if ideal.frame == "keyframes":
         return way_at(mission, shot, start, t)
-    offset = _offset(ideal.points, min(1.0, max(0.0, (t - start) / duration)))
+    offset = offset_at(ideal.points, min(1.0, max(0.0, (t - start) / duration)))
     if ideal.target is None:
         return offset
     target = mission.target(ideal.target)
@@ -37,7 +37,8 @@ def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
     return (*place, mission.base(ideal.above, place, target, t) + up)
 
 
-def _offset(points: tuple[tuple[float, Vec3], ...], share: float) -> Vec3:
+def offset_at(points: OffsetPoints, share: float) -> Vec3:
+    """Return the offset at a share of a shot's time, even between two points."""
     i = min(bisect_right([s for s, _ in points], share), len(points) - 1)
     (low, a), (high, b) = points[max(i - 1, 0)], points[i]
     x = (share - low) / (high - low) if high > low else 0.0

@@ -3,8 +3,9 @@
 from typing import NamedTuple
 
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import MissionIR, Shot, ViewAngles
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
 
 
 class PlacedKeyframe(NamedTuple):
@@ -34,10 +35,10 @@ class PlacedKeyframe(NamedTuple):
 
 
 class PlacedSubject(NamedTuple):
-    """A subject of a shot on its own clock, with the screen position it is to have all along.
+    """A subject of a shot on its own clock, with the screen position it is to have.
 
-    target : its name; reference : (u, v) of its centre, or None where it is only watched
-    size, view : as in Subject
+    target : its name; reference : (u, v) of its centre at the first frame, or None where it is only watched
+    size, view, setpoints : as in Subject
     """
 
     target: str
@@ -45,6 +46,11 @@ class PlacedSubject(NamedTuple):
     size: float | None
     view: ViewAngles | None
     path: KeyPath
+    setpoints: tuple[Setpoint, ...] = ()
+
+    def asked(self, time: float) -> Asked:
+        """Return how it is to appear at a time of its shot, seconds from the first frame."""
+        return asked_at(Asked(self.reference, self.size, self.view), self.setpoints, time)
 
 
 class PlacedShot(NamedTuple):

@@ -12,6 +12,7 @@ from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
+from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
 from shotc.ir.source import MissionSource
 from shotc.ir.target import Target
 
@@ -25,7 +26,7 @@ ELSEWHERE_IN_PLANS = frozenset(
 )
 """Fields of a mission that a plan does not hold as such: they are made of its text and its files."""
 
-ViewAngles = tuple[float | None, float | None]
+OffsetPoints = tuple[tuple[float, Vec3], ...]  # (share of the shot's time, metres)
 
 
 class GeoOrigin(NamedTuple):
@@ -187,7 +188,7 @@ class Ideal(NamedTuple):
 
     frame: Literal["world", "target", "heading", "about", "keyframes"]
     target: str | None
-    points: tuple[tuple[float, Vec3], ...]
+    points: OffsetPoints
     placed: bool = False
     aim: Vec2 | None = None
     framed: bool = False
@@ -201,6 +202,7 @@ class Subject(NamedTuple):
     size : projected height over frame height to aim for, above 1 where it is to be cropped; or None
     view : (azimuth as a compass bearing from it to the camera, elevation), rad, each None where it is free,
         or None
+    setpoints : what of these changes over the shot, in the order of their times
     """
 
     target: str
@@ -208,6 +210,13 @@ class Subject(NamedTuple):
     size: float | None
     view: ViewAngles | None
     path: KeyPath
+    setpoints: tuple[Setpoint, ...] = ()
+
+    def asked(self, time: float) -> Asked:
+        """Return how it is to appear at a time of its shot, seconds from the first frame."""
+        points = self.composition.points
+        first = Asked(points[0] if len(points) == 1 else None, self.size, self.view)
+        return asked_at(first, self.setpoints, time)
 
 
 class Promise(NamedTuple):

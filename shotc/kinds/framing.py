@@ -8,18 +8,12 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Deferred, Ideal, Subject
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.moving import evenly
-from shotc.spec.fields import Angle, Frame, Name, Pitch, ShotSize
+from shotc.kinds.setpoints import WHAT, SetpointSpec, ViewSpec, setpoint_faults, setpoints_of
+from shotc.spec.fields import Frame, Name, ShotSize
 from shotc.spec.model import Model
 from shotc.spec.shot import ShotBase
 
 ORIGIN = (0.0, 0.0, 0.0)
-
-
-class ViewSpec(Model):
-    """The side from which a subject is seen; what is silent is free."""
-
-    azimuth: Angle | None = Field(default=None, description="compass bearing from the subject to the camera")
-    elevation: Pitch | None = Field(default=None, description="how high the camera stands above the subject")
 
 
 class SubjectSpec(Model):
@@ -31,6 +25,9 @@ class SubjectSpec(Model):
         default=None, description="projected height over frame height, or the name of a shot size"
     )
     view: ViewSpec | None = Field(default=None, description="the side from which it is seen")
+    setpoints: tuple[SetpointSpec, ...] = Field(
+        default=(), description="how it is to appear later in the shot, in the order of their times"
+    )
 
 
 class FramingShot(ShotBase):
@@ -45,6 +42,7 @@ def expand(shot: FramingShot, scene: Scene) -> Expansion:
     found = [scene.subject(s.target, "subjects", i, "target") for i, s in enumerate(shot.subjects)]
     against = [f for f in found if isinstance(f, Diagnostic | Deferred)]
     against += _twice(shot, scene)
+    against += _setpoint_faults(shot, scene)
     if shot.timing.duration is None:
         message = f"how long does this {shot.kind} last? it is planned on the mission's own time"
         against.append(scene.lasting("M003", message, "kind"))
@@ -55,13 +53,26 @@ def expand(shot: FramingShot, scene: Scene) -> Expansion:
             s.target,
             s.frame or scene.composition,
             s.size if s.size is not None or i else shot.size,
-            None if s.view is None else (s.view.azimuth, s.view.elevation),
+            None if s.view is None else s.view.angles,
             (*scene.path, "subjects", i, "target"),
+            setpoints_of(s.setpoints, scene, "subjects", i, "setpoints"),
         )
         for i, s in enumerate(shot.subjects)
     )
     ideal = Ideal("about", subjects[0].target, evenly([ORIGIN]), framed=True)
     return Expansion(ideal=ideal, subjects=subjects)
+
+
+def _setpoint_faults(shot: FramingShot, scene: Scene) -> list[Diagnostic]:
+    faults: list[Diagnostic] = []
+    for i, s in enumerate(shot.subjects):
+        view, size = s.view or ViewSpec(), s.size if s.size is not None or i else shot.size
+        said = dict(zip(WHAT, (s.frame, size, *view.angles), strict=True))
+        known = frozenset(what for what, value in said.items() if value is not None)
+        faults += setpoint_faults(
+            s.setpoints, scene, (s.target, known), shot.timing.duration, "subjects", i, "setpoints"
+        )
+    return faults
 
 
 def _twice(shot: FramingShot, scene: Scene) -> list[Diagnostic]:

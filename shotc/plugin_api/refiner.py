@@ -42,8 +42,9 @@ from shotc.ir.path import (
 )
 from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pictures
 from shotc.ir.sampling import projected, seen
+from shotc.ir.setpoints import Asked
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clock.aims import CameraTask, aims_at, camera_task_of
+from shotc.planning.clock.aims import CameraTask, aims_at, camera_task_of, wanted_places
 from shotc.planning.clock.bounds import Bound, bounds_of
 from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock
@@ -78,6 +79,7 @@ __all__ = [
     "UNWATCHED",
     "AngleTask",
     "Array",
+    "Asked",
     "BodyShape",
     "Bound",
     "BoxShape",
@@ -159,6 +161,7 @@ __all__ = [
     "surroundings",
     "turn",
     "viewpoint",
+    "wanted_places",
     "with_camera",
     "with_need",
     "within",

@@ -9,11 +9,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import yaw_of
 from shotc.ir.mission import Drone, MissionIR, Subject
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.phases import Phase
+from shotc.ir.setpoints import Asked
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.plugin_api.replanner import (
@@ -112,7 +113,7 @@ class Composed:
         self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
     ) -> FramingSituation:
         """Return what is known of one run; arguments as of ``Chased``."""
-        filmed = {each.target: each for each in self.subjects}
+        filmed = {each.target: self._asked(each, stages) for each in self.subjects}
         wanted = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
         bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
         return FramingSituation(
@@ -126,6 +127,10 @@ class Composed:
             ),
             traffic=of.traffic,
         )
+
+    def _asked(self, subject: Subject, stages: Array) -> tuple[Asked, ...]:
+        """Return how a subject is to appear at the stages."""
+        return tuple(subject.asked(t - self.phase.start) for t in stages.tolist())
 
 
 Anew = Chased | Composed
@@ -198,7 +203,7 @@ def _filmed(
     mission: MissionIR,
     drone: Drone,
     target: Target,
-    subject: Subject | None,
+    asked: tuple[Asked, ...] | None,
     at: tuple[Array, Moment, Mapping[str, Array]],
 ) -> FilmedSubject:
     stages, of, wanted = at
@@ -209,17 +214,20 @@ def _filmed(
         centre=points,
         semi_axes=(target.radius + beside, target.radius + beside, target.height / 2 + beside),
         diameter=target.height,
-        wanted=None if subject is None else _appearance(subject, wanted.get(target.name), len(stages)),
+        wanted=None if asked is None else _appearance(asked, wanted.get(target.name)),
     )
 
 
-def _appearance(subject: Subject, uv: Array | None, count: int) -> Appearance:
-    """Return how a subject is to appear; a view with a free angle is free."""
+def _appearance(asked: tuple[Asked, ...], uv: Array | None) -> Appearance:
+    """Return how a subject is to appear: place and size now, the view at every stage.
+
+    A view with a free angle is free.
+    """
     place = None if uv is None or np.isnan(uv).any() else (float(uv[0]), float(uv[1]))
-    azimuth, elevation = subject.view or (None, None)
-    view = None
-    if azimuth is not None and elevation is not None:
-        yaw = yaw_of(azimuth)
-        way = [cos(elevation) * cos(yaw), cos(elevation) * sin(yaw), sin(elevation)]
-        view = np.tile(way, (count, 1))
-    return Appearance(place, subject.size, view)
+    ways = [viewpoint.direction(*view) for view in map(_both, asked) if view is not None]
+    return Appearance(place, asked[0].size, np.array(ways) if ways else None)
+
+
+def _both(asked: Asked) -> tuple[float, float] | None:
+    azimuth, elevation = asked.view or (None, None)
+    return None if azimuth is None or elevation is None else (azimuth, elevation)

@@ -100,7 +100,7 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
     of = subject(CORNER)
     framed = (of.framed[0]._replace(**asked), of.framed[1])
     centres = np.array([[[1.0, 2.0, 0.9], [4.0, 3.0, 0.9]]])
-    rows = pictured(of.mission, framed, centres, np.zeros(1))[0]
+    rows = pictured(of.mission, framed, centres, np.zeros(1), 0.0)[0]
     eye, aim, one, lens = (ca.SX.sym("q", n) for n in (3, 2, picture.SUBJECT, 2))
     term = ca.Function("term", [one, eye, aim, lens], [picture.residuals(one, eye, (aim[0], aim[1]), lens)])
     half = tan(of.drone.hfov / 2)
@@ -123,7 +123,7 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
 def test_a_subject_behind_the_camera_has_a_finite_cost_that_falls_as_the_camera_turns_to_it() -> None:
     of = subject(CORNER)
     centres = np.array([[[0.0, 10.0, 0.9], [1.0, 10.0, 0.9]]])
-    row = pictured(of.mission, of.framed, centres, np.zeros(1))[0, 0]
+    row = pictured(of.mission, of.framed, centres, np.zeros(1), 0.0)[0, 0]
     aim = ca.SX.sym("aim", 2)
     value = picture.picture(ca.DM(row), ca.DM([0.0, 0.0, 2.0]), (aim[0], aim[1]), ca.DM([0.7, 0.4]))
     cost = ca.Function("cost", [aim], [value, ca.gradient(value, aim), ca.hessian(value, aim)[0]])

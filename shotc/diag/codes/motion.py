@@ -318,6 +318,23 @@ CODES: tuple[CodeInfo, ...] = (
         "say by how much each subject is off. `require` holds the plan to what matters.",
         ("size: 0.3}", "size: 0.3, view: {azimuth: 270 deg}}"),
     ),
+    _framing(
+        36,
+        "setpoint-without-start",
+        "a setpoint of a framing changes nothing, or something that nothing says at first",
+        "A setpoint says how a subject appears from a time of the shot on: its place on screen, its size, its view. "
+        "What it changes is written beside the target, too, as it is when the shot begins: the change goes from "
+        "there to the setpoint.",
+        ("size: 0.3}", "size: 0.3, setpoints: [{time: 5, view: {azimuth: 90 deg}}]}"),
+    ),
+    _framing(
+        37,
+        "setpoint-out-of-time",
+        "setpoints of a framing are not in the order of their times, or come after its end",
+        "The `time` of a setpoint counts from the shot's start. Setpoints are written in the order of their times, "
+        "each later than the one before it, and none later than the duration.",
+        ("size: 0.3}", "size: 0.3, setpoints: [{time: 15, size: 0.4}]}"),
+    ),
     slip(
         "M035",
         "size-not-met",

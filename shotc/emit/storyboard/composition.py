@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from shotc.ir.keyframes import PlacedShot
+from shotc.ir.keyframes import PlacedShot, PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.spec.compositions import NAMED_POINTS
@@ -32,14 +32,22 @@ def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
     shot = placed.shot
     if not placed.keyframes:
         return [
-            (subject.target, written.composition, subject.reference)
+            (subject.target, composition, place)
             for subject, written in zip(placed.subjects, shot.subjects, strict=True)
+            for composition, place in _in_turn(written.composition, subject)
         ]
     return [
         (keyframe.target, written.composition, keyframe.reference)
         for keyframe, written in zip(placed.keyframes, shot.keyframes, strict=True)
         if keyframe.target is not None
     ]
+
+
+def _in_turn(composition: Composition, subject: PlacedSubject) -> list[tuple[Composition, Vec2 | None]]:
+    """Return a subject's composition and place, then those places of its setpoints that are others."""
+    first = (composition, subject.reference)
+    later = [setpoint.place for setpoint in subject.setpoints if setpoint.place is not None]
+    return [first, *((Composition(_name_of(place), (place,)), place) for place in later)]
 
 
 def _phrase(name: str, flown: list[str]) -> str:
@@ -52,8 +60,13 @@ def _place(composition: Composition, reference: Vec2 | None) -> str:
         return ""
     if not any(_same(point, reference) for point in composition.points):
         return "elsewhere"
-    named = (name for name, point in NAMED_POINTS.items() if _same(point, reference))
-    return next(named, "[{:.3g}, {:.3g}]".format(*reference))
+    return _name_of(reference)
+
+
+def _name_of(place: Vec2) -> str:
+    """Return a place on screen as a mission would write it."""
+    named = (name for name, point in NAMED_POINTS.items() if _same(point, place))
+    return next(named, "[{:.3g}, {:.3g}]".format(*place))
 
 
 def _same(a: Vec2, b: Vec2) -> bool:

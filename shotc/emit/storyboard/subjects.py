@@ -98,7 +98,12 @@ def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:
 def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
     if shot.keyframes:
         return shot.keyframes[keyframe].composition
-    own = (subject.composition for subject in shot.subjects if subject.target == target)
+    # Where a subject goes from place to place, lines for one of them would mislead.
+    own = (
+        subject.composition
+        for subject in shot.subjects
+        if subject.target == target and all(setpoint.place is None for setpoint in subject.setpoints)
+    )
     return next(own, Composition("none"))
 
 

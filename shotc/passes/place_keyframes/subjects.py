@@ -31,7 +31,11 @@ def place_subjects(
     diagnostics: list[Diagnostic] = []
     for subject in shot.subjects:
         reference, warnings = _reference(mission, shot, subject)
-        placed.append(PlacedSubject(subject.target, reference, subject.size, subject.view, subject.path))
+        placed.append(
+            PlacedSubject(
+                subject.target, reference, subject.size, subject.view, subject.path, subject.setpoints
+            )
+        )
         diagnostics += warnings
     return tuple(placed), tuple(diagnostics)
 
@@ -42,13 +46,12 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
         return None, []
     if composition.keep:
         return MIDDLE, []
-    setting = setting_at(mission, shot, subject.target)
     if shot.ideal is not None and shot.ideal.framed:
         # Where it stands is settled, and the camera goes where it has its place.
-        settled = composition.points[0]
-        whole = subject.size is None or subject.size <= 1.0
-        cropped = len(shot.subjects) == 1 and whole and setting.slack(settled) < -TOUCH_M
-        return settled, [_cropped(mission, shot, subject, settled, None)] if cropped else []
+        cropped = _cropped_at(mission, shot, subject) if len(shot.subjects) == 1 else None
+        warnings = [] if cropped is None else [_cropped(mission, shot, subject, cropped, None)]
+        return composition.points[0], warnings
+    setting = setting_at(mission, shot, subject.target)
     if subject.size is not None and subject.size > 1.0:
         # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
         setting = setting._replace(shape=POINT)
@@ -59,6 +62,21 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
     wanted = _nearest_of_all(setting, composition)
     told = _cropped(mission, shot, subject, wanted, instead)
     return instead or wanted, [told._replace(help=_whole(mission, shot, setting, composition) or told.help)]
+
+
+def _cropped_at(mission: MissionIR, shot: Shot, subject: Subject) -> Vec2 | None:
+    """Return a place on screen at which the one subject of a framing is cropped; None where it is whole."""
+    times = [setpoint.time for setpoint in subject.setpoints]
+    for time in [0.0, *times] if times else [_half(shot)]:
+        asked = subject.asked(time)
+        whole, place = asked.size is None or asked.size <= 1.0, asked.place or MIDDLE
+        if whole and setting_at(mission, shot, subject.target, time).slack(place) < -TOUCH_M:
+            return place
+    return None
+
+
+def _half(shot: Shot) -> float:
+    return 0.5 * (shot.timing.duration or 0.0)
 
 
 def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Composition) -> str:
@@ -74,10 +92,13 @@ def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Compos
     return f"film it from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
 
 
-def setting_at(mission: MissionIR, shot: Shot, target: str) -> Setting:
-    """Return what the camera sees of a target half way through a shot, at its ideal place."""
-    start, duration = first_start(mission, shot), shot.timing.duration or 0.0
-    t = start + 0.5 * duration
+def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None = None) -> Setting:
+    """Return what the camera sees of a target at its ideal place.
+
+    time : of the shot, seconds; half way through it if None
+    """
+    start = first_start(mission, shot)
+    t = start + (_half(shot) if time is None else time)
     drone, subject = mission.drone(shot.drone), mission.target(target)
     eye, centre = ideal_place(mission, shot, start, t), subject.at(t)
     x, y, z = (c - e for c, e in zip(centre, eye, strict=True))

@@ -74,9 +74,8 @@ def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) 
         missing += float((~framed(flight.track, shot.id, subject.target, t)).sum())
         if subject.reference is None:
             continue
-        away = np.linalg.norm(
-            references(flight.track, shot.id, subject.target, t) - subject.reference, axis=1
-        )
+        wanted = np.array([subject.asked(float(u) - phase.start).place for u in t], dtype=np.float64)
+        away = np.linalg.norm(references(flight.track, shot.id, subject.target, t) - wanted, axis=1)
         away = np.where(np.isnan(away), np.inf, away)
         k = int(np.argmax(away))
         if away[k] > off:

@@ -20,12 +20,14 @@ class CameraTask:
     """A drone that frames subjects, the first one foremost; none where it looks where it goes.
 
     keyed : what its camera does instead, where keyframes tell it
+    start : mission time of the first frame, from which the times of setpoints count
     """
 
     mission: MissionIR
     drone: Drone
     subjects: tuple[PlacedSubject, ...]
     keyed: Keyed | None = None
+    start: float = 0.0
 
     @property
     def watches(self) -> bool:
@@ -39,7 +41,14 @@ class CameraTask:
 
 def camera_task_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> CameraTask:
     """Return who films a shot that is placed for its start, seconds."""
-    return CameraTask(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start))
+    return CameraTask(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start), start)
+
+
+def wanted_places(subject: PlacedSubject, start: float, times: Array) -> Array:
+    """Return where on screen a subject is to be at mission times (M,), the middle if nowhere, (M, 2)."""
+    if not subject.setpoints:
+        return np.tile(np.array(subject.reference or (0.0, 0.0)), (len(times), 1))
+    return np.array([subject.asked(float(t) - start).place or (0.0, 0.0) for t in times])
 
 
 ROUNDS = 12  # of Gauss and Newton, from a good first guess
@@ -57,15 +66,15 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     """
     if camera_task.keyed is not None:
         return camera_task.keyed.aims(times, places)
-    mission, drone, subjects = camera_task.mission, camera_task.drone, camera_task.subjects
+    drone, subjects = camera_task.drone, camera_task.subjects
     placed = [s for s in subjects if s.reference is not None] or list(subjects[:1])
-    each = np.stack([_aim(mission, drone, s, times, places) for s in placed])
+    each = np.stack([_aim(camera_task, s, times, places) for s in placed])
     if len(placed) == 1:
         return np.asarray(each[0])
     yaw = np.arctan2(np.sin(each[:, :, 0]).mean(axis=0), np.cos(each[:, :, 0]).mean(axis=0))
     angles = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
-    offsets = np.stack([_centres(mission, s, times) - places for s in placed])
-    wanted = np.array([s.reference or (0.0, 0.0) for s in placed])
+    offsets = np.stack([_centres(camera_task.mission, s, times) - places for s in placed])
+    wanted = np.stack([wanted_places(s, camera_task.start, times) for s in placed])
     for _ in range(ROUNDS):
         here = _errors(drone, offsets, wanted, angles)
         slopes = np.stack(
@@ -81,16 +90,17 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     return angles
 
 
-def _aim(mission: MissionIR, drone: Drone, subject: PlacedSubject, times: Array, places: Array) -> Array:
+def _aim(camera_task: CameraTask, subject: PlacedSubject, times: Array, places: Array) -> Array:
     """Return the aim at one subject, shape (M, 2); where no camera has it there, that of the time before.
 
     ``geom.camera.aim_at`` for many times at once.
     """
-    offset = _centres(mission, subject, times) - places
+    drone = camera_task.drone
+    offset = _centres(camera_task.mission, subject, times) - places
     half = np.tan(drone.hfov / 2)
-    u, v = subject.reference or (0.0, 0.0)
-    ray = np.array([u * half, v * half / drone.aspect, 1.0])  # right, up, forward
-    right, up, forward = ray / np.linalg.norm(ray)
+    u, v = wanted_places(subject, camera_task.start, times).T
+    ray = np.stack([u * half, v * half / drone.aspect, np.ones(len(times))])  # right, up, forward
+    right, up, forward = ray / np.linalg.norm(ray, axis=0)
     length = np.linalg.norm(offset, axis=1)
     reach, wanted = np.hypot(up, forward), offset[:, 2] / np.maximum(length, 1e-300)
     lean = np.arctan2(up, forward)
@@ -124,7 +134,7 @@ def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
 
 
 def _errors(drone: Drone, offsets: Array, wanted: Array, aim: Array) -> Array:
-    """Return how far subjects are from their places on screen, shape (M, 2 K)."""
+    """Return how far subjects are from their places on screen, shape (M, 2 K); wanted : (K, M, 2)."""
     half = np.tan(drone.hfov / 2)
     yaw, pitch = aim.T
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)
@@ -133,5 +143,6 @@ def _errors(drone: Drone, offsets: Array, wanted: Array, aim: Array) -> Array:
         x, y, z = offset.T
         right, down, forward = camera.to_camera((x, y, z))
         forward = np.maximum(forward, 0.1 * np.linalg.norm(offset, axis=1))
-        found += [right / (forward * half) - uv[0], -down / (forward * camera.half_height) - uv[1]]
+        u, v = uv.T
+        found += [right / (forward * half) - u, -down / (forward * camera.half_height) - v]
     return np.stack(found, axis=1)

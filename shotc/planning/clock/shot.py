@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +12,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.sampling import worst_of_runs
 from shotc.geom.solid_arrays.points import distances
+from shotc.geom.vec import Vec2
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import Drone, Shot
@@ -17,6 +20,7 @@ from shotc.ir.owners import Owner
 from shotc.ir.path import LIMITS, SIGHT, ClockDeviation, ClockLeg
 from shotc.ir.phases import Reference
 from shotc.ir.preference import noted
+from shotc.ir.setpoints import places_asked
 from shotc.planning.clock.aims import CameraTask, camera_task_of
 from shotc.planning.clock.between import lacking_each
 from shotc.planning.clock.bounds import bounds_of
@@ -41,6 +45,7 @@ NOTICE_M = 0.5  # metres off the ideal that are worth telling
 LEFT_M = 0.1  # metres off that belong to a stretch worth telling
 LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
 ON_PLACE_M = 1e-3  # metres
+SAME_S = 1e-6  # seconds
 SETTLES = 2  # times that a place aside is looked for
 STEP_S = 0.1  # seconds between the places that are compared with the ideal
 PICTURES = "the pictures of other drones"
@@ -287,9 +292,23 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[Reference, .
     for subject in placed.subjects:
         wanted = None
         if subject.reference is not None:
-            wanted = Piecewise(np.array([start, end]), np.tile(np.array(subject.reference), (1, 6, 1)))
+            wanted = _place_curve(places_asked(subject.reference, subject.setpoints), start, end)
         spans.append(Reference(placed.shot.id, subject.target, start, end, wanted))
     return tuple(spans)
+
+
+def _place_curve(known: Sequence[tuple[float, Vec2]], start: float, end: float) -> Piecewise:
+    """Return the curve of a subject's place on screen, from the times of its shot at which it is known.
+
+    Three equal control points at either end: the fifth degree that rests there, as ``ir.setpoints`` has it.
+    """
+    places = [place for _, place in known]
+    breaks = [start + t for t, _ in known]
+    pieces = [[a] * 3 + [b] * 3 for a, b in pairwise(places)]
+    if end - breaks[-1] > SAME_S:
+        breaks.append(end)
+        pieces.append([places[-1]] * 6)
+    return Piecewise(np.array([*breaks[:-1], end]), np.array(pieces, dtype=np.float64))
 
 
 def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, ...]:

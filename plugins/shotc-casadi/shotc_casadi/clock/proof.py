@@ -16,6 +16,7 @@ from shotc.plugin_api.refiner import (
     Surroundings,
     aim_at,
     aims_at,
+    wanted_places,
     wrapped,
 )
 from shotc_casadi.clock.references import ClockSubject
@@ -67,12 +68,13 @@ def astray(subject: ClockSubject, leg: ClockLeg) -> float:
         return _off(camera_task, leg)
     if watched is None:
         return 0.0
-    target, uv = subject.mission.target(watched.target), watched.reference or (0.0, 0.0)
+    target = subject.mission.target(watched.target)
     worst = 0.0
     times = np.linspace(leg.start, leg.end, AIMS)
-    for t, q in zip(times, leg.curve(times), strict=True):
+    places = wanted_places(watched, leg.start, times)
+    for t, q, (u, v) in zip(times, leg.curve(times), places.tolist(), strict=True):
         ray = np.array(target.at(float(t))) - q[:3]
-        aim = aim_at((ray[0], ray[1], ray[2]), uv, drone.hfov, drone.aspect, q[CAM_YAW])
+        aim = aim_at((ray[0], ray[1], ray[2]), (u, v), drone.hfov, drone.aspect, q[CAM_YAW])
         if aim is not None:
             turned = wrapped(q[CAM_YAW] - aim[0])
             worst = max(worst, float(np.hypot(np.cos(aim[1]) * turned, q[CAM_PITCH] - aim[1])))

@@ -137,7 +137,9 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
     keyed = subject.camera_task.keyed is not None
     placed = shot.ideal is not None and not keyed and (shot.ideal.placed or shot.ideal.framed)
     centres, reach = seen_at(subject, t), _reach(subject, t, ideal)
-    shown = pictured(subject.mission, subject.framed if subject.together else (), centres, t)
+    shown = pictured(
+        subject.mission, subject.framed if subject.together else (), centres, t, subject.leg.start
+    )
     if subject.held_whole:
         shape = shapes(subject.mission.target(subject.framed[0].target), t)
         shown = where_it_fits(shown, shape, subject.drone, (ideal, reach))

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from shotc.plugin_api import MissionIR, Piecewise
+from shotc.plugin_api import MissionIR, Piecewise, Target
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
     Array,
+    Asked,
     Drone,
     PlacedSubject,
     TargetShape,
@@ -27,10 +28,13 @@ WHOLE = sum(FIELDS[name] for name in tuple(FIELDS)[: tuple(FIELDS).index("whole"
 FARTHEST_M = 1e6  # metres that count where a camera may go back as far as it takes
 
 
-def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array, t: Array) -> Array:
+def pictured(
+    mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Array, t: Array, start: float
+) -> Array:
     """Return the parameters of subjects in a picture at times (M,), shape (M, J, picture.width).
 
-    centres : of theirs, (M, J, 3). What is free weighs as in ``viewpoint``, as faintly as the ideal has it.
+    centres : of theirs, (M, J, 3); start : mission time of the first frame
+    What is free weighs as in ``viewpoint``, as faintly as the ideal has it.
     """
     sized = any(s.size is not None for s in subjects)
     targets = [mission.target(s.target) for s in subjects]
@@ -38,14 +42,16 @@ def pictured(mission: MissionIR, subjects: Sequence[PlacedSubject], centres: Arr
     rows = np.zeros((len(centres), len(subjects), width(extents)))
     rows[:, :, :3] = centres
     for j, (subject, target) in enumerate(zip(subjects, targets, strict=True)):
-        rows[:, j, 3:SUBJECT] = _asked(mission, subject, sized)
+        if subject.setpoints:
+            rows[:, j, 3:SUBJECT] = [_asked(target, subject.asked(float(u) - start), sized) for u in t]
+        else:
+            rows[:, j, 3:SUBJECT] = _asked(target, subject.asked(0.0), sized)
         rows[:, j, SUBJECT:] = extents_of(shapes(target, t), extents, len(t)).reshape(len(t), -1)
     return rows
 
 
-def _asked(mission: MissionIR, subject: PlacedSubject, sized: bool) -> list[float]:
+def _asked(target: Target, subject: Asked, sized: bool) -> list[float]:
     """Return all parameters of a subject but its centre, in the order of picture.FIELDS."""
-    target = mission.target(subject.target)
     azimuth, elevation = subject.view or (None, None)
     both = azimuth is not None and elevation is not None
     toward = viewpoint.direction(azimuth or 0.0, (elevation or 0.0) if both else 0.0)
@@ -53,11 +59,11 @@ def _asked(mission: MissionIR, subject: PlacedSubject, sized: bool) -> list[floa
     return [
         target.radius,
         target.height,
-        *(subject.reference or (0.0, 0.0)),
+        *(subject.place or (0.0, 0.0)),
         viewpoint.WHOLE_SIZE if subject.size is None else subject.size,
         *toward,
         elevation or 0.0,
-        viewpoint.FAINT_WEIGHT if subject.reference is None else 1.0,
+        viewpoint.FAINT_WEIGHT if subject.place is None else 1.0,
         silent if subject.size is None else 1.0,
         viewpoint.HARD_WEIGHT if subject.size is None or subject.size <= 1.0 else 0.0,
         float(both),

@@ -7,7 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api.refiner import ClockLeg, DroneTrajectory, coverage, flights, others_of, projected
+from shotc.plugin_api.refiner import (
+    ClockLeg,
+    DroneTrajectory,
+    coverage,
+    flights,
+    others_of,
+    projected,
+    wanted_places,
+)
 from shotc_casadi.clock.occluders import occluders_of
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
@@ -71,8 +79,9 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
 
 
 def _cropped_on_purpose(subject: ClockSubject) -> bool:
-    size = subject.framed[0].size
-    return size is not None and size > 1.0
+    one = subject.framed[0]
+    sizes = (one.size, *(setpoint.size for setpoint in one.setpoints))
+    return any(size is not None and size > 1.0 for size in sizes)
 
 
 def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
@@ -109,7 +118,7 @@ def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     others = others_of(tuple(flights(subject.path).values()), subject.drone.name)
     frames = projected(subject.mission, flight, one.target, t)
     covered = coverage(subject.mission, others, one.target, leg.curve(t)[:, :3], t).share
-    u, v = one.reference or (0.0, 0.0)
+    u, v = wanted_places(one, leg.start, t).T
     off = np.nan_to_num(np.hypot(frames.u - u, frames.v - v), nan=np.inf)
     return Shown(
         free_of(covered),

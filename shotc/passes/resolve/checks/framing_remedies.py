@@ -9,6 +9,7 @@ from shotc.geom.vec import Vec3
 from shotc.geom.viewpoint import Wanted, lens_for
 from shotc.ir.framed_scene import lens_of
 from shotc.ir.mission import MissionIR, Shot, Subject
+from shotc.ir.setpoints import Setpoint
 from shotc.rounding import away, down
 
 Fits = Callable[[MissionIR, Shot], bool]
@@ -112,6 +113,22 @@ def for_azimuth(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) ->
     view = None if elevation is None else (None, elevation)
     if fits(mission, _with(shot, subject, subject._replace(view=view))):
         yield "leave `azimuth` out"
+
+
+def as_at(
+    shot: Shot, subject: Subject, time: float, writes: Callable[[Setpoint], object]
+) -> tuple[Shot, Subject]:
+    """Return a shot in which a subject appears all along as it does at one time, and that subject.
+
+    writes : what of a setpoint is looked for, None where it does not write that; the path of the subject is
+        that of the last setpoint up to the time that does, or its own
+    """
+    asked, composition = subject.asked(time), subject.composition
+    if asked.place is not None:
+        composition = composition._replace(points=(asked.place,))
+    own = [s.path for s in subject.setpoints if s.time <= time and writes(s) is not None]
+    still = Subject(subject.target, composition, asked.size, asked.view, (own or [subject.path])[-1])
+    return _with(shot, subject, still), still
 
 
 def _with(shot: Shot, old: Subject, new: Subject) -> Shot:

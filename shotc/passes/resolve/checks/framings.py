@@ -17,6 +17,7 @@ from shotc.ir.mission import MissionIR, Shot, Subject
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.framing import beyond_gimbal
 from shotc.passes.resolve.checks.framing_remedies import (
+    as_at,
     for_azimuth,
     for_elevation,
     for_free_elevation,
@@ -41,7 +42,7 @@ def check_course(mission: MissionIR, course: Course, *, advise: bool = True) -> 
     advise : whether to try what would help; a remedy is tried without
     """
     shot = course.shot
-    near = [fault for s in shot.subjects if (fault := _too_large(mission, shot, s, advise)) is not None]
+    near = [fault for s in shot.subjects if (fault := _never_so_large(mission, shot, s, advise)) is not None]
     yield from near
     if near:
         return
@@ -63,13 +64,22 @@ def _either(*remedies: Iterator[str], otherwise: str) -> str:
     return ", or ".join(text for remedy in remedies for text in remedy) or otherwise
 
 
+def _never_so_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
+    """Tell the first size of a subject, at the start or at a setpoint, that it cannot have."""
+    led = (as_at(shot, subject, s.time, lambda setpoint: setpoint.size) for s in subject.setpoints)
+    shots = ((shot, subject), *led)
+    found = (_too_large(mission, then, one, advise) for then, one in shots)
+    return next((fault for fault in found if fault is not None), None)
+
+
 def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
     """Tell a size that the subject has not even from as near as its clearance allows."""
     if subject.size is None:
         return None
     drone = mission.drone(shot.drone)
     near = mission.rules.beside_target(drone.radius)
-    wanted = wanted_at(mission, subject, first_start(mission, shot))
+    start = first_start(mission, shot)
+    wanted = wanted_at(mission, subject, start, start)
     toward = direction(wanted.azimuth or 0.0, wanted.elevation or 0.0)
     least = nearest(wanted, toward, near)
     x, y, z = (c * least for c in toward)
@@ -122,9 +132,10 @@ def _blocked(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | N
 
 
 def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
-    shot, subject = course.shot, course.shot.subjects[0]
-    need = mission.rules.over_ground(mission.drone(shot.drone).radius)
-    z = min(pose[2] - mission.ground(pose[0], pose[1]) for pose in course.poses)
+    need = mission.rules.over_ground(mission.drone(course.shot.drone).radius)
+    heights = [pose[2] - mission.ground(pose[0], pose[1]) for pose in course.poses]
+    z = min(heights)
+    shot, subject = _alone_at(course, heights.index(z))
     if z >= need - ROUNDING:
         return None
     where = f"{-z:.2f} m underground" if z < 0 else f"{z:.2f} m over the ground"
@@ -147,14 +158,24 @@ def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | N
 
 
 def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
-    shot, drone = course.shot, mission.drone(course.shot.drone)
+    drone = mission.drone(course.shot.drone)
     pitches = [pose[4] for pose in course.poses]
     beyond = [p for p in (min(pitches), max(pitches)) if not drone.gimbal.reaches(p)]
     if not beyond:
         return None
-    path = (*shot.subjects[0].path[:-1], "view", "elevation")
+    shot, subject = _alone_at(course, pitches.index(beyond[0]))
+    path = (*subject.path[:-1], "view", "elevation")
     known = path if path in mission.origins.values else (*shot.path, "kind")
     return beyond_gimbal(mission, drone, known, beyond[0])
+
+
+def _alone_at(course: Course, i: int) -> tuple[Shot, Subject]:
+    """Return a framing of one subject as it is asked at a knot, where the nearest setpoint has it."""
+    subject, time = course.shot.subjects[0], course.times[i] - course.times[0]
+    if not subject.setpoints:
+        return course.shot, subject
+    nearest = min((0.0, *(s.time for s in subject.setpoints)), key=lambda t: abs(t - time))
+    return as_at(course.shot, subject, nearest, lambda s: None if s.view is None else s.view[1])
 
 
 def _without_room(mission: MissionIR, course: Course, advise: bool) -> Diagnostic:
@@ -228,7 +249,7 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
     for subject in shot.subjects:
         seen = []
         for t, pose in zip(course.times, course.poses, strict=True):
-            wanted = wanted_at(mission, subject, t)
+            wanted = wanted_at(mission, subject, course.times[0], t)
             found = judged(pose, lens, wanted)
             if found is not None:
                 seen.append((t, found, wanted))
@@ -286,14 +307,15 @@ def _apart(
             (f"at t = {t:.1f} s it reaches {worst.out:.2f} of half a frame out of it, at best",),
             "film it in another shot, or take a wider lens",
         )
-    if subject.size is None:
+    sized = [(found[1].size / found[2].size, *found) for found in seen if found[2].size is not None]
+    if not sized:
         return None
-    t, small, _ = min(seen, key=lambda found: found[1].size)
-    if small.size * APART >= subject.size:
+    share, t, small, wanted = min(sized, key=lambda found: found[0])
+    if share * APART >= 1.0 or wanted.size is None:
         return None
     return Diagnostic(
         "M033",
-        f"`{subject.target}` cannot be {_share(subject.size)} of the frame high in one picture with {others}",
+        f"`{subject.target}` cannot be {_share(wanted.size)} of the frame high in one picture with {others}",
         (mission.origins.value(shot_key(mission, shot, subject, "size")),),
         (f"at t = {t:.1f} s its size is {_share(small.size)} where all are in the frame",),
         f"ask for {_share(small.size)} or less, or film them in two shots",
@@ -307,12 +329,12 @@ def _compromise(subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]) ->
     if worst.screen > OFF_PLACE and wanted.uv is not None:
         place = f"({wanted.uv[0]:.2f}, {wanted.uv[1]:.2f})"
         notes.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
-    if subject.size is not None:
-        asked = subject.size
-        t, worst, _ = max(seen, key=lambda found: abs(found[1].size / asked - 1.0))
-        if abs(worst.size / asked - 1.0) > OFF_SIZE:
+    sized = [(abs(found[1].size / found[2].size - 1.0), *found) for found in seen if found[2].size]
+    if sized:
+        off, t, worst, wanted = max(sized, key=lambda found: found[0])
+        if off > OFF_SIZE and wanted.size:
             notes.append(
-                f"{_share(worst.size)} of the frame high instead of {_share(asked)} at t = {t:.1f} s"
+                f"{_share(worst.size)} of the frame high instead of {_share(wanted.size)} at t = {t:.1f} s"
             )
     t, worst, _ = max(seen, key=lambda found: found[1].angle)
     if worst.angle > OFF_VIEW:

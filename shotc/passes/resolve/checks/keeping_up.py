@@ -11,8 +11,10 @@ from collections.abc import Callable, Iterator
 from math import dist, hypot, inf
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start, known_start
+from shotc.ir.framed import course_of
 from shotc.ir.ideal import TO_CATCH_UP, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import Drone, MissionIR, Shot
@@ -44,6 +46,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
         *_longer(mission, shot, worst / limit),
+        *_less_at_once(mission, shot, worst / limit),
         *_straight(mission, shot, limit),
         f"raise `{_faster(mission, shot, worst, starts[0])}` of `{drone.name}` if it flies that",
         *_slower(mission, shot),
@@ -117,7 +120,7 @@ def _begins(mission: MissionIR, shot: Shot) -> tuple[float, ...]:
 def _is_even(mission: MissionIR, shot: Shot) -> bool:
     """Tell whether the place moves alike whenever the shot begins: in the world, or by an even target."""
     if shot.ideal is None or shot.ideal.framed:
-        return False
+        return shot.ideal is not None and not _tracks(mission, shot)
     if is_keyed(shot):
         tracks = {mission.target(name).track for name in carriers(shot)} - {None}
         along = all(k.beside is not None for k in shot.keyframes)
@@ -189,11 +192,10 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
     """Yield a longer duration, where the shot moves about its target or along a path of its own."""
     if shot.ideal is None or len({p for _, p in shot.ideal.points}) < 2:
         return
-    if any(k.time is not None for k in shot.keyframes[1:]):
+    if any(k.time is not None for k in shot.keyframes[1:]) or any(s.setpoints for s in shot.subjects):
         return
     duration, start = shot.timing.duration or 0.0, first_start(mission, shot)
-    tracks = (mission.target(name).track for name in carriers(shot))
-    track_end = min((track.until for track in tracks if track is not None), default=inf)
+    track_end = min((track.until for track in _tracks(mission, shot)), default=inf)
     for more in MORE:
         seconds = up(duration * share * more, 1)
         longer = shot._replace(timing=shot.timing._replace(duration=seconds))
@@ -202,6 +204,39 @@ def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
         ):
             yield f"give it `duration: {seconds:.1f} s`"
             return
+
+
+def _less_at_once(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
+    """Yield times for the setpoints of a framing that are farther apart, in a longer shot."""
+    if not any(s.setpoints for s in shot.subjects):
+        return
+    start, limit = first_start(mission, shot), mission.drone(shot.drone).limits.speed
+    for more in MORE:
+        longer = _stretched(shot, share * more)
+        ends = start + (longer.timing.duration or 0.0)
+        known = all(ends <= t.until for t in _tracks(mission, shot))
+        if known and _fastest(mission, course_of(mission, longer, start).shot, start)[0] <= limit:
+            times = [s.time for subject in longer.subjects for s in subject.setpoints]
+            apart = ", ".join(f"{time:g} s" for time in dict.fromkeys(times))
+            seconds = f"{longer.timing.duration:g} s"
+            more_time = f"{share * more:.1f} times the time"
+            yield f"give it `duration: {seconds}` and its setpoints {more_time} ({apart})"
+            return
+
+
+def _tracks(mission: MissionIR, shot: Shot) -> list[Track]:
+    tracks = (mission.target(name).track for name in carriers(shot))
+    return [track for track in tracks if track is not None]
+
+
+def _stretched(shot: Shot, times: float) -> Shot:
+    """Return a framing that takes that many times as long, its setpoints that much later."""
+    subjects = tuple(
+        s._replace(setpoints=tuple(p._replace(time=up(p.time * times, 1)) for p in s.setpoints))
+        for s in shot.subjects
+    )
+    timing = shot.timing._replace(duration=up((shot.timing.duration or 0.0) * times, 1))
+    return shot._replace(subjects=subjects, timing=timing)
 
 
 def _straight(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:

@@ -387,7 +387,7 @@ def test_any_framing_that_can_be_had_is_flown(size, azimuth, elevation, uv, dire
     assert ir is not None
     shot, lens = ir.mission.shots[0], lens_of(ir.mission.drones[0])
     for t, pose in zip(*course_of(ir.mission, shot, 15.0)[1:3], strict=True):
-        look = judged(pose, lens, wanted_at(ir.mission, shot.subjects[0], t))
+        look = judged(pose, lens, wanted_at(ir.mission, shot.subjects[0], 15.0, t))
         assert look is not None
         assert look.size == pytest.approx(size, abs=6e-4)
         assert look.screen < 1e-6

@@ -1,0 +1,109 @@
+"""Setpoints: how a subject is to appear at times of its shot, and in between. Plain Python.
+
+What changes goes from one setpoint to the next as a polynomial of fifth degree that rests at both (least
+jerk), so nothing overshoots. Sizes change by their logarithm, evenly as seen on screen, bearings the shorter
+way.
+"""
+
+from collections.abc import Callable, Sequence
+from math import exp, log, remainder, tau
+from typing import NamedTuple, TypeVar
+
+from shotc.geom.vec import Vec2
+from shotc.ir.origin import KeyPath
+
+ViewAngles = tuple[float | None, float | None]
+_Value = TypeVar("_Value")
+
+
+class Setpoint(NamedTuple):
+    """How a subject is to appear from a time of its shot on, until the next setpoint.
+
+    time : seconds from the first frame
+    place : (u, v) of its centre; size, view : as in ``mission.Subject``; None changes nothing
+    """
+
+    time: float
+    place: Vec2 | None
+    size: float | None
+    view: ViewAngles | None
+    path: KeyPath
+
+
+class Asked(NamedTuple):
+    """How a subject is to appear at one moment; None is free. place : (u, v) of its centre."""
+
+    place: Vec2 | None
+    size: float | None
+    view: ViewAngles | None
+
+
+def asked_at(first: Asked, setpoints: Sequence[Setpoint], time: float) -> Asked:
+    """Return how a subject is to appear at a time of its shot, seconds; first : at its first frame."""
+    if not setpoints:
+        return first
+    place = None if first.place is None else _place_at(first.place, setpoints, time)
+    size = None if first.size is None else exp(_eased(_sizes(first.size, setpoints), time))
+    if first.view is None:
+        return Asked(place, size, None)
+    azimuth, elevation = first.view
+    if azimuth is not None:
+        azimuth = _eased(_angles(azimuth, setpoints), time)
+    if elevation is not None:
+        elevation = _eased(_changes(elevation, setpoints, _elevation), time)
+    return Asked(place, size, (azimuth, elevation))
+
+
+def places_asked(first: Vec2, setpoints: Sequence[Setpoint]) -> list[tuple[float, Vec2]]:
+    """Return the times at which a subject comes to a place on screen, from 0 on, and these places."""
+    return _changes(first, setpoints, lambda setpoint: setpoint.place)
+
+
+def _place_at(first: Vec2, setpoints: Sequence[Setpoint], time: float) -> Vec2:
+    known = places_asked(first, setpoints)
+    u, v = (_eased([(t, place[k]) for t, place in known], time) for k in range(2))
+    return (u, v)
+
+
+def _sizes(first: float, setpoints: Sequence[Setpoint]) -> list[tuple[float, float]]:
+    return [(t, log(size)) for t, size in _changes(first, setpoints, lambda setpoint: setpoint.size)]
+
+
+def _angles(first: float, setpoints: Sequence[Setpoint]) -> list[tuple[float, float]]:
+    """Return bearings with whole turns added, so that each is the nearest to the one before."""
+    known = _changes(first, setpoints, _azimuth)
+    turned = known[:1]
+    for time, angle in known[1:]:
+        before = turned[-1][1]
+        turned.append((time, before + remainder(angle - before, tau)))
+    return turned
+
+
+def _changes(
+    first: _Value, setpoints: Sequence[Setpoint], of: Callable[[Setpoint], _Value | None]
+) -> list[tuple[float, _Value]]:
+    found = [(0.0, first)]
+    for setpoint in setpoints:
+        value = of(setpoint)
+        if value is not None:
+            found.append((setpoint.time, value))
+    return found
+
+
+def _azimuth(setpoint: Setpoint) -> float | None:
+    return None if setpoint.view is None else setpoint.view[0]
+
+
+def _elevation(setpoint: Setpoint) -> float | None:
+    return None if setpoint.view is None else setpoint.view[1]
+
+
+def _eased(known: Sequence[tuple[float, float]], time: float) -> float:
+    """Return the value at a time; before the first and after the last it stays."""
+    before, value = known[0]
+    for after, next_value in known[1:]:
+        if time < after:
+            x = max(0.0, (time - before) / (after - before))
+            return value + x**3 * (10.0 - 15.0 * x + 6.0 * x * x) * (next_value - value)
+        before, value = after, next_value
+    return value

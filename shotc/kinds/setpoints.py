@@ -1,0 +1,102 @@
+"""Setpoints of a framing: how a subject is to appear later in the shot."""
+
+from collections.abc import Iterator
+
+from pydantic import Field
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.setpoints import Setpoint, ViewAngles
+from shotc.kinds.base import Scene
+from shotc.spec.fields import Angle, Duration, Pitch, ScreenPoint, ShotSize
+from shotc.spec.model import Model
+
+WHAT = {"frame": "place on screen", "size": "size", "azimuth": "bearing", "elevation": "elevation"}
+
+
+class ViewSpec(Model):
+    """The side from which a subject is seen; what is silent is free."""
+
+    azimuth: Angle | None = Field(default=None, description="compass bearing from the subject to the camera")
+    elevation: Pitch | None = Field(default=None, description="how high the camera stands above the subject")
+
+    @property
+    def angles(self) -> ViewAngles:
+        """Azimuth and elevation, rad."""
+        return (self.azimuth, self.elevation)
+
+
+class SetpointSpec(Model):
+    """How a subject is to appear from a time of the shot on; what is silent stays."""
+
+    time: Duration = Field(description="when it appears so, from the shot's start")
+    frame: ScreenPoint | None = Field(default=None, description="where on screen its centre is then")
+    size: ShotSize | None = Field(
+        default=None, description="projected height over frame height then, or the name of a shot size"
+    )
+    view: ViewSpec | None = Field(default=None, description="the side from which it is seen then")
+
+    @property
+    def written(self) -> tuple[tuple[str, ...], ...]:
+        """The key paths below the setpoint of what it changes."""
+        view = self.view or ViewSpec()
+        values = {
+            ("frame",): self.frame,
+            ("size",): self.size,
+            ("view", "azimuth"): view.azimuth,
+            ("view", "elevation"): view.elevation,
+        }
+        return tuple(keys for keys, value in values.items() if value is not None)
+
+
+def setpoints_of(specs: tuple[SetpointSpec, ...], scene: Scene, *path: str | int) -> tuple[Setpoint, ...]:
+    """Return setpoints; path : of their list, below the shot."""
+    return tuple(
+        Setpoint(
+            spec.time,
+            spec.frame,
+            spec.size,
+            None if spec.view is None else spec.view.angles,
+            (*scene.path, *path, k, "time"),
+        )
+        for k, spec in enumerate(specs)
+    )
+
+
+def setpoint_faults(
+    specs: tuple[SetpointSpec, ...],
+    scene: Scene,
+    subject: tuple[str, frozenset[str]],
+    duration: float | None,
+    *path: str | int,
+) -> Iterator[Diagnostic]:
+    """Yield setpoints out of order, after the end of their shot, and those that change what nothing says.
+
+    subject : its name, and which of ``WHAT`` is said of it at first; path : of the list, below the shot
+    """
+    name, known = subject
+    for k, spec in enumerate(specs):
+        if not spec.written:
+            message = f"this setpoint changes nothing of how `{name}` appears"
+            yield scene.fault("M036", message, "give it `frame`, `size` or `view`", *path, k)
+        for keys in spec.written:
+            if keys[-1] not in known:
+                message = f"this setpoint changes the {WHAT[keys[-1]]} of `{name}`, which has none at first"
+                key = keys[0] if len(keys) == 1 else f"view: {{{keys[1]}: ...}}"
+                help_ = f"write `{key}` beside `target`, too: what it is when the shot begins"
+                yield scene.fault("M036", message, help_, *path, k, *keys)
+    for k, spec in enumerate(specs):
+        wrong = _out_of_time(spec.time, specs[k - 1].time if k else 0.0, duration)
+        if wrong is not None:
+            message, note, help_ = wrong
+            yield scene.fault("M037", message, help_, *path, k, "time", notes=(note,))
+
+
+def _out_of_time(time: float, before: float, duration: float | None) -> tuple[str, str, str] | None:
+    """Return what is wrong with the time of a setpoint: message, note, help; before : the last one's."""
+    if time <= before:
+        note = f"it is at {time:g} s, the one before it at {before:g} s"
+        return "the times of setpoints do not rise", note, f"set it later than {before:g} s"
+    if duration is not None and time > duration:
+        note = f"it is at {time:g} s; the shot lasts {duration:g} s"
+        return "a setpoint comes after its shot", note, f"give the shot a duration of {time:g} s or more"
+    return None
