@@ -53,6 +53,8 @@ def _true_track(mission: MissionIR, sources: dict[str, SourceFile], written: str
     if not place:
         raise typer.BadParameter(f"`{written}` names no file; write {name}=FILE", param_hint="--truth")
     path, target = Path(place), mission.target(name)
+    if not path.is_file():
+        raise typer.BadParameter(f"there is no file `{place}`", param_hint="--truth")
     files = Files(mission.origin, mission.origins, Reader(path.parent, mission.origins))
     read = read_recording(path.name, files, target.path)
     if isinstance(read, Diagnostic):

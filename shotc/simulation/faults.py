@@ -85,7 +85,7 @@ def _broken(done: Rehearsed, each: Verdict) -> Diagnostic:
         f"{_words(each, each.worst)} in run {each.run}; {_amount(each, each.limit)} is asked of "
         f"{done.needed} of {total} runs, {each.held} keep it",
         (done.mission.origins.value((*_require(done.mission), each.key)),),
-        tuple(_where(done, each)),
+        tuple(_where(done.run(each.run), each)),
         _help(done, each),
     )
 
@@ -95,13 +95,12 @@ def _touches(done: Rehearsed, each: Verdict) -> Diagnostic:
         "W002",
         f"a drone's body is {at_least(-each.worst)} m into something in run {each.run}",
         tuple(_touched(done, each)),
-        tuple(_where(done, each)),
+        tuple(_where(done.run(each.run), each)),
         "plan with a larger clearance, or fly in less wind",
     )
 
 
-def _where(done: Rehearsed, each: Verdict) -> Iterator[str]:
-    run = next(run for run in done.runs if run.number == each.run)
+def _where(run: Run, each: Verdict) -> Iterator[str]:
     if each.key in ("in_frame", "in_sight", "mean_error"):
         yield from (_picture(run, each),)
     elif each.key == "clearance":
@@ -131,7 +130,7 @@ def _picture(run: Run, each: Verdict) -> str:
 
 def _help(done: Rehearsed, each: Verdict) -> str:
     share = f"{done.needed} of {len(done.runs)} runs keep"
-    if not isfinite(each.kept):
+    if not isfinite(each.kept) or (each.unit == "share" and each.kept <= 0.0):
         return "plan for less wind, or with better receivers: in this many runs the camera looks away"
     better = ""
     if each.key in ("in_frame", "mean_error") and done.conditions.loop == "replay":
@@ -158,8 +157,7 @@ def _amount(each: Verdict, value: float) -> str:
 
 
 def _touched(done: Rehearsed, each: Verdict) -> Iterator[Label]:
-    run = next(run for run in done.runs if run.number == each.run)
-    mission = done.mission
+    run, mission = done.run(each.run), done.mission
     for course in run.courses:
         if course.nearest is not None and course.nearest.distance == each.worst:
             yield mission.origins.value(mission.drone(course.drone).path)

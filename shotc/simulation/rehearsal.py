@@ -78,6 +78,10 @@ class Rehearsed:
         """The worst of the runs."""
         return min(self.runs, key=lambda run: run.merit)
 
+    def run(self, number: int) -> Run:
+        """Return the run of a number."""
+        return next(run for run in self.runs if run.number == number)
+
     @property
     def kept(self) -> bool:
         """Whether enough runs keep all that is asked."""

@@ -8,7 +8,6 @@ high as in the plan. As MAVLink it is the GLOBAL_POSITION_INT of another vehicle
 from __future__ import annotations
 
 import json
-import socket
 from collections.abc import Callable, Iterable
 from math import isfinite
 
@@ -17,11 +16,10 @@ from shotc.geom.vec import Vec3
 from shotc.ir.mission import GeoOrigin
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.messages import GlobalPosition, Place
+from shotc.stream.udp import datagrams, opened
 
 STALE_S = 1.0
 """A target that was heard of longer ago is where the plan has it."""
-LARGEST_DATAGRAM = 4096
-MOST_DATAGRAMS = 200
 FARTHEST_M = 1e5
 """A position farther from the mission's origin is none."""
 Spot = tuple[float, float, float | None]
@@ -41,13 +39,7 @@ class Feed:
         self._origin: Vec3 = (origin.lat_deg, origin.lon_deg, origin.alt)
         self._mavlink = mavlink
         self._spot: Spot | None = None
-        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._socket.setblocking(False)
-        try:
-            self._socket.bind((endpoint.host, endpoint.port))
-        except OSError:
-            self._socket.close()
-            raise
+        self._socket = opened(endpoint)
 
     def close(self) -> None:
         """Stop listening."""
@@ -55,11 +47,7 @@ class Feed:
 
     def listen(self, now: float) -> None:
         """Take in what has come; the last position counts."""
-        for _ in range(MOST_DATAGRAMS):
-            try:
-                data = self._socket.recv(LARGEST_DATAGRAM)
-            except OSError:
-                return
+        for data, _ in datagrams(self._socket):
             for spot in self._spots(data):
                 self._spot, self.seen, self.heard = spot, now, self.heard + 1
 

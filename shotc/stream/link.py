@@ -6,7 +6,6 @@ takes what comes from the first address at which an autopilot is heard, and answ
 
 from __future__ import annotations
 
-import socket
 import struct
 from collections.abc import Callable, Iterator
 from math import cos, nan, sin
@@ -30,13 +29,11 @@ from shotc.stream.messages import (
     Text,
 )
 from shotc.stream.setpoints import Aim, Setpoint
+from shotc.stream.udp import datagrams, opened
 
 STATION, OURSELVES = 255, mavlink.MAV_COMP_ID_MISSIONPLANNER
 """System and component that ground stations have."""
 AUTOPILOT = mavlink.MAV_COMP_ID_AUTOPILOT1
-LARGEST_DATAGRAM = 65536
-MOST_DATAGRAMS = 500
-"""Datagrams that are read at once: whoever floods a port keeps no setpoint waiting."""
 USES_ALL = mavlink.POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE
 ROLL_LOCK, PITCH_LOCK, YAW_LOCK = 4, 8, 16
 INTEGERS = {1: "<B", 2: "<b", 3: "<H", 4: "<h", 5: "<I", 6: "<i"}
@@ -58,14 +55,7 @@ class Link:
         self._known = False
         self._mav = mavlink.MAVLink(None, srcSystem=STATION, srcComponent=OURSELVES)
         self._mav.robust_parsing = True
-        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._socket.setblocking(False)
-        try:
-            if not endpoint.calls:
-                self._socket.bind((endpoint.host, endpoint.port))
-        except OSError:
-            self._socket.close()
-            raise
+        self._socket = opened(endpoint)
 
     def close(self) -> None:
         """Close the socket."""
@@ -77,11 +67,7 @@ class Link:
 
     def receive(self) -> Iterator[Message]:
         """Yield what has come since last time; what is no MAVLink, or of no use, is left out."""
-        for _ in range(MOST_DATAGRAMS):
-            try:
-                data, peer = self._socket.recvfrom(LARGEST_DATAGRAM)
-            except OSError:  # nothing there, or the other side's port is closed
-                return
+        for data, peer in datagrams(self._socket):
             if self._known and peer != self._peer:
                 continue
             yield from self._read(data, peer)
