@@ -15,10 +15,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
+from shotc.geom.framing import hidden as behind_any
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Solid
-from shotc.geom.surface.boards import upright
+from shotc.geom.surface.boards import cells_of, upright
 from shotc.geom.surface.cloud import splats
 from shotc.geom.surface.sight import hidden
 from shotc.geom.surface.tree import Surface, surface_of
@@ -84,6 +85,13 @@ def share_hidden(surface: Surface, eyes: Array, centres: Array, radius: float, h
     """
     boards = upright(eyes, centres, radius, height)
     return np.asarray(hidden(surface, boards, RAYS).mean(axis=(1, 2)))
+
+
+def share_behind(solids: Sequence[Solid], eyes: Array, centres: Array, radius: float, height: float) -> Array:
+    """Return the share that solids hide of such cylinders, by the same rays; as ``share_hidden``."""
+    cells = cells_of(upright(eyes, centres, radius, height), RAYS)
+    behind = behind_any(np.repeat(eyes, RAYS * RAYS, axis=0), cells, solids)
+    return np.asarray(behind.reshape(len(eyes), -1).mean(axis=1))
 
 
 def shares_hidden_by(

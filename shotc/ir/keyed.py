@@ -18,6 +18,7 @@ from shotc.ir.mission import Ideal, Keyframe, MissionIR, Shot
 
 ROUNDS = 5  # in which times and the lengths of ways that depend on them are settled
 LEAST = 0.1  # of the mean way between keyframes: a shorter one, where the camera turns, counts as long
+SAME_PLACE_M = 1e-3
 NEVER = 1e-9  # seconds of a stretch that has no time
 
 
@@ -47,6 +48,19 @@ def place_of(mission: MissionIR, keyframe: Keyframe, t: float) -> Vec3:
         a, b = c * a - s * b, s * a + c * b
     place = (x + a, y + b)
     return (*place, mission.base(beside.above, place, target, t) + up)
+
+
+def stays(a: Keyframe, b: Keyframe) -> bool:
+    """Tell whether the camera stays in its place, in the world or beside a target, to the next keyframe."""
+    if a.beside is None or b.beside is None:
+        return a.beside is b.beside and dist(a.at, b.at) <= SAME_PLACE_M
+    return a.beside == b.beside
+
+
+def keeps_a_place(shot: Shot) -> bool:
+    """Tell whether keyframes keep a camera in one place for a while, besides holds in the world."""
+    rests = any(k.hold > 0 and k.beside is not None for k in shot.keyframes)
+    return rests or any(stays(a, b) for a, b in pairwise(shot.keyframes))
 
 
 def carriers(shot: Shot) -> tuple[str, ...]:
@@ -203,4 +217,4 @@ def in_order(shot: Shot) -> bool:
 
 
 KEYED = Ideal("keyframes", None, (), placed=True)
-"""The ideal of a shot before its keyframes are settled."""
+"""The ideal of a shot before its keyframes are settled, whose ways its kind gives."""

@@ -179,7 +179,8 @@ class Ideal(NamedTuple):
         keyframes and when they are reached, and ``ir.keyed`` says where the camera is between them
     target : its name, None in the world and of keyframes
     points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
-    placed : True where the user gave the positions, False where a kind generated them
+    placed : True where the user gave the positions, False where a kind generated them; of keyframes, whether
+        the ways between them are given
     aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
     framed : True where the points are found from how the subjects are to appear (``ir.framed``), for the
         time at which the shot begins, as far as that is known

@@ -1,9 +1,10 @@
 """Shots of moving targets: the place that the camera keeps to them, carried along by their motion."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from shotc.ir.ground import Above
-from shotc.ir.keyed import KEYED
+from shotc.ir.keyed import KEYED, stays
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Ideal, Subject
 from shotc.ir.target import Target
@@ -66,7 +67,9 @@ def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
         for k in reversed(named.values())
         if k.target is not None
     )
-    found = timed(shot, scene, KEYED, subjects, lasts)
+    # Nobody gave the ways between keyframes of the author's own, but where these are in one place.
+    placed = shot.kind != "keyframes" or all(stays(a, b) for a, b in pairwise(keyframes))
+    found = timed(shot, scene, KEYED._replace(placed=placed), subjects, lasts)
     return found if found.ideal is None else found._replace(keyframes=keyframes)
 
 

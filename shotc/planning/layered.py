@@ -23,7 +23,7 @@ from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.solids import Solid
 from shotc.geom.surface.tree import Surface
-from shotc.ir.hiding_surfaces import share_hidden
+from shotc.ir.hiding_surfaces import share_behind, share_hidden
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 
 RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from their ideal
@@ -58,7 +58,8 @@ class Watched:
     """A subject that a shot is to see.
 
     places : of its centre, (N, 3), at the times of a course; filmed : at which of those it is filmed, (N,)
-    radius, height : of the upright cylinder about it, metres; surfaces : what may hide it, one at least
+    radius, height : of the upright cylinder about it, metres
+    surfaces, solids : what may hide it, one at least
     """
 
     places: Array
@@ -66,6 +67,7 @@ class Watched:
     radius: float
     height: float
     surfaces: tuple[Surface, ...]
+    solids: tuple[Solid, ...] = ()
 
     def hidden(self, eyes: Array) -> Array:
         """Return the share of the subject that is hidden from places (L, C, 3), one layer a time; (L, C).
@@ -75,6 +77,8 @@ class Watched:
         centres = np.broadcast_to(self.places[:, None], eyes.shape).reshape(-1, 3)
         at, size = (eyes.reshape(-1, 3), centres), (self.radius, self.height)
         shares = [share_hidden(surface, *at, *size) for surface in self.surfaces]
+        if self.solids:
+            shares.append(share_behind(self.solids, *at, *size))
         most: Array = np.max(shares, axis=0).reshape(eyes.shape[:2])
         return most * self.filmed[:, None]
 
@@ -97,25 +101,27 @@ def led_round(
     course: tuple[Array, Array],
     watched: Watched | None = None,
     held: Mask | None = None,
+    *,
+    joined: bool = True,
 ) -> Course:
     """Return a course that is led round surfaces; its ideal if it can.
 
     course : mission times (N,), and its ideal places then, (N, 3); these are returned where they are free and
         see the subject, and where no course is found
     space : what a drone is held to but for what moves and for solids; near : those
-    held : at which times it stays at its ideal where that is free, (N,); others lead the ways between places
-        of such a course
+    held : at which times it stays at its ideal where that is free, (N,)
+    joined : whether straight ways between its places have to be free; else others lead the ways between them
     """
     times, ideal = course
     still = Course(ideal, np.zeros(len(times)))
     covered = np.zeros(len(times)) if watched is None else watched.hidden(ideal[:, None])[:, 0]
-    stopped = held is None and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
+    stopped = joined and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
     if not stopped and not covered.any():
         return still
     layers = np.unique(np.append(np.arange(0, len(times) - 1, _stride(times)), len(times) - 1))
     seen = None if watched is None else watched.at(layers)
     fixed = None if held is None else held[layers]
-    offsets = _course(space, near, (times[layers], ideal[layers], fixed), seen)
+    offsets = _course(space, near, (times[layers], ideal[layers], fixed), seen, joined=joined)
     if offsets is None:
         return still
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
@@ -133,10 +139,12 @@ def _course(
     near: Sequence[Passing],
     ideal: tuple[Array, Array, Mask | None],
     watched: Watched | None,
+    *,
+    joined: bool,
 ) -> Array | None:
     """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free.
 
-    ideal : those times (L,), its places then (L, 3), and ``held`` of ``led_round``
+    ideal : those times (L,), its places then (L, 3), and ``held`` of ``led_round``; joined : as there
     """
     times, at_ideal, held = ideal
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
@@ -161,7 +169,7 @@ def _course(
         chosen, cost = _cheapest(stay, change, step, shut)
         if cost >= BLOCKED:
             return None
-        if held is not None:
+        if not joined:
             return np.asarray(shifts[chosen])
         at = places[np.arange(len(times)), chosen]
         stopped = np.flatnonzero(_stopped(space, at[:-1], at[1:]) & ~tested)

@@ -19,6 +19,7 @@ from shotc.geom.vec import wrapped
 from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import flying, moved, parts_of_one, shapes
 from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.keyed import keeps_a_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
 from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
@@ -135,6 +136,7 @@ __all__ = [
     "given_up",
     "hidden_on_purpose",
     "ideal_places",
+    "keeps_a_place",
     "kept",
     "lateness",
     "least_out",

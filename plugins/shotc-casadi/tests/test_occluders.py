@@ -37,6 +37,9 @@ LATERAL = "kind: lateral, target: runner, side: right, distance: 8, altitude: 3"
 FRAMING = (
     "kind: framing, subjects: [{target: runner, size: 0.35, view: {azimuth: 180 deg, elevation: 16 deg}}]"
 )
+KEYED = """\
+kind: keyframes, target: runner, keyframes: [{at: {from: runner, offset: [0, -8, 3]}, look_at: runner},
+     {at: {from: runner, offset: LAST}, look_at: runner}]"""
 BIRD = """\
   - {id: t, drone: bird, kind: lateral, target: runner, side: right, distance: 4, altitude: 2.7,
      timing: {start: 15, duration: 12}}
@@ -178,6 +181,27 @@ def test_where_nothing_hides_the_subject_the_shot_is_refined_as_ever() -> None:
 @pytest.mark.slow
 def test_a_place_that_the_author_gave_is_kept_whatever_hides_the_subject() -> None:
     of = subject(mission("kind: static, at: [63, -8, 3], look_at: runner", **CROSSING))
+    assert shown(of, of.leg).free.mean < 0.99
+    assert past_occluders(of, refine_clock(of)) is None
+
+
+@pytest.mark.slow
+def test_who_passes_between_two_keyframes_is_looked_past_and_these_stay() -> None:
+    text = mission(KEYED.replace("LAST", "[3, -8, 3.5]"), **CROSSING)
+    assert visible(text, "none") < 0.97
+    assert visible(text, "ours") > 0.995
+    done = compiled(text)
+    assert done.plan is not None
+    (flight,) = (d for d in done.plan.trajectory.drones if d.drone == "cam")
+    runner = done.plan.trajectory.keyframes.mission.target("runner")
+    for keyframe, offset in zip(flight.keyframes, ([0.0, -8.0, 2.1], [3.0, -8.0, 2.6]), strict=True):
+        beside = flight.curve(keyframe.time)[:3] - np.array(runner.at(keyframe.time))
+        assert beside == pytest.approx(offset, abs=1e-3)
+
+
+@pytest.mark.slow
+def test_a_camera_that_keyframes_keep_beside_a_target_stays_there() -> None:
+    of = subject(mission(KEYED.replace("LAST", "[0, -8, 3]"), **CROSSING))
     assert shown(of, of.leg).free.mean < 0.99
     assert past_occluders(of, refine_clock(of)) is None
 

@@ -32,6 +32,7 @@ from shotc.planning.clock.moving import Moving, linearised, standing
 from shotc.planning.clock.position import Flown, fly, held_where_it_rests, standing_by
 from shotc.planning.clock.resting import LONG_S, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp, run_ups
+from shotc.planning.clock.seeing import led_to_see, shown, ways_of
 from shotc.planning.clock.task import Task, led
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
@@ -46,6 +47,7 @@ LEFT_M = 0.1  # metres off that belong to a stretch worth telling
 LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
 ON_PLACE_M = 1e-3  # metres
 SAME_S = 1e-6  # seconds
+SEEING_ROUNDS = 3  # motions that are drawn to where targets are seen, each from the one before
 SETTLES = 2  # times that a place aside is looked for
 STEP_S = 0.1  # seconds between the places that are compared with the ideal
 PICTURES = "the pictures of other drones"
@@ -158,19 +160,17 @@ def timed_shot(
     """
     mission, drone = camera_task.mission, camera_task.drone
     placed = placed_at(mission, placed, start)
-    task, flown, away = _flown(
-        camera_task_of(mission, drone, placed, start), around, placed.shot, start, asked
-    )
+    task, flown = _flown(camera_task_of(mission, drone, placed, start), around, placed.shot, start, asked)
     shot, camera_task, clock = task.shot, task.camera_task, task.clock
     if flown.curve is None:
         missed = _missed(task, around, placed, start) if task.bound else None
         return NoMotion(flown.status, _lacks(task, flown), missed=missed, start=start)
-    kept = None if shot.ideal is None else shot.ideal.aim
-    turned = turn(AngleTask(camera_task, kept), clock, flown.curve)
-    if turned.curve is None:
-        return NoMotion(turned.status, (), "camera")
-    lens = _lens(camera_task, clock)
-    curve = Piecewise(clock.breaks, np.concatenate([flown.curve.ctrl, turned.curve.ctrl, lens], axis=2))
+    curve = _with_camera(task, flown.curve)
+    if isinstance(curve, Status):
+        return NoMotion(curve, (), "camera")
+    task, flown, curve = _seeing(task, flown, curve)
+    assert flown.curve is not None
+    away = _away(task, flown.curve)
     keyed, keyframes = camera_task.keyed, keyframe_times(placed, start)
     framing = _framing(placed, clock.start, clock.end) if keyed is None else keyed.framing(shot.id)
     leg = ClockLeg(shot.id, curve, clock.start, clock.end, framing, shot.path, keyframes)
@@ -186,29 +186,61 @@ def timed_shot(
     return TimedShot(leg, deviations, stats, float(away.max()), (lacks[0].any, lacks[1].any))
 
 
+def _with_camera(task: Task, position: Piecewise) -> Piecewise | Status:
+    """Return a motion with its camera's angles and its lens, all channels, or why its camera has no turn."""
+    ideal = task.shot.ideal
+    kept = None if ideal is None else ideal.aim
+    turned = turn(AngleTask(task.camera_task, kept), task.clock, position)
+    if turned.curve is None:
+        return turned.status
+    lens = _lens(task.camera_task, task.clock)
+    return Piecewise(task.clock.breaks, np.concatenate([position.ctrl, turned.curve.ctrl, lens], axis=2))
+
+
+def _seeing(task: Task, flown: Flown, curve: Piecewise) -> tuple[Task, Flown, Piecewise]:
+    """Return the motion whose ways between keyframes are led to where their targets are seen, if that helps.
+
+    curve : all channels of the motion that is not led
+    """
+    ways = ways_of(task)
+    if not ways:
+        return task, flown, curve
+    best, least = (task, flown, curve), shown(task, ways, curve)
+    for _ in range(SEEING_ROUNDS):
+        aside = led_to_see(task, ways, best[2])
+        if aside is None:
+            break
+        made = fly(aside)
+        turned = made.status if made.curve is None else _with_camera(aside, made.curve)
+        if isinstance(turned, Status):
+            break
+        found = shown(aside, ways, turned)
+        if not found.better(least):
+            break
+        best, least = (aside, made, turned), found
+    return best
+
+
 def _flown(
     camera_task: CameraTask, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
-) -> tuple[Task, Flown, Array]:
+) -> tuple[Task, Flown]:
     """Return the first motion of some for which ever less is asked, or the last one that was not found.
-
-    The last value is as ``_away`` returns, empty where there is no motion.
 
     What is asked of the ends is not to move the film: one that leaves its place gives way to one that does so
     much less.
     """
-    best: tuple[Task, Flown, Array] | None = None
+    best, least = None, np.inf
     for ask in asked:
         task = _task(camera_task, around, shot, start, ask)
         flown = fly(task)
         if flown.curve is None:
             continue
-        away = _away(task, flown.curve)
-        off = away.max()
-        if best is None or off < LESS_SHARE * best[2].max():
-            best = (task, flown, away)
+        off = float(_away(task, flown.curve).max())
+        if best is None or off < LESS_SHARE * least:
+            best, least = (task, flown), off
         if off <= NOTICE_M or (off <= FAR_M and not held_where_it_rests(task, flown.curve)):
             break
-    return best or (task, flown, np.zeros(0))
+    return best or (task, flown)
 
 
 def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: Ask) -> Task:

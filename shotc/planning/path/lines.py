@@ -155,7 +155,7 @@ def _drawn(
     if held.all() or steps.min() < SAME_PLACE_M:
         return None
     times = np.concatenate([[0.0], np.cumsum(steps)]) / PACE_M_S
-    course = led_round(space.bounds, (), (times, points), watched, held)
+    course = led_round(space.bounds, (), (times, points), watched, held, joined=False)
     return course.places if course.for_sight.any() else None
 
 

@@ -124,7 +124,8 @@ class FilmedCurve:
         held = np.zeros(len(times), dtype=bool)
         held[[0, -1]] = True
         near = [_Standing(o.part, o.clearance) for o in space.obstacles] + [_no_nearer(who, places)]
-        course = led_round(space.bounds, near, (times, places), _repeated(_larger(who), len(times)), held)
+        seen = _repeated(_larger(who), len(times))
+        course = led_round(space.bounds, near, (times, places), seen, held, joined=False)
         if not course.for_sight.any():
             return np.zeros((0, 3))
         led = places + _smooth(course.places - places)

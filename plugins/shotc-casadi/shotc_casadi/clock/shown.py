@@ -12,6 +12,7 @@ from shotc.plugin_api.refiner import (
     DroneTrajectory,
     coverage,
     flights,
+    keeps_a_place,
     others_of,
     projected,
     wanted_places,
@@ -41,12 +42,12 @@ class Shown(NamedTuple):
 def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
     """Return a shot refined so that more of its subjects is seen than in a plain refinement, or None.
 
-    unseen : as in ``refine_clock``. Where the author gave the places they stay;
-    what the shot promises is kept, or is broken no further.
+    unseen : as in ``refine_clock``. Where the author gave the places they stay, as where keyframes keep the
+    camera in one; what the shot promises is kept, or is broken no further.
     """
-    ideal = subject.placed.shot.ideal
+    shot, ideal = subject.placed.shot, subject.placed.shot.ideal
     failed = plain.solution.status != "solved" or plain.gap is not None
-    if failed or subject.watched is None or ideal is None or ideal.placed:
+    if failed or subject.watched is None or ideal is None or ideal.placed or keeps_a_place(shot):
         return None
     before = plain.leg or subject.leg
     if _covered(subject, before) <= GAIN_SHARE:

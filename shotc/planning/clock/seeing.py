@@ -1,0 +1,148 @@
+"""Ways between placed keyframes on the clock, led to where the shot's targets are seen.
+
+The motion through the keyframes is looked at first. Where zones, terrain, scenes or buildings hide a target
+from it, the ways between its keyframes are led aside, and a second motion is drawn to them. It is taken where
+less is hidden from it, and its pictures are as whole. Keyframes keep their places and their times.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.framing import Cameras, frames
+from shotc.geom.solid_arrays.points import distances
+from shotc.geom.solids import Solid
+from shotc.ir.allow import hidden_on_purpose
+from shotc.ir.bodies import moved, shapes
+from shotc.ir.coverage import coverage
+from shotc.ir.hiding_surfaces import surfaces_before
+from shotc.ir.keyed import arrivals, is_keyed, stays
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.target import Target
+from shotc.planning.clock.aims import aims_at
+from shotc.planning.clock.task import Task
+from shotc.planning.free_space import MARGIN_M
+from shotc.planning.layered import Course, Passing, Watched, led_round
+
+STEP_S = 0.1  # seconds between the frames that are compared
+ABOUT_M = 1.0  # metres by which a target that a way is led for is larger than it is: motions are a little off
+LESS_SHARE = 0.9  # of the share that is hidden, with which a led motion is taken
+CROPS_SHARE = 1e-3  # of the frames: as many are as whole
+AIM_RAD = 2e-3  # radians farther off its aim at a keyframe, within which a camera is as near to it
+
+
+class Way(NamedTuple):
+    """The way from one keyframe to the next one that films a target, mission time, seconds."""
+
+    start: float
+    end: float
+    target: Target
+
+
+def ways_of(task: Task) -> tuple[Way, ...]:
+    """Return the ways between keyframes that may be led for the one target that both ends show."""
+    mission, shot, start = task.mission, task.shot, task.clock.start
+    hides = mission.meshes or mission.terrain or any(zone.keep == "out" for zone in mission.zones)
+    if not hides or not is_keyed(shot) or shot.ideal is None or shot.ideal.placed or hidden_on_purpose(shot):
+        return ()
+    found = []
+    for (a, left), (b, reached) in pairwise(zip(shot.keyframes, arrivals(shot), strict=True)):
+        if a.target is not None and a.target == b.target and not stays(a, b):
+            found.append(Way(start + left + a.hold, start + reached, mission.target(a.target)))
+    return tuple(found)
+
+
+def led_to_see(task: Task, ways: tuple[Way, ...], motion: Piecewise) -> Task | None:
+    """Return the task with ways led from a motion to where their targets are seen; None where none is.
+
+    motion : x, y, z over the task's clock
+    """
+    breaks = task.clock.breaks
+    places, for_sight = motion(breaks)[:, :3], np.zeros(len(breaks))
+    for way in ways:
+        (inside,) = np.nonzero((breaks >= way.start - STEP_S / 2) & (breaks <= way.end + STEP_S / 2))
+        if len(inside) > 2:
+            course = _led(task, way.target, breaks[inside], places[inside])
+            places[inside], for_sight[inside] = course.places, course.for_sight
+    return replace(task, course=Course(places, for_sight)) if for_sight.any() else None
+
+
+def _led(task: Task, target: Target, times: Array, places: Array) -> Course:
+    held = np.zeros(len(times), dtype=bool)
+    held[[0, -1]] = True
+    near: list[Passing] = [*(motion.what for motion in task.motions), _no_nearer(target, times, places)]
+    return led_round(task.walls, near, (times, places), _watched(task.mission, target, times), held)
+
+
+def _watched(mission: MissionIR, target: Target, times: Array) -> Watched:
+    """Return a target at times as larger than it is, and what that stands may hide it."""
+    surfaces = tuple(surface for _, surface in surfaces_before(mission, target.name))
+    zones = tuple(zone.solid for zone in mission.zones if zone.keep == "out")
+    centres = np.array(target.centre) + moved(target, times) + np.array([0.0, 0.0, 0.5 * ABOUT_M])
+    size = (target.radius + ABOUT_M, target.height + ABOUT_M)
+    return Watched(centres, np.ones(len(times), dtype=bool), *size, surfaces, zones)
+
+
+@dataclass(frozen=True, slots=True)
+class _Beside:
+    """A body that goes with a target, and what is kept from it."""
+
+    part: Solid
+    clearance: float
+    target: Target
+
+    def at(self, times: Array) -> Array:
+        """Return how far the target has moved at times (M,), shape (M, 3)."""
+        return moved(self.target, times)
+
+
+def _no_nearer(target: Target, times: Array, places: Array) -> _Beside:
+    """Return a target as what is passed no nearer than places (N, 3) at times are: it would be cropped."""
+    least = distances(target.kept_clear, places - moved(target, times)).min()
+    return _Beside(target.kept_clear, float(least) - MARGIN_M, target)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shown:
+    """What a motion with its camera shows on some ways.
+
+    hidden : mean share of the outlines that something covers
+    cropped : share of the frames that do not show all of their target
+    astray : most that its camera is off its aim at the keyframes, radians
+    """
+
+    hidden: float
+    cropped: float
+    astray: float
+
+    def better(self, than: Shown) -> bool:
+        """Tell whether notably less is hidden, no more is cropped and keyframes are composed as well."""
+        return (
+            self.hidden <= LESS_SHARE * than.hidden
+            and self.cropped <= than.cropped + CROPS_SHARE
+            and self.astray <= than.astray + AIM_RAD
+        )
+
+
+def shown(task: Task, ways: tuple[Way, ...], curve: Piecewise) -> Shown:
+    """Return what a camera shows on ways; curve : all channels over the task's clock."""
+    mission, hidden, whole = task.mission, [np.zeros(0)], [np.ones(0, dtype=bool)]
+    for way in ways:
+        t = np.linspace(way.start, way.end, max(2, round((way.end - way.start) / STEP_S)))
+        pose = curve(t)
+        hidden.append(coverage(mission, (), way.target.name, pose[:, :3], t).share)
+        still = pose[:, :3] - moved(way.target, t)
+        cameras = Cameras(still, pose[:, CAM_YAW], pose[:, CAM_PITCH], pose[:, HFOV], task.drone.aspect)
+        whole.append(frames(cameras, way.target.centre, shapes(way.target, t)).in_frame)
+    at = np.array([bound.start for bound in task.bound])
+    pose = curve(at)
+    off = pose[:, [CAM_YAW, CAM_PITCH]] - aims_at(task.camera_task, at, pose[:, :3])
+    off[:, 0] = np.arctan2(np.sin(off[:, 0]), np.cos(off[:, 0])) * np.cos(pose[:, CAM_PITCH])
+    cropped = 1.0 - np.concatenate(whole).mean()
+    return Shown(float(np.concatenate(hidden).mean()), float(cropped), float(np.abs(off).max(initial=0.0)))
