@@ -30,7 +30,17 @@ REFINED = ".refined"
 NOTHING = 1e-6
 """Of a limit's unit: less is rounding of what does not move."""
 WHOLE = percent(1.0)
-LIMITS = ("speed", "climb", "descent", "acceleration", "tilt", "thrust to weight", "jerk", "body yaw rate")
+LIMITS = (
+    "speed",
+    "airspeed",
+    "climb",
+    "descent",
+    "acceleration",
+    "tilt",
+    "thrust to weight",
+    "jerk",
+    "body yaw rate",
+)
 
 
 def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> str:

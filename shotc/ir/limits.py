@@ -1,6 +1,6 @@
 """Numbers that drones, fleets and shots share: vectors, limits of motion, times."""
 
-from math import inf, sin
+from math import hypot, inf, sin, sqrt
 from typing import NamedTuple
 
 from shotc.geom.vec import Vec2, Vec3
@@ -23,13 +23,15 @@ class Limits(NamedTuple):
     The rotors of a quadrotor make the acceleration a + g e_z, along its own upward axis (Alcantara et al.,
     Eq. 2 and 4; air drag is neglected there, and here).
 
-    speed : horizontal speed over ground, world.wind already taken off, m/s
+    speed : horizontal speed through the air, m/s; a wind of which nobody says where it comes from is taken
+        off already
     climb, descent : vertical speed, both positive, m/s
     acceleration : 3D norm, m/s^2
     jerk : 3D norm, m/s^3
     yaw_rate, yaw_acceleration : of the body, rad/s, rad/s^2
     tilt : angle between a + g e_z and the vertical, rad; inf where nobody says
     thrust_to_weight : |a + g e_z| / g; inf where nobody says
+    wind : velocity of the air over ground to the East and North, m/s, where that is known; slower than speed
     """
 
     speed: float
@@ -41,6 +43,33 @@ class Limits(NamedTuple):
     yaw_acceleration: float
     tilt: float = inf
     thrust_to_weight: float = inf
+    wind: Vec2 = (0.0, 0.0)
+
+    def speed_along(self, east: float, north: float) -> float:
+        """Return the largest speed over ground in a direction, m/s: the wind pushes, or is flown against.
+
+        The largest k with |k u - w| <= speed for the unit vector u of the direction.
+        """
+        way = hypot(east, north)
+        if self.wind == (0.0, 0.0) or way == 0.0:
+            return self.speed
+        along = (east * self.wind[0] + north * self.wind[1]) / way
+        across = (east * self.wind[1] - north * self.wind[0]) / way
+        return along + sqrt(self.speed**2 - across**2)
+
+    def airspeed(self, east: float, north: float) -> float:
+        """Return the horizontal speed through the air of a velocity over ground, m/s."""
+        return hypot(east - self.wind[0], north - self.wind[1])
+
+    @property
+    def fastest(self) -> float:
+        """The speed over ground with the wind, m/s."""
+        return self.speed + hypot(*self.wind)
+
+    @property
+    def slowest(self) -> float:
+        """The largest speed over ground against the wind, m/s."""
+        return self.speed - hypot(*self.wind)
 
     @property
     def acceleration_bounds(self) -> dict[str, float]:

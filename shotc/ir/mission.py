@@ -325,6 +325,11 @@ class MissionIR(NamedTuple):
         filming = {shot.drone for shot in self.shots}
         return tuple(drone for drone in self.drones if drone.name not in filming)
 
+    @property
+    def wind_taken(self) -> float:
+        """The speed, m/s, that a wind from any side takes off what drones fly; 0 where it is known whence."""
+        return self.wind if self.wind_toward is None else 0.0
+
     def ground(self, x: float, y: float) -> float:
         """Return z of the ground at a place, metres; beyond terrain it is taken for the plane z = 0."""
         return flat(x, y) if self.terrain is None else self.terrain.z(x, y)

@@ -74,7 +74,7 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
     east, north, up = shot.drift or (0.0, 0.0, 0.0)
     limits = scene.drone.limits
     for way, drift, speed in (
-        ("across", hypot(east, north), limits.speed),
+        ("across", hypot(east, north), limits.speed_along(east, north)),
         ("up", up, limits.climb),
         ("down", -up, limits.descent),
     ):

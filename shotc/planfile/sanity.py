@@ -109,7 +109,7 @@ def _solid(solid: Solid) -> str:
 def _drone(drone: Drone, path: str) -> Iterator[Fault]:
     limits = drone.limits
     positive = {
-        **{f"limits.{name}": getattr(limits, name) for name in limits._fields},
+        **{f"limits.{name}": getattr(limits, name) for name in limits._fields if name != "wind"},
         "gimbal.rate": drone.gimbal.rate,
         "gimbal.acceleration": drone.gimbal.acceleration,
         "aspect": drone.aspect,

@@ -31,10 +31,10 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
     """Yield what keeps conditions from being flown: too strong a wind, a truth that cannot be."""
     mission, wind = ir.keyframes.mission, conditions.wind.speed
     end = max((track.curve.end for track in ir.drones), default=0.0)
-    carried = [(f"drone `{drone.name}`", drone.limits, drone.path) for drone in mission.drones]
-    carried += [(f"fleet `{fleet.name}`", fleet.limits, fleet.path) for fleet in mission.fleets]
-    for name, limits, path in carried:
-        most = limits.speed + mission.wind
+    taken = mission.wind_taken
+    carried = [(f"drone `{d.name}`", d.limits.speed + taken, d.path) for d in mission.drones]
+    carried += [(f"fleet `{f.name}`", f.limits.speed + mission.wind, f.path) for f in mission.fleets]
+    for name, most, path in carried:
         if wind >= most:
             yield Diagnostic(
                 "W003",

@@ -123,7 +123,7 @@ def plant_of(name: VehicleName, vehicle: Vehicle, first: State) -> Plant:
 
 def fastest(limits: Limits) -> float:
     """Return the largest speed that limits allow, climbing or sinking included, m/s."""
-    return hypot(limits.speed, max(limits.climb, limits.descent))
+    return hypot(limits.fastest, max(limits.climb, limits.descent))
 
 
 def _watched(world: World, film: Film) -> tuple[Watched, ...]:

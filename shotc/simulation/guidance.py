@@ -115,7 +115,7 @@ class Guidance:
         """Let the drone come back to its plan."""
         assert self._held is not None
         self._active = None
-        film, speed = self.film, self.film.drone.limits.speed
+        film, speed = self.film, self.film.drone.limits.slowest
         now, k = self._held.setpoint(time), film.step(time)
         off = now.position - film.position[k], now.velocity - film.velocity[k]
         lasts = max(BACK_S, 4.0 * float(np.abs(off[0]).max()) / speed)

@@ -251,5 +251,5 @@ class WorldSpec(Model):
     terrain: TerrainSpec | None = Field(
         default=None, description="ground that rises; the plane z = 0 if silent"
     )
-    wind: WindSpec = section("wind to reckon with; its speed is taken off the drones'")
+    wind: WindSpec = section("wind; drones' speed counts through the air")
     zones: dict[Name, ZoneSpec] = Field(default={}, description="named volumes to keep in or out of")

@@ -56,6 +56,28 @@ def test_many_drawn_missions_fly_as_they_say(seed: int, tmp_path: Path) -> None:
     assert judge(drawn(seed, tmp_path)) == []
 
 
+WINDY = """\
+shotc: 1
+mission: windy
+world: {wind: {speed: 4 m/s, from: 250 deg}}
+targets: {runner: {track: {points: [[0, 0, 0.9], [190, 60, 0.9]], speed: 6 m/s}, radius: 0.4, height: 1.8}}
+drones: {cam: {model: x500, home: [-10, -10, 0], limits: {tilt: 16 deg, thrust_to_weight: 1.25}}}
+shots:
+  - {id: after, kind: chase, drone: cam, target: runner, distance: 8, altitude: 4,
+     timing: {start: 22, duration: 3}}
+  - {id: back, kind: static, drone: cam, at: [120, 0, 8], look_at: [0, 20, 5], timing: {duration: 2}}
+"""
+
+
+def test_a_flight_in_wind_leans_and_flies_as_it_says(tmp_path: Path) -> None:
+    (tmp_path / "mission.yaml").write_text(WINDY, encoding="utf-8")
+    case = case_of(tmp_path / "mission.yaml", "none")
+    assert judge(case) == []
+    claimed = {claim["constraint"]: claim for claim in case.plan["certificate"]}
+    assert claimed.keys() >= {"airspeed", "tilt", "thrust to weight"}
+    assert "speed" not in claimed
+
+
 def drawn(seed: int, folder: Path, refiner: str | None = None) -> Case:
     asked = mission(seed)
     for name, data in asked.files.items():

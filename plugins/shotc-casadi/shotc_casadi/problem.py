@@ -77,6 +77,7 @@ def problem(
         held=_held(subject, walls, margins),
         driven=(np.array([-inf]), np.array([(_pace(subject, margins) * subject.drone.limits.jerk) ** 2])),
         extents=references.extents.shape[1],
+        windy=any(subject.drone.limits.wind),
     )
 
 
@@ -148,8 +149,11 @@ def _parameters(
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
     extents = references.extents
-    whole = np.column_stack([*table, extents.reshape(n + 1, -1), _planes(walls, margins)])
-    assert whole.shape[1] == size(walls.shape[1], extents.shape[1])
+    columns, windy = [*table, extents.reshape(n + 1, -1), _planes(walls, margins)], any(drone.limits.wind)
+    if windy:
+        columns.append(np.tile(_pace(subject, margins) * np.array(drone.limits.wind), (n + 1, 1)))
+    whole = np.column_stack(columns)
+    assert whole.shape[1] == size(walls.shape[1], extents.shape[1], windy)
     return whole
 
 

@@ -22,8 +22,8 @@ ROWS = ("speed", "acceleration")
 class Problem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(planes, extents)); extents : how many bodies the target has, 0 of
-        one upright cylinder
+    parameters : shape (N + 1, symbols.size(planes, extents, windy)); extents : how many bodies the target
+        has, 0 of one upright cylinder; windy : whether the air moves
     states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS)
     state_bounds, input_bounds : (lower, upper), shapes as states and inputs
     held, driven : upper bounds (or lower, for half-spaces) of the stage's constraints:
@@ -39,6 +39,7 @@ class Problem:
     held: tuple[Array, Array]
     driven: tuple[Array, Array]
     extents: int = 0
+    windy: bool = False
 
     @property
     def stages(self) -> int:
@@ -62,7 +63,7 @@ def instance(problem: Problem) -> Instance:
     State bounds narrower than NARROW_WIDTH are opened to that about their middle.
     """
     return Instance(
-        kind=derived(problem.visibility, problem.planes, problem.extents),
+        kind=derived(problem.visibility, problem.planes, problem.extents, problem.windy),
         parameters=problem.parameters,
         states=problem.states,
         inputs=problem.inputs,

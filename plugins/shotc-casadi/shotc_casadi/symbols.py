@@ -24,6 +24,8 @@ POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 YAW, YAW_RATE, YAW_ACCELERATION, PITCH, PITCH_RATE, PITCH_ACCELERATION, TIME = range(9, 16)
 JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5
 
+WIND = 2  # parameters of air that moves
+
 RIGHT, UP, AHEAD = range(3)  # what _to_camera returns
 EDGES = ((RIGHT, 1), (RIGHT, -1), (UP, 1), (UP, -1))  # left, right, bottom, top: axis, and the way inwards
 
@@ -50,7 +52,7 @@ FIELDS = {
     "nominal": 1,
 }
 """The parameters of a stage and their sizes; the target's bodies, where it is no cylinder, and half-spaces
-(normal and offset) follow.
+(normal and offset) follow, and at the end, where the air moves, how fast it does to the East and North.
 
 centre, radius, height : the target's cylinder, W, metres
 place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
@@ -94,16 +96,16 @@ class Stage:
         return self.end_cost + self.passing + ca.sumsqr(self.passing_roots)
 
 
-def stage(visibility: Visibility, planes: int, extents: int = 0) -> Stage:
+def stage(visibility: Visibility, planes: int, extents: int = 0, windy: bool = False) -> Stage:
     """Return a stage with that many half-spaces to stay in, of a target of that many bodies.
 
-    extents : 0 where the target is one upright cylinder
+    extents : 0 where the target is one upright cylinder; windy : whether the air moves
 
-    held is horizontal speed squared, acceleration squared, then the half-spaces' slacks (metres);
-    driven is jerk squared.
+    held is horizontal speed through the air squared, acceleration squared, then the half-spaces' slacks
+    (metres); driven is jerk squared.
     """
     z = ca.SX.sym("z", STATES + INPUTS)
-    p = ca.SX.sym("p", size(planes, extents))
+    p = ca.SX.sym("p", size(planes, extents, windy))
     x, u = z[:STATES], z[STATES:]
     given = cut(p, FIELDS)
     position = x[POSITION]
@@ -125,17 +127,18 @@ def stage(visibility: Visibility, planes: int, extents: int = 0) -> Stage:
         + length * given["angular_jerk"] * (u[YAW_JERK] ** 2 + u[PITCH_JERK] ** 2)
         + given["pace"] * (length * given["nominal"] - 1) ** 2
     )
-    first = p.numel() - 4 * planes
+    first = size(planes, extents) - 4 * planes
     slack = [
         ca.dot(p[first + 4 * i : first + 4 * i + 3], position) - p[first + 4 * i + 3] for i in range(planes)
     ]
-    held = ca.vertcat(ca.sumsqr(x[VELOCITY][:2]), ca.sumsqr(x[ACCELERATION]), *slack)
+    level = x[VELOCITY][:2] - p[-WIND:] if windy else x[VELOCITY][:2]
+    held = ca.vertcat(ca.sumsqr(level), ca.sumsqr(x[ACCELERATION]), *slack)
     return Stage(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
 
 
-def size(planes: int, extents: int = 0) -> int:
+def size(planes: int, extents: int = 0, windy: bool = False) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + EXTENT * extents + 4 * planes
+    return sum(FIELDS.values()) + EXTENT * extents + 4 * planes + WIND * windy
 
 
 def cut(p: Any, fields: Mapping[str, int]) -> dict[str, Any]:

@@ -111,7 +111,7 @@ INSIDE: dict[str, Callable[[Scene], Scene]] = {
 def kind_of(kind: Any, planes: int) -> Derived:
     if isinstance(kind, PathKind):
         return derived(kind.visibility, planes, kind.extents)
-    return clock.derived(*kind)
+    return clock.derived(clock.Sizes(*kind))
 
 
 def point(kind: Any, planes: int, scene: Scene, rng: np.random.Generator) -> tuple[Array, Array]:

@@ -155,8 +155,8 @@ CODES: tuple[CodeInfo, ...] = (
         11,
         "no-speed-left",
         "the wind leaves a drone no speed",
-        "`world.wind` is taken off the horizontal speed of every drone, since it has to fly against it. "
-        "Wait for less wind, or take a faster drone.",
+        "A drone's `speed` counts through the air. In a wind that is as fast it cannot even hold its place, wherever "
+        "the wind comes from. Wait for less wind, or take a faster drone.",
         ("wind: 1 m/s", "wind: 10 m/s"),
     ),
     _code(

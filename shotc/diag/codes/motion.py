@@ -123,8 +123,8 @@ CODES: tuple[CodeInfo, ...] = (
         5,
         "cannot-keep-up",
         "a shot has to be flown faster than its drone flies",
-        "To keep its place beside a target the camera has to go as fast as that place does. Where that is more than "
-        "the drone's speed, less the wind, over seconds, no plan can keep it. The help names what of the shot would "
+        "To keep its place beside a target the camera has to go as fast as that place does, in the wind. Where that is more than "
+        "the drone's speed over seconds, no plan can keep it. The help names what of the shot would "
         "let it: a place nearer to the target or on the inside of its bends, a longer `duration` where the shot moves "
         "by itself; or a higher `limits: {speed: ...}` of a drone that flies so fast. A shot without a `start` is judged "
         "by when what it comes after ends; where that is not known `plan` tells it.",

@@ -32,7 +32,7 @@ _LIMITS = (
         "too-fast",
         (
             "a speed limit is broken",
-            "`speed` binds the horizontal velocity less the wind, `climb` and `descent` the vertical one, at every "
+            "`speed` binds the horizontal velocity through the air, `climb` and `descent` the vertical one, at every "
             "instant and not only at samples. The diagnostic gives the proven maximum and when it occurs. Give the "
             "shot more time, bring its keyframes nearer, or raise the limit, and plan again.",
         ),

@@ -56,10 +56,11 @@ def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot,
     yaw_rate = np.degrees(flight.curve.channels(BODY_YAW).derivative()(t)[:, 0])
     pitch = np.degrees(flight.curve.channels(CAM_PITCH)(t)[:, 0])
     most_yaw, gimbal = degrees(limits.yaw_rate), tuple(degrees(end) for end in drone.gimbal.pitch)
-    speed = Line("speed", np.hypot(velocity[:, 0], velocity[:, 1]))
+    windy, (east, north) = any(limits.wind), limits.wind
+    speed = Line("airspeed" if windy else "speed", np.hypot(velocity[:, 0] - east, velocity[:, 1] - north))
     climb = Line("climb", velocity[:, 2])
     return (
-        Plot("speed", "Horizontal speed (m/s)", (speed,), (limits.speed,)),
+        Plot("speed", f"Horizontal {speed.name} (m/s)", (speed,), (limits.speed,)),
         Plot("climb", "Climb and descent (m/s)", (climb,), (limits.climb, -limits.descent)),
         Plot(
             "acceleration",

@@ -49,7 +49,9 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
 
 
 def wind_note(mission: MissionIR, claim: Claim) -> str:
-    """Return what the wind takes off the limit of a claim; empty if nothing."""
+    """Return what the wind takes off the limit of a claim, or how fast it blows; empty if it does neither."""
+    if claim.constraint == "airspeed":
+        return f"it counts through the air, which moves at {measure(mission.wind, claim.unit)}"
     if not _is_in_wind(mission, claim):
         return ""
     written, wind = measure(claim.limit + mission.wind, claim.unit), measure(mission.wind, claim.unit)

@@ -92,8 +92,9 @@ def for_its_limits(flight: Flight, way: Way) -> float:
     rates = np.diff(way.places, axis=0) / steps[:, None]
     level = np.hypot(rates[:, 0], rates[:, 1])
     rise = np.maximum(rates[:, 2] - limits.climb, -rates[:, 2] - limits.descent)
-    behind = np.hypot(np.maximum(level - limits.speed, 0.0), np.maximum(rise, 0.0)) @ steps
-    fastest = min(float(level.max()), limits.speed) + min(float(np.abs(rates[:, 2]).max()), limits.climb)
+    airspeed = np.hypot(rates[:, 0] - limits.wind[0], rates[:, 1] - limits.wind[1])
+    behind = np.hypot(np.maximum(airspeed - limits.speed, 0.0), np.maximum(rise, 0.0)) @ steps
+    fastest = min(float(level.max()), limits.fastest) + min(float(np.abs(rates[:, 2]).max()), limits.climb)
     brake = limits.usable_acceleration
     stops = fastest * fastest / (2.0 * brake) + fastest * brake / limits.jerk
     return float(behind + stops)

@@ -35,7 +35,7 @@ def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
     velocity = position.derivative()
     acceleration = velocity.derivative()
     make = partial(_below, flight)
-    yield make("speed", velocity.channels(0, 1), limits.speed, "m/s")
+    yield _speed(flight, velocity.channels(0, 1))
     climb = Limit("climb", limits.climb, "m/s", _path(flight, "limits", "climb"))
     yield bounded(flight, climb, sup_channel(velocity, 2, gap(limits.climb)))
     descent = Limit("descent", limits.descent, "m/s", _path(flight, "limits", "descent"))
@@ -44,6 +44,15 @@ def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
     yield make("acceleration", acceleration, limits.acceleration, "m/s^2")
     yield make("jerk", acceleration.derivative(), limits.jerk, "m/s^3")
     yield from _thrust(flight, acceleration)
+
+
+def _speed(flight: Flight, level: Pieces) -> Claim:
+    """Claim the speed over ground, or through the air where the wind is known."""
+    limits = flight.drone.limits
+    name = "airspeed" if any(limits.wind) else "speed"
+    through = Pieces(level.low, level.high, level.ctrl - np.array(limits.wind))
+    limit = Limit(name, limits.speed, "m/s", _path(flight, "limits", "speed"))
+    return bounded(flight, limit, sup_convex(through, norm, gap(limits.speed)))
 
 
 def _thrust(flight: Flight, acceleration: Pieces) -> Iterator[Claim]:

@@ -26,6 +26,7 @@ from shotc.passes.verify.visible import AT_FIRST, AT_LAST, IN_SIGHT, VISIBLE
 
 RULES = {
     "speed": Rule("V001", 1.0),
+    "airspeed": Rule("V001"),
     "climb": Rule("V001", 1.0),
     "descent": Rule("V001", 1.0),
     "acceleration": Rule("V002", 1 / 2),

@@ -69,23 +69,20 @@ def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
     breaks : shape (P + 1,), mission times in seconds
     """
     cones = []
-    for order, axes, bound in (
-        (1, (0, 1), limits.speed),
-        (2, (0, 1, 2), limits.usable_acceleration),
-        (3, (0, 1, 2), limits.jerk),
+    for order, axes, middle, bound in (
+        (1, (0, 1), limits.wind, limits.speed),
+        (2, (0, 1, 2), (0.0, 0.0, 0.0), limits.usable_acceleration),
+        (3, (0, 1, 2), (0.0, 0.0, 0.0), limits.jerk),
     ):
         rows = hull_rows(breaks, order)
         number = len(rows.piece)
         owner = np.zeros(number, dtype=np.intp)
-        cones.append(
-            Cones(
-                rows, axes, np.zeros((number, len(axes))), np.full(number, NEARLY_SHARE * bound), None, owner
-            )
-        )
+        centre = np.tile(NEARLY_SHARE * np.array(middle), (number, 1))
+        cones.append(Cones(rows, axes, centre, np.full(number, NEARLY_SHARE * bound), None, owner))
     up = hull_rows(breaks, 1)
-    middle = 0.5 * NEARLY_SHARE * (limits.climb - limits.descent)
+    rise = 0.5 * NEARLY_SHARE * (limits.climb - limits.descent)
     half = 0.5 * NEARLY_SHARE * (limits.climb + limits.descent)
     number = len(up.piece)
     owner = np.zeros(number, dtype=np.intp)
-    cones.append(Cones(up, (2,), np.full((number, 1), middle), np.full(number, half), None, owner))
+    cones.append(Cones(up, (2,), np.full((number, 1), rise), np.full(number, half), None, owner))
     return tuple(cones)

@@ -58,7 +58,7 @@ class RunUp:
         """Return the way that ends so far aside, and takes the time for that."""
         level, rise = float(np.hypot(aside[0], aside[1])), abs(float(aside[2]))
         needed = max(
-            rest_to_rest(level, limits.speed, limits.usable_acceleration, limits.jerk),
+            rest_to_rest(level, _either_way(limits, aside), limits.usable_acceleration, limits.jerk),
             rest_to_rest(rise, min(limits.climb, limits.descent), limits.usable_acceleration, limits.jerk),
         )
         least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
@@ -97,7 +97,8 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
     here, velocity = np.array(place(t)), (np.array(place(t + step)) - np.array(place(t))) / step
     limits = drone.limits
     level, up = hypot(velocity[0], velocity[1]), velocity[2]
-    share = max(level / limits.speed, up / limits.climb, -up / limits.descent, 1.0)
+    fastest = limits.speed_along(float(velocity[0]), float(velocity[1]))
+    share = max(level / fastest, up / limits.climb, -up / limits.descent, 1.0)
     velocity = velocity / share
     least = least_time(float(np.linalg.norm(velocity)), limits.usable_acceleration, limits.jerk)
     return RunUp(max(SHORTEST_S, SPLINE_RATIO * least + SETTLE_S), here, velocity)
@@ -106,9 +107,16 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
 def way_time(limits: Limits, way: Array) -> float:
     """Return the seconds of a straight way from rest to rest, shape (3,), metres; its two parts at once."""
     push = limits.usable_acceleration
-    level = rest_to_rest(float(np.linalg.norm(way[:2])), limits.speed, push, limits.jerk)
+    fastest = limits.speed_along(float(way[0]), float(way[1]))
+    level = rest_to_rest(float(np.linalg.norm(way[:2])), fastest, push, limits.jerk)
     speed = limits.climb if way[2] > 0.0 else limits.descent
     return max(level, rest_to_rest(abs(float(way[2])), speed, push, limits.jerk))
+
+
+def _either_way(limits: Limits, way: Array) -> float:
+    """Return the speed over ground that can be had there and back, m/s."""
+    east, north = float(way[0]), float(way[1])
+    return min(limits.speed_along(east, north), limits.speed_along(-east, -north))
 
 
 def rest_to_rest(distance: float, speed: float, acceleration: float, jerk: float) -> float:

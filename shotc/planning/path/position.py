@@ -195,9 +195,8 @@ def _nominal(stretch: Stretch, limits: Limits, breaks: Array) -> tuple[Array, Ar
     direction = (np.diff(stretch.corners, axis=0) / np.diff(stretch.s)[:, None])[leg]
     flat = np.linalg.norm(direction[:, :2], axis=1)
     vertical = np.where(direction[:, 2] > 0, limits.climb, limits.descent)
-    reach = np.minimum(
-        limits.speed / np.maximum(flat, 1e-9), vertical / np.maximum(np.abs(direction[:, 2]), 1e-9)
-    )
+    level = np.array([limits.speed_along(east, north) for east, north, _ in direction.tolist()])
+    reach = np.minimum(level / np.maximum(flat, 1e-9), vertical / np.maximum(np.abs(direction[:, 2]), 1e-9))
     return direction, stretch.pace * reach
 
 
@@ -212,14 +211,15 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
     v1, v2 = speed[first.piece], speed[second.piece]
     unit = EXCESS_PRICE * scale**2
 
-    def cone(rows: Rows, axes: tuple[int, ...], bound: Array, price: float) -> Cones:
-        zero = np.zeros((len(bound), len(axes)))
-        return Cones(rows, axes, zero, bound, price * share[rows.piece], np.zeros(len(bound), dtype=np.intp))
+    def cone(rows: Rows, axes: tuple[int, ...], centre: Array, bound: Array, price: float) -> Cones:
+        owner = np.zeros(len(bound), dtype=np.intp)
+        return Cones(rows, axes, centre, bound, price * share[rows.piece], owner)
 
+    still, push = np.zeros((len(v1), 1)), limits.usable_acceleration
     return (
-        cone(first, (0, 1), limits.speed / v1, unit),
-        cone(first, (2,), min(limits.climb, limits.descent) / v1, unit),
-        cone(second, (0, 1, 2), limits.usable_acceleration / v2**2, unit * scale),
+        cone(first, (0, 1), np.array(limits.wind) / v1[:, None], limits.speed / v1, unit),
+        cone(first, (2,), still, min(limits.climb, limits.descent) / v1, unit),
+        cone(second, (0, 1, 2), np.zeros((len(v2), 3)), push / v2**2, unit * scale),
     )
 
 

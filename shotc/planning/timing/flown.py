@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,7 +50,8 @@ def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
         for order, bound in ((1, axis.rate), (2, axis.acceleration), (3, None if axis.ease else axis.jerk)):
             if bound is not None:
                 along = derivatives[order].ctrl @ axis.pick.T
-                found.append(Usage(bound[0], order, bound[1], _peak(along, axis.sign) / bound[1]))
+                size = axis.rate_used if order == 1 else _norm
+                found.append(Usage(bound[0], order, bound[1], _peak(along, size) / bound[1]))
     return tuple(found)
 
 
@@ -91,11 +93,16 @@ def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceili
     return np.asarray(strays)
 
 
-def _peak(ctrl: Array, sign: int) -> Array:
+def _norm(vectors: Array) -> Array:
+    return np.asarray(np.linalg.norm(vectors, axis=-1))
+
+
+def _peak(ctrl: Array, size: Callable[[Array], Array]) -> Array:
+    """Return an upper bound of a convex size on every piece, none below 0; shape (P,)."""
     pieces = len(ctrl)
     parts = ctrl
     for _ in range(HALVINGS):
         left, right = split_half(parts)
         parts = np.concatenate([left, right])
-    size = np.maximum(sign * parts[..., 0], 0.0) if sign else np.linalg.norm(parts, axis=-1)
-    return np.asarray(size.max(axis=1).reshape(-1, pieces).max(axis=0))
+    sizes = np.maximum(size(parts), 0.0)
+    return np.asarray(sizes.max(axis=1).reshape(-1, pieces).max(axis=0))

@@ -91,9 +91,7 @@ def rate_cap(d1: Array, limits: tuple[Axis, ...]) -> Array:
     cap = np.full(d1.shape[:-1], FASTEST)
     for axis in limits:
         if axis.rate is not None:
-            along = d1 @ axis.pick.T
-            size = axis.sign * along[..., 0] if axis.sign else np.linalg.norm(along, axis=-1)
-            size = np.maximum(size, 1e-12)
+            size = np.maximum(axis.rate_used(d1 @ axis.pick.T), 1e-12)
             cap = np.minimum(cap, (axis.rate[1] / size) ** 2)
     return cap
 

@@ -24,6 +24,8 @@ EASE = 0.2
 # A limit that a motion may use up to this share, so that proofs have room for rounding.
 SHARE = 1.0 - 1e-6
 
+NEVER = 1e-300  # m/s, in place of none where it divides
+
 
 @dataclass(frozen=True, slots=True)
 class Ceiling:
@@ -42,11 +44,18 @@ class Ceiling:
     """The range of the camera's pitch, rad."""
     yaw: tuple[float, float] = (-inf, inf)
     """The range of the camera's yaw against the body's, rad."""
+    wind: tuple[float, float] = (0.0, 0.0)
+    """Velocity of the air over ground, m/s, where it is known."""
 
     def scaled(self, share: float) -> Ceiling:
-        """Return the ceiling with every limit but the ranges multiplied by ``share`` (a pace)."""
-        rates = (f.name for f in fields(self) if f.name not in {"pitch", "yaw"})
-        return replace(self, **{name: share * getattr(self, name) for name in rates})
+        """Return the ceiling with every limit but the ranges multiplied by ``share`` (a pace).
+
+        The wind is, too: then every velocity is a share of one within the limits, and that, by convexity,
+        within them itself.
+        """
+        rates = (f.name for f in fields(self) if f.name not in {"pitch", "yaw", "wind"})
+        wind = (share * self.wind[0], share * self.wind[1])
+        return replace(self, wind=wind, **{name: share * getattr(self, name) for name in rates})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,6 +66,7 @@ class Axis:
     rate, acceleration, jerk : (name in Ceiling, limit), or None where nothing binds
     sign : 0 for a norm; +1 or -1 where only that direction of the rate of a single row counts
     ease : whether jerk is our easing only, which no proof asks for
+    drift : the rate, two numbers, from which that of the two rows counts
     """
 
     pick: Array
@@ -65,6 +75,26 @@ class Axis:
     jerk: tuple[str, float] | None = None
     sign: int = 0
     ease: bool = False
+    drift: tuple[float, float] = (0.0, 0.0)
+
+    def rate_used(self, along: Array) -> Array:
+        """Return what is held against the limit of the rate, for rates of the rows (..., d); shape (...).
+
+        It grows with the rate as this does. Of rates v that count from a drift w, |v - w| <= V, it is V times
+        the least k for which v / k is within the limit, the gauge of that disc, which is convex:
+        (sqrt((v.w)^2 + c |v|^2) - v.w) / c with c = V^2 - |w|^2.
+        """
+        if self.sign:
+            return np.asarray(self.sign * along[..., 0])
+        if self.drift == (0.0, 0.0) or self.rate is None:
+            return np.asarray(np.linalg.norm(along, axis=-1))
+        drift, most = np.array(self.drift), self.rate[1]
+        with_it, square = along @ drift, np.einsum("...d,...d->...", along, along)
+        left = most**2 - float(drift @ drift)
+        root = np.sqrt(with_it**2 + left * square)
+        # Of two equal forms the one without cancellation.
+        ahead = square / np.maximum(root + with_it, NEVER)
+        return np.asarray(most * np.where(with_it > 0.0, ahead, (root - with_it) / left))
 
 
 def ceiling_of(drone: Drone) -> Ceiling:
@@ -82,6 +112,7 @@ def ceiling_of(drone: Drone) -> Ceiling:
         gimbal.acceleration,
         gimbal.pitch,
         gimbal.yaw,
+        limits.wind,
     )
 
 
@@ -94,7 +125,7 @@ def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[Axis, ...]:
     if zoom_only:
         return (_turn(_row({HFOV: 1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"),)
     return (
-        Axis(np.stack([_row({X: 1.0}), _row({Y: 1.0})]), rate=("speed", ceiling.speed)),
+        Axis(np.stack([_row({X: 1.0}), _row({Y: 1.0})]), rate=("speed", ceiling.speed), drift=ceiling.wind),
         Axis(_row({Z: 1.0})[None], rate=("climb", ceiling.climb), sign=1),
         Axis(_row({Z: 1.0})[None], rate=("descent", ceiling.descent), sign=-1),
         Axis(

@@ -15,6 +15,7 @@ from tests.support.second_opinion.flight import AT_HOME, BODY_YAW, CAM_PITCH, CA
 from tests.support.second_opinion.mission import BESIDE_TARGETS, GROUND, SEPARATION, Zone
 
 LENS = (np.radians(1.0), np.radians(170.0))
+GRAVITY = 9.80665
 FINE, ROUNDS = 15, 3  # a worst time is looked at again, this finely and often
 
 
@@ -81,7 +82,10 @@ def limits(case: Case, flight: Flight) -> Iterator[Worst]:
     yaw_second = np.abs(second[..., CAM_YAW] - second[..., BODY_YAW])
     norm = np.linalg.norm
     uppers = {
-        "speed": (norm(rate[..., :2], axis=-1), bound["speed"]),
+        "airspeed" if any(bound["wind"]) else "speed": (
+            norm(rate[..., :2] - np.array(bound["wind"]), axis=-1),
+            bound["speed"],
+        ),
         "climb": (rate[..., 2], bound["climb"]),
         "descent": (-rate[..., 2], bound["descent"]),
         "acceleration": (norm(second[..., :3], axis=-1), bound["acceleration"]),
@@ -96,6 +100,12 @@ def limits(case: Case, flight: Flight) -> Iterator[Worst]:
         "gimbal yaw acceleration": (yaw_second, gimbal["acceleration"]),
         "field of view max": (value[..., HFOV], LENS[1]),
     }
+    pushed = second[..., :3] + np.array([0.0, 0.0, GRAVITY])
+    if bound["tilt"] != "inf":
+        upright = pushed[..., 2] / norm(pushed, axis=-1)
+        uppers["tilt"] = np.arccos(np.clip(upright, -1.0, 1.0)), bound["tilt"]
+    if bound["thrust_to_weight"] != "inf":
+        uppers["thrust to weight"] = norm(pushed, axis=-1) / GRAVITY, bound["thrust_to_weight"]
     lowers = {
         "gimbal pitch min": (value[..., CAM_PITCH], gimbal["pitch"][0]),
         "gimbal yaw min": (yaw, gimbal["yaw"][0]),

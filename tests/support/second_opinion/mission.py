@@ -66,7 +66,11 @@ class Mission:
 
     @property
     def wind(self) -> float:
-        return number(self.world.get("wind", 0.0))
+        """What a wind from any side takes off every drone's speed, m/s."""
+        wind = self.world.get("wind", 0.0)
+        if not isinstance(wind, dict):
+            return number(wind)
+        return 0.0 if "from" in wind else number(wind.get("speed", 0.0))
 
     @property
     def rate(self) -> float:

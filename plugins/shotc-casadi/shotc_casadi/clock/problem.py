@@ -117,12 +117,14 @@ def problem(
     """
     limits = subject.drone.limits
     table, count = _half_spaces(planes, len(breaks) - 1)
+    windy = any(limits.wind)
     sizes = Sizes(
         count,
         references.sight_lines.shape[1],
         references.bodies.shape[1],
         references.subjects.shape[1],
         (references.subjects.shape[2] - SUBJECT) // EXTENT,
+        windy,
     )
     least = np.full(sizes.inputs, -inf)
     least[sizes.moves :] = 0.0
@@ -137,6 +139,8 @@ def problem(
     high[:3] = jerk, speed, use.share * limits.climb
     rows = [references.sight_lines, references.bodies, references.subjects]
     flat = [row.reshape(len(breaks), -1) for row in rows]
+    if windy:
+        flat.append(np.tile(use.share * np.array(limits.wind), (len(breaks), 1)))
     moves = start[1][:, : sizes.moves]
     made = ClockProblem(
         sizes,

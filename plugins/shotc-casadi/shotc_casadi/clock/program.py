@@ -29,7 +29,7 @@ def solve(task: ClockProblem, solver: Solver) -> Solution:
 def instance(task: ClockProblem) -> Instance:
     """Return a problem as the solvers take it, with each slack in its unit."""
     return Instance(
-        kind=derived(*task.sizes),
+        kind=derived(task.sizes),
         parameters=task.parameters,
         states=task.states,
         inputs=task.inputs / task.units,
@@ -48,7 +48,7 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
 
     inputs : shape (N, sizes.moves), without those slacks
     """
-    sizes, made = task.sizes, derived(*task.sizes)
+    sizes, made = task.sizes, derived(task.sizes)
     u = np.zeros((len(inputs), sizes.inputs))
     u[:, : sizes.moves] = inputs[:, : sizes.moves]
     rows = np.array(made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[2])

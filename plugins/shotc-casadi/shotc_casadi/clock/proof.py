@@ -45,7 +45,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
     first, second, third = (position.derivative(order).ctrl for order in (1, 2, 3))
     norm = np.linalg.norm
     uses = {
-        "speed": (norm(first[:, :, :2], axis=2), limits.speed, "m/s"),
+        "speed": (norm(first[:, :, :2] - np.array(limits.wind), axis=2), limits.speed, "m/s"),
         "climb": (first[:, :, 2], limits.climb, "m/s"),
         "descent": (-first[:, :, 2], limits.descent, "m/s"),
         "acceleration": (norm(second, axis=2), limits.usable_acceleration, "m/s^2"),

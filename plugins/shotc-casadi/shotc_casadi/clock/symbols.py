@@ -20,7 +20,7 @@ import casadi as ca
 from shotc_casadi.clock.angles import over_ground, turning
 from shotc_casadi.clock.picture import residuals, width
 from shotc_casadi.derivatives import Derived, differentiated
-from shotc_casadi.symbols import Stage, cut
+from shotc_casadi.symbols import WIND, Stage, cut
 
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 PLACED = 9  # states that are the camera's place and its derivatives
@@ -38,7 +38,7 @@ class Sizes(NamedTuple):
     """What a stage has: half-spaces, ellipsoids to look past, others to keep out of, subjects in one picture.
 
     subjects : 0 where the camera follows one or none, and is no part of the problem
-    extents : bodies of each subject, 0 where each is one upright cylinder
+    extents : bodies of each subject, 0 where each is one upright cylinder; windy : whether the air moves
     """
 
     planes: int
@@ -46,6 +46,7 @@ class Sizes(NamedTuple):
     bodies: int = 0
     subjects: int = 0
     extents: int = 0
+    windy: bool = False
 
     @property
     def rows(self) -> tuple[tuple[int, int], ...]:
@@ -103,8 +104,8 @@ FIELDS = {
     "lens": 2,
 }
 """The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each, then what may hide a
-subject, LINE numbers each, what is kept away from, BODY numbers each, and several
-subjects, ``picture.width`` each.
+subject, LINE numbers each, what is kept away from, BODY numbers each, several subjects, ``picture.width``
+each, and, where the air moves, how fast it does to the East and North.
 
 length : seconds
 ideal : where the camera would be, W, metres; place : weight of the squared distance to it
@@ -122,17 +123,16 @@ picture : weight of how several subjects appear; lens : tan of half the fields o
 """
 
 
-def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, extents: int = 0) -> Stage:
+def stage(sizes: Sizes) -> Stage:
     """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
 
-    held is horizontal speed squared, acceleration squared, and the squared distance to the ideal place, over
-    that of how far the camera may be. driven is jerk squared; of the velocity's middle control point the
-    horizontal square and the climb; for one subject, what is left of the gimbal's pitch range below and
-    above, metres; then, for each half-space, the slack of the position's control points, metres; then, for
-    each ellipsoid, by how much less than the input says it hides a subject, or how far the place is out of
-    it beyond what the input says.
+    held is horizontal speed through the air squared, acceleration squared, and the squared distance to the
+    ideal place, over that of how far the camera may be. driven is jerk squared; of the velocity's middle
+    control point that speed squared and the climb; for one subject, what is left of the gimbal's pitch range
+    below and above, metres; then, for each half-space, the slack of the position's control points, metres;
+    then, for each ellipsoid, by how much less than the input says it hides a subject, or how far the place
+    is out of it beyond what the input says.
     """
-    sizes = Sizes(planes, occluders, bodies, subjects, extents)
     z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(sizes))
     x, u = z[: sizes.states], z[sizes.states :]
     given, walls, sight_lines, near, shown = _cut(p, sizes)
@@ -140,7 +140,7 @@ def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, e
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
     moved = _integrated(x[:PLACED], jerk, h)
     off = ca.sumsqr(place - given["ideal"])
-    aimed = _aims_at_several(x, u, given, shown) if subjects else _aims_at_one(x, u, given)
+    aimed = _aims_at_several(x, u, given, shown) if sizes.subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
     occlusions = [occlusion(line[:OCCLUDER], place, line[OCCLUDER:]) for line in sight_lines]
     lacks = {price: u[k] / (h * given[price]) for price, k in sizes.slacks.items()}
@@ -148,10 +148,10 @@ def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, e
         ca.sqrt(given["field"]) * ca.fmax(0.0, 1.0 - q / body[-1])
         for q, body in zip(depths, near, strict=True)
     ]
-    middle = v + h * a / 2
+    middle, wind = v + h * a / 2, p[-WIND:] if sizes.windy else 0
     driven = ca.vertcat(
         ca.sumsqr(jerk),
-        ca.sumsqr(middle[:2]),
+        ca.sumsqr(middle[:2] - wind),
         middle[2],
         *aimed.limits,
         *_slacks(walls, place, v, moved, h),
@@ -164,7 +164,7 @@ def stage(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, e
         ca.vertcat(moved, *aimed.moved),
         node=given["place"] * off * (1 + given["leash"] * off) + aimed.node,
         passing=h * (given["jerk"] * ca.sumsqr(jerk) + aimed.slack) + ca.sum1(u[sizes.moves :]),
-        held=ca.vertcat(ca.sumsqr(v[:2]), ca.sumsqr(a), given["near"] * off),
+        held=ca.vertcat(ca.sumsqr(v[:2] - wind), ca.sumsqr(a), given["near"] * off),
         driven=driven,
         node_roots=ca.vertcat(*reached),
         passing_roots=ca.sqrt(h * given["turn"]) * aimed.turned,
@@ -250,14 +250,14 @@ def inside(body: Any, eye: Any) -> Any:
 
 
 @lru_cache(maxsize=16)
-def derived(planes: int, occluders: int = 0, bodies: int = 0, subjects: int = 0, extents: int = 0) -> Derived:
+def derived(sizes: Sizes) -> Derived:
     """Return the functions of one stage of those sizes."""
-    return differentiated(stage(planes, occluders, bodies, subjects, extents))
+    return differentiated(stage(sizes))
 
 
 def size(sizes: Sizes) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + sum(count * wide for count, wide in sizes.rows)
+    return sum(FIELDS.values()) + sum(count * wide for count, wide in sizes.rows) + WIND * sizes.windy
 
 
 def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:

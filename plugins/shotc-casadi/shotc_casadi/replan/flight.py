@@ -53,8 +53,9 @@ class Flight:
         self.times = ahead.step * np.arange(n + 1)
         self._way = float(self.times[-1])  # at a metre a second
         self._back = limits.usable_acceleration / np.sqrt(3.0) * self.times[1:, None] * np.ones(3)
-        self._lowest = np.array([-limits.speed, -limits.speed, -limits.descent])
-        self._highest = np.array([limits.speed, limits.speed, limits.climb])
+        east, north = limits.wind
+        self._lowest = np.array([east - limits.speed, north - limits.speed, -limits.descent])
+        self._highest = np.array([east + limits.speed, north + limits.speed, limits.climb])
         self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))
 
     def solver(self, place: Array, v: Array, traffic: Traffic) -> tuple[Solver, bool]:
@@ -62,7 +63,7 @@ class Flight:
 
         place, v : of the drone, shape (3,), written as the beginning of the measured state
         """
-        fastest = max(self._keeping.limits.speed, float(np.linalg.norm(v)))
+        fastest = max(self._keeping.limits.fastest, float(np.linalg.norm(v)))
         near = self._standing.near(place, fastest * self._way)
         of = kept(self._keeping, near, traffic)
         solver = self._solver(of)

@@ -20,7 +20,7 @@ REACH_M = 1.0
 """What stands farther off than this and the way of a horizon is left out, metres."""
 FEW = 3
 """So many rooms are never left out, so that no programme has to be laid out anew in flight."""
-LIMITS = 8
+LIMITS = 10
 
 
 class Kept(NamedTuple):
@@ -91,7 +91,7 @@ def common(keeping: Keeping, near: tuple[Room, ...], step: float) -> list[float]
         given.reaction,
         given.separation + given.margin,
     ]
-    numbers += [given.half_angle or 0.0, *given.pitch]
+    numbers += [given.half_angle or 0.0, *given.pitch, *limits.wind]
     return [*numbers, *(number for room in near for number in room.parameters)]
 
 
@@ -124,7 +124,7 @@ def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
         at = 6 * (of.others + i)
         angle = g[of.common - of.cones + i]
         found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
-    found.append(speed - ca.sqrt(ca.sumsqr(v[:2]) + STANDING_MS**2))
+    found.append(speed - ca.sqrt(ca.sumsqr(v[:2] - g[LIMITS - 2 : LIMITS]) + STANDING_MS**2))
     return ca.vertcat(*found)
 
 

@@ -146,7 +146,8 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
         for label in by_span.values()
     )
     if "speed" in holdup.names[:2] and mission.wind > 0:
-        labels += (mission.origins.value(("world", "wind"), "takes a part of the speed"),)
+        words = "takes a part of the speed" if mission.wind_taken else "the wind"
+        labels += (mission.origins.value(("world", "wind"), words),)
     return labels
 
 
@@ -198,7 +199,9 @@ def _least_factor(enough: Callable[[float], bool]) -> float | None:
 
 def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
     """Return a limit with its name in words, and what the wind takes of it."""
-    wind = f" less {mission.wind:.2f} m/s of wind" if name == "speed" and mission.wind > 0 else ""
+    wind = ""
+    if name == "speed" and mission.wind > 0:
+        wind = f" less {mission.wind:.2f} m/s of wind" if mission.wind_taken else " in the wind"
     return f"{_shown(drone, name).words} {limit_text(mission, drone, name)}{wind}"
 
 
@@ -218,4 +221,4 @@ def _written(mission: MissionIR, shown: _Shown, value: float, room: float = 1.0)
     if shown is _SHOWN["thrust_to_weight"]:
         return 1.0 + room * value / G_M_S2
     value = degrees(value) if shown.angular else value
-    return room * (value + mission.wind if shown is _SHOWN["speed"] else value)
+    return room * (value + mission.wind_taken if shown is _SHOWN["speed"] else value)

@@ -38,9 +38,11 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + ROUNDING) for t in starts):
         return
     worst, when = _fastest(mission, shot, starts[0])
+    through = " through the air" if any(drone.limits.wind) else ""
     open_ = len(starts) > 1
     early = f"; the shot begins at {starts[0]:.1f} s at the earliest" if open_ else ""
-    wind = f" ({limit + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
+    taken = mission.wind_taken
+    wind = f" ({limit + taken:.1f} less {taken:.1f} of wind)" if taken else ""
     window = min(WINDOW, shot.timing.duration or 0.0)
     remedies = [
         *_nearer(mission, shot, drone),
@@ -57,9 +59,10 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         (
             mission.origins.value((*shot.path, "kind")),
             mission.origins.value((*drone.path, "limits", "speed"), "the drone's speed"),
+            *((mission.origins.value(("world", "wind"), "the wind"),) if through else ()),
         ),
         (
-            f"its place moves at {worst:.1f} m/s over {window:.1f} s from t = {when:.1f} s; "
+            f"its place moves at {worst:.1f} m/s{through} over {window:.1f} s from t = {when:.1f} s; "
             f"the drone flies {limit:.1f} m/s{wind}{early}",
         ),
         ", or ".join(remedies),
@@ -74,7 +77,7 @@ def _faster(mission: MissionIR, shot: Shot, speed: float, start: float) -> str:
     """
     if _goes_on(mission, shot):
         speed *= TO_CATCH_UP
-    limits = f"speed: {up(speed + mission.wind, 1):.1f} m/s"
+    limits = f"speed: {up(speed + mission.wind_taken, 1):.1f} m/s"
     needed = _hardest(mission, shot, start)
     if needed > mission.drone(shot.drone).limits.acceleration * (1 + ROUNDING):
         limits += f", acceleration: {up(needed, 1):.1f} m/s^2"
@@ -130,7 +133,11 @@ def _is_even(mission: MissionIR, shot: Shot) -> bool:
 
 
 def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float]:
-    """Return the highest mean speed over a window, m/s, and when it is, if the shot begins at ``start``."""
+    """Return the highest mean speed over a window, m/s, and when it is, if the shot begins at ``start``.
+
+    It is that through the air, where the wind is known.
+    """
+    wind = mission.drone(shot.drone).limits.wind
     if is_keyed(shot):
         shot = settled(mission, shot, start)
     duration = shot.timing.duration or 0.0
@@ -139,7 +146,7 @@ def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float
     for i in range(STEPS + 1):
         t = start + (duration - window) * i / STEPS
         a, b = (ideal_place(mission, shot, start, u) for u in (t, t + window))
-        found.append((hypot(b[0] - a[0], b[1] - a[1]) / window, -t))
+        found.append((hypot(b[0] - a[0] - wind[0] * window, b[1] - a[1] - wind[1] * window) / window, -t))
     worst, late = max(found)
     return worst, -late
 

@@ -14,14 +14,19 @@ def least_travel(points: Sequence[Vec3], limits: Limits, *, rests: bool = True) 
     """Return the least seconds along points joined by straight lines.
 
     rests : whether the drone starts and ends at rest. Horizontal and vertical motion are bounded
-    apart, each with its own speed and the full acceleration, and the slower one counts.
+    apart, each with its own speed and the full acceleration, and the slower one counts. In wind the mean
+    velocity over a line is one that the drone can fly, whatever its way.
     """
     chords = [tuple(b - a for a, b in zip(p, q, strict=True)) for p, q in pairwise(points)]
     across = sum(hypot(c[0], c[1]) for c in chords)
     up, down = sum(max(0.0, c[2]) for c in chords), sum(max(0.0, -c[2]) for c in chords)
     a = limits.acceleration if rests else None
+    against = 0.0
+    if limits.wind != (0.0, 0.0):
+        against = sum(hypot(c[0], c[1]) / limits.speed_along(c[0], c[1]) for c in chords)
     return max(
-        _least(across, limits.speed, a),
+        against,
+        _least(across, limits.fastest, a),
         _least(up, limits.climb, a) if down == 0 else up / limits.climb + down / limits.descent,
         _least(down, limits.descent, a) if up == 0 else 0.0,
     )

@@ -187,7 +187,10 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
     holds = sum(k.hold for k in shot.keyframes)
     limits = drone.limits
     held = f", {holds:.1f} s of holds included" if holds else ""
-    wind = f" ({limits.speed + mission.wind:.1f} less {mission.wind:.1f} of wind)" if mission.wind else ""
+    taken = mission.wind_taken
+    wind = f" ({limits.speed + taken:.1f} less {taken:.1f} of wind)" if taken else ""
+    if any(limits.wind):
+        wind = f" through air that moves at {mission.wind:.1f} m/s"
     return (
         f"at least {at_least(least, 1)} s at {limits.speed:.1f} m/s across{wind}, {limits.climb:.1f} m/s up, "
         f"{limits.descent:.1f} m/s down and {limits.acceleration:.1f} m/s^2{held}"
@@ -276,7 +279,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
         return []
     message = f"the shots of drone `{drone.name}` take longer than it can stay in the air"
     note = f"all its shots with the ways between take at least {at_least(flight, 1)} s"
-    speed = drone.limits.speed + mission.wind
+    speed = drone.limits.speed + mission.wind_taken
     taken = (f"the wind takes {mission.wind:.1f} of its {speed:.1f} m/s",) if mission.wind > speed / 2 else ()
     return [
         Diagnostic(

@@ -13,16 +13,29 @@ def less_wind(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> l
 
     Empty where the wind takes no more than half of the drone's speed, or where no speed would do.
     """
-    limits, wind = drone.limits, mission.wind
-    speed = limits.speed + wind
-    if wind <= speed / 2:
+    limits, wind, taken = drone.limits, mission.wind, mission.wind_taken
+    if wind <= (limits.speed + taken) / 2:
         return []
     needed = _needed(shot, limits, seconds)
     if needed is None:
         return []
-    faster = f"take a drone that flies more than {at_least(needed + wind, 1)} m/s"
-    calm = down(speed - needed, 1)
+    faster = f"take a drone that flies more than {at_least(needed + taken, 1)} m/s"
+    calm = down(limits.speed + taken - needed if taken else wind * _calmer(shot, limits, seconds), 1)
     return [f"wait for wind below {calm:.1f} m/s", faster] if calm > 0 else [faster]
+
+
+def _calmer(shot: Shot, limits: Limits, seconds: float) -> float:
+    """Bisect for the largest share of the wind in which a shot may take ``seconds``, 0 if in none."""
+
+    def takes(share: float) -> float:
+        wind = (share * limits.wind[0], share * limits.wind[1])
+        return least_shot(shot.keyframes, limits._replace(wind=wind))
+
+    low, high = 0.0, 1.0
+    while high - low > 1e-4:
+        middle = (low + high) / 2
+        low, high = (middle, high) if takes(middle) <= seconds else (low, middle)
+    return low
 
 
 def _needed(shot: Shot, limits: Limits, seconds: float) -> float | None:

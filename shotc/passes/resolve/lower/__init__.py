@@ -29,6 +29,7 @@ from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
 from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
+from shotc.spec.rehearse import WindSpec
 from shotc.spec.rules import RulesSpec
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots
         partial(match_files, ir.folder, ir.origins),
         world.heights,
     )
-    return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, 0.0))
+    return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, WindSpec()))
 
 
 def _world(ir: LoadedMission) -> _World:

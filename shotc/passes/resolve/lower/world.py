@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import isclose
+from math import cos, isclose, sin
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
@@ -14,12 +14,14 @@ from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import counts_from_ground, stands
+from shotc.passes.resolve.lower.rehearsal import toward
 from shotc.spec.drones import DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
 from shotc.spec.presets import PRESETS, Preset
+from shotc.spec.rehearse import WindSpec
 from shotc.spec.world import ZoneSpec
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
@@ -120,27 +122,30 @@ def _same(p: Vec2, q: Vec2) -> bool:
 
 
 def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:
-    """Return the drones by name, with presets filled in and wind taken off their speed."""
+    """Return the drones by name, with presets filled in and what the wind does to their speed."""
     found: dict[str, Drone] = {}
     faults: list[Diagnostic] = []
-    wind = spec.world.wind.speed
+    wind = spec.world.wind
     for name, drone in spec.drones.items():
         resolved = resolve_drone(name, drone, put, wind)
-        faults += becalmed("drone", resolved, wind, origins)
+        faults += becalmed("drone", resolved, wind.speed, origins)
         faults += beyond_model("drone", drone, resolved.path, origins)
         found[name] = resolved
     return found, faults
 
 
-def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: float) -> Drone:
-    """Return a drone as its preset and what the mission puts in its place; wind in m/s."""
-    preset = PRESETS[spec.model]
+def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: WindSpec) -> Drone:
+    """Return a drone as its preset and what the mission puts in its place."""
+    preset, to = PRESETS[spec.model], toward(wind)
+    limits = limits_of(preset, spec.limits, wind.speed if to is None else 0.0)
+    if to is not None:
+        limits = limits._replace(wind=(wind.speed * cos(to), wind.speed * sin(to)))
     camera = spec.camera
     return Drone(
         name=name,
         model=spec.model,
         home=put(spec.home),
-        limits=limits_of(preset, spec.limits, wind),
+        limits=limits,
         gimbal=preset.gimbal if spec.gimbal is None else Gimbal(**_over(preset.gimbal, spec.gimbal)),
         hfov=camera.field_of_view or preset.hfov,
         aspect=camera.aspect_ratio or preset.aspect,
@@ -154,7 +159,7 @@ def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: float) -> Drone:
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:
-    """Return the preset's limits with what the mission gives in their place, less the wind, m/s."""
+    """Return the preset's limits with what the mission gives in their place, less so much wind, m/s."""
     limits = _over(preset.limits, spec)
     limits["speed"] -= wind
     return Limits(**limits)
@@ -194,9 +199,9 @@ def beyond_model(
 
 def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -> list[Diagnostic]:
     """Return the fault of a drone, or of a fleet's drones, to which the wind leaves no speed."""
-    if drone.limits.speed >= LEAST_SPEED:
+    if drone.limits.slowest >= LEAST_SPEED:
         return []
-    speed = drone.limits.speed + wind
+    speed = drone.limits.slowest + wind
     labels = (
         origins.value(("world", "wind")),
         origins.value((*drone.path, "limits", "speed"), f"{what} `{drone.name}`"),

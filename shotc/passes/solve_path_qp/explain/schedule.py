@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import dist
-
 from shotc.diag.model import Diagnostic
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import TO_CATCH_UP, ideal_place
@@ -74,11 +72,12 @@ def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
     drone = mission.drone(shot.drone)
     begun = at_start(mission, shot, time)
     places = [ideal_place(mission, begun, time, time + t) for t in (0.0, WINDOW)]
-    speed = dist(places[0][:2], places[1][:2]) / WINDOW * TO_CATCH_UP
+    east, north = (TO_CATCH_UP * (b - a) / WINDOW for a, b in zip(*(p[:2] for p in places), strict=True))
+    speed = drone.limits.airspeed(east, north)
     if speed <= drone.limits.speed:
         return []
     return [
-        f"raise `limits: {{speed: {at_least(speed + mission.wind, 1)} m/s}}` of `{drone.name}` "
+        f"raise `limits: {{speed: {at_least(speed + mission.wind_taken, 1)} m/s}}` of `{drone.name}` "
         "if it flies that"
     ]
 

@@ -73,6 +73,7 @@ MAST = Target("mast", (40.0, 0.0, 10.0), CylinderShape(1.0, 20.0), ("targets", "
 FRAMING = PLAN.drones[0].framing[0]
 TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("speed limit", with_limits(speed=7.8), {"V001"}),
+    ("airspeed", with_limits(wind=(0.0, -0.5)), {"V001"}),
     ("climb limit", with_limits(climb=1.8), {"V001"}),
     ("descent limit", with_limits(descent=1.1), {"V001"}),
     ("acceleration limit", with_limits(acceleration=1.5), {"V002"}),
