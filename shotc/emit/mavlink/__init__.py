@@ -16,14 +16,11 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.mavlink.build import Builder
-from shotc.emit.mavlink.clearance import Obstacle, keep_outs
-from shotc.emit.mavlink.compare import Error, compare, nearest_miss
 from shotc.emit.mavlink.dialect import DIALECTS, Dialect
 from shotc.emit.mavlink.fence import fence_of
-from shotc.emit.mavlink.geo import Geo, tie
 from shotc.emit.mavlink.items import CHANGE_SPEED, Item
 from shotc.emit.mavlink.plan_file import read_plan, write_plan
-from shotc.emit.mavlink.refly import Flown, refly
+from shotc.emit.mavlink.refly import refly
 from shotc.emit.mavlink.report import (
     clockless,
     coarsened,
@@ -40,8 +37,12 @@ from shotc.emit.mavlink.speed import DEFAULTS
 from shotc.emit.mavlink.steps import Step, steps_of, whole_seconds
 from shotc.emit.mavlink.style import Style, style_of
 from shotc.emit.mavlink.thin import Leg, Tolerance, thinner_of
-from shotc.emit.mavlink.track import SAMPLE_STEP, Track, track_of
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
+from shotc.emit.waypoints.clearance import Obstacle, keep_outs
+from shotc.emit.waypoints.compare import Error, compare, nearest_miss
+from shotc.emit.waypoints.flown import Flown
+from shotc.emit.waypoints.geo import Geo, tie
+from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 

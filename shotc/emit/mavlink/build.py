@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink.dialect import Dialect
-from shotc.emit.mavlink.geo import Geo
 from shotc.emit.mavlink.items import (
     CHANGE_SPEED,
     CONDITION_YAW,
@@ -24,7 +23,6 @@ from shotc.emit.mavlink.items import (
     VIDEO_START,
     VIDEO_STOP,
     Item,
-    Place,
     action,
     at,
     compass_deg,
@@ -32,8 +30,9 @@ from shotc.emit.mavlink.items import (
 )
 from shotc.emit.mavlink.speed import Speeds, adapted, seconds
 from shotc.emit.mavlink.steps import SAME, Step
-from shotc.emit.mavlink.style import Command, Style, select, turns_body
-from shotc.emit.mavlink.track import Poses, Track
+from shotc.emit.mavlink.style import Command, Style, turns_body
+from shotc.emit.waypoints.geo import Geo, Place
+from shotc.emit.waypoints.track import Poses, Track, select
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone
 

@@ -22,7 +22,6 @@ from shotc.emit.mavlink.items import (
     WAYPOINT,
     YAW_LOCK,
     Item,
-    Place,
     action,
     at,
     compass_deg,
@@ -30,6 +29,7 @@ from shotc.emit.mavlink.items import (
     signed_deg,
 )
 from shotc.emit.mavlink.style import Command, Style
+from shotc.emit.waypoints.geo import Place
 
 ITSELF = -2.0  # the mission's own system and component, for the gimbal's primary control
 

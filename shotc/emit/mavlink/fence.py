@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.geo import METRE_DECIMALS, Geo
+from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo
 from shotc.geom.solid_arrays.points import footprint_distances
 from shotc.geom.solids import Cylinder, signed_area
 from shotc.ir.mission import MissionIR, Zone

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+from shotc.emit.waypoints.geo import Place
 from shotc.geom.camera import heading_of
 from shotc.geom.vec import wrapped
 
@@ -35,15 +36,6 @@ class Item:
     command: int
     frame: int
     params: tuple[float | None, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A global position: degrees, degrees, metres above home."""
-
-    lat: float
-    lon: float
-    alt: float
 
 
 def action(command: int, *params: float | None) -> Item:

@@ -6,8 +6,8 @@ import json
 from typing import Any
 
 from shotc.emit.mavlink.fence import Fence
-from shotc.emit.mavlink.geo import Geo
 from shotc.emit.mavlink.items import FRAME_RELATIVE, POSITION_COMMANDS, Item
+from shotc.emit.waypoints.geo import Geo
 
 QUADROTOR = 2
 CRUISE_SPEED = 15  # m/s; the loader wants a number, a multirotor never uses it

@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink import items as mav
-from shotc.emit.mavlink.geo import Geo
-from shotc.emit.mavlink.items import Item, Place
+from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
+from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.geo import Geo, Place
 from shotc.geom.camera import yaw_of
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone
@@ -30,27 +31,6 @@ Array = NDArray[np.float64]
 PX4_TURN = radians(45.0)  # rad/s, MPC_YAWRAUTO_MAX
 STEP_TIME, STEP_WAY = 0.05, 0.1  # seconds and metres between samples of the flight
 STEPS_MOST = 2000  # of one leg
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Flown:
-    """Samples of the re-flight, between take-off and landing.
-
-    part : (n,), counts starts and stops of recording: odd while the shots are filmed, in order
-    progress : (n,), way flown in m, stays at STAY_PACE
-    elapsed : (n,), s
-    """
-
-    position: Array
-    body_yaw: Array
-    cam_yaw: Array
-    cam_pitch: Array
-    part: NDArray[np.int64]
-    progress: Array
-    elapsed: Array
-
-
-STAY_PACE = 0.1  # m/s at which stays count as progress, as does all slower motion
 
 
 @dataclass(slots=True)

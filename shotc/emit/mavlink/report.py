@@ -7,10 +7,10 @@ from math import degrees
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.emit.mavlink.compare import Error
 from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
+from shotc.emit.waypoints.compare import Error
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.path import HFOV

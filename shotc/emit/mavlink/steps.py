@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from shotc.emit.mavlink.speed import SLOWEST
 from shotc.emit.mavlink.style import Command, Style, command_of, region_of
 from shotc.emit.mavlink.thin import Leg
-from shotc.emit.mavlink.track import Track
+from shotc.emit.waypoints.track import Track
 from shotc.ir.limits import Vec3
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.track import Poses, Track, project
+from shotc.emit.waypoints.track import Poses, Track, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
@@ -128,17 +128,6 @@ def facing(position: Array, point: Vec3 | Array) -> Array:
     """Return the body yaw, (n,), that looks at a point from each position, without jumps."""
     offset = np.asarray(point) - position
     return np.unwrap(np.arctan2(offset[:, 1], offset[:, 0]))
-
-
-def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:
-    """Return some of the poses."""
-    return Poses(
-        poses.position[part],
-        poses.body_yaw[part],
-        poses.cam_yaw[part],
-        poses.cam_pitch[part],
-        poses.hfov[part],
-    )
 
 
 def _meeting(poses: Poses, subject: Array) -> Vec3:

@@ -12,9 +12,9 @@ from math import radians
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.clearance import Obstacle, shortfall
-from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, select, turns_body
-from shotc.emit.mavlink.track import SAMPLE_STEP, Poses, Stretch, Track, project
+from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, turns_body
+from shotc.emit.waypoints.clearance import Obstacle, shortfall
+from shotc.emit.waypoints.track import SAMPLE_STEP, Poses, Stretch, Track, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone
 

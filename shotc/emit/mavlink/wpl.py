@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import nan
 
-from shotc.emit.mavlink.geo import Geo
 from shotc.emit.mavlink.items import FRAME_GLOBAL, FRAME_MISSION, WAYPOINT, Item
+from shotc.emit.waypoints.geo import Geo
 
 HEADER = "QGC WPL 110"
 

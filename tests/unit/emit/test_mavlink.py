@@ -8,9 +8,9 @@ import pytest
 
 from shotc.diag.registry import registry
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.geo import tie
 from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
+from shotc.emit.waypoints.geo import tie
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.ir.path import HFOV
 from shotc.ir.phases import Phase

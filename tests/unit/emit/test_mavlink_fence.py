@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.clearance import shortfall
 from shotc.emit.mavlink.fence import fence_of
-from shotc.emit.mavlink.geo import tie
+from shotc.emit.waypoints.clearance import shortfall
+from shotc.emit.waypoints.geo import tie
 from shotc.geom.solids import Cylinder, Prism, distance, signed_area
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.owners import GROUND

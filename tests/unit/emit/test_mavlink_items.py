@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.emit.mavlink.dialect import ArduPilot, Px4
-from shotc.emit.mavlink.geo import tie
-from shotc.emit.mavlink.items import FRAME_MISSION, FRAME_RELATIVE, Place, action, at, compass_deg, signed_deg
+from shotc.emit.mavlink.items import FRAME_MISSION, FRAME_RELATIVE, action, at, compass_deg, signed_deg
 from shotc.emit.mavlink.style import Command, Style
+from shotc.emit.waypoints.geo import Place, tie
 from shotc.ir.mission import GeoOrigin
 
 ORIGIN = GeoOrigin(47.3769, 8.5417, 408.0)

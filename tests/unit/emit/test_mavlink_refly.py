@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.compare import Error, compare
-from shotc.emit.mavlink.geo import Geo
 from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.plan_file import read_plan
-from shotc.emit.mavlink.refly import Flown, refly
+from shotc.emit.mavlink.refly import refly
 from shotc.emit.mavlink.wpl import read_waypoints
+from shotc.emit.waypoints.compare import Error, compare
+from shotc.emit.waypoints.flown import Flown
+from shotc.emit.waypoints.geo import Geo
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.film_plans import orbit_plan
 from tests.support.mavlink_flights import flight, plan, retold, straight

@@ -6,10 +6,10 @@ from math import acos, ceil, inf, pi, radians
 import numpy as np
 import pytest
 
-from shotc.emit.mavlink.clearance import keep_outs, shortfall
 from shotc.emit.mavlink.style import Style, follow, region_of, style_of
 from shotc.emit.mavlink.thin import Leg, Thinner, Tolerance, thinner_of
-from shotc.emit.mavlink.track import track_of
+from shotc.emit.waypoints.clearance import keep_outs, shortfall
+from shotc.emit.waypoints.track import track_of
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import Zone

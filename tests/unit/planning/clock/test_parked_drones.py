@@ -9,7 +9,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.cli.summary import summary
 from shotc.emit.csv_table import CsvTable
-from shotc.emit.mavlink.clearance import keep_outs
+from shotc.emit.waypoints.clearance import keep_outs
 from shotc.ir.mission import Drone
 from shotc.ir.parked import bodies, parked
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.items import Place
 from shotc.geom.earth import of_world, to_world
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import GeoOrigin
@@ -15,6 +14,15 @@ from shotc.ir.mission import GeoOrigin
 Array = NDArray[np.float64]
 DEGREE_DECIMALS = 9  # a tenth of a millimetre
 METRE_DECIMALS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A global position: degrees, degrees, metres above home."""
+
+    lat: float
+    lon: float
+    alt: float
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Plan against re-flight: what a mission file adds to position, heading and picture."""
+"""Plan against re-flight: what a file of waypoints adds to position, heading and picture."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from math import ceil, floor
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.clearance import Obstacle, shortfall
-from shotc.emit.mavlink.refly import STAY_PACE, Flown
-from shotc.emit.mavlink.track import Poses, poses_at, project, subject_at
+from shotc.emit.waypoints.clearance import Obstacle, shortfall
+from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.track import Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import UPRIGHT

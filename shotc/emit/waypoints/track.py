@@ -117,6 +117,17 @@ def project(poses: Poses, subject: Array, drone: Drone) -> Array:
     return np.stack([right / (depth * half), -down * drone.aspect / (depth * half)], axis=1)
 
 
+def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:
+    """Return some of the poses."""
+    return Poses(
+        poses.position[part],
+        poses.body_yaw[part],
+        poses.cam_yaw[part],
+        poses.cam_pitch[part],
+        poses.hfov[part],
+    )
+
+
 def _spans(flight: DroneTrajectory) -> list[tuple[float, float, str | None, bool]]:
     rests = _rests(flight.curve)
     spans: list[tuple[float, float, str | None, bool]] = []
