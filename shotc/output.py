@@ -22,10 +22,10 @@ from typing import NamedTuple, Self
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact
 
-FLOWN = ("plan.json", "trajectory.csv", "*.plan", "*.waypoints", "*.skyc")
+FLOWN = ("plan.json", "trajectory.csv", "*.plan", "*.waypoints", "*-ned.csv", "*.skyc")
 """What is flown from, or made into something that is."""
 
-SHOWN = ("framing.csv", "storyboard.png", "contact-sheet.png", "mission.rrd", "*.kml")
+SHOWN = ("framing.csv", "storyboard.png", "contact-sheet.png", "mission.rrd", "*.kml", "*.tum")
 """What else is written beside it."""
 
 HEAD = 65536

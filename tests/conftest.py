@@ -14,7 +14,7 @@ from hypothesis import settings
 CI, FUZZ = (bool(os.environ.get(name)) for name in ("CI", "FUZZ"))
 settings.register_profile("shotc", deadline=None, derandomize=not FUZZ, print_blob=True)
 settings.load_profile("shotc")
-OURS = ("shotc", "shotc_casadi", "shotc_kml", "tests")
+OURS = ("shotc", "shotc_casadi", "shotc_chan", "tests")
 if CI:
     # Hypothesis also tries the constants of whatever modules of ours are loaded: so all of them are.
     for package in map(import_module, OURS):

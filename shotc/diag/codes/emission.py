@@ -28,10 +28,11 @@ _MAVLINK_CODES = (
         "E101",
         "mavlink-needs-origin",
         Severity.WARNING,
-        "the MAVLink files are skipped, because the mission has no world.origin",
-        "Autopilots fly missions in latitude and longitude. Without `world.origin` the plan has no place on the "
-        "globe, so `<drone>.plan` and `<drone>.waypoints` are not written; all other outputs are. Give the "
-        "origin of the mission's frame, or leave `mavlink` out of `output.emit`.",
+        "MAVLink files or KML tours are skipped, because the mission has no world.origin",
+        "Autopilots fly missions in latitude and longitude, and tours are filmed there. Without `world.origin` the "
+        "plan has no place on the globe, so `<drone>.plan`, `<drone>.waypoints` and `<drone>.kml` are not written; "
+        "all other outputs are. Give the origin of the mission's frame, or leave `mavlink` and `kml` out of "
+        "`output.emit`.",
         _MAVLINK.replace("world:\n  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n", ""),
         _MAVLINK,
         "plan",

@@ -11,6 +11,7 @@ import pytest
 
 import shotc
 from shotc.emit.csv_table import FRAMING, GEODETIC, LIGHT, TRAJECTORY
+from shotc.emit.ned import SETPOINTS
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import PlacedKeyframe, PlacedSubject
 from shotc.ir.mission import ELSEWHERE_IN_PLANS, MissionIR
@@ -51,7 +52,7 @@ RECORDS = (
 
 
 def test_every_column_of_the_tables_is_explained():
-    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT},{FRAMING},{FLIGHT}".split(",")
+    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT},{FRAMING},{FLIGHT},{SETPOINTS}".split(",")
     assert [column for column in columns if column not in NAMED] == []
 
 

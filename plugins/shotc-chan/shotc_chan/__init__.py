@@ -1,0 +1,1 @@
+"""A shotc emitter that writes cameras for Nuke."""

@@ -1,1 +1,0 @@
-"""A shotc emitter that writes Google Earth tours."""

@@ -1,0 +1,46 @@
+"""Camera angles as rotations for other programs' files: unit quaternions x, y, z, w, without jumps of sign.
+
+World from camera, of a camera that looks along its own -Z with Y up, is Rz(yaw - 90 deg) Rx(90 deg + pitch)
+in W (x East, y North, z Up).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+
+
+def graphics(yaw: Array, pitch: Array) -> Array:
+    """Return rotations from a camera that looks along -Z, Y up, to W, shape (M, 4); yaw, pitch : rad, (M,)."""
+    return _continuous(_turned(yaw - np.pi / 2, pitch + np.pi / 2))
+
+
+def optical(yaw: Array, pitch: Array) -> Array:
+    """Return rotations from the camera frame of plans, x right, y down, z forward, to W, shape (M, 4)."""
+    return _continuous(_turned(yaw - np.pi / 2, pitch - np.pi / 2))
+
+
+def upright(yaw: Array, pitch: Array) -> Array:
+    """Return ``graphics`` for a world whose Y is up: x East, y Up, z South; shape (M, 4)."""
+    a, b = (yaw - np.pi / 2) / 2, pitch / 2  # Ry(yaw - 90 deg) Rx(pitch)
+    return _continuous(
+        np.stack(
+            [np.cos(a) * np.sin(b), np.sin(a) * np.cos(b), -np.sin(a) * np.sin(b), np.cos(a) * np.cos(b)], -1
+        )
+    )
+
+
+def _turned(about_z: Array, about_x: Array) -> Array:
+    """Return Rz Rx as quaternions, (M, 4)."""
+    a, b = about_z / 2, about_x / 2
+    return np.stack(
+        [np.cos(a) * np.sin(b), np.sin(a) * np.sin(b), np.sin(a) * np.cos(b), np.cos(a) * np.cos(b)], -1
+    )
+
+
+def _continuous(quaternions: Array) -> Array:
+    """Return the same rotations, each with the sign that is nearer to the one before."""
+    back = np.einsum("mi,mi->m", quaternions[1:], quaternions[:-1]) < 0.0
+    sign = np.concatenate([[1.0], np.where(np.logical_xor.accumulate(back), -1.0, 1.0)])
+    return np.asarray(quaternions * sign[:, None])
