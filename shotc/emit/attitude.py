@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Array
 
 
 def graphics(yaw: Array, pitch: Array) -> Array:
-    """Return rotations from a camera that looks along -Z, Y up, to W, shape (M, 4); yaw, pitch : rad, (M,)."""
+    """Return rotations to W from a camera that looks along -Z, Y up, shape (M, 4); yaw, pitch : rad, (M,)."""
     return _continuous(_turned(yaw - np.pi / 2, pitch + np.pi / 2))
 
 
@@ -23,12 +23,8 @@ def optical(yaw: Array, pitch: Array) -> Array:
 
 def upright(yaw: Array, pitch: Array) -> Array:
     """Return ``graphics`` for a world whose Y is up: x East, y Up, z South; shape (M, 4)."""
-    a, b = (yaw - np.pi / 2) / 2, pitch / 2  # Ry(yaw - 90 deg) Rx(pitch)
-    return _continuous(
-        np.stack(
-            [np.cos(a) * np.sin(b), np.sin(a) * np.cos(b), -np.sin(a) * np.sin(b), np.cos(a) * np.cos(b)], -1
-        )
-    )
+    x, y, z, w = _turned(yaw - np.pi / 2, pitch).T  # Ry(yaw - 90 deg) Rx(pitch): the axes y, z are z, -y here
+    return _continuous(np.stack([x, z, -y, w], axis=-1))
 
 
 def _turned(about_z: Array, about_x: Array) -> Array:

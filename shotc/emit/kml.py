@@ -67,7 +67,7 @@ def document(mission: MissionIR, origin: GeoOrigin, drone: DroneTrajectory) -> b
         if phase.shot is not None:
             _tour(folder, origin, drone, phase, f"tour{number}")
     indent(root)
-    return tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
+    return bytes(tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
 
 
 def _no_origin(mission: MissionIR) -> Diagnostic:

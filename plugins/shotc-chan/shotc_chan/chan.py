@@ -13,6 +13,8 @@ import numpy as np
 
 from shotc.plugin_api import CAM_PITCH, CAM_YAW, HFOV, Artifact, DroneTrajectory, Emission, VerifiedIR
 
+LINE = "%d" + " %.6f" * 3 + " %.7f" * 4 + "\n"
+
 
 @dataclass(frozen=True, slots=True)
 class NukeCamera:
@@ -48,4 +50,4 @@ def camera(drone: DroneTrajectory, rate: float, aspect: float) -> bytes:
     vfov = 2.0 * np.arctan(np.tan(state[:, HFOV] / 2.0) / aspect)
     angles = np.degrees([state[:, CAM_PITCH], state[:, CAM_YAW] - np.pi / 2.0, 0.0 * vfov, vfov])
     rows = np.column_stack([frames + 1, east, up, -north, *angles])
-    return "".join("%d %.6f %.6f %.6f %.7f %.7f %.7f %.7f\n" % tuple(row) for row in rows).encode()
+    return "".join(LINE % tuple(row) for row in rows.tolist()).encode()

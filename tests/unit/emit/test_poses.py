@@ -1,4 +1,4 @@
-"""Poses for evo (TUM) and setpoints for offboard scripts (NED), against the plan and against MAVLink's own words."""
+"""Poses for evo (TUM) and setpoints for offboard scripts (NED), against the plan."""
 
 from __future__ import annotations
 
