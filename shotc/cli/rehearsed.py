@@ -179,10 +179,22 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
     if unasked and done.conditions.loop != "replay":
         names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
         yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
+    yield from _spoiled(done)
     if done.runs[0].fleets and done.conditions.wind.speed:
         yield "fleets fly in gusts alone: their drones hold their speed over ground in any steady wind"
     for i in range(len(done.runs[0].fleets)):
         yield from _margin(done, [run.fleets[i] for run in done.runs])
+
+
+def _spoiled(done: Rehearsed) -> Iterator[str]:
+    """Say whose pictures have other drones in them, where the mission minds."""
+    if done.mission.rules.visibility == "off":
+        return
+    for i, first in enumerate(done.runs[0].courses):
+        share, run = max((run.courses[i].spoiled, run.number) for run in done.runs)
+        if share > 0.0:
+            seen = f"{at_least(100 * share, 1)} % of its pictures"
+            yield f"{first.drone}: another drone is in {seen} in run {run}"
 
 
 def _planned_anew(done: Rehearsed) -> Iterator[str]:

@@ -10,8 +10,9 @@ import numpy as np
 from shotc import plugins
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
+from shotc.ir.mission import Drone, MissionIR
 from shotc.planning.clearances import clearances_of, from_parked
-from shotc.plugin_api.replanner import Keeping, Plan, Traffic
+from shotc.plugin_api.replanner import Cone, Keeping, Plan, Traffic
 from shotc.simulation.film import Film
 from shotc.simulation.seen import Watched
 from shotc.simulation.sent import Fading, Held, Sent
@@ -95,6 +96,7 @@ class Guidance:
             zones=(*clearances_of(mission, drone), *from_parked(mission, drone)),
             floor=mission.rules.over_ground(drone.radius),
             separation=mission.rules.separation,
+            half_angle=_cone_of(mission, drone) if self.sent else None,
         )
         by = plugins.one("replanners", self.world.conditions.replanner).plugin
         self._planner = shot.planner(by, self.film, keeping)
@@ -128,8 +130,7 @@ class Guidance:
         turn = self._turn(shot, time, known)
         plans: list[Plan | None] = []
         for r, count in enumerate(self.counts):
-            sent = np.array([each.places(r, stages) for each in self.sent]).reshape(-1, len(stages), 3)
-            of = Moment(known, self._held.plans[r], r, float(turn[r]), Traffic(sent))
+            of = Moment(known, self._held.plans[r], r, float(turn[r]), self._traffic(r, stages))
             mine = (drone[0][r], drone[1][r])
             lost = _lost(known, r)
             if lost:
@@ -142,6 +143,17 @@ class Guidance:
         self._held = self._held.replaced(plans)
         if self.own is not None:
             self.own.add(time, self._held.plans)
+
+    def _traffic(self, run: int, stages: Array) -> Traffic:
+        """Return what the others have told of these instants, and what their cameras see then."""
+        mission = self.world.mission
+        places = [each.places(run, stages) for each in self.sent]
+        cones = [
+            Cone(place, each.axes(run, stages), angle)
+            for each, place in zip(self.sent, places, strict=True)
+            if each.films(stages) and (angle := _cone_of(mission, each.film.drone)) is not None
+        ]
+        return Traffic(np.array(places).reshape(-1, len(stages), 3), tuple(cones))
 
     def _asked(self, situation: Any, last: Plan, count: Replans) -> Plan | None:
         """Return a new plan, or None where there is none: then the last one is flown to its end."""
@@ -175,6 +187,17 @@ class Guidance:
             course = np.arctan2(now.velocity[:, 1], now.velocity[:, 0])
             self._course = np.where(moves, wrapped(course - track.heading(time)), self._course)
         return self._course
+
+
+def _cone_of(mission: MissionIR, drone: Drone) -> float | None:
+    """Return half the opening of the cone of a drone's camera that others keep their centres out of, rad.
+
+    It is that of the rules, or goes to the sides of the frame. None where the mission does not require it.
+    """
+    rules = mission.rules
+    if rules.visibility != "require":
+        return None
+    return drone.hfov / 2 if rules.half_angle is None else rules.half_angle
 
 
 def _lost(known: Known, run: int) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Cameras, frames
+from shotc.geom.sight import off_axis, outside
 from shotc.ir.bodies import shapes
 from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.mission import MissionIR
@@ -57,6 +58,8 @@ class Course:
     stray, farthest : distance from where the plan has it at the same time, m: root of the mean square, the
         largest; time : of the largest, s; speed : the largest over ground, m/s
     roll : the largest that its picture was tilted, rad
+    spoiled : share of the instants at which it filmed with another drone in its picture, or in the cone that
+        the rules keep free; 0 where it is alone
     """
 
     drone: str
@@ -67,6 +70,7 @@ class Course:
     roll: float
     near: tuple[Nearest, ...]
     replans: Replans | None = None
+    spoiled: float = 0.0
 
     @property
     def nearest(self) -> Nearest | None:
@@ -137,7 +141,10 @@ def judged(
                 for d, track in enumerate(ir.drones)
                 for each in filmed[d]
             ),
-            tuple(_course(f, r, astray[d][:, r], near[d][r]) for d, f in enumerate(flown)),
+            tuple(
+                _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r)))
+                for d, f in enumerate(flown)
+            ),
             fleets[r],
         )
         for r, number in enumerate(world.runs)
@@ -225,7 +232,26 @@ def _away(flown: Flown, track: DroneTrajectory) -> Array:
     return np.asarray(np.linalg.norm(flown.position - plan, axis=2))
 
 
-def _course(flown: Flown, run: int, off: Array, near: tuple[Nearest, ...]) -> Course:
+def _spoiled(
+    world: World, tracks: tuple[DroneTrajectory, ...], flown: tuple[Flown, ...], of: tuple[int, int]
+) -> float:
+    """Return how much of what a drone films has another drone in it; of : which drone, and which run."""
+    (d, run), mission = of, world.mission
+    filmed = [np.arange(p.start, p.end, SIGHT_S) for p in tracks[d].phases if p.shot is not None]
+    if len(flown) < 2 or not filmed:
+        return 0.0
+    times = np.concatenate(filmed)
+    eyes = cameras_of(mission, tracks[d], flown[d], run, times)
+    cone = mission.rules.half_angle
+    seen = np.zeros(len(times), dtype=bool)
+    for other in (each for i, each in enumerate(flown) if i != d):
+        places = at_times(other.position[:, run], other.times, times)
+        radius = mission.drone(other.drone).radius
+        seen |= outside(eyes, places, radius) < 0.0 if cone is None else off_axis(eyes, places, radius) < cone
+    return float(seen.mean())
+
+
+def _course(flown: Flown, run: int, off: Array, near: tuple[Nearest, ...], spoiled: float) -> Course:
     """Return how a drone kept to its plan; off : how far it was from it at its instants, (F,), metres."""
     k = int(np.argmax(off))
     speed = np.linalg.norm(flown.velocity[:, run], axis=1)
@@ -238,4 +264,5 @@ def _course(flown: Flown, run: int, off: Array, near: tuple[Nearest, ...]) -> Co
         roll=float(np.abs(flown.roll[:, run]).max()),
         near=near,
         replans=flown.replans[run] if flown.replans else None,
+        spoiled=spoiled,
     )

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
+from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.plugin_api.replanner import Plan
 from shotc.simulation.film import Film
 from shotc.simulation.vehicle import Setpoint
@@ -99,10 +100,33 @@ class Sent:
         Where it has sent nothing of these seconds, that is its plan.
         """
         planned = np.asarray(self.film.track.curve(stages)[:, :3])
+        plan = self._known(run, stages)
+        return planned if plan is None else _instead(planned, stages, plan, plan.places)
+
+    def axes(self, run: int, stages: Array) -> Array:
+        """Return unit vectors along which its camera looks then, (M, 3), W; as planned if it did not say."""
+        planned = np.asarray(self.film.track.curve(stages)[:, [CAM_YAW, CAM_PITCH]])
+        plan = self._known(run, stages)
+        if plan is not None and plan.aim is not None:
+            planned = _instead(planned, stages, plan, plan.aim)
+        yaw, pitch = planned.T
+        return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
+
+    def films(self, stages: Array) -> bool:
+        """Tell whether it films at any of these times."""
+        return any(
+            phase.shot is not None and phase.start <= stages[-1] and stages[0] <= phase.end
+            for phase in self.film.track.phases
+        )
+
+    def _known(self, run: int, stages: Array) -> Plan | None:
         k = bisect_right(self.times, float(stages[0]) - self.age) - 1
         plan = None if k < 0 else self.plans[k][run]
-        if plan is None or plan.times[-1] <= stages[0]:
-            return planned
-        inside = stages <= plan.times[-1]
-        known = np.column_stack([np.interp(stages, plan.times, plan.places[:, i]) for i in range(3)])
-        return np.where(inside[:, None], known, planned)
+        return None if plan is None or plan.times[-1] <= stages[0] else plan
+
+
+def _instead(planned: Array, stages: Array, plan: Plan, rows: Array) -> Array:
+    """Return rows of a plan at times (M,), and up to its end only: what was planned, (M, D), stands then."""
+    inside = stages <= plan.times[-1]
+    known = np.column_stack([np.interp(stages, plan.times, column) for column in rows.T])
+    return np.where(inside[:, None], known, planned)

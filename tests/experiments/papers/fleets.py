@@ -111,7 +111,7 @@ def two() -> Table:
             "the paper gives pictures and no figures; the flyby passes 6 m to the left of the walker's way, "
             "beyond the other drone, so that it has to give way, and ends 5 m ahead by its ideal",
             "assumed: a walker at 1.5 m/s and drones of 5 m/s, since the paper's 1 m/s is slower than its "
-            "target; no tree; planned whole, where the paper replans at 2 Hz",
+            "target; no tree; planned whole (planned anew at 2 Hz, as in the paper, above)",
             "the ground clearance is 1 m; separation and pictures are proved for all times",
         ),
     )

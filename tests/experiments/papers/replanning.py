@@ -1,6 +1,7 @@
 """Shots of one target, planned anew while they are flown: the moving-target paper's Table 3, and times.
 
-``reframing`` and ``walked_by`` are run with it, by `python -m tests.experiments.papers --only replanning`.
+``reframing``, ``walked_by`` and ``two_anew`` are run with it: `python -m tests.experiments.papers --only
+replanning`.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from shotc.simulation.sensors import Gps
 from shotc.simulation.tracker import Motion, PositionFix, Tracker
 from shotc.simulation.vehicle import Setpoint, State, Vehicle, moved
 from shotc.simulation.wind import Wind
-from tests.experiments.papers import reframing, walked_by, warm
+from tests.experiments.papers import reframing, two_anew, walked_by, warm
 from tests.experiments.papers.multidrone import LATERAL
 from tests.experiments.papers.report import Section, Table, spread
 from tests.support.replans import BESIDE, DT, PLANT_S, TREE, WALK, problem, sampled, situation, zone
@@ -115,6 +116,7 @@ def section(say: Callable[[str], None]) -> Section:
             Table("Time of a replan", TIMES, tuple(times), TIME_NOTES),
             reframing.table(say),
             walked_by.table(say),
+            two_anew.table(say),
         ),
         (f"load of the machine {load:.1f} when it began, {os.getloadavg()[0]:.1f} when it ended",),
     )

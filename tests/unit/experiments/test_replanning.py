@@ -9,7 +9,7 @@ import pytest
 from shotc_casadi.replan.chase import Chase
 from shotc_casadi.replan.steps import Until
 
-from tests.experiments.papers import reframing, walked_by, warm
+from tests.experiments.papers import reframing, two_anew, walked_by, warm
 from tests.experiments.papers.multidrone import LATERAL
 from tests.experiments.papers.replanning import HORIZONS, Record, _shifted, fly, jerks
 from tests.support.replans import DT, TREE, problem, zone
@@ -84,3 +84,12 @@ def test_past_walkers_a_head_is_seen_and_nobody_is_touched(name):
     assert one.off.mean() < 5.0
     assert one.off.max() < 30.0
     assert set(one.told) <= {"planned", "stalled"}
+
+
+def test_two_drones_planned_anew_keep_apart_and_out_of_each_other_s_pictures():
+    one, alone = (two_anew.fly(coordinated=together) for together in (True, False))
+    assert one.nearest >= two_anew.APART
+    assert two_anew.off_axis(one.flyby, one.lateral).min() >= two_anew.HALF_ANGLE
+    assert two_anew.off_axis(one.lateral, one.flyby).min() >= two_anew.HALF_ANGLE
+    assert (two_anew.off_axis(alone.flyby, alone.lateral) < two_anew.HALF_ANGLE).all()
+    assert not any(each.status == "failed" for each in one.told)

@@ -49,6 +49,22 @@ def plan():
     return done.plan.trajectory
 
 
+ACROSS = b"""\
+shotc: 1
+mission: across
+targets:
+  walker: {track: {start: [0, 0, 0.9], velocity: [1.2, 0, 0]}, radius: 0.4, height: 1.8}
+drones:
+  one: {model: x500, home: [0, -8, 0]}
+  two: {model: x500, home: [0, 14, 0], priority: 2}
+rules: {separation: 3 m, mutual_visibility: {half_angle: 25 deg, strength: require}}
+shots:
+  - {id: right, kind: lateral, drone: one, target: walker, distance: 8, altitude: 3, side: right,
+     timing: {start: 12, duration: 10}}
+  - {id: left, kind: flyby, drone: two, target: walker, behind: 14, ahead: -9, offset: 10, altitude: 4,
+     timing: {start: 12, duration: 10}}
+"""
+
 WANDERS = Truth(1.0)
 
 
@@ -86,6 +102,21 @@ def test_drones_that_plan_anew_keep_the_separation_and_come_back_to_their_plan()
         end = track.curve.end - 5.0
         off = at_times(each.position, each.times, np.array([end])) - track.curve(end)[:3]
         assert np.abs(off).max() < 1.0
+
+
+def test_drones_that_plan_anew_keep_out_of_pictures_where_the_mission_requires_it(monkeypatch):
+    """The walker turns aside, and brings the second drone behind the first, where its camera looks."""
+    done = compile_source(ACROSS, "across.yaml", None, PlanOptions("none"))
+    assert done.plan is not None, done.diagnostics
+    ir = done.plan.trajectory
+    veers = Track((0.0, 60.0), ((0.0, 0.0, 0.9), (72.0, -24.0, 0.9)))
+    world = World.of(ir, Conditions(loop="replan", truth=Truth(tracks=(("walker", veers),))), (0,))
+    (kept,) = judged(world, ir, fly_all(world, ir.drones), ((),))
+    monkeypatch.setattr("shotc.simulation.guidance._cone_of", lambda *_: None)
+    (free,) = judged(world, ir, fly_all(world, ir.drones), ((),))
+    assert free.courses[0].spoiled == kept.courses[0].spoiled == 0.0
+    assert kept.courses[1].spoiled < 0.6 * free.courses[1].spoiled
+    assert kept.courses[1].replans.failed == 0
 
 
 def test_a_run_is_the_same_whichever_ran_beside_it():
