@@ -25,7 +25,16 @@ from shotc.emit.base import Artifact
 FLOWN = ("plan.json", "trajectory.csv", "*.plan", "*.waypoints", "*-ned.csv", "*.skyc")
 """What is flown from, or made into something that is."""
 
-SHOWN = ("framing.csv", "storyboard.png", "contact-sheet.png", "mission.rrd", "*.kml", "*.tum")
+SHOWN = (
+    "framing.csv",
+    "storyboard.png",
+    "contact-sheet.png",
+    "mission.rrd",
+    "mission.glb",
+    "mission.usda",
+    "*.kml",
+    "*.tum",
+)
 """What else is written beside it."""
 
 HEAD = 65536

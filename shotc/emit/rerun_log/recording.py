@@ -16,7 +16,8 @@ from shotc.emit.rerun_log.layout import blueprint
 from shotc.emit.rerun_log.motion import log_motion
 from shotc.emit.rerun_log.opening import filmed_span
 from shotc.emit.rerun_log.text import phase_texts
-from shotc.emit.rerun_log.world import log_world, scene_bounds
+from shotc.emit.rerun_log.world import log_world
+from shotc.emit.scene_extent import scene_bounds
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR

@@ -14,7 +14,8 @@ from shotc.emit.rerun_log.layout import camera_view, error_view, overview, panel
 from shotc.emit.rerun_log.motion import camera_entity, log_motion
 from shotc.emit.rerun_log.opening import first_stand
 from shotc.emit.rerun_log.recording import frustum_length, recorded
-from shotc.emit.rerun_log.world import log_flights, log_scene, scene_bounds
+from shotc.emit.rerun_log.world import log_flights, log_scene
+from shotc.emit.scene_extent import scene_bounds
 from shotc.emit.screen import error_top, percent
 from shotc.geom.bernstein import Array
 from shotc.ir.comparison import Comparison, Condition

@@ -6,23 +6,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
 from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTICAL, WHITE, Rgb, rgba8, shade
 from shotc.emit.rerun_log.obstacle_meshes import log_meshes
 from shotc.emit.rerun_log.terrain_mesh import log_terrain
+from shotc.emit.scene_extent import scene_bounds, scene_time
+from shotc.emit.solid_mesh import SIDES, solid_mesh
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
-from shotc.geom.solids import Cylinder, Solid, triangles
+from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.track_array import headings
 from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-SIDES = 48
-LIGHT = np.radians(215.0)
-"""Where the light comes from, an angle of W."""
 MANY = 12
 TRACK_RATE = 10.0  # places a second of a target that moves
 """From more keyframes than this on, only the shot is named."""
@@ -70,21 +68,6 @@ def log_flights(stream: Any, plan: VerifiedIR) -> None:
         _flight(stream, plan, flight)
 
 
-def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
-    """Return the corners of the box round all flights and subjects, metres."""
-    mission = plan.trajectory.keyframes.mission
-    points = [f.curve(np.linspace(f.curve.start, f.curve.end, 400))[:, :3] for f in plan.trajectory.drones]
-    points += [fleet.coef.reshape(-1, 3) for fleet in plan.trajectory.fleets]
-    for target in mission.targets:
-        reach = np.array([target.radius, target.radius, target.height / 2])
-        last = max((f.curve.end for f in plan.trajectory.drones), default=0.0)
-        for t in np.linspace(0.0, last, 2 if target.track is None else 60):
-            centre = np.array(target.at(float(t)))
-            points.append(np.array([centre - reach, centre + reach]))
-    cloud = np.concatenate([np.zeros((1, 3)), *points]) if not points else np.concatenate(points)
-    return cloud.min(axis=0), cloud.max(axis=0)
-
-
 def _ground(stream: Any, plan: VerifiedIR) -> None:
     low, high = scene_bounds(plan)
     size = float(np.max(high[:2] - low[:2]))
@@ -123,11 +106,6 @@ def _zones(stream: Any, mission: MissionIR) -> None:
             _name(_top(zone.solid), f"keep {zone.keep}: {zone.name}", shade(color, 1.45)),
             static=True,
         )
-
-
-def scene_time(plan: VerifiedIR) -> float:
-    """Return when the last flight ends, seconds."""
-    return max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
 
 
 def _targets(stream: Any, mission: MissionIR, last: float) -> None:
@@ -221,41 +199,3 @@ def _top(solid: Solid) -> tuple[float, float, float]:
     if isinstance(solid, Cylinder):
         return (*solid.centre, solid.top)
     return (*solid.points[0], solid.top)
-
-
-class ShadedMesh(NamedTuple):
-    """Triangles: vertices (n, 3), their indices (m, 3), and a shade for every vertex, (n,)."""
-
-    points: Array
-    faces: NDArray[np.uint32]
-    light: Array
-
-
-def solid_mesh(solid: Solid) -> ShadedMesh:
-    """Return a solid as triangles: vertices (n, 3), indices (m, 3), and a shade for every vertex.
-
-    Faces share no vertices, so that every face has its own shade: light from the south-west.
-    """
-    if isinstance(solid, Cylinder):
-        turn = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)
-        ring = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-        corner = np.array(solid.centre) + solid.radius * ring
-        lids = [(corner[0], corner[i], corner[i + 1]) for i in range(1, SIDES - 1)]
-    else:
-        corner = np.array(solid.points)
-        lids = [(np.array(a), np.array(b), np.array(c)) for a, b, c in triangles(solid.points)]
-    points: list[Array] = []
-    light: list[float] = []
-    low, high = np.array([solid.bottom]), np.array([solid.top])
-    for a, b in zip(corner, np.roll(corner, -1, axis=0), strict=True):
-        quad = [np.concatenate(v) for v in ((a, low), (b, low), (b, high), (a, high))]
-        points += [quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]]
-        outward = np.arctan2(a[0] - b[0], b[1] - a[1])
-        light += [0.95 + 0.3 * float(np.cos(outward - LIGHT))] * 6
-    for a, b, c in lids:
-        points += [np.concatenate((v, high)) for v in (a, b, c)]
-        light += [1.4] * 3
-        points += [np.concatenate((v, low)) for v in (c, b, a)]
-        light += [0.5] * 3
-    faces = np.arange(len(points), dtype=np.uint32).reshape(-1, 3)
-    return ShadedMesh(np.array(points), faces, np.array(light))
