@@ -19,6 +19,7 @@ from shotc.ir.path import Deviation, from_what_was_asked
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
+from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.rounding import at_least, at_most, away
@@ -101,6 +102,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
     facts += [("transits", text) for text in _passed(plan.certificate)]
+    facts += [("nose", text) for text in _ahead(plan.certificate)]
     facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
@@ -198,6 +200,17 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
         return [f"as near as a shot begins or ends to {name}, then {near.limit:.2f} m"]
     when = "" if near.time is None else f" at {clock(near.time)}"
     return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m asked"]
+
+
+def _ahead(claims: Sequence[Claim]) -> list[str]:
+    """Tell how far a nose is off its course between shots, and where that is not judged."""
+    off = [claim for claim in claims if claim.constraint == LOOK_AHEAD]
+    if not off:
+        return []
+    most = max(off, key=lambda claim: claim.worst)
+    who = f" ({most.subject})" if len(off) > 1 else ""
+    angles = f"{_used_up(degrees(most.worst))} of {degrees(most.limit):.3g} deg"
+    return [f"up to {angles} off the course between shots{who}; in shots the camera says where a drone heads"]
 
 
 def _together(plan: VerifiedIR) -> list[str]:

@@ -24,6 +24,7 @@ class Rules(NamedTuple):
         the frame itself
     transits : kept on ways between shots
     obstacle_clearance : from a drone's body to scenes and buildings
+    look_ahead : half-angle about a body's heading in which its course is on ways between shots, rad, or None
     max_height : of a drone's centre above the ground; infinite for none, None where the mission is silent
     """
 
@@ -35,6 +36,7 @@ class Rules(NamedTuple):
     transits: TransitClearance = TransitClearance()
     max_height: float | None = None
     obstacle_clearance: float = 0.0
+    look_ahead: float | None = None
 
     def over_ground(self, radius: float) -> float:
         """Return the least height of the centre of a body over flat ground; radius : of the body, metres."""

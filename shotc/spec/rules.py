@@ -18,6 +18,7 @@ _MAX_HEIGHT = NamedOr(
     "MaxHeight", {"off": inf}, "height", Quantity("PositiveLength", "length", SMALLEST["length"])
 )
 _HALF_ANGLE = Quantity("HalfAngle", "angle", SMALLEST["angle"], 1.5707963267948966)
+_LOOK_AHEAD = Quantity("LookAhead", "angle", 0.08726646259971647, 1.5707963267948966, noun="look-ahead")
 
 
 class MutualVisibilitySpec(Model):
@@ -68,6 +69,11 @@ class RulesSpec(Model):
     obstacle_clearance: NonNegativeLength = Field(
         default=presets.OBSTACLE_CLEARANCE,
         description="least distance from a drone's body to the scene and to buildings",
+    )
+    look_ahead: Annotated[float, _LOOK_AHEAD] | None = Field(
+        default=None,
+        description="largest angle between a drone's nose and the way it flies, between shots; not judged if "
+        "silent",
     )
     transit_clearance: TransitClearanceSpec | None = Field(
         default=None,

@@ -162,6 +162,17 @@ _SPACE = (
         ),
     ),
     verified(
+        56,
+        "looks-aside",
+        (
+            "a drone does not look where it flies",
+            "`rules.look_ahead` is the largest angle between a drone's nose and its course over ground, wherever it is "
+            "faster than 0.5 m/s on a way between shots. It is proved at every instant. Not judged are shots, where the "
+            "camera says where a drone heads, and the seconds in which it comes into the motion of a film of what "
+            "moves and out of it.",
+        ),
+    ),
+    verified(
         10,
         "too-near-a-target",
         (

@@ -157,7 +157,7 @@ def _plan(
     if faults:
         return _stopped(*faults)
     ctx.progress(f"way of {drone.name}")
-    flight, warnings = Flight(drone, spaces, top), _warnings(mission, drone, shots)
+    flight, warnings = Flight(drone, spaces, top, mission.rules.look_ahead), _warnings(mission, drone, shots)
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
     moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, known.flights))

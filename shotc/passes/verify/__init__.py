@@ -18,6 +18,7 @@ from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.trajectory import Claim, CoveredShares, TrajectoryIR, VerifiedIR
+from shotc.passes.verify.ahead import ahead
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.course import course
 from shotc.passes.verify.framing import filmed, framing
@@ -78,6 +79,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *motion(flight),
             *space(flight),
             *transits(flight),
+            *ahead(flight),
             *shots(flight, ir),
             *course(flight, ir),
         ]

@@ -14,6 +14,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.show import Display
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
+from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
@@ -48,6 +49,7 @@ RULES = {
     "ground clearance": Rule("V009"),
     "height above ground": Rule("V047"),
     "distance from terrain": Rule("V009"),
+    LOOK_AHEAD: Rule("V056"),
     "distance from home": Rule("V012", help=REPLAN),
     "rate at start and end": Rule("V012", help=REPLAN),
     "endurance": Rule("V013"),

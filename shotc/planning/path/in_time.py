@@ -37,7 +37,7 @@ def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewis
         if isinstance(leg, MovingLeg) and leg.phase in {"transit", "return"}:
             start = end_of(legs[: k or 1])
             goal = legs[k + 1].pose
-            legs[k] = _led(drone, leg, start, goal)
+            legs[k] = _led(mission, drone, leg, (start, goal))
     for a, b in pairwise(legs):
         if not _same(end_of([a]), b.pose):
             raise NoTransit("its ends where the next leg joins them")
@@ -56,11 +56,11 @@ def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
     return made
 
 
-def _led(drone: Drone, leg: MovingLeg, start: Pose, goal: Pose) -> MovingLeg:
+def _led(mission: MissionIR, drone: Drone, leg: MovingLeg, ends: tuple[Pose, Pose]) -> MovingLeg:
     """Return an unfilmed leg between two poses, of which only the angles may be new."""
-    if _same(leg.pose, start) and _same(end_of([leg]), goal):
+    if _same(leg.pose, ends[0]) and _same(end_of([leg]), ends[1]):
         return leg
-    turned = turned_way(drone, leg, start, goal)
+    turned = turned_way(drone, leg, ends, mission.rules.look_ahead)
     if isinstance(turned, AngleFailure):
         raise NoTransit("the body's turn on the way beside it")
     return lasting(drone, leg, turned)

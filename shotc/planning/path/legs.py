@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict, subdivide
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.ir.mission import Drone, MissionIR
@@ -30,6 +30,7 @@ from shotc.ir.path import (
 from shotc.ir.phases import PhaseName
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 from shotc.planning.obstacles import FreeSpaces, pad_space
+from shotc.planning.path.ahead import Course, course_of, headed, nearest_ends
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE_M, TURN_LENGTH_M_RAD
 from shotc.planning.path.shots import AngleFailure, Failure, PlannedShot, stack
@@ -47,12 +48,13 @@ CurveLeg = TypeVar("CurveLeg", MovingLeg, ClockLeg)
 class Flight:
     """What every unfilmed leg of one drone needs to know.
 
-    top : the transit point over the pad
+    top : the transit point over the pad; look_ahead : as in ``ir.rules``, rad
     """
 
     drone: Drone
     spaces: FreeSpaces
     top: Array
+    look_ahead: float | None
 
     @property
     def space(self) -> FreeSpace:
@@ -76,7 +78,9 @@ def drone_legs(flight: Flight, shots: list[PlannedShot]) -> tuple[PathLeg, ...] 
         way = way_to(flight, end_of(legs), placed.leg.pose, shot.shot.shot.path)
         if isinstance(way, Failure):
             return Blocked(way, shot)
-        legs += [*way, placed.leg]
+        legs += way
+        wound = turns_to(placed.leg.pose, end_of(legs))
+        legs.append(turned(flight.drone, placed, end_of(legs)).leg if wound else placed.leg)
     back = way_home(flight, end_of(legs))
     return Blocked(back, None) if isinstance(back, Failure) else (*legs, *back)
 
@@ -124,6 +128,8 @@ def _at_pad(flight: Flight, first: Pose) -> Pose:
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
     yaw = first[CAM_YAW]
     way = (first[0] - flight.top[0], first[1] - flight.top[1])
+    if flight.look_ahead is not None and hypot(*way) > 1.0:
+        yaw = atan2(way[1], way[0])
     wanted = atan2(way[1], way[0]) if drone.body == "forward" and hypot(*way) > 1.0 else yaw
     body = yaw if drone.body == "follow-camera" else allowed_body(drone, yaw, wanted)
     return (*map(float, drone.home), yaw, level, body, first[HFOV])
@@ -169,7 +175,7 @@ def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> MovingLeg:
     x = np.linspace(0.0, 1.0, 6)[:, None]
     ctrl = np.concatenate([(1 - x) * ends[0] + x * ends[1], np.tile(np.array(pose[3:]), (6, 1))], axis=1)
     breaks = np.array([0.0, float(np.linalg.norm(top - home))])
-    return _plain(phase, Piecewise(breaks, ctrl[None]), flight.drone.path)
+    return _plain(phase, [Piecewise(breaks, ctrl[None])], flight.drone.path)
 
 
 def _transit(
@@ -177,19 +183,52 @@ def _transit(
 ) -> list[MovingLeg] | Failure:
     """Return the leg from one pose to another; none where they are the same."""
     a, b = np.array(start[:3]), np.array(goal[:3])
-    turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
+    free_end = phase == "return"
+    curves: list[Piecewise] | AngleFailure
     if np.linalg.norm(b - a) < SAME_PLACE_M:
-        if turn < SAME_ANGLE and np.array_equal(a, b):
-            return []
-        breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE)])
-        position = Piecewise(breaks, np.linspace(a, b, 6)[None])
+        curves = _turn(flight.drone, start, goal, free_end=free_end)
     else:
-        transit = transit_curve(flight.spaces, flight.drone, a, b)
-        if not isinstance(transit, Piecewise):
-            return transit
-        position = transit
-    curve = _with_angles(flight.drone, position, start, goal, free_end=phase == "return")
-    return curve if isinstance(curve, AngleFailure) else [_plain(phase, curve, path)]
+        position = transit_curve(flight.spaces, flight.drone, a, b)
+        if not isinstance(position, Piecewise):
+            return position
+        course = None if flight.look_ahead is None else course_of(position, flight.look_ahead)
+        if course is None:
+            curve = _with_angles(flight.drone, position, start, goal, free_end=free_end)
+            curves = curve if isinstance(curve, AngleFailure) else [curve]
+        else:
+            curves = _looking_ahead(flight.drone, (position, course), start, None if free_end else goal)
+    if isinstance(curves, AngleFailure):
+        return curves
+    return [_plain(phase, curves, path)] if curves else []
+
+
+def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> list[Piecewise] | AngleFailure:
+    """Return the turn from a pose to another one in the same place, none where they are the same."""
+    a, b = np.array(start[:3]), np.array(goal[:3])
+    turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
+    if turn < SAME_ANGLE and np.array_equal(a, b):
+        return []
+    breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE)])
+    curve = _with_angles(drone, Piecewise(breaks, np.linspace(a, b, 6)[None]), start, goal, free_end=free_end)
+    return curve if isinstance(curve, AngleFailure) else [curve]
+
+
+def _looking_ahead(
+    drone: Drone, way: tuple[Piecewise, Course], start: Pose, goal: Pose | None
+) -> list[Piecewise] | AngleFailure:
+    """Return a way on which the body heads along its course, and the turns on the spot before and after it.
+
+    way : x, y, z over s, and its course
+    """
+    course, begins, ends, asked = nearest_ends(way[1], start, goal)
+    flown = headed(drone, way[0], course, (begins, ends))
+    if isinstance(flown, Status):
+        return AngleFailure("body", flown)
+    before = _turn(drone, start, begins)
+    after = [] if ends is None or asked is None else _turn(drone, ends, asked)
+    if isinstance(before, AngleFailure):
+        return before
+    return after if isinstance(after, AngleFailure) else [*before, flown, *after]
 
 
 def _with_angles(
@@ -203,9 +242,15 @@ def _with_angles(
     return _stacked(drone, restrict(position, breaks), start, goal, free_end=free_end)
 
 
-def turned_way(drone: Drone, leg: MovingLeg, start: Pose, goal: Pose) -> MovingLeg | AngleFailure:
-    """Return an unfilmed leg through the same places, from other angles to others."""
-    position = leg.curve.channels(0, 1, 2)
+def turned_way(
+    drone: Drone, leg: MovingLeg, ends: tuple[Pose, Pose], look_ahead: float | None
+) -> MovingLeg | AngleFailure:
+    """Return an unfilmed leg through the same places, from other angles to others; ends : its poses."""
+    position, (start, goal) = leg.curve.channels(0, 1, 2), ends
+    course = None if look_ahead is None else course_of(position, look_ahead)
+    if course is not None:
+        found = headed(drone, position, course.wound(start[BODY_YAW]), ends)
+        return AngleFailure("body", found) if isinstance(found, Status) else replace(leg, curve=found)
     if len(position.breaks) == 2:
         position = restrict(position, subdivide(position.breaks, PIECES))
     curve = _stacked(drone, position, start, goal, free_end=False)
@@ -239,8 +284,11 @@ def _even(position: Piecewise, start: Pose, goal: Pose) -> Piecewise:
     return Piecewise(np.array([position.start, position.end]), np.stack(ctrl, axis=1)[None])
 
 
-def _plain(phase: PhaseName, curve: Piecewise, path: KeyPath) -> MovingLeg:
-    stops = (Stop(curve.start, 0.0), Stop(curve.end, 0.0))
+def _plain(phase: PhaseName, curves: Sequence[Piecewise], path: KeyPath) -> MovingLeg:
+    """Return the unfilmed leg along curves that begin at 0; it rests from each to the next."""
+    ends = np.cumsum([0.0, *(curve.end for curve in curves)])
+    curve = concatenate([Piecewise(c.breaks + s, c.ctrl) for c, s in zip(curves, ends, strict=False)])
+    stops = tuple(Stop(float(s), 0.0) for s in ends)
     return MovingLeg(phase, None, curve, stops, (), (), 1.0, None, None, path)
 
 

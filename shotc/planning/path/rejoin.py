@@ -60,7 +60,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[PathLeg]) -> tuple[PathLeg,
         for leg in legs
         if leg.shot is not None
     ]
-    joined = drone_legs(Flight(drone, spaces, top), shots)
+    joined = drone_legs(Flight(drone, spaces, top, mission.rules.look_ahead), shots)
     if not isinstance(joined, Blocked):
         return joined
     before = joined.shot

@@ -188,6 +188,7 @@ def _rules(spec: RulesSpec) -> Rules:
         transits=_transits(spec),
         max_height=spec.max_height,
         obstacle_clearance=spec.obstacle_clearance,
+        look_ahead=spec.look_ahead,
     )
     visibility = spec.mutual_visibility
     if visibility is None:

@@ -90,6 +90,7 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("zone at home", with_mission(zones=zone("out", box((0, -60, 3), (1, 1, 2), 0))), {"V007"}),
     ("zone left", with_mission(zones=zone("in", Prism(((-50, -70), (50, -70), (50, 70), (-50, 70)), 0, 60))),
      {"V008"}),
+    ("heading", with_mission(rules=replace(MISSION.rules, look_ahead=radians(20.0))), {"V056"}),
     ("ground clearance", with_mission(rules=replace(MISSION.rules, ground_clearance=5.5)), {"V009"}),
     ("target clearance", with_mission(rules=replace(MISSION.rules, target_clearance=29.0)), {"V010"}),
     ("second target", with_mission(

@@ -288,7 +288,7 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
     """A drone hovers half way: the straight way is in time, the one over it is not."""
     mission = pair()
     drone = mission.drones[0]
-    flight = Flight(drone, FreeSpaces(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]))
+    flight = Flight(drone, FreeSpaces(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]), None)
     here, high, above, there = (
         (x, 0.0, z, 0.0, 0.0, 0.0, 1.2) for x, z in ((0.0, 5.0), (0.0, 12.0), (40.0, 12.0), (40.0, 5.0))
     )

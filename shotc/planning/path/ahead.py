@@ -1,0 +1,154 @@
+"""Ways on which the body heads where the drone flies, within the half-angle of ``rules.look_ahead``.
+
+The body's yaw over s is a spline near the course, all of it in the cone about the course. It begins and ends
+as near as the cone lets it to the headings that the shots before and after have; the drone turns by the rest
+before it moves, and after it has come to rest. A camera that its gimbal pans turns with the body, and evenly
+from where it is against the body at the one end to where it is at the other.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict, spline, subdivide
+from shotc.ir.mission import Drone
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Pose
+from shotc.planning.path.body import FAINT_WEIGHT, UPRIGHT_SLOPE
+from shotc.solvers.conic import Status
+from shotc.solvers.spline_fit import Fit, fit
+
+FINER = (4, 8, 16, 32)  # pieces for each one of the way
+SAMPLES_PER_PIECE = 4
+KEPT_SHARE = 0.97  # of the half-angle that is used: the course is sampled
+ANY_RAD = 1e3  # rad: bounds of a yaw where there is no course
+
+
+class Course(NamedTuple):
+    """The course of a way over s, and the bounds of a yaw that is near it.
+
+    breaks : (P + 1,); at, yaw : samples, (M,), unwrapped; moves : whether there is a course, (M,)
+    low, high : of the yaw on each piece, (P,), rad
+    """
+
+    breaks: Array
+    at: Array
+    yaw: Array
+    moves: Array
+    low: Array
+    high: Array
+
+    @property
+    def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Bounds of the yaw where the way begins, and where it ends."""
+        return (float(self.low[0]), float(self.high[0])), (float(self.low[-1]), float(self.high[-1]))
+
+    def wound(self, near: float) -> Course:
+        """Return the same by whole turns, so that it begins nearest to a yaw."""
+        low, high = self.ends[0]
+        turns = 2 * pi * round((near - 0.5 * (low + high)) / (2 * pi))
+        return self._replace(yaw=self.yaw + turns, low=self.low + turns, high=self.high + turns)
+
+
+def course_of(position: Piecewise, half_angle: float) -> Course | None:
+    """Return the course of a way, x, y, z over s; None where it goes straight up or down, or has corners."""
+    for finer in FINER:
+        breaks = subdivide(position.breaks, finer)
+        share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
+        at = breaks[:-1, None] + np.diff(breaks)[:, None] * share
+        rate = position.derivative()(at.ravel())[:, :2]
+        moves = np.linalg.norm(rate, axis=1) > UPRIGHT_SLOPE
+        if not moves.any():
+            return None
+        known = np.flatnonzero(moves)
+        yaw = np.interp(np.arange(len(rate)), known, np.unwrap(np.arctan2(*rate[known].T[::-1])))
+        each, there = yaw.reshape(at.shape), moves.reshape(at.shape).any(axis=1)
+        low = np.where(there, each.max(axis=1) - KEPT_SHARE * half_angle, -ANY_RAD)
+        high = np.where(there, each.min(axis=1) + KEPT_SHARE * half_angle, ANY_RAD)
+        if (low < high).all():
+            return Course(breaks, at.ravel(), yaw, moves, low, high)
+    return None
+
+
+def headed(
+    drone: Drone, position: Piecewise, course: Course, ends: tuple[Pose, Pose | None]
+) -> Piecewise | Status:
+    """Return all channels of a way whose body heads along its course, or the solver's word.
+
+    ends : the poses where it begins and ends; without the latter the body's yaw is free there, and the camera
+        keeps its angle against it
+    """
+    start, goal = ends
+    breaks, points = course.breaks, (len(course.breaks) - 1, 6)
+    anchors = [(breaks[0], start[BODY_YAW])] + ([] if goal is None else [(breaks[-1], goal[BODY_YAW])])
+    long = float(breaks[-1] - breaks[0])
+    length = min(max(0.5 * drone.limits.speed / drone.limits.yaw_rate, 1e-3), long)
+    weight = (np.where(course.moves, 1.0, 0.0) + FAINT_WEIGHT) * long / len(course.at)
+    status, coef = fit(
+        Fit(
+            breaks,
+            course.at,
+            course.yaw,
+            weight,
+            np.array([s for s, _ in anchors]),
+            np.array([yaw for _, yaw in anchors]),
+            (FAINT_WEIGHT * length**2, length**6),
+            np.broadcast_to(course.low[:, None], points),
+            np.broadcast_to(course.high[:, None], points),
+        )
+    )
+    if status not in {Status.SOLVED, Status.INACCURATE}:
+        return status
+    body = spline(breaks, coef[:, None]).ctrl[:, :, 0]
+    last = start if goal is None else goal
+    x = np.linspace(0.0, 1.0, 6)
+    step = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
+    pan = start[CAM_YAW] - start[BODY_YAW], last[CAM_YAW] - last[BODY_YAW]
+    level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
+    pitch = start[CAM_PITCH], level if goal is None else goal[CAM_PITCH]
+    even = np.stack(
+        [
+            pan[0] + (pan[1] - pan[0]) * x,
+            pitch[0] + (pitch[1] - pitch[0]) * x,
+            start[HFOV] + (last[HFOV] - start[HFOV]) * step,
+        ],
+        axis=1,
+    )
+    camera = restrict(Piecewise(np.array([breaks[0], breaks[-1]]), even[None]), breaks).ctrl
+    place = restrict(position, breaks).ctrl
+    ctrl = np.concatenate(
+        [place, (body + camera[:, :, 0])[:, :, None], camera[:, :, 1:2], body[:, :, None], camera[:, :, 2:]],
+        axis=2,
+    )
+    ctrl[0, 0] = start
+    if goal is not None:
+        ctrl[-1, -1] = goal
+    return Piecewise(breaks, ctrl)
+
+
+def nearest_ends(
+    course: Course, start: Pose, goal: Pose | None
+) -> tuple[Course, Pose, Pose | None, Pose | None]:
+    """Return the course, and in which poses a way begins and ends from one pose to another.
+
+    The course is wound as the start is. The poses are as near to those asked for as the cone about the course
+    lets the body be; the last one is the pose asked for, by whole turns from where the way ends.
+    """
+    wound = course.wound(start[BODY_YAW])
+    first, last = wound.ends
+    begins = _turned(start, min(max(start[BODY_YAW], first[0]), first[1]))
+    if goal is None:
+        return wound, begins, None, None
+    turns = 2 * pi * round((0.5 * (last[0] + last[1]) - goal[BODY_YAW]) / (2 * pi))
+    asked = tuple(c + turns if k in (CAM_YAW, BODY_YAW) else c for k, c in enumerate(goal))
+    return wound, begins, _turned(asked, min(max(asked[BODY_YAW], last[0]), last[1])), asked
+
+
+def _turned(pose: Pose, body: float) -> Pose:
+    """Return a pose with another body yaw, its camera turned with it."""
+    found = list(pose)
+    found[BODY_YAW], found[CAM_YAW] = body, pose[CAM_YAW] + body - pose[BODY_YAW]
+    return tuple(found)

@@ -1,0 +1,62 @@
+"""The angle between a heading and a course, bounded at every instant."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.heading import sup_off_course
+from shotc.geom.pieces import pieces
+from shotc.geom.vec import wrapped
+
+SLOW = 0.3
+GAP = 1e-4
+
+
+def sampled(curve: Piecewise, count: int = 40_001) -> float:
+    """Return the largest angle at samples, by the definition alone."""
+    t = np.linspace(curve.start, curve.end, count)
+    v = curve.derivative()(t)[:, :2]
+    off = np.abs(wrapped(curve(t)[:, 2] - np.arctan2(v[:, 1], v[:, 0])))
+    return float(off[np.linalg.norm(v, axis=1) > SLOW].max(initial=-inf))
+
+
+def straight(heading: Array) -> Piecewise:
+    """A motion to the East at 2 m/s for 3 s, with the control points of a heading."""
+    x = np.linspace(0.0, 6.0, 6)
+    return Piecewise(np.array([0.0, 3.0]), np.column_stack([x, np.zeros(6), heading])[None])
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_bound_is_no_less_than_any_sample_and_as_near_as_is_asked(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    breaks = np.cumsum(rng.uniform(0.3, 2.0, 5))
+    ctrl = np.cumsum(rng.normal(0.0, 1.0, (4, 6, 3)), axis=1)
+    ctrl[:, :, 0] += np.linspace(0.0, 4.0, 6)
+    curve = Piecewise(breaks, ctrl)
+    bound = sup_off_course(pieces(curve), SLOW, lambda _: GAP)
+    most = sampled(curve)
+    assert bound.proven >= most
+    assert bound.proven <= max(bound.attained + GAP, most + 0.01)
+
+
+def test_a_heading_that_turns_along_a_straight_way_is_known_exactly() -> None:
+    # 0.6 x (1 - x) of 4: largest, 0.6, in the middle; whole turns do not count.
+    bump = np.array([0.0, 0.48, 0.72, 0.72, 0.48, 0.0])
+    for turns in (0.0, -2 * np.pi, 6 * np.pi):
+        bound = sup_off_course(pieces(straight(bump + turns)), SLOW, lambda _: 1e-7)
+        assert bound.proven == pytest.approx(0.6, abs=1e-6)
+        assert bound.at == pytest.approx(1.5, abs=1e-2)
+
+
+def test_who_flies_backwards_is_half_a_turn_off() -> None:
+    bound = sup_off_course(pieces(straight(np.full(6, np.pi))), SLOW, lambda _: GAP)
+    assert bound.proven == pytest.approx(np.pi)
+
+
+def test_who_turns_on_the_spot_has_no_course() -> None:
+    spot = Piecewise(np.array([0.0, 3.0]), np.column_stack([np.zeros((6, 2)), np.linspace(0, 9, 6)])[None])
+    assert sup_off_course(pieces(spot), SLOW, lambda _: GAP).proven == -inf
