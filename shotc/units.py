@@ -23,6 +23,8 @@ Dimension = Literal[
     "angular acceleration",
     "ratio",
     "frequency",
+    "mass",
+    "energy",
 ]
 Kind = Literal[
     "unknown-unit", "wrong-dimension", "bare-angle", "missing-unit", "not-a-quantity", "absurd-value"
@@ -58,6 +60,8 @@ UNITS: dict[Dimension, dict[str, tuple[float, float]]] = {
     },
     "ratio": {"%": (1.0, 1e2)},
     "frequency": {"Hz": _SI},
+    "mass": {"kg": _SI, "g": (1.0, 1e3), "lb": (0.45359237, 1.0)},
+    "energy": {"J": _SI, "kJ": (1e3, 1.0), "Wh": (3600.0, 1.0), "kWh": (3.6e6, 1.0)},
 }
 
 # Beyond these magnitudes (SI) no camera drone operates: the number is a slip of the pen.
@@ -72,6 +76,8 @@ LARGEST: dict[Dimension, float] = {
     "angular acceleration": 1e5,
     "ratio": 1e3,
     "frequency": 1e3,
+    "mass": 1e3,
+    "energy": 1e9,
 }
 
 # Below these magnitudes a value that has to be positive is as good as zero.
@@ -86,6 +92,8 @@ SMALLEST: dict[Dimension, float] = {
     "angular acceleration": 1e-4,
     "ratio": 1e-4,
     "frequency": 1e-2,
+    "mass": 1e-3,
+    "energy": 1e2,
 }
 
 EXAMPLES: dict[Dimension, str] = {
@@ -99,6 +107,8 @@ EXAMPLES: dict[Dimension, str] = {
     "angular acceleration": "90 deg/s^2",
     "ratio": "80 %",
     "frequency": "50 Hz",
+    "mass": "2 kg",
+    "energy": "77 Wh",
 }
 
 ANGULAR: frozenset[Dimension] = frozenset({"angle", "angular rate", "angular acceleration"})

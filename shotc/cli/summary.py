@@ -20,6 +20,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
+from shotc.passes.verify.energy import ENERGY, J_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.rounding import at_least, at_most, away
@@ -103,6 +104,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("closest", text) for text in _closest(plan.certificate)]
     facts += [("transits", text) for text in _passed(plan.certificate)]
     facts += [("nose", text) for text in _ahead(plan.certificate)]
+    facts += [("energy", text) for text in _energy(plan)]
     facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
     ways = {way: sum(c.method == way for c in hard) for way in ("bounded", "exact", "sampled")}
@@ -119,6 +121,20 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("smoothed", text) for text in _smoothed(mission)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]
+
+
+def _energy(plan: VerifiedIR) -> Iterator[str]:
+    """Tell, of every drone whose battery is known, what a flight and its shots take, and what is left."""
+    claims = [claim for claim in plan.certificate if claim.constraint == ENERGY]
+    for whole in (claim for claim in claims if claim.shot is None):
+        power = plan.trajectory.keyframes.mission.drone(whole.subject).power
+        assert power is not None
+        full = power.battery / J_WH
+        shots = (c for c in claims if c.subject == whole.subject and c.shot is not None)
+        parts = [f"{c.shot} {at_least(c.worst)} Wh" for c in shots]
+        left = f"{at_most(100 * (1 - whole.worst / full), 0)} % left at landing"
+        text = f"{whole.subject} takes {at_least(whole.worst)} of {full:.1f} Wh, {left}"
+        yield f"{text}, {100 * power.reserve:.0f} % kept" + (f": {', '.join(parts)}" if parts else "")
 
 
 def _smoothed(mission: MissionIR) -> list[str]:

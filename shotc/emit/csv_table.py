@@ -12,7 +12,7 @@ import numpy as np
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.fleet_rows import fleet_rows
 from shotc.emit.table_numbers import DEGREES, NUMBER
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, lift_off
 from shotc.geom.earth import of_world
 from shotc.ir.coverage import coverage
 from shotc.ir.mission import MissionIR
@@ -20,6 +20,7 @@ from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
+from shotc.ir.thrust import drawn, lean, thrust_to_weight
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
 
 TRAJECTORY = (
@@ -28,6 +29,7 @@ TRAJECTORY = (
 )
 GEODETIC = ",lat_deg,lon_deg,alt_m"
 LIGHT = ",red,green,blue"
+EFFORT = ",tilt_rad,thrust_to_weight,airspeed_m_s,power_w"
 FRAMING = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered"
 
 
@@ -47,6 +49,8 @@ class CsvTable:
         header = TRAJECTORY + (GEODETIC if mission.origin is not None else "")
         if mission.fleets:
             header += LIGHT
+        if mission.drones:
+            header += EFFORT
         framing = [
             row.encode()
             for track in tracks
@@ -95,10 +99,29 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
     names = [f"{track.drone},{phase.name},{phase.shot or ''}" for phase in track.phases]
     numbers = np.concatenate(columns, axis=1) + 0.0  # no negative zeros
     line = f"{NUMBER},%s,{','.join(formats)}" + ",,," * bool(mission.fleets)
-    for time, phase, row in zip(
-        t.tolist(), phase_index(track.phases, t).tolist(), numbers.tolist(), strict=True
+    effort = _effort(mission, track, t, (rate[:, :3], acceleration[:, :3]))
+    for time, phase, row, last in zip(
+        t.tolist(), phase_index(track.phases, t).tolist(), numbers.tolist(), effort, strict=True
     ):
-        yield line % (time, names[phase], *row)
+        yield f"{line % (time, names[phase], *row)},{_cells(last)}"
+
+
+def _effort(
+    mission: MissionIR, track: DroneTrajectory, t: Array, motion: tuple[Array, Array]
+) -> list[list[float]]:
+    """Return tilt, thrust over weight, airspeed and power at times (M,); NaN where they are not known.
+
+    motion : velocity and acceleration, (M, 3) each
+    On its pad before lift-off and after touch-down a drone takes nothing.
+    """
+    drone, (velocity, acceleration) = mission.drone(track.drone), motion
+    through = velocity[:, :2] - np.array(drone.limits.wind)
+    flying = (t >= lift_off(track.curve)) & (t < track.curve.end)
+    unknown = np.full(len(t), np.nan)
+    power = unknown if drone.power is None else flying * drawn(drone.power, velocity, acceleration)
+    airspeed = unknown if mission.wind_taken else np.hypot(through[:, 0], through[:, 1])
+    columns = [lean(acceleration), thrust_to_weight(acceleration), airspeed, power]
+    return [list(row) for row in (np.column_stack(columns) + 0.0).tolist()]
 
 
 def _framing(plan: VerifiedIR, track: DroneTrajectory, others: Sequence[DroneTrajectory]) -> Iterator[str]:

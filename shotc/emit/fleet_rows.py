@@ -46,7 +46,8 @@ def _form(mission: MissionIR, track: FleetTrajectory, t: Array) -> str:
     """Return the rows of a drone with places for its name and its numbers."""
     earth = [DEGREES, DEGREES, NUMBER] if mission.origin is not None else []
     camera = [""] * 5
-    numbers = ",".join([*[NUMBER] * 9, NUMBER % NORTH, *camera, *earth, "%d", "%d", "%d"])
+    unknown = [""] * 4 if mission.drones else []  # of the columns of drones that film
+    numbers = ",".join([*[NUMBER] * 9, NUMBER % NORTH, *camera, *earth, "%d", "%d", "%d", *unknown])
     whats = [_plain(f"{phase.name},{phase.shot or ''}") for phase in track.phases]
     return "\n".join(
         f"{NUMBER % time},{_NAME},{whats[k]},{numbers}"

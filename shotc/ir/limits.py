@@ -45,6 +45,11 @@ class Limits(NamedTuple):
     thrust_to_weight: float = inf
     wind: Vec2 = (0.0, 0.0)
 
+    @property
+    def bounds(self) -> dict[str, float]:
+        """All that is positive, by name: every field but the wind."""
+        return {name: float(getattr(self, name)) for name in self._fields if name != "wind"}
+
     def speed_along(self, east: float, north: float) -> float:
         """Return the largest speed over ground in a direction, m/s: the wind pushes, or is flown against.
 

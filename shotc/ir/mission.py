@@ -10,6 +10,7 @@ from shotc.geom.solids import Solid
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.power import Power
 from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
 from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
@@ -71,7 +72,8 @@ class Drone(NamedTuple):
 
     home : p_WB at rest on its pad
     hfov : horizontal field of view, rad; aspect : width / height
-    radius : of the body sphere, m; endurance : s
+    radius : of the body sphere, m; endurance : s, of a drone whose battery is known what that hovers
+    power : its battery and rotors, None where nobody knows them
     """
 
     name: str
@@ -87,6 +89,17 @@ class Drone(NamedTuple):
     body: Literal["forward", "follow-camera", "free"]
     autopilot: Literal["px4", "ardupilot"]
     path: KeyPath
+    power: Power | None = None
+
+    @property
+    def lasts(self) -> str:
+        """How long it can stay in the air, in words, and by what."""
+        if self.power is None:
+            return f"{self.endurance:.1f} s"
+        usable, kept = self.power.usable / 3600.0, 100 * self.power.reserve
+        return (
+            f"{self.endurance:.1f} s, {usable:.1f} Wh at {self.power.hover:.0f} W hovering, {kept:.0f} % kept"
+        )
 
 
 class Composition(NamedTuple):

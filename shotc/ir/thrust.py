@@ -12,6 +12,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.proof import norm
 from shotc.ir.limits import G_M_S2
+from shotc.ir.power import Power
 
 
 def thrust_to_weight(acceleration: Array) -> Array:
@@ -28,6 +29,22 @@ def lean(acceleration: Array) -> Array:
     pushed = _pushed(acceleration)
     angle = np.arctan2(norm(pushed[..., :2]), pushed[..., 2])
     return np.asarray(np.where(pushed[..., 2] > 0.0, angle, np.pi))
+
+
+def hover_ratio(acceleration: Array) -> Array:
+    """Return the power of a thrust over that of hovering, (T / (m g))^1.5 (...); convex.
+
+    acceleration : shape (..., 3), m/s^2
+    """
+    return np.asarray(thrust_to_weight(acceleration) ** 1.5)
+
+
+def drawn(power: Power, velocity: Array, acceleration: Array) -> Array:
+    """Return the power that the battery gives, W (...), at velocities and accelerations (..., 3), SI."""
+    climbing = np.einsum("...d,...d->...", _pushed(acceleration), velocity)
+    return np.asarray(
+        power.hover * hover_ratio(acceleration) + 0.5 * power.mass / power.efficiency * climbing
+    )
 
 
 def _pushed(acceleration: Array) -> Array:

@@ -39,7 +39,7 @@ def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
 
 def _fleet(fleet: Fleet, path: str) -> Iterator[Fault]:
     positive = {
-        **{f"limits.{name}": getattr(fleet.limits, name) for name in fleet.limits._fields},
+        **{f"limits.{name}": value for name, value in fleet.limits.bounds.items()},
         "endurance": fleet.endurance,
         "apart.horizontal": fleet.apart.horizontal,
         "apart.vertical": fleet.apart.vertical,

@@ -13,6 +13,7 @@ from shotc.geom.vec import plus
 from shotc.ir.keyed import in_order, is_keyed
 from shotc.ir.mission import Drone, Ideal, MissionIR, Shot
 from shotc.ir.path import CHANNELS
+from shotc.ir.power import Power
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.planfile.fleet_sanity import fleet_faults
 from shotc.units import LARGEST
@@ -109,7 +110,7 @@ def _solid(solid: Solid) -> str:
 def _drone(drone: Drone, path: str) -> Iterator[Fault]:
     limits = drone.limits
     positive = {
-        **{f"limits.{name}": getattr(limits, name) for name in limits._fields if name != "wind"},
+        **{f"limits.{name}": value for name, value in limits.bounds.items()},
         "gimbal.rate": drone.gimbal.rate,
         "gimbal.acceleration": drone.gimbal.acceleration,
         "aspect": drone.aspect,
@@ -118,10 +119,20 @@ def _drone(drone: Drone, path: str) -> Iterator[Fault]:
     for name, value in positive.items():
         if value <= 0:
             yield f"{path}.{name}", f"{value:g} is not positive"
+    if drone.power is not None:
+        yield from _power(drone.power, f"{path}.power")
     if drone.radius < 0:
         yield f"{path}.radius", f"{drone.radius:g} is negative"
     if not 0 < drone.hfov < pi:
         yield f"{path}.hfov", f"{drone.hfov:g} rad is no field of view"
+
+
+def _power(power: Power, path: str) -> Iterator[Fault]:
+    for name, value in power._asdict().items():
+        if name != "reserve" and value <= 0:
+            yield f"{path}.{name}", f"{value:g} is not positive"
+    if not 0 <= power.reserve < 1:
+        yield f"{path}.reserve", f"{power.reserve:g} is no share that leaves something to fly on"
 
 
 def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:

@@ -19,15 +19,16 @@ from shotc.spec.fields import (
     Jerk,
     PitchRange,
     PositiveLength,
+    PositiveShare,
     Priority,
     Speed,
     Stand,
 )
-from shotc.spec.fieldtypes import FieldType, Hinted, NamedOr
+from shotc.spec.fieldtypes import FieldType, Hinted, Integer, NamedOr
 from shotc.spec.heights import STANDING
 from shotc.spec.model import Model, OneOf, section
-from shotc.spec.presets import DEFAULT_MODEL, PRESETS
-from shotc.spec.quantities import Quantity, Tuple
+from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE
+from shotc.spec.quantities import Percentage, Quantity, Tuple, WattHours
 from shotc.units import SMALLEST
 
 ModelName = Annotated[str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model")]
@@ -35,6 +36,10 @@ ModelName = Annotated[str, NamedOr("DroneModel", {name: name for name in PRESETS
 # A drone that leans or lifts less than the lowest of these can hardly leave its place.
 Tilt = Annotated[float, Quantity("Tilt", "angle", radians(1.0), radians(80.0), noun="tilt")]
 ThrustToWeight = Annotated[float, Quantity("ThrustToWeight", "ratio", 1.02, 20.0, noun="ratio")]
+
+Mass = Annotated[float, Quantity("Mass", "mass", SMALLEST["mass"])]
+Energy = Annotated[float, WattHours("Energy", "energy", 360.0)]
+Reserve = Annotated[float, Percentage("Reserve", "ratio", 0.0, 0.9, noun="reserve")]
 
 SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
 
@@ -154,6 +159,30 @@ class GimbalSpec(Model):
     acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
 
 
+class RotorsSpec(Model):
+    """The rotors of a drone."""
+
+    count: Annotated[int, Integer("Rotors", 3, 16)] = Field(description="how many")
+    radius: PositiveLength = Field(description="radius of each, half a propeller's length")
+
+
+class PowerSpec(Model):
+    """What a drone's battery holds, and what it takes to hover."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("hover",), ("efficiency",))),)
+
+    mass: Mass = Field(description="the drone as it flies, with camera and battery")
+    battery: Energy = Field(description="energy of the full battery, such as 77 Wh")
+    rotors: RotorsSpec = Field(description="the rotors, which with the mass give the ideal power")
+    hover: Duration | None = Field(
+        default=None, description="how long a full battery hovers at sea level, as makers publish it"
+    )
+    efficiency: PositiveShare | None = Field(
+        default=None, description="ideal power of hovering over the power that the battery gives"
+    )
+    reserve: Reserve = Field(default=RESERVE, description="share of the battery that is left at landing")
+
+
 class DroneSpec(Model):
     """A drone of the mission."""
 
@@ -166,7 +195,12 @@ class DroneSpec(Model):
     gimbal: GimbalSpec | None = Field(default=None, description="what its gimbal reaches")
     camera: CameraSpec = section("what its camera sees")
     radius: PositiveLength | None = Field(default=None, description="radius of the sphere round its body")
-    endurance: Duration | None = Field(default=None, description="longest time in the air")
+    endurance: Duration | None = Field(
+        default=None, description="longest time in the air; if silent, by the energy where power is known"
+    )
+    power: PowerSpec | None = Field(
+        default=None, description="battery, mass and rotors, by which flights are held to their energy"
+    )
     priority: Priority = Field(default=1, description="drones are planned in this order, 1 first")
     body: Literal["forward", "follow-camera", "free"] | None = Field(
         default=None, description="where the body points: along the path, with the camera, or anywhere"

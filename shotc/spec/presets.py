@@ -10,6 +10,7 @@ from typing import Literal, NamedTuple
 
 from shotc.ir.limits import Limits
 from shotc.ir.mission import Gimbal
+from shotc.ir.power import Power
 
 Body = Literal["forward", "follow-camera", "free"]
 
@@ -36,7 +37,8 @@ class Preset(NamedTuple):
 
     summary : what it is, in a line; source : where the figures come from
     hfov : rad; aspect : width / height; radius : of the sphere round the body and its propellers, m
-    endurance : s
+    endurance : s, what its power hovers where that is known
+    power : its battery and rotors, None where their figures are not known
     """
 
     summary: str
@@ -49,6 +51,7 @@ class Preset(NamedTuple):
     autopilot: Literal["px4", "ardupilot"]
     body: Body
     source: str
+    power: Power | None = None
 
 
 def _limits(linear: tuple[float, float, float, float, float], yaw: tuple[float, float]) -> Limits:
@@ -62,6 +65,12 @@ def _gimbal(pitch: tuple[float, float], yaw: tuple[float, float], rates: tuple[f
     return Gimbal(low, high, radians(rates[0]), radians(rates[1]))
 
 
+RESERVE = 0.2  # of a battery, which is left at landing
+
+_X500_POWER = Power(
+    mass=2.0, battery=14.8 * 5.2 * 3600.0, rotors=4, radius=5 * 0.0254, efficiency=1.0, reserve=RESERVE
+).hovering_for(18 * 60.0)
+
 _PX4 = "speeds and accelerations below PX4's default MPC_* limits; "
 
 PRESETS: dict[str, Preset] = {
@@ -72,10 +81,12 @@ PRESETS: dict[str, Preset] = {
         hfov=radians(70.0),
         aspect=16 / 9,
         radius=0.6,
-        endurance=15 * 60.0,
+        endurance=_X500_POWER.endurance,
         autopilot="px4",
         body="follow-camera",
-        source=_PX4 + "500 mm wheelbase and 10 inch propellers of the Holybro X500 V2 give the radius",
+        source=_PX4 + "500 mm wheelbase and 10 inch propellers of the Holybro X500 V2 give the radius; 2 kg, "
+        "four cells of 5.2 Ah and about 18 min of hovering are the maker's",
+        power=_X500_POWER,
     ),
     "mini": Preset(
         summary="folding camera drone under 250 g; its gimbal does not pan, the body turns",

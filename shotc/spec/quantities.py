@@ -99,6 +99,18 @@ class Quantity(FieldType):
         return f"{degrees(number) if self.dimension in ANGULAR else number:g} {unit}"
 
 
+class WattHours(Quantity):
+    """An energy of a battery, which people write in watt-hours."""
+
+    def show(self, number: float) -> str:
+        """Return an energy, J, as people write it."""
+        return f"{number / 3600.0:g} Wh"
+
+    def _meant(self, value: Any) -> str:
+        """Return the watt-hours that a bare number was meant to be."""
+        return "" if isinstance(value, str) or value <= 0 else f"write `{value:g} Wh`"
+
+
 class Percentage(Quantity):
     """A share of a whole, which people write in percent."""
 

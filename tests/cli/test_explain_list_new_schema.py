@@ -89,7 +89,7 @@ def test_drones_are_listed_with_what_they_may_do(run: Run) -> None:
     heading, *rows = (re.split(r"  +", line) for line in run("list", "drones").out.splitlines())
     assert heading[:6] == ["name", "speed m/s", "climb m/s", "accel. m/s^2", "hfov deg", "endurance min"]
     x500 = next(row for row in rows if row[0] == "x500")
-    assert x500[1:7] == ["8", "3", "3", "70", "15", "px4"]
+    assert x500[1:7] == ["8", "3", "3", "70", "14.4", "px4"]
     assert {len(row) for row in rows} == {len(heading)}
 
 

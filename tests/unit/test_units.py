@@ -66,7 +66,7 @@ def test_quantities_people_write(value, dimension, expected):
         ("5 meters", "length", "unknown-unit", "did you mean `m`?"),
         ("5 KM/H", "speed", "unknown-unit", "did you mean `km/h`?"),
         ("5 knots", "speed", "unknown-unit", "did you mean `kn`?"),
-        ("2 g", "acceleration", "unknown-unit", "m/s^2"),
+        ("2 g", "acceleration", "wrong-dimension", "m/s^2"),
         ("8 s", "speed", "wrong-dimension", "expected a speed, got a duration"),
         ("8 m", "angle", "wrong-dimension", "expected an angle, got a length"),
         ("8 deg", "angular rate", "wrong-dimension", "expected an angular rate, got an angle"),

@@ -76,6 +76,16 @@ _LIMITS = (
         ),
     ),
     verified(
+        55,
+        "battery-too-small",
+        (
+            "the flight takes more energy than its battery may give",
+            "Where the mission's `power`, or the model, tells mass, battery and rotors, the energy from lift-off to "
+            "touch-down is proved from the polynomials, and `reserve` is left at landing. Shorten or drop shots, bring "
+            "home nearer, or cut the mission in two. `power` tells what the drone really has.",
+        ),
+    ),
+    verified(
         4,
         "body-turns-too-fast",
         (

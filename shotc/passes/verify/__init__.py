@@ -21,6 +21,7 @@ from shotc.ir.trajectory import Claim, CoveredShares, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.ahead import ahead
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.course import course
+from shotc.passes.verify.energy import energy
 from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
@@ -76,6 +77,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         ctx.progress(f"verify {flight.drone.name}")
         claims += [
             *shape(flight),
+            *energy(flight),
             *motion(flight),
             *space(flight),
             *transits(flight),

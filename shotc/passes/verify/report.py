@@ -53,6 +53,7 @@ RULES = {
     "distance from home": Rule("V012", help=REPLAN),
     "rate at start and end": Rule("V012", help=REPLAN),
     "endurance": Rule("V013"),
+    "energy": Rule("V055"),
     "times flown": Rule("V015", help=REPLAN),
     "error of duration": Rule("V015", help=REPLAN),
     "error of start": Rule("V015", help=REPLAN),

@@ -16,6 +16,7 @@ from tests.support.second_opinion.mission import BESIDE_TARGETS, GROUND, SEPARAT
 
 LENS = (np.radians(1.0), np.radians(170.0))
 GRAVITY = 9.80665
+SUMMED = 1e-3  # of an energy that is summed from samples
 FINE, ROUNDS = 15, 3  # a worst time is looked at again, this finely and often
 
 
@@ -68,6 +69,7 @@ def all_measures(case: Case) -> Iterator[Worst]:
     for flight in case.flights.values():
         yield from limits(case, flight)
         yield from at_home(case, flight)
+        yield from energy(case, flight)
         yield from clearances(case, flight)
     yield from separations(case)
 
@@ -134,6 +136,25 @@ def at_home(case: Case, flight: Flight) -> Iterator[Worst]:
     moving = np.flatnonzero(away > 1e-12)  # pieces
     lasts = float(flight.curve.x[moving[-1] + 1] - flight.curve.x[moving[0]]) if len(moving) else 0.0
     yield Worst("endurance", flight.drone, lasts, float(drone["endurance"]), True, flight.end)
+
+
+def energy(case: Case, flight: Flight) -> Iterator[Worst]:
+    """What the battery gives from lift-off to touch-down, Wh, where the plan says what it is."""
+    power = case.drones[flight.drone]["power"]
+    if power is None:
+        return
+    t, (_, rate, second, _) = flight.pieces
+    away = np.linalg.norm(flight.pieces[1][0][..., :3] - flight.pieces[1][0][0, 0, :3], axis=-1).max(axis=1)
+    flown = slice(int(np.flatnonzero(away > 1e-12)[0]), None)
+    pushed = power["mass"] * (second[flown, :, :3] + np.array([0.0, 0.0, GRAVITY]))
+    thrust = np.linalg.norm(pushed, axis=-1)
+    disc = 2.0 * power["density"] * power["rotors"] * np.pi * power["radius"] ** 2
+    climbing = 0.5 * np.sum(pushed * rate[flown, :, :3], axis=-1)
+    watts = (thrust * np.sqrt(thrust / disc) + climbing) / power["efficiency"]
+    joules = float(np.trapezoid(watts, t[flown], axis=1).sum())
+    limit = (1.0 - power["reserve"]) * power["battery"] / 3600.0
+    # A sum of samples is exact to about a thousandth, and the claim must not be below the energy.
+    yield Worst("energy", flight.drone, (1.0 - SUMMED) * joules / 3600.0, limit, True, flight.end)
 
 
 def clearances(case: Case, flight: Flight) -> Iterator[Worst]:

@@ -47,10 +47,11 @@ def with_mission(plan: VerifiedIR, **changes: object) -> VerifiedIR:
 
 def test_headers_are_the_contract() -> None:
     motion, framing = (a.data.decode() for a in EMITTER.emit(PLAN).artifacts)
-    assert motion.splitlines()[0] == HEADER + ",lat_deg,lon_deg,alt_m"
+    effort = ",tilt_rad,thrust_to_weight,airspeed_m_s,power_w"
+    assert motion.splitlines()[0] == HEADER + ",lat_deg,lon_deg,alt_m" + effort
     assert framing.splitlines()[0] == "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered"
     bare = EMITTER.emit(orbit_plan(origin=False)).artifacts[0].data.decode()
-    assert bare.splitlines()[0] == HEADER
+    assert bare.splitlines()[0] == HEADER + effort
     assert "\r" not in motion
     assert motion.endswith("\n")
 

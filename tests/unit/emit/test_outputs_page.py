@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import shotc
-from shotc.emit.csv_table import FRAMING, GEODETIC, LIGHT, TRAJECTORY
+from shotc.emit.csv_table import EFFORT, FRAMING, GEODETIC, LIGHT, TRAJECTORY
 from shotc.emit.ned import SETPOINTS
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.keyframes import PlacedKeyframe, PlacedSubject
@@ -52,7 +52,7 @@ RECORDS = (
 
 
 def test_every_column_of_the_tables_is_explained():
-    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT},{FRAMING},{FLIGHT},{SETPOINTS}".split(",")
+    columns = f"{TRAJECTORY}{GEODETIC}{LIGHT}{EFFORT},{FRAMING},{FLIGHT},{SETPOINTS}".split(",")
     assert [column for column in columns if column not in NAMED] == []
 
 

@@ -40,7 +40,7 @@ def test_without_one_the_rules_separation_holds() -> None:
 
 @pytest.mark.parametrize(
     ("written", "slug"),
-    [("0", "out-of-range"), ("2 kg", "unknown-unit"), ("[1, 2]", "wrong-type"), ("yes", "not-a-quantity")],
+    [("0", "out-of-range"), ("2 kg", "wrong-dimension"), ("[1, 2]", "wrong-type"), ("yes", "not-a-quantity")],
 )
 def test_a_wrong_separation_is_one_fault(written: str, slug: str) -> None:
     text = show(fleet=FLEET.replace("separation: 2", f"separation: {written}"))

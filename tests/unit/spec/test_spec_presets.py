@@ -11,7 +11,7 @@ from shotc.spec.rules import OutputSpec, RulesSpec
 @pytest.mark.parametrize("name", PRESETS)
 def test_presets_are_drones_that_can_fly_and_film(name):
     preset = PRESETS[name]
-    assert all(value > 0 for value in preset.limits)
+    assert all(value > 0 for value in preset.limits.bounds.values())
     assert preset.limits.descent <= preset.limits.climb <= preset.limits.speed
     assert preset.limits.jerk >= preset.limits.acceleration
     assert preset.gimbal.pitch[0] < 0 < preset.gimbal.pitch[1] < pi / 2

@@ -92,12 +92,13 @@ def endurance_exceeded(mission: MissionIR, drone: Drone, phases: tuple[Phase, ..
     labels = [mission.origins.value((*drone.path, "endurance"), "the endurance")]
     if shot is not None:
         labels.append(mission.origins.key(shot.path, "the longest shot"))
+    by = () if drone.power is None else (f"it hovers {drone.lasts}",)
     return Diagnostic(
         "T004",
         f"the flight of `{drone.name}` takes {at_least(total)} s, and its endurance is "
         f"{plain(drone.endurance)} s",
         tuple(labels),
-        (f"longest first: {phases_in_words(tuple(longest))}",),
+        (f"longest first: {phases_in_words(tuple(longest))}", *by),
         f"shorten the mission by {at_least(total - drone.endurance)} s, cut it in two, or, if the battery "
         f"has it, write `endurance: {at_least(total)} s`",
     )

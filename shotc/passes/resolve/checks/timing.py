@@ -201,7 +201,7 @@ def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diag
     """Say that a shot lasts longer than the endurance: as it is written, or as it has to."""
     asked, calmer = shot.timing.duration, list[str]()
     seconds = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
-    notes = [f"the shot {seconds}, the endurance is {drone.endurance:.1f} s"]
+    notes = [f"the shot {seconds}, the endurance is {drone.lasts}"]
     if asked is None:
         calmer = less_wind(mission, shot, drone, drone.endurance)
         if calmer:
@@ -289,7 +289,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
                 mission.origins.value((*drone.path, "endurance")),
                 timing_label(mission, last.shot, "its last shot"),
             ),
-            (f"{note}, its endurance is {drone.endurance:.1f} s", *taken),
+            (f"{note}, its endurance is {drone.lasts}", *taken),
             "drop or shorten shots, or cut the mission in two",
         )
     ]

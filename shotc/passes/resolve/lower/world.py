@@ -13,6 +13,7 @@ from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_are
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Drone, Gimbal, Zone
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
 from shotc.kinds.base import counts_from_ground, stands
 from shotc.passes.resolve.lower.rehearsal import toward
 from shotc.spec.drones import DroneSpec, LimitsSpec
@@ -126,17 +127,21 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
     found: dict[str, Drone] = {}
     faults: list[Diagnostic] = []
     wind = spec.world.wind
+    density = density_at(0.0 if spec.world.origin is None else spec.world.origin.alt)
     for name, drone in spec.drones.items():
-        resolved = resolve_drone(name, drone, put, wind)
+        resolved = resolve_drone(name, drone, put, wind, density)
         faults += becalmed("drone", resolved, wind.speed, origins)
         faults += beyond_model("drone", drone, resolved.path, origins)
         found[name] = resolved
     return found, faults
 
 
-def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: WindSpec) -> Drone:
-    """Return a drone as its preset and what the mission puts in its place."""
+def resolve_drone(
+    name: str, spec: DroneSpec, put: Put, wind: WindSpec, density: float = SEA_LEVEL_KG_M3
+) -> Drone:
+    """Return a drone as its preset and what the mission puts in its place; density : of the air, kg/m^3."""
     preset, to = PRESETS[spec.model], toward(wind)
+    power = _power(spec, preset, density)
     limits = limits_of(preset, spec.limits, wind.speed if to is None else 0.0)
     if to is not None:
         limits = limits._replace(wind=(wind.speed * cos(to), wind.speed * sin(to)))
@@ -150,12 +155,29 @@ def resolve_drone(name: str, spec: DroneSpec, put: Put, wind: WindSpec) -> Drone
         hfov=camera.field_of_view or preset.hfov,
         aspect=camera.aspect_ratio or preset.aspect,
         radius=spec.radius or preset.radius,
-        endurance=spec.endurance or preset.endurance,
+        endurance=spec.endurance or (preset.endurance if power is None else power.endurance),
         priority=spec.priority,
         body=spec.body or preset.body,
         autopilot=preset.autopilot,
         path=("drones", name),
+        power=power,
     )
+
+
+def _power(spec: DroneSpec, preset: Preset, density: float) -> Power | None:
+    """Return the power of a drone in air of a density, None where nobody knows it.
+
+    Whose endurance is written may have another battery than its model: its energy is not known then.
+    """
+    written = spec.power
+    if written is None:
+        known = preset.power if spec.endurance is None else None
+        return None if known is None else known._replace(density=density)
+    rotors, share = written.rotors, written.efficiency or 1.0
+    power = Power(written.mass, written.battery, rotors.count, rotors.radius, share, written.reserve)
+    if written.hover is not None:
+        power = power.hovering_for(written.hover)
+    return power._replace(density=density)
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:

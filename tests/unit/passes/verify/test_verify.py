@@ -12,7 +12,9 @@ from shotc.geom.solids import Cylinder, Prism, box
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Promise
 from shotc.ir.path import HFOV
+from shotc.ir.power import Power
 from shotc.ir.target import Target
+from shotc.ir.thrust import drawn
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.report import rule_of
@@ -68,6 +70,18 @@ def test_known_values() -> None:
     assert claim(PLAN, "tower in frame").method == "bounded"
 
 
+def test_energy_is_that_of_the_samples_and_of_no_shot_more_than_of_the_flight() -> None:
+    power = Power(2.0, 3e5, 4, 0.127, 0.5, 0.2)
+    found = [c for c in judge(with_drone(power=power), CONTEXT).certificate if c.constraint == "energy"]
+    (whole,), (shot,) = ([c for c in found if c.shot == name] for name in (None, "half"))
+    t = np.linspace(0.0, 122.0, 122001)
+    watts = drawn(power, *(CURVE.derivative(n)(t)[:, :3] for n in (1, 2)))
+    filmed = (t >= 22.0) & (t <= 52.0)
+    assert whole.worst == pytest.approx(np.trapezoid(watts, t) / 3600, rel=1e-4)
+    assert shot.worst == pytest.approx(np.trapezoid(watts[filmed], t[filmed]) / 3600, rel=1e-4)
+    assert (whole.limit, shot.limit, shot.hard) == (pytest.approx(0.8 * 3e5 / 3600), np.inf, False)
+
+
 CURVE = PLAN.drones[0].curve
 MAST = Target("mast", (40.0, 0.0, 10.0), CylinderShape(1.0, 20.0), ("targets", "mast"))
 FRAMING = PLAN.drones[0].framing[0]
@@ -100,6 +114,7 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
     ("home", with_drone(home=(0.0, -60.5, 0.0)), {"V012", "V017"}),
     ("start not at rest", with_ctrl(lambda c: c.__setitem__((0, 1, 2), 0.001)), {"V012"}),
     ("endurance", with_drone(endurance=121.0), {"V013"}),
+    ("battery", with_drone(power=Power(2.0, 3.5e4, 4, 0.127, 0.5, 0.2)), {"V055"}),
     ("phase gap", with_phase(1, end=21.0), {"V014"}),
     ("phase backwards", with_phase(3, end=51.0), {"V014"}),
     ("phase without end", with_phase(4, end=nan), {"V014"}),

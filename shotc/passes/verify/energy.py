@@ -1,0 +1,52 @@
+"""The energy that a flight takes from its battery, as far as that is known; proved from the polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import lift_off
+from shotc.geom.integral import integral_convex
+from shotc.geom.pieces import cut
+from shotc.ir.limits import G_M_S2
+from shotc.ir.power import Power
+from shotc.ir.thrust import hover_ratio
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+
+ENERGY = "energy"
+J_WH = 3600.0
+SHARE = 1e-4
+"""Of an energy, by which it is told too high at most."""
+
+
+def energy(flight: Flight) -> Iterator[Claim]:
+    """Claim that the battery's energy is enough from lift-off to touch-down; tell what every shot takes."""
+    power, curve = flight.drone.power, flight.track.curve
+    if power is None:
+        return
+    path = (*flight.drone.path, "power", "battery")
+    whole = taken(flight, power, lift_off(curve), curve.end)
+    limit = Limit(ENERGY, power.usable / J_WH, "Wh", path)
+    yield claim(flight, limit, Worst(whole / J_WH, curve.end))
+    for phase in flight.track.phases:
+        if phase.shot is not None:
+            least = taken(flight, power, phase.start, phase.end) / J_WH
+            told = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
+            yield claim(flight, told, Worst(least, phase.end))
+
+
+def taken(flight: Flight, power: Power, start: float, end: float) -> float:
+    """Return the energy that no flight of this trajectory exceeds between two times, J.
+
+    What climbing adds is half of what the energies of height and motion gain, over the efficiency.
+    """
+    curve = flight.track.curve
+    acceleration = cut(curve, start, end).channels(0, 1, 2).derivative().derivative()
+    hovering = power.hover * integral_convex(acceleration, hover_ratio, SHARE).high
+    ends = np.array([start, end])
+    speed = np.linalg.norm(curve.derivative()(ends)[:, :3], axis=1)
+    gained = np.diff(0.5 * speed**2 + G_M_S2 * curve(ends)[:, 2])[0]
+    return hovering + 0.5 * power.mass * float(gained) / power.efficiency
