@@ -4,6 +4,7 @@ World frame W (East, North, Up, metres), radians, seconds; ``path`` is where an 
 the mission file (see ``OriginMap``).
 """
 
+from math import radians
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
@@ -67,13 +68,38 @@ class Gimbal(NamedTuple):
         return reaches(self.pitch, pitch)
 
 
+class Lens(NamedTuple):
+    """What a camera's lens shows.
+
+    longest, widest : horizontal fields of view at its ends, rad; of a fixed lens both are the same
+    rate : how fast the field of view changes at most, rad/s; 0 of a fixed lens
+    """
+
+    longest: float
+    widest: float
+    rate: float
+
+    @property
+    def zooms(self) -> bool:
+        """Tell whether it has more than one field of view."""
+        return self.longest < self.widest
+
+    def shows(self, hfov: float) -> bool:
+        """Tell whether it has this field of view, rad, to a hundredth of a degree."""
+        return self.longest - SAME_LENS_RAD <= hfov <= self.widest + SAME_LENS_RAD
+
+
+SAME_LENS_RAD = radians(0.01)
+
+
 class Drone(NamedTuple):
     """A drone with its presets filled in.
 
     home : p_WB at rest on its pad
-    hfov : horizontal field of view, rad; aspect : width / height
+    hfov : horizontal field of view, rad, where a shot asks for no other; aspect : width / height
     radius : of the body sphere, m; endurance : s, of a drone whose battery is known what that hovers
     power : its battery and rotors, None where nobody knows them
+    lens : None where nobody says what the camera carries
     """
 
     name: str
@@ -90,6 +116,7 @@ class Drone(NamedTuple):
     autopilot: Literal["px4", "ardupilot"]
     path: KeyPath
     power: Power | None = None
+    lens: Lens | None = None
 
     @property
     def lasts(self) -> str:

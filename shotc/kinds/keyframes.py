@@ -1,12 +1,14 @@
 """Keyframes: the camera poses that the user framed, in order."""
 
+from math import degrees
 from typing import Literal
 
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred
+from shotc.ir.mission import Deferred, Lens
 from shotc.kinds.base import Expansion, Kind, Part, Scene, Stand
+from shotc.rounding import away
 from shotc.spec.shot import KeyframeSpec, ShotBase
 
 
@@ -29,6 +31,9 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
     aim = scene.aim(shot, spec, *path, own=spec.target)
     if isinstance(aim, Diagnostic | Deferred):
         return aim
+    lens = scene.drone.lens
+    if spec.hfov is not None and lens is not None and not lens.shows(spec.hfov):
+        return _beyond_lens(scene, lens, spec.hfov, *path)
     stand = scene.stand(shot, spec.at, *path, "at")
     if not isinstance(stand, Stand):
         return stand
@@ -45,6 +50,25 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
         heading=spec.heading,
         beside=stand.beside,
         box=spec.box,
+    )
+
+
+def _beyond_lens(scene: Scene, lens: Lens, hfov: float, *path: str | int) -> Diagnostic:
+    name, longest, widest = scene.drone.name, degrees(lens.longest), degrees(lens.widest)
+    if not lens.zooms:
+        message = f"the lens of `{name}` is fixed: it shows {widest:.4g} deg and not {degrees(hfov):.4g} deg"
+        help_ = (
+            "take `hfov` out and go nearer or farther, or say what lens it has: "
+            f"`camera: {{zoom: [24 mm, 70 mm]}}` of `{name}`"
+        )
+        return scene.fault("K018", message, help_, *path, "hfov")
+    message = (
+        f"the zoom of `{name}` goes from {longest:.4g} to {widest:.4g} deg, not to {degrees(hfov):.4g} deg"
+    )
+    nearest = lens.longest if hfov < lens.longest else lens.widest
+    inside = away(degrees(nearest), upper=hfov < lens.longest, digits=2)
+    return scene.fault(
+        "K018", message, f"write `hfov: {inside:g} deg`, and go nearer or farther", *path, "hfov"
     )
 
 

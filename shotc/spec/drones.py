@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import InitErrorDetails
 
+from shotc.ir.mission import Lens
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
@@ -17,6 +18,7 @@ from shotc.spec.fields import (
     Duration,
     FieldOfView,
     Jerk,
+    LengthRange,
     PitchRange,
     PositiveLength,
     PositiveShare,
@@ -27,7 +29,7 @@ from shotc.spec.fields import (
 from shotc.spec.fieldtypes import FieldType, Hinted, Integer, NamedOr
 from shotc.spec.heights import STANDING
 from shotc.spec.model import Model, OneOf, section
-from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE
+from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE, ZOOM_RATE
 from shotc.spec.quantities import Percentage, Quantity, Tuple, WattHours
 from shotc.units import SMALLEST
 
@@ -40,7 +42,8 @@ ThrustToWeight = Annotated[float, Quantity("ThrustToWeight", "ratio", 1.02, 20.0
 Mass = Annotated[float, Quantity("Mass", "mass", SMALLEST["mass"])]
 Energy = Annotated[float, WattHours("Energy", "energy", 360.0)]
 Reserve = Annotated[float, Percentage("Reserve", "ratio", 0.0, 0.9, noun="reserve")]
-
+FULL_FRAME_M = 0.036
+"""Width of the frame that focal lengths count on where no sensor is written: they are equivalents then."""
 SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
 
 
@@ -97,14 +100,31 @@ class CameraSpec(Model):
         "with focal_length it gives the field of view",
     )
     focal_length: PositiveLength | None = Field(default=None, description="focal length of the lens")
+    zoom: LengthRange | None = Field(
+        default=None,
+        description="[shortest, longest] focal length of a zoom lens, such as [24 mm, 70 mm]: on the "
+        "`sensor`, or on a frame 36 mm wide if silent",
+    )
+    zoom_rate: AngularRate | None = Field(
+        default=None, description="how fast the field of view changes at most; 10 deg/s if silent"
+    )
     aspect: Aspect | None = Field(default=None, description='frame width over height, such as "16:9"')
 
     @property
     def field_of_view(self) -> float | None:
         """Horizontal field of view, rad; None where the preset decides."""
-        if self.sensor is None or self.focal_length is None:
-            return self.hfov
-        return 2 * atan(self.sensor[0] / (2 * self.focal_length))
+        if self.sensor is not None and self.focal_length is not None:
+            return 2 * atan(self.sensor[0] / (2 * self.focal_length))
+        return self.hfov if self.hfov is not None or self.lens is None else self.lens.widest
+
+    @property
+    def lens(self) -> Lens | None:
+        """The zoom lens; None where nothing is said of one."""
+        if self.zoom is None:
+            return None
+        width = FULL_FRAME_M if self.sensor is None else self.sensor[0]
+        widest, longest = (2 * atan(width / (2 * focal)) for focal in self.zoom)
+        return Lens(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate)
 
     @property
     def aspect_ratio(self) -> float | None:
@@ -131,7 +151,27 @@ class CameraSpec(Model):
                 "write [width, height]; frames lie between 1:5 and 5:1",
             )
         self._agree()
+        self._zooms()
         return self
+
+    def _zooms(self) -> None:
+        """Raise a fault where the field of view is none of the zoom's, or a rate is that of no zoom."""
+        lens, hfov = self.lens, self.field_of_view
+        if lens is None and self.zoom_rate is not None:
+            raise fault_at(
+                ("zoom_rate",),
+                "conflicting-fields",
+                "`zoom_rate` is said of a lens that does not zoom",
+                "write `zoom: [24 mm, 70 mm]` beside it, or take it out",
+            )
+        if lens is not None and hfov is not None and not lens.shows(hfov):
+            key = "hfov" if self.hfov is not None else "focal_length"
+            raise fault_at(
+                (key,),
+                "impossible-camera",
+                f"a field of view of {degrees(hfov):.4g} deg is none of the zoom's",
+                f"it goes from {degrees(lens.longest):.4g} to {degrees(lens.widest):.4g} deg",
+            )
 
     def _agree(self) -> None:
         """Raise a fault where the frame's shape is given twice, and not the same."""

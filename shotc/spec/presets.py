@@ -23,6 +23,7 @@ TRANSIT_FILMED = 5.0
 TRANSIT_OTHER = 3.0
 TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racing cars do
 PACE = 0.75
+ZOOM_RATE = radians(10.0)  # of the field of view, a second: a slow zoom of a film camera
 RATE = 50.0
 SHOW_RATE = 5.0
 RUNS = 20  # of a rehearsal
@@ -39,6 +40,7 @@ class Preset(NamedTuple):
     hfov : rad; aspect : width / height; radius : of the sphere round the body and its propellers, m
     endurance : s, what its power hovers where that is known
     power : its battery and rotors, None where their figures are not known
+    fixed_lens : whether its camera is built in and has no other field of view
     """
 
     summary: str
@@ -52,6 +54,7 @@ class Preset(NamedTuple):
     body: Body
     source: str
     power: Power | None = None
+    fixed_lens: bool = False
 
 
 def _limits(linear: tuple[float, float, float, float, float], yaw: tuple[float, float]) -> Limits:
@@ -99,6 +102,7 @@ PRESETS: dict[str, Preset] = {
         autopilot="px4",
         body="follow-camera",
         source="class of the DJI Mini 4 Pro (24 mm equivalent lens), about half of its published maxima",
+        fixed_lens=True,
     ),
     "pro": Preset(
         summary="folding camera drone of about 1 kg; its gimbal does not pan, the body turns",
@@ -111,6 +115,7 @@ PRESETS: dict[str, Preset] = {
         autopilot="px4",
         body="follow-camera",
         source="class of the DJI Mavic 3 (24 mm equivalent lens), about two thirds of its published maxima",
+        fixed_lens=True,
     ),
     "solo": Preset(
         summary="ArduPilot quadrotor with an action camera on a gimbal without pan",
@@ -150,6 +155,7 @@ PRESETS: dict[str, Preset] = {
         body="follow-camera",
         source="Bitcraze Crazyflie 2.1 with an AI deck (square sensor); the camera is fixed, so the pitch "
         "range is only what its picture tolerates",
+        fixed_lens=True,
     ),
     "show-drone": Preset(
         summary="light-show quadrotor without a camera",

@@ -13,7 +13,8 @@ world: {wind: 1 m/s}
 targets:
   tower: {at: [0, 0, 12], radius: 4, height: 24}
 drones:
-  cam1: {model: x500, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min}
+  cam1: {model: x500, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min,
+    camera: {zoom: [24 mm, 70 mm], hfov: 70 deg}}
 shots:
   - id: walk
     kind: keyframes
@@ -201,6 +202,15 @@ CODES: tuple[CodeInfo, ...] = (
         "where the drone does fly so. Without `model` nothing is said, for the drone is your own.",
         ("speed: 9 m/s", "speed: 50 m/s"),
     )._replace(severity=Severity.WARNING),
+    _code(
+        18,
+        "beyond-the-lens",
+        "a keyframe asks for a field of view that the drone's lens does not have",
+        "`camera` says what lens a drone carries: `zoom: [24 mm, 70 mm]`, or the fixed one of a model whose camera is "
+        "built in. The `hfov` of a keyframe has to be one of its fields of view: what is framed with another would not "
+        "be in the film.",
+        ("{at: [45, -20, 15], look_at: tower}", "{at: [45, -20, 15], look_at: tower, hfov: 80 deg}"),
+    ),
     _beside(
         16,
         "no-target-to-count-from",

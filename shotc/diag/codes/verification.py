@@ -119,7 +119,16 @@ _LIMITS = (
         (
             "the field of view is none that a camera has",
             "The horizontal field of view must lie between 1 and 170 degrees at every instant of the plan: outside "
-            "of that the projection means nothing.",
+            "of that the projection means nothing. Where `camera` says what lens it has, it must be one of the lens.",
+        ),
+    ),
+    verified(
+        60,
+        "zooms-too-fast",
+        (
+            "the lens is to zoom faster than it can",
+            "`camera.zoom_rate` binds how fast the field of view changes at every instant. A shot that is given more "
+            "time zooms more slowly; keyframes on the clock need more time between them.",
         ),
     ),
 )

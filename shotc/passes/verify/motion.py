@@ -11,6 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, norm, sup_channel, sup_convex
+from shotc.ir.mission import SAME_LENS_RAD
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.thrust import lean, thrust_to_weight
 from shotc.ir.trajectory import Claim
@@ -27,7 +28,7 @@ def motion(flight: Flight) -> Iterator[Claim]:
     yield from _body_yaw(flight, whole.channels(BODY_YAW))
     yield from _gimbal(flight, "pitch", whole.channels(CAM_PITCH))
     yield from _gimbal(flight, "yaw", _against_body(flight, whole))
-    yield from _range(flight, "field of view", whole.channels(HFOV), HFOV_RANGE_RAD)
+    yield from _zoom(flight, whole.channels(HFOV))
 
 
 def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
@@ -85,6 +86,19 @@ def _gimbal(flight: Flight, axis: str, angle: Pieces) -> Iterator[Claim]:
     ):
         wanted = Limit(f"gimbal {axis} {name}", limit, unit, _path(flight, "gimbal", name))
         yield bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
+
+
+def _zoom(flight: Flight, hfov: Pieces) -> Iterator[Claim]:
+    """Claim what the lens shows, and how fast it zooms where the mission says what it is."""
+    lens = flight.drone.lens
+    if lens is None:
+        yield from _range(flight, "field of view", hfov, HFOV_RANGE_RAD)
+        return
+    reach = (lens.longest - SAME_LENS_RAD, lens.widest + SAME_LENS_RAD)
+    yield from _range(flight, "field of view", hfov, reach, _path(flight, "camera", "zoom"))
+    if lens.zooms:
+        rate = Limit("zoom rate", lens.rate, "rad/s", _path(flight, "camera", "zoom_rate"))
+        yield bounded(flight, rate, sup_convex(hfov.derivative(), norm, gap(lens.rate)))
 
 
 def _against_body(flight: Flight, whole: Pieces) -> Pieces:

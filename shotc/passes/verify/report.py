@@ -46,6 +46,7 @@ RULES = {
     "gimbal yaw acceleration": Rule("V006", 1 / 2),
     "field of view min": Rule("V018"),
     "field of view max": Rule("V018"),
+    "zoom rate": Rule("V060", 1.0),
     "ground clearance": Rule("V009"),
     "height above ground": Rule("V047"),
     "distance from terrain": Rule("V009"),

@@ -44,6 +44,8 @@ class Ceiling:
     """The range of the camera's pitch, rad."""
     yaw: tuple[float, float] = (-inf, inf)
     """The range of the camera's yaw against the body's, rad."""
+    zoom_rate: float = inf
+    """Of the field of view, rad/s."""
     wind: tuple[float, float] = (0.0, 0.0)
     """Velocity of the air over ground, m/s, where it is known."""
 
@@ -112,6 +114,7 @@ def ceiling_of(drone: Drone) -> Ceiling:
         gimbal.acceleration,
         gimbal.pitch,
         gimbal.yaw,
+        inf if drone.lens is None or not drone.lens.zooms else drone.lens.rate,
         limits.wind,
     )
 
@@ -119,12 +122,15 @@ def ceiling_of(drone: Drone) -> Ceiling:
 def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[Axis, ...]:
     """Return every norm that the ceiling limits.
 
-    zoom_only : whether nothing but the field of view moves; a zoom has no limit of its own, but on
-        the spot it needs some time, and takes what the gimbal would for the same angle
+    zoom_only : whether nothing but the field of view moves; where nobody says how fast a lens zooms, that
+        takes what the gimbal would for the same angle
     """
+    zoom = Axis(_row({HFOV: 1.0})[None], rate=("zoom_rate", ceiling.zoom_rate))
+    zooms = () if ceiling.zoom_rate == inf else (zoom,)
     if zoom_only:
-        return (_turn(_row({HFOV: 1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"),)
+        return (_turn(_row({HFOV: 1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"), *zooms)
     return (
+        *zooms,
         Axis(np.stack([_row({X: 1.0}), _row({Y: 1.0})]), rate=("speed", ceiling.speed), drift=ceiling.wind),
         Axis(_row({Z: 1.0})[None], rate=("climb", ceiling.climb), sign=1),
         Axis(_row({Z: 1.0})[None], rate=("descent", ceiling.descent), sign=-1),

@@ -53,7 +53,8 @@ shots:
         ("height: 24", "height: [40-65]", "got a list", "such as `12 m`"),
         ("hfov: 70 deg", "sensor: 1 inch, focal_length: 9 mm", "unknown unit `inch`", "sensor's width"),
         ("hfov: 70 deg", "sensor: 1/2.3in, focal_length: 9 mm", "`1/2.3in`", "sensor's width"),
-        ("aspect: 1.6", "aspect: 1.6, zoom: 2", "unknown key `zoom`", "known are"),
+        ("aspect: 1.6", "aspect: 1.6, tilt: 2", "unknown key `tilt`", "known are"),
+        ("aspect: 1.6", "aspect: 1.6, zoom: 2", "expected a list [lowest, highest]", ""),
         ("radius: 4", "diameter: 8", "unknown key `diameter`, and `radius` is missing", "write `radius`"),
         ("sweep: 180 deg", "sweep: 180", "an angle needs a unit", "write `180 deg`"),
         (

@@ -51,6 +51,7 @@ _SHOWN = {
     "yaw_acceleration": _Shown(("limits", "yaw_acceleration"), "yaw acceleration", "deg/s^2", True),
     "gimbal_rate": _Shown(("gimbal", "rate"), "gimbal rate", "deg/s", True),
     "gimbal_acceleration": _Shown(("gimbal", "acceleration"), "gimbal acceleration", "deg/s^2", True),
+    "zoom_rate": _Shown(("camera", "zoom_rate"), "zoom rate", "deg/s", True),
 }
 
 

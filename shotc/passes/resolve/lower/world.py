@@ -11,12 +11,12 @@ from pydantic import BaseModel
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.limits import Limits, Vec2, Vec3
-from shotc.ir.mission import Drone, Gimbal, Zone
+from shotc.ir.mission import Drone, Gimbal, Lens, Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
 from shotc.kinds.base import counts_from_ground, stands
 from shotc.passes.resolve.lower.rehearsal import toward
-from shotc.spec.drones import DroneSpec, LimitsSpec
+from shotc.spec.drones import CameraSpec, DroneSpec, LimitsSpec
 from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
@@ -153,6 +153,7 @@ def resolve_drone(
         limits=limits,
         gimbal=preset.gimbal if spec.gimbal is None else Gimbal(**_over(preset.gimbal, spec.gimbal)),
         hfov=camera.field_of_view or preset.hfov,
+        lens=_lens(camera, preset),
         aspect=camera.aspect_ratio or preset.aspect,
         radius=spec.radius or preset.radius,
         endurance=spec.endurance or (preset.endurance if power is None else power.endurance),
@@ -178,6 +179,12 @@ def _power(spec: DroneSpec, preset: Preset, density: float) -> Power | None:
     if written.hover is not None:
         power = power.hovering_for(written.hover)
     return power._replace(density=density)
+
+
+def _lens(camera: CameraSpec, preset: Preset) -> Lens | None:
+    """Return the lens of a camera; None where neither mission nor model says what it is."""
+    hfov = camera.field_of_view or preset.hfov
+    return camera.lens or (Lens(hfov, hfov, 0.0) if preset.fixed_lens else None)
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:
