@@ -22,7 +22,7 @@ from shotc.ir.lowered import Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
 from shotc.ir.source import MissionSource
-from shotc.lowering import lower, lower_kept, with_autopilot
+from shotc.lowering import lower, lower_kept, with_autopilot, with_smoothing
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import (
     ASSIGN,
@@ -60,6 +60,7 @@ class PlanOptions(NamedTuple):
     headings : how a camera that follows nothing is turned, of ``solvers.headings.METHODS``;
         None means its ``DEFAULT``
     autopilot : "px4" or "ardupilot" instead of what the drone's model says
+    smoothing : seconds, of all shots, instead of what the mission says: for plans that are not kept
     stop_after : the name of the last pass to run; progress : called with each pass's name
     on_mission : called with the mission once it can be planned, before the solvers load
     """
@@ -72,6 +73,7 @@ class PlanOptions(NamedTuple):
     progress: Callable[[str], None] = silent
     on_mission: Callable[[MissionIR], None] = _ignore
     headings: str | None = None
+    smoothing: float | None = None
 
 
 class Compilation(NamedTuple):
@@ -143,7 +145,7 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     refusals = _refusals(front.value.mission)
     if refusals or options.stop_after == front.reports[-1].name:
         return stopped._replace(diagnostics=(*diagnostics, *refusals))
-    back = _lower(front.value, setting, options, ctx)
+    back = _lower(with_smoothing(front.value, options.smoothing), setting, options, ctx)
     diagnostics = [*without_answered(diagnostics, back.diagnostics), *back.diagnostics]
     # What was stopped on purpose is no plan to write, not even after the last pass.
     plan = None if options.stop_after or has_errors(diagnostics) else back.value

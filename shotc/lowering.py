@@ -75,6 +75,16 @@ def _with_chosen(mission: LoadedMission, chosen: Chosen, found: list[Diagnostic]
     return mission._replace(spec=mission.spec.model_copy(update={"shots": filled}), chosen=used)
 
 
+def with_smoothing(keyframes: KeyframeIR, seconds: float | None) -> KeyframeIR:
+    """Return the mission with another smoothing of all its shots than it says, if there is one to try."""
+    if seconds is None:
+        return keyframes
+    mission = keyframes.mission
+    tried = mission._replace(shots=tuple(shot._replace(smoothing=seconds) for shot in mission.shots))
+    placed = tuple(p._replace(shot=p.shot._replace(smoothing=seconds)) for p in keyframes.shots)
+    return keyframes._replace(mission=tried, shots=placed)
+
+
 def with_autopilot(keyframes: KeyframeIR, autopilot: Autopilot | None) -> KeyframeIR:
     """Return the mission with every drone under another autopilot than its model's, if one was chosen."""
     if autopilot is None:

@@ -16,6 +16,7 @@ from shotc.cli.console import Progress, known, listed, table
 from shotc.cli.inputs import read_mission
 from shotc.cli.plan import Deadline
 from shotc.filenames import file_name
+from shotc.ir.smoothing import LONGEST_S, SHORTEST_S, SMOOTHINGS
 from shotc.output import write
 
 if TYPE_CHECKING:
@@ -42,6 +43,14 @@ Refiners = Annotated[
         help="Refiners to compare, separated by commas [all: none, ang, look-at, ours-4pt, ours, others].",
     ),
 ]
+Smoothings = Annotated[
+    str | None,
+    typer.Option(
+        "--smoothing",
+        metavar="LIST",
+        help="Smoothings of all shots to compare, separated by commas: low, normal, high, or seconds.",
+    ),
+]
 Output = Annotated[
     Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION/compare].")
 ]
@@ -51,6 +60,7 @@ FormatOption = Annotated[Format, typer.Option("--format", help="How to print the
 def compare(
     spec: Spec,
     refiners: Refiners = None,
+    smoothing: Smoothings = None,
     output: Output = None,
     format: FormatOption = Format.TEXT,
     deadline: Deadline = None,
@@ -62,21 +72,25 @@ def compare(
     What a shot promises (`require`) refuses no plan here; a promise that is broken is told. A refiner that
     fails is a row that says so. The files are compare.json and compare.md with the table, compare.png with
     the worst frame of each, and compare.rrd with the camera views side by side, for the rerun viewer.
-    Nothing here is to be flown; `shotc plan --refiner NAME` plans with one of them. Example:
+    Nothing here is to be flown; `shotc plan --refiner NAME` plans with one of them. Examples:
 
         shotc compare tower.yaml --refiners none,ours
+        shotc compare runner.yaml --refiners ours --smoothing low,normal,high
     """
     names = listed(refiners)
     for name in names or ():
         known("--refiners", name, plugins.names("refiners"))
     if names == []:
         raise typer.BadParameter("it names no refiner", param_hint="--refiners")
+    smoothings = _smoothings(smoothing)
     source = read_mission(spec)
     from shotc.comparison import Options, compare_source, ordered
 
     asked = ordered(plugins.names("refiners")) if names is None else names
     with Progress() as progress:
-        done = compare_source(source.data, source.name, source.folder, Options(asked, deadline, progress))
+        done = compare_source(
+            source.data, source.name, source.folder, Options(asked, smoothings, deadline, progress)
+        )
         found = _shown(done)
         from shotc.comparison.outputs import artifacts
 
@@ -85,6 +99,32 @@ def compare(
     console.report((*done.diagnostics, *made.diagnostics, *faults), done.sources)
     console.out(_printed(found, format, paths))
     raise typer.Exit(console.exit_code(faults))
+
+
+def _smoothings(text: str | None) -> tuple[float | None, ...]:
+    """Return the smoothings that are named, seconds; the mission's own where none is."""
+    names = listed(text)
+    if names is None:
+        return (None,)
+    if not names:
+        raise typer.BadParameter("it names no smoothing", param_hint="--smoothing")
+    return tuple(dict.fromkeys(map(_smoothing, names)))
+
+
+def _smoothing(name: str) -> float:
+    known = SMOOTHINGS.get(name)
+    if known is not None:
+        return known
+    try:
+        seconds = float(name.removesuffix("s"))
+    except ValueError:
+        seconds = 0.0
+    if not SHORTEST_S <= seconds <= LONGEST_S:
+        text = (
+            f"`{name}` is none of {', '.join(SMOOTHINGS)}, and no time from {SHORTEST_S:g} to {LONGEST_S:g} s"
+        )
+        raise typer.BadParameter(text, param_hint="--smoothing")
+    return seconds
 
 
 def _shown(done: Report) -> Comparison:
@@ -109,10 +149,10 @@ def _printed(comparison: Comparison, format: Format, paths: Sequence[Path]) -> s
 
 
 def _text(comparison: Comparison, paths: Sequence[Path]) -> Iterator[str]:
-    from shotc.comparison.table import LEGEND, counted, remarks, rows
+    from shotc.comparison.table import LEGEND, conditions_of, counted, remarks, rows
 
-    shots, refiners = len(comparison.mission.shots), len(comparison.conditions)
-    yield f"{comparison.mission.name}: {counted(shots, 'shot')} under {counted(refiners, 'refiner')}"
+    shots = counted(len(comparison.mission.shots), "shot")
+    yield f"{comparison.mission.name}: {shots} under {conditions_of(comparison)}"
     yield ""
     yield from (f"  {line}" for line in table(rows(comparison, seconds=True)))
     yield ""

@@ -6,11 +6,12 @@ The mission is compiled once up to its convex path; every refiner starts from th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from shotc import plugins
-from shotc.api import PlanOptions, compile_source
+from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.comparison.conditions import condition
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
@@ -41,10 +42,12 @@ class Options(NamedTuple):
     """What to compare.
 
     refiners : of ``plugins.names("refiners")``, in the order in which they are shown
+    smoothings : seconds, each tried with every refiner instead of the mission's; the mission's where None
     deadline, progress : as in ``api.PlanOptions``
     """
 
     refiners: Sequence[str]
+    smoothings: Sequence[float | None] = (None,)
     deadline: float | None = None
     progress: Callable[[str], None] = silent
 
@@ -55,15 +58,23 @@ def compare_source(data: bytes, name: str, folder: Path | None, options: Options
     A refiner without a plan is a condition that says so; only a mission that no refiner could plan is
     rejected.
     """
-    convex = PlanOptions(plugins.NO_REFINER, stop_after="solve-path-qp", progress=options.progress)
-    done = compile_source(data, name, folder, convex)
-    path = done.reports[-1].output if done.reports else None
-    if not isinstance(path, PathIR) or has_errors(done.diagnostics):
-        return Report(None, done.diagnostics, done.sources)
+    conditions: list[Condition] = []
+    first: tuple[PathIR, Compilation] | None = None
+    for smoothing in options.smoothings:
+        convex = PlanOptions(
+            plugins.NO_REFINER, stop_after="solve-path-qp", progress=options.progress, smoothing=smoothing
+        )
+        done = compile_source(data, name, folder, convex)
+        path = done.reports[-1].output if done.reports else None
+        if not isinstance(path, PathIR) or has_errors(done.diagnostics):
+            return Report(None, done.diagnostics, done.sources)
+        first = first or (path, done)
+        conditions += (_under(refiner, path, smoothing, options) for refiner in options.refiners)
+    assert first is not None
+    path, done = first
+    return Report(Comparison(path.keyframes.mission, tuple(conditions)), done.diagnostics, done.sources)
 
-    def compared(refiner: str) -> Condition:
-        ctx = PassContext(progress=lambda message: options.progress(f"{refiner}: {message}"))
-        return condition(refiner, path, options.deadline, ctx)
 
-    conditions = tuple(map(compared, options.refiners))
-    return Report(Comparison(path.keyframes.mission, conditions), done.diagnostics, done.sources)
+def _under(refiner: str, path: PathIR, smoothing: float | None, options: Options) -> Condition:
+    ctx = PassContext(progress=lambda message: options.progress(f"{refiner}: {message}"))
+    return replace(condition(refiner, path, options.deadline, ctx), smoothing=smoothing)

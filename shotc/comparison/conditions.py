@@ -9,9 +9,10 @@ from shotc.comparison.score import flown_shots, total
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.comparison import Condition
-from shotc.ir.mission import Promise, Shot
+from shotc.ir.mission import Shot
 from shotc.ir.passes import PassContext
 from shotc.ir.path import PathIR
+from shotc.ir.promise import Promise
 from shotc.ir.trajectory import TrajectoryIR, VerifiedIR
 from shotc.passes.parameterize_time import ParameterizeTime
 from shotc.passes.refine_path import RefinePath, Seat

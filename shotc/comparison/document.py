@@ -36,6 +36,7 @@ def _condition(each: Condition, *, seconds: bool) -> dict[str, Any]:
     return {
         "refiner": each.refiner,
         "package": each.package,
+        "smoothing_s": each.smoothing,
         "planned": each.plan is not None,
         "faults": _told(each.faults),
         "broken_promises": _told(each.broken),

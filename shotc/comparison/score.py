@@ -15,15 +15,21 @@ from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
 from shotc.ir.bodies import shapes
-from shotc.ir.comparison import FlownShot, Score, Trace
-from shotc.ir.path import X, Y, Z
+from shotc.ir.comparison import FlownShot, Motion, Score, Trace
+from shotc.ir.framed import at_start
+from shotc.ir.keyed import is_keyed
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import CAM_PITCH, CAM_YAW, X, Y, Z
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import beside_cameras, cameras, subjects
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.framing import view_of
+from shotc.planning.clock.ideals import ideal_places
 
 MOST = 0.95
+PLACES_HZ = 10.0  # of a camera, that are compared with where the shot would have it
+STILL = Motion(0.0, 0.0, 0.0, 0.0, 0.0)
 ROUNDS = "refine_rounds"
 """Under SHOT.ROUNDS the statistics of a path say how often its refiner solved the shot."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
@@ -43,14 +49,13 @@ def flown_shots(plan: VerifiedIR) -> tuple[FlownShot, ...]:
 
 def total(plan: VerifiedIR, shots: Sequence[FlownShot]) -> Score:
     """Return the score of all shots together: frames count alike, and so does every second filmed."""
-    tracks = {track.drone: track for track in plan.trajectory.drones}
-    squared = sum(squared_jerk(tracks[shot.drone].curve, shot.start, shot.end) for shot in shots)
-    traces = [trace for shot in shots for trace in shot.traces]
-    return score(traces, squared, sum(shot.end - shot.start for shot in shots))
+    motions = [shot.motion for shot in shots]
+    motion = Motion(*(float(sum(column)) for column in zip(*motions, strict=True))) if motions else STILL
+    return score([trace for shot in shots for trace in shot.traces], motion)
 
 
-def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Score:
-    """Return the score of some traces; squared_jerk : its integral over the time filmed, m^2/s^5."""
+def score(traces: Sequence[Trace], motion: Motion) -> Score:
+    """Return the score of some traces and of the motion that they were seen in."""
     margin = np.concatenate([np.empty(0), *(trace.margin for trace in traces)])
     points = np.concatenate([np.empty(0), *(trace.points for trace in traces)])
     covered = np.concatenate([np.empty(0), *(trace.covered for trace in traces)])
@@ -65,14 +70,23 @@ def score(traces: Sequence[Trace], squared_jerk: float, duration: float) -> Scor
         in_frame=float((margin >= -ROUNDING_M).mean()) if len(margin) else None,
         in_frame_four_points=float(points.mean()) if len(points) else None,
         visible=1.0 - float(covered.max()) if len(covered) else None,
-        jerk_rms=float(np.sqrt(squared_jerk / duration)) if duration > 0 else 0.0,
-        duration=duration,
+        jerk_rms=_rms(motion.jerk, motion.duration),
+        turn_jerk_rms=_rms(motion.turn_jerk, motion.duration),
+        off_place=motion.off_place / motion.placed if motion.placed > 0 else None,
+        duration=motion.duration,
     )
 
 
-def squared_jerk(curve: Piecewise, start: float, end: float) -> float:
-    """Return the integral of the squared norm of jerk over a stretch of time, m^2/s^5."""
-    pieces = cut(curve, start, end).channels(X, Y, Z)
+def _rms(squared: float, duration: float) -> float:
+    return float(np.sqrt(squared / duration)) if duration > 0 else 0.0
+
+
+def squared_jerk(curve: Piecewise, start: float, end: float, *channels: int) -> float:
+    """Return the integral of the squared norm of jerk over a stretch of time.
+
+    channels : of the curve; x, y and z where none are given, m^2/s^5
+    """
+    pieces = cut(curve, start, end).channels(*(channels or (X, Y, Z)))
     for _ in range(3):
         pieces = pieces.derivative()
     if not len(pieces):
@@ -90,9 +104,21 @@ def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
         for target in subjects(ir.keyframes.mission, track, shot)
         if (trace := _trace(plan, track, phase, target)) is not None
     )
-    squared = squared_jerk(track.curve, phase.start, phase.end)
-    scored = score(traces, squared, phase.end - phase.start)
-    return FlownShot(shot, track.drone, phase.start, phase.end, traces, scored, _rounds(plan, shot))
+    motion = _motion(ir.keyframes.mission, track, phase)
+    scored = score(traces, motion)
+    return FlownShot(shot, track.drone, phase.start, phase.end, traces, motion, scored, _rounds(plan, shot))
+
+
+def _motion(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> Motion:
+    shot, duration = mission.shot(phase.shot), phase.end - phase.start
+    jerk = squared_jerk(track.curve, phase.start, phase.end)
+    turn_jerk = squared_jerk(track.curve, phase.start, phase.end, CAM_YAW, CAM_PITCH)
+    if shot.ideal is None or is_keyed(shot) or duration <= 0:
+        return Motion(jerk, turn_jerk, 0.0, 0.0, duration)
+    times = np.linspace(phase.start, phase.end, max(2, round(PLACES_HZ * duration)))
+    ideal = ideal_places(mission, at_start(mission, shot, phase.start), phase.start, times)
+    off = np.linalg.norm(track.curve(times)[:, :3] - ideal, axis=1)
+    return Motion(jerk, turn_jerk, float(off.mean()) * duration, duration, duration)
 
 
 def _rounds(plan: VerifiedIR, shot: str) -> int | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from math import isfinite
+from math import degrees, isfinite
 
 from shotc.emit.screen import off_place, percent
 from shotc.ir.comparison import Comparison, Condition, FlownShot, Score
@@ -19,6 +19,8 @@ HEADING = (
     "four points",
     "visible",
     "jerk RMS, m/s^3",
+    "turning, deg/s^3",
+    "off place, m",
     "filmed",
     "rounds",
     "refined in",
@@ -30,6 +32,8 @@ LEGEND = (
     "whole in frame: share of frames with the whole target in the frame, by its exact silhouette; "
     "four points: by the four points of Gebhardt and Hilliges",
     "visible: least share of a target's outline that nothing covers, in any frame",
+    "jerk, turning: root mean square of the camera's jerk, and of that of its yaw and pitch; off place: mean "
+    "distance from where the shot would have the camera, of shots of what moves and framings",
     "filmed: how long the shots last; rounds: how often the refiner solved them",
 )
 
@@ -48,21 +52,29 @@ def remarks(comparison: Comparison) -> list[str]:
     lines = []
     for each in comparison.conditions:
         lines += [
-            f"{each.refiner} gives no plan, {d.code}: {'; '.join((d.message, *d.notes[:1]))}"
+            f"{each.name} gives no plan, {d.code}: {'; '.join((d.message, *d.notes[:1]))}"
             for d in each.faults
         ]
-        lines += [f"{each.refiner} breaks a promise, {d.code}: {d.message}" for d in each.broken]
-        lines += [f"{each.refiner} did not refine all, {d.code}: {d.message}" for d in each.convex]
+        lines += [f"{each.name} breaks a promise, {d.code}: {d.message}" for d in each.broken]
+        lines += [f"{each.name} did not refine all, {d.code}: {d.message}" for d in each.convex]
     return lines
 
 
 def markdown(comparison: Comparison, *, seconds: bool) -> str:
     """Return the comparison as a section of Markdown."""
     heading, *body = rows(comparison, seconds=seconds)
-    lines = [f"# {comparison.mission.name} under {counted(len(comparison.conditions), 'refiner')}", ""]
+    lines = [f"# {comparison.mission.name} under {conditions_of(comparison)}", ""]
     lines += [_piped(heading), _piped(("---",) * len(heading)), *map(_piped, body), ""]
     lines += [f"- {line}" for line in (*remarks(comparison), *LEGEND)]
     return "\n".join(lines) + "\n"
+
+
+def conditions_of(comparison: Comparison) -> str:
+    """Return how many refiners are compared, and with how many smoothings."""
+    refiners = len({each.refiner for each in comparison.conditions})
+    smoothings = len({each.smoothing for each in comparison.conditions})
+    text = counted(refiners, "refiner")
+    return text if smoothings < 2 else f"{text}, each with {counted(smoothings, 'smoothing')}"
 
 
 def counted(number: int, noun: str) -> str:
@@ -74,9 +86,9 @@ def _rows(each: Condition, *, several: bool) -> Iterator[tuple[str, ...]]:
     seconds = UNKNOWN if each.seconds is None else f"{each.seconds:.3f} s"
     if each.score is None:
         why = each.faults[0].code if each.faults else UNKNOWN
-        yield (each.refiner, ALL, f"no plan ({why})", *(UNKNOWN,) * (len(HEADING) - 4), seconds)
+        yield (each.name, ALL, f"no plan ({why})", *(UNKNOWN,) * (len(HEADING) - 4), seconds)
         return
-    yield (each.refiner, ALL, *_cells(each.score), _rounds(each.shots), seconds)
+    yield (each.name, ALL, *_cells(each.score), _rounds(each.shots), seconds)
     for shot in each.shots if several else ():
         yield ("", shot.id, *_cells(shot.score), _rounds([shot]), "")
 
@@ -98,6 +110,8 @@ def _cells(score: Score) -> tuple[str, ...]:
         *(UNKNOWN if error is None else off_place(error) for error in errors),
         *(UNKNOWN if share is None else percent(share) for share in shares),
         f"{score.jerk_rms:.3f}",
+        f"{degrees(score.turn_jerk_rms):.3g}",
+        UNKNOWN if score.off_place is None else f"{score.off_place:.3f}",
         f"{score.duration:.2f} s",
     )
 

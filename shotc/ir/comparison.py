@@ -8,6 +8,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
+from shotc.ir.smoothing import written
 from shotc.ir.trajectory import VerifiedIR
 
 
@@ -21,7 +22,9 @@ class Score(NamedTuple):
     in_frame, in_frame_four_points : share of frames with the whole target in the frame, by its exact
         silhouette and by the four points of Gebhardt and Hilliges; None without frames
     visible : least share of a target's outline that nothing covers, in any frame; None without frames
-    jerk_rms : over the time filmed, m/s^3; duration : time filmed, seconds
+    jerk_rms : over the time filmed, m/s^3; turn_jerk_rms : of the camera's yaw and pitch together, rad/s^3
+    off_place : mean distance from where the shot would have the camera, metres; None where nothing says
+    duration : time filmed, seconds
     """
 
     frames: int
@@ -32,6 +35,8 @@ class Score(NamedTuple):
     in_frame_four_points: float | None
     visible: float | None
     jerk_rms: float
+    turn_jerk_rms: float
+    off_place: float | None
     duration: float
 
 
@@ -54,6 +59,20 @@ class Trace:
     covered: Array
 
 
+class Motion(NamedTuple):
+    """How a camera moves over the time filmed, as integrals over it.
+
+    jerk : of its square, m^2/s^5; turn_jerk : of that of its yaw and pitch, rad^2/s^5
+    off_place : of the distance from where the shot would have the camera, m s, over ``placed`` seconds
+    """
+
+    jerk: float
+    turn_jerk: float
+    off_place: float
+    placed: float
+    duration: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class FlownShot:
     """One shot as one refiner has it flown.
@@ -67,14 +86,16 @@ class FlownShot:
     start: float
     end: float
     traces: tuple[Trace, ...]
+    motion: Motion
     score: Score
     rounds: int | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Condition:
-    """A mission under one refiner.
+    """A mission under one refiner, with one smoothing.
 
+    smoothing : seconds, of all its shots, where it is not the mission's
     plan : None where the refiner gives none that may be flown, and then ``faults`` say why; it is held to
         every limit, but not to what shots promise
     broken : promises that it breaks; convex : warnings of shots that fly the convex path instead
@@ -90,6 +111,14 @@ class Condition:
     shots: tuple[FlownShot, ...] = ()
     score: Score | None = None
     seconds: float | None = None
+    smoothing: float | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called: its refiner, and the smoothing that it is tried with."""
+        return (
+            self.refiner if self.smoothing is None else f"{self.refiner}, smoothing {written(self.smoothing)}"
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

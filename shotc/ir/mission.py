@@ -12,9 +12,11 @@ from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import Power
+from shotc.ir.promise import Promise
 from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
 from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
+from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.source import MissionSource
 from shotc.ir.target import Target
 
@@ -260,23 +262,6 @@ class Subject(NamedTuple):
         return asked_at(first, self.setpoints, time)
 
 
-class Promise(NamedTuple):
-    """What a shot promises and verification holds it to (``require``); None promises nothing.
-
-    in_frame : share of samples with the whole target in frame, 0 to 1
-    screen_error : largest distance to the reference on screen, (u, v) units
-    size : (lowest, highest) projected height over frame height
-    visible : least share of the target's outline that nothing covers, in any frame, 0 to 1
-    reveal : the same in the first frame and in the last: of the smaller at most, of the larger at least
-    """
-
-    in_frame: float | None = None
-    screen_error: float | None = None
-    size: Range | None = None
-    visible: float | None = None
-    reveal: Range | None = None
-
-
 class Shot(NamedTuple):
     """One shot of one drone: keyframes, or an ideal where its targets move.
 
@@ -288,6 +273,7 @@ class Shot(NamedTuple):
     size : that its target is to have, as in Subject, or None
     allow : what of ``spec.allow`` it may do untold, by name, by its own word or by that of the rules
     above : what the altitude of its camera counts from; None where it has none
+    smoothing : seconds; see ``ir.smoothing``
     """
 
     id: str
@@ -305,6 +291,12 @@ class Shot(NamedTuple):
     size: float | None = None
     allow: tuple[str, ...] = ()
     above: Above | None = None
+    smoothing: float = NORMAL_S
+
+    @property
+    def smoother(self) -> float:
+        """Its smoothing over the normal one."""
+        return self.smoothing / NORMAL_S
 
 
 class Deferred(NamedTuple):

@@ -87,7 +87,7 @@ class MovingLeg(_OnCurve):
     curve : q(s), channels CHANNELS, piecewise quintic, at least C2
     stops : where it rests, in order of s; the first is at curve.start, the last at curve.end
     marks : keyframes (shots only)
-    pace  : share of the limits, where the duration is free
+    pace  : share of the limits, where the duration is free; smoother : smoothing over the normal one
     duration : seconds asked for the whole leg including holds, or None
     start : earliest mission time of its first frame, or None
     """
@@ -102,6 +102,7 @@ class MovingLeg(_OnCurve):
     duration: float | None
     start: float | None
     path: KeyPath
+    smoother: float = 1.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -18,6 +18,7 @@ from shotc.ir.setpoints import Asked
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.plugin_api.replanner import (
+    USUAL_FRAMING,
     Appearance,
     ChasePlanner,
     ChaseProblem,
@@ -53,16 +54,22 @@ Known = Mapping[str, Estimate]
 
 @dataclass(frozen=True, slots=True)
 class Chased:
-    """A shot of one target from beside it; turns : whether its place turns with the way the target goes."""
+    """A shot of one target from beside it; turns : whether its place turns with the way the target goes.
+
+    smoother : smoothing of the shot over the normal one, whose square weighs rates
+    """
 
     stages: ClassVar = CHASE_STAGES
     phase: Phase
     target: str
     turns: bool
+    smoother: float = 1.0
 
     def planner(self, by: Replanner, _film: Film, keeping: Keeping) -> ChasePlanner:
         """Return who plans it anew."""
-        return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), keeping, WEIGHTS))
+        calm = self.smoother**2
+        weights = WEIGHTS._replace(pitch=calm * WEIGHTS.pitch, yaw=calm * WEIGHTS.yaw)
+        return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), keeping, weights))
 
     def situation(
         self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
@@ -96,18 +103,20 @@ class Chased:
 
 @dataclass(frozen=True, slots=True)
 class Composed:
-    """A shot that is found from how its subjects are to appear."""
+    """A shot that is found from how its subjects are to appear; smoother : as in ``Chased``."""
 
     stages: ClassVar = FRAMING_STAGES
     phase: Phase
     subjects: tuple[Subject, ...]
+    smoother: float = 1.0
 
     def planner(self, by: Replanner, film: Film, keeping: Keeping) -> FramingPlanner:
         """Return who plans it anew."""
         k = int(np.searchsorted(film.times, self.phase.start))
         half = (float(film.half[k, 0]), float(film.half[k, 1]))
         rates = (film.drone.gimbal.rate, film.drone.gimbal.rate)
-        return by.framing(FramingProblem(Horizon(FRAMING_STAGES, STAGE_S), keeping, half, rates))
+        weights = USUAL_FRAMING._replace(turning=self.smoother**2 * USUAL_FRAMING.turning)
+        return by.framing(FramingProblem(Horizon(FRAMING_STAGES, STAGE_S), keeping, half, rates, weights))
 
     def situation(
         self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
@@ -169,11 +178,11 @@ def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
             continue
         if shot.ideal.framed:
             if any(mission.target(name).track is not None for name in films):
-                yield Composed(phase, shot.subjects)
+                yield Composed(phase, shot.subjects, shot.smoother)
             continue
         target = shot.ideal.target
         if target is not None and films == {target} and mission.target(target).track is not None:
-            yield Chased(phase, target, shot.ideal.frame == "heading")
+            yield Chased(phase, target, shot.ideal.frame == "heading", shot.smoother)
 
 
 def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:

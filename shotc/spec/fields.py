@@ -8,6 +8,7 @@ from typing import Annotated
 from pydantic import StrictBool
 
 from shotc.ir.limits import Vec2, Vec3
+from shotc.ir.smoothing import LONGEST_S, SHORTEST_S, SMOOTHINGS
 from shotc.spec.fieldtypes import Integer, NamedOr, Text, TextOrNumber
 from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, OnMap, Plan, Position, Relative, Stand, Station
@@ -66,6 +67,7 @@ __all__ = [
     "ShareRange",
     "ShotSize",
     "Size3",
+    "Smoothing",
     "Speed",
     "Stand",
     "Station",
@@ -151,4 +153,6 @@ BuildingName = Annotated[
 
 PACES = {"calm": 0.5, "normal": 0.75, "brisk": 1.0}
 # Below a twentieth of its limits a drone hardly moves, and a plan takes hours.
+_SMOOTHING = Quantity("SmoothingTime", "duration", SHORTEST_S, LONGEST_S, noun="smoothing time")
+Smoothing = Annotated[float, NamedOr("Smoothing", SMOOTHINGS, "smoothing", _SMOOTHING)]
 Pace = Annotated[float, NamedOr("Pace", PACES, "pace", Quantity("PaceShare", "ratio", 0.05, 1.0))]

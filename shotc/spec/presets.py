@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple
 from shotc.ir.limits import Limits
 from shotc.ir.mission import Gimbal
 from shotc.ir.power import Power
+from shotc.ir.smoothing import NORMAL_S
 
 Body = Literal["forward", "follow-camera", "free"]
 
@@ -24,6 +25,7 @@ TRANSIT_OTHER = 3.0
 TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racing cars do
 PACE = 0.75
 ZOOM_RATE = radians(10.0)  # of the field of view, a second: a slow zoom of a film camera
+SMOOTHING = NORMAL_S
 RATE = 50.0
 SHOW_RATE = 5.0
 RUNS = 20  # of a rehearsal

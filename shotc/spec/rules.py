@@ -8,7 +8,7 @@ from pydantic import Field
 from shotc.spec import presets
 from shotc.spec.allow import Allowed
 from shotc.spec.compositions import COMPOSITIONS
-from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace
+from shotc.spec.fields import CompositionSet, Frequency, Name, NonNegativeLength, Pace, Smoothing
 from shotc.spec.fieldtypes import NamedOr
 from shotc.spec.model import Model
 from shotc.spec.quantities import Quantity
@@ -85,6 +85,11 @@ class RulesSpec(Model):
         description="whether drones keep out of each other's pictures; prefer, by the frame, if silent",
     )
     pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
+    smoothing: Smoothing = Field(
+        default=presets.SMOOTHING,
+        description="how calm cameras are flown, against how near to what is asked: shorter movements are "
+        "smoothed away",
+    )
     allow: Allowed = Field(
         default=(), description="warnings of film grammar that are not told, by name, or hidden-subject"
     )

@@ -27,6 +27,7 @@ from shotc.spec.fields import (
     Share,
     ShareRange,
     ShotSize,
+    Smoothing,
     Station,
     Switch,
 )
@@ -143,6 +144,11 @@ class ShotBase(Model):
         "if silent; thirds includes the centre: to force a side, name a point such as left-third",
     )
     pace: Pace | None = Field(default=None, description="share of the limits used where timing is auto")
+    smoothing: Smoothing | None = Field(
+        default=None,
+        description="how calm the camera is flown, against how near to what is asked: shorter movements are "
+        "smoothed away",
+    )
     size: ShotSize | None = Field(
         default=None,
         description="projected height over frame height to aim for: a share, or a name from establishing to "

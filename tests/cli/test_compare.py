@@ -94,12 +94,15 @@ def shape(document: dict) -> None:
         "in_frame_four_points",
         "visible",
         "jerk_rms",
+        "turn_jerk_rms",
+        "off_place",
         "duration",
     ]
     for each in (none, bent, failing):
         assert list(each) == [
             "refiner",
             "package",
+            "smoothing_s",
             "planned",
             "faults",
             "broken_promises",

@@ -13,9 +13,10 @@ from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.vec import direction
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Limits, Timing
-from shotc.ir.mission import Composition, Drone, GeoOrigin, Gimbal, Keyframe, MissionIR, Promise, Shot, Zone
+from shotc.ir.mission import Composition, Drone, GeoOrigin, Gimbal, Keyframe, MissionIR, Shot, Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.phases import KeyframeTime, Phase, Reference
+from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.ir.target import Target

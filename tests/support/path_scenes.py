@@ -11,9 +11,10 @@ from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid, distance
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Drone, MissionIR, Promise, Shot, Zone
+from shotc.ir.mission import Drone, MissionIR, Shot, Zone
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, MovingLeg, PathIR, PathLeg
+from shotc.ir.promise import Promise
 from shotc.ir.target import Target
 from shotc.passes.solve_path_qp import SolvePathQp
 from tests.support.film_plans import orbit_mission

@@ -7,8 +7,9 @@ from math import radians
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.mission import Drone, MissionIR, Promise
+from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import Phase
+from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Flight

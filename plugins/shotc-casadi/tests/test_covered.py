@@ -14,9 +14,9 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
 from shotc.ir.allow import HIDDEN
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Promise
 from shotc.ir.passes import PassContext
 from shotc.ir.path import PathIR
+from shotc.ir.promise import Promise
 from shotc.ir.target import Target
 from tests.support.mesh_spaces import with_meshes
 from tests.support.path_scenes import framed, mission, shot, solve

@@ -60,7 +60,7 @@ def _fill(recording: rr.RecordingStream, comparison: Comparison, table: str) -> 
     bounds = np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)
     log_scene(stream, plans[0][1])
     for each, plan in plans:
-        below = Within(stream, place_of(each.refiner))
+        below = Within(stream, place_of(each.name))
         log_flights(below, plan)
         for flight in plan.trajectory.drones:
             log_motion(below, plan, flight, frustum_length(bounds))
@@ -96,17 +96,17 @@ def _column(comparison: Comparison, each: Condition, count: int, axes: tuple[flo
     views = []
     for name in dict.fromkeys(shot.drone for shot in each.shots):
         drone = comparison.mission.drone(name)
-        title = each.refiner if len(comparison.mission.drones) == 1 else f"{each.refiner}: {name}"
+        title = each.name if len(comparison.mission.drones) == 1 else f"{each.name}: {name}"
         if each.score is not None and each.score.in_frame is not None:
             title += f" (whole in frame {percent(each.score.in_frame)})"
         views.append(camera_view(comparison.mission, drone, _camera(each, drone), title))
-        views.append(error_view(within(place_of(each.refiner), f"plots/{name}/screen_error"), *axes))
+        views.append(error_view(within(place_of(each.name), f"plots/{name}/screen_error"), *axes))
     shares = [1.0 / count + HEAD, PLOT + HEAD] * (len(views) // 2)
-    return rrb.Vertical(*views, row_shares=shares, name=each.refiner)
+    return rrb.Vertical(*views, row_shares=shares, name=each.name)
 
 
 def _camera(each: Condition, drone: Drone) -> str:
-    return within(place_of(each.refiner), camera_entity(drone))
+    return within(place_of(each.name), camera_entity(drone))
 
 
 def place_of(refiner: str) -> str:

@@ -91,7 +91,7 @@ def _shot(canvas: Canvas, comparison: Comparison, shot: Shot, first: Panel) -> N
     top = error_top([trace.error for s in flown if s is not None for trace in s.traces])
     for i, (each, there) in enumerate(zip(comparison.conditions, flown, strict=True)):
         panel = Panel(first.left + i * (CELL + GAP), first.top, first.picture)
-        name = f"{each.refiner}, {shot.id}" if several else each.refiner
+        name = f"{each.name}, {shot.id}" if several else each.name
         canvas.write(panel.left, panel.top - 0.3, name, Type(13, INK, bold=True), CELL)
         if there is None or each.plan is None:
             _no_plan(canvas, each, panel)

@@ -231,8 +231,9 @@ def changed_shot(was: PathLeg, now: PathLeg) -> Iterator[str]:
             yield f"the wanted place of `{old.target}` on screen is {off:.3f} of half a frame off"
 
 
-def _timing(leg: PathLeg) -> tuple[float, float | None, float | None, KeyPath]:
-    return 1.0 if isinstance(leg, HoldLeg) else leg.pace, leg.duration, leg.start, leg.path
+def _timing(leg: PathLeg) -> tuple[float, float, float | None, float | None, KeyPath]:
+    shares = (1.0, 1.0) if isinstance(leg, HoldLeg) else (leg.pace, leg.smoother)
+    return *shares, leg.duration, leg.start, leg.path
 
 
 def _holds(leg: PathLeg) -> list[float]:

@@ -7,7 +7,8 @@ it out, so that no entry in a file explains any distance:
   twice the clearance; a keep-in zone and the ground what the ideal is beyond them. A cause that names what is
   nowhere near the ideal explains nothing;
 - the picture, its own and those of other drones, explains a share of the distance to what is filmed;
-- the drone's limits explain the way in which it stops, and what its speed falls short of the ideal's.
+- the drone's limits explain the way in which it stops, and what its speed falls short of the ideal's;
+- smoothing beyond the normal one explains the way that is flown in as much time.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import mesh_owner
 from shotc.ir.path import Deviation
 from shotc.ir.preference import MOST_MOVED, UNWATCHED
+from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.target import Target
 from shotc.passes.verify.claims import Flight
 
@@ -85,8 +87,11 @@ def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> flo
     return (PICTURE_SHARE if mission.rules.visibility == "require" else MOST_MOVED) * distance
 
 
-def for_its_limits(flight: Flight, way: Way) -> float:
-    """Return how far a drone falls behind a way, metres: where that is too fast, and until it has stopped."""
+def for_its_limits(flight: Flight, way: Way, smoothing: float) -> float:
+    """Return how far a drone falls behind a way, metres: where that is too fast, and until it has stopped.
+
+    smoothing : seconds; what is longer than normal is a way at the same speed, too
+    """
     assert way.times is not None
     limits, steps = flight.drone.limits, np.diff(way.times)
     rates = np.diff(way.places, axis=0) / steps[:, None]
@@ -97,7 +102,7 @@ def for_its_limits(flight: Flight, way: Way) -> float:
     fastest = min(float(level.max()), limits.fastest) + min(float(np.abs(rates[:, 2]).max()), limits.climb)
     brake = limits.usable_acceleration
     stops = fastest * fastest / (2.0 * brake) + fastest * brake / limits.jerk
-    return float(behind + stops)
+    return float(behind + stops + fastest * max(0.0, smoothing - NORMAL_S))
 
 
 def farthest(mission: MissionIR, names: Iterable[str], way: Way) -> float:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Promise
 from shotc.ir.phases import Phase
+from shotc.ir.promise import Promise
 from shotc.ir.sampling import clock, framed, references
 from shotc.ir.tolerances import OFF_LINE
 from shotc.ir.trajectory import Claim

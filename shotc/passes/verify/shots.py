@@ -116,7 +116,7 @@ def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
     blocks = in_the_way(flight, way, placed=placed)
     far = farthest(flight.mission, (s.target for s in shot.subjects), way)
     explained = sum(blocks.values()) + for_the_picture(flight.mission, far, placed=placed)
-    explained += for_its_limits(flight, way)
+    explained += for_its_limits(flight, way, shot.smoothing)
     reported = max(believed((d for d in ir.deviations if d.shot == shot.id), blocks), default=0.0)
     allowed = min(reported, explained) + UNREPORTED_M
     stands = placed and not np.ptp(way.places, axis=0).any()

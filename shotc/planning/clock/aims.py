@@ -21,6 +21,7 @@ class CameraTask:
 
     keyed : what its camera does instead, where keyframes tell it
     start : mission time of the first frame, from which the times of setpoints count
+    smoother : smoothing that is asked, over the normal one
     """
 
     mission: MissionIR
@@ -28,6 +29,7 @@ class CameraTask:
     subjects: tuple[PlacedSubject, ...]
     keyed: Keyed | None = None
     start: float = 0.0
+    smoother: float = 1.0
 
     @property
     def watches(self) -> bool:
@@ -41,7 +43,8 @@ class CameraTask:
 
 def camera_task_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> CameraTask:
     """Return who films a shot that is placed for its start, seconds."""
-    return CameraTask(mission, drone, placed.subjects, keyed_of(mission, drone, placed, start), start)
+    keyed = keyed_of(mission, drone, placed, start)
+    return CameraTask(mission, drone, placed.subjects, keyed, start, placed.shot.smoother)
 
 
 def wanted_places(subject: PlacedSubject, start: float, times: Array) -> Array:

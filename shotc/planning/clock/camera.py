@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 
@@ -21,7 +22,8 @@ from shotc.solvers.spline_qp import minimise
 
 SAMPLES_PER_PIECE = 4  # of the aim, a piece
 FAINT_WEIGHT = 1e-2  # weight of the aim beyond the film's ends, against that in the film
-SMOOTH_S = (0.12, 0.12, 0.6)  # seconds below which wiggles of the camera's yaw, its pitch and the body vanish
+SMOOTH_S = (0.12, 0.12, 0.6)
+"""Seconds below which wiggles of the camera's yaw, its pitch and the body vanish, with normal smoothing."""
 FOLLOW_WEIGHT = 0.05  # weight of the body's wish against the camera's aim
 LEVEL_M_S = 0.5  # m/s below which a motion has no course
 UNIT_RAD2_S = 1e-4  # rad^2 s: what the cost of turning is measured in, for one of 0.1 rad is a large one
@@ -65,7 +67,7 @@ def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
     across = np.maximum(np.cos(aims[:, 1]), 0.03)
     wanted = np.column_stack([aims, _course(drone, aims[:, 0], times, position)])
     weight = np.column_stack([filmed * across**2, filmed, FOLLOW_WEIGHT * step])
-    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock)
+    goals = _goals(rows, np.sqrt(weight), wanted) + _smooth(clock, angle_task.camera_task.smoother)
     problem = SplineProblem(count(breaks), goals, _ends(angle_task, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem, UNIT_RAD2_S)
     if solved.coef is None:
@@ -142,10 +144,10 @@ def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
     return tuple(goals)
 
 
-def _smooth(clock: Clock) -> tuple[Goal, ...]:
+def _smooth(clock: Clock, smoother: float) -> tuple[Goal, ...]:
     energy = energy_rows(clock.breaks, 3)
     none = np.zeros((len(energy.piece), 3))
-    gentle = np.sqrt(np.where(clock.filmed, 1.0, UNSEEN_WEIGHT))[energy.piece]
+    gentle = np.where(clock.filmed, smoother**3, sqrt(UNSEEN_WEIGHT))[energy.piece]
     return tuple(Goal(_scaled(energy, s**3 * gentle), none, (c,)) for c, s in enumerate(SMOOTH_S))
 
 

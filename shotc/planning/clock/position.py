@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, sqrt
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
 from shotc.ir.preference import Price, prefers_free_pictures
+from shotc.ir.smoothing import NORMAL_S
 from shotc.planning.clock.between import lacking, sides_apart, standing_apart
 from shotc.planning.clock.bounds import at_rest, limits_of
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
@@ -24,7 +25,6 @@ from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, Spline
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
-SMOOTH_S = 0.5  # seconds: shorter wiggles of the ideal are smoothed away
 SAMPLES_PER_PIECE = 3  # of the ideal, a piece
 FAINT_WEIGHT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
 UNSEEN_WEIGHT = 0.005  # weight of jerk beyond the film's ends, against that in the film
@@ -227,10 +227,10 @@ def _base(task: Task) -> SplineProblem:
     rows = value_rows(breaks, times)
     weight = np.sqrt(np.where(task.clock.filmed, 1.0, FAINT_WEIGHT) * step / SAMPLES_PER_PIECE)[rows.piece]
     jerk = energy_rows(breaks, 3)
-    gentle = np.sqrt(np.where(task.clock.filmed, 1.0, UNSEEN_WEIGHT))
+    gentle = np.where(task.clock.filmed, task.shot.smoothing**3, NORMAL_S**3 * sqrt(UNSEEN_WEIGHT))
     goals = (
         Goal(_scaled(rows, weight), weight[:, None] * drawn_to(task, times)),
-        Goal(_scaled(jerk, SMOOTH_S**3 * gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
+        Goal(_scaled(jerk, gentle[jerk.piece]), np.zeros((len(jerk.piece), 3))),
     )
     rest = at_rest(breaks)
     still = Equalities(rest, np.zeros((len(rest.piece), 3)))

@@ -125,6 +125,7 @@ def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) ->
         duration=shot.timing.duration,
         start=shot.timing.start,
         path=shot.path,
+        smoother=shot.smoother,
     )
     return PlannedShot(
         shot=placed,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -48,13 +49,19 @@ class LegTiming(NamedTuple):
 
 
 def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
-    """Time one leg by the length, the keyframe times and the pace that it asks for."""
+    """Time one leg by the length, the keyframe times, the pace and the smoothing that it asks for.
+
+    Times that are asked for go before smoothing.
+    """
     plan = plan_of(leg)
     if isinstance(leg, HoldLeg):
         return LegTiming(assemble(leg, plan, (), leg.duration), (), None)
     if not has_times(leg):
-        moves = fastest_moves(leg, plan, ceiling.scaled(leg.pace) if leg.phase == "shot" else ceiling)
+        moves = fastest_moves(leg, plan, _paced(leg, ceiling) if leg.phase == "shot" else ceiling)
         return LegTiming(assemble(leg, plan, moves, leg.duration), moves, None)
+    smooth = ceiling.smoothed(leg.smoother)
+    if smooth != ceiling and can_be_timed(leg, smooth):
+        return time_leg(replace(leg, smoother=1.0), smooth)
     fast = fastest_moves(leg, plan, ceiling)
     timed = _due(leg, plan, fast, ceiling).meet()
     if isinstance(timed, TooFast):
@@ -69,8 +76,12 @@ def can_be_timed(leg: MovingLeg, ceiling: Ceiling) -> bool:
 
 
 def _due(leg: MovingLeg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> DueLeg:
-    paced = fast if leg.duration is not None else fastest_moves(leg, plan, ceiling.scaled(leg.pace))
+    paced = fast if leg.duration is not None else fastest_moves(leg, plan, _paced(leg, ceiling))
     return DueLeg(leg, plan, fast, paced, ceiling)
+
+
+def _paced(leg: MovingLeg, ceiling: Ceiling) -> Ceiling:
+    return ceiling.scaled(leg.pace).smoothed(leg.smoother)
 
 
 def leg_motion(drone: Drone, leg: PathLeg) -> LegMotion | None:

@@ -48,6 +48,8 @@ class Ceiling:
     """Of the field of view, rad/s."""
     wind: tuple[float, float] = (0.0, 0.0)
     """Velocity of the air over ground, m/s, where it is known."""
+    ease: float = EASE
+    """Seconds over which angular accelerations build up."""
 
     def scaled(self, share: float) -> Ceiling:
         """Return the ceiling with every limit but the ranges multiplied by ``share`` (a pace).
@@ -55,9 +57,16 @@ class Ceiling:
         The wind is, too: then every velocity is a share of one within the limits, and that, by convexity,
         within them itself.
         """
-        rates = (f.name for f in fields(self) if f.name not in {"pitch", "yaw", "wind"})
+        rates = (f.name for f in fields(self) if f.name not in {"pitch", "yaw", "wind", "ease"})
         wind = (share * self.wind[0], share * self.wind[1])
         return replace(self, wind=wind, **{name: share * getattr(self, name) for name in rates})
+
+    def smoothed(self, smoother: float) -> Ceiling:
+        """Return the ceiling with accelerations that take longer to build up; smoother : as of ``Shot``.
+
+        What is to be less smooth than normal has the limits of the drone all the same.
+        """
+        return replace(self, jerk=self.jerk / max(1.0, smoother), ease=self.ease * smoother)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -151,7 +160,7 @@ def _turn(row: Array, ceiling: Ceiling, rate: str, acceleration: str) -> Axis:
         row[None],
         rate=(rate, getattr(ceiling, rate)),
         acceleration=(acceleration, most),
-        jerk=(acceleration, most / EASE),
+        jerk=(acceleration, most / ceiling.ease),
         ease=True,
     )
 

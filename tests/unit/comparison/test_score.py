@@ -9,10 +9,12 @@ import pytest
 
 from shotc.comparison.score import flown_shots, score, squared_jerk, total
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.comparison import Trace
+from shotc.ir.comparison import Motion, Trace
 from shotc.ir.passes import PassContext
 from shotc.passes.verify import judge
 from tests.support.film_plans import orbit_plan
+
+STILL = Motion(0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def trace(error, margin=None, points=None, covered=None) -> Trace:
@@ -33,7 +35,7 @@ def polynomial(times, value, *derivatives) -> Piecewise:
 
 
 def test_mean_95_percent_and_worst_of_known_errors():
-    found = score([trace(np.arange(1, 101) / 100)], 0.0, 1.0)
+    found = score([trace(np.arange(1, 101) / 100)], STILL)
     assert found.frames == 100
     assert found.error_mean == pytest.approx(0.505)
     assert found.error_p95 == pytest.approx(0.95)
@@ -41,38 +43,38 @@ def test_mean_95_percent_and_worst_of_known_errors():
 
 
 def test_the_frame_that_shows_least_counts():
-    assert score([trace([0.0] * 3, covered=[0.0, 0.4, 0.1]), trace([0.0])], 0.0, 1.0).visible == 0.6
-    assert score([], 0.0, 1.0).visible is None
+    assert score([trace([0.0] * 3, covered=[0.0, 0.4, 0.1]), trace([0.0])], STILL).visible == 0.6
+    assert score([], STILL).visible is None
 
 
 def test_frames_of_several_targets_count_alike():
-    found = score([trace([0.0] * 30), trace([1.0] * 10)], 0.0, 1.0)
+    found = score([trace([0.0] * 30), trace([1.0] * 10)], STILL)
     assert found.error_mean == pytest.approx(0.25)
     assert found.frames == 40
 
 
 def test_a_target_behind_the_camera_is_infinitely_far_off():
-    few = score([trace([0.1] * 99 + [inf])], 0.0, 1.0)
+    few = score([trace([0.1] * 99 + [inf])], STILL)
     assert (few.error_mean, few.error_p95, few.error_worst) == (inf, 0.1, inf)
-    assert score([trace([0.1] * 9 + [inf])], 0.0, 1.0).error_p95 == inf
+    assert score([trace([0.1] * 9 + [inf])], STILL).error_p95 == inf
 
 
 def test_frames_without_a_wanted_place_have_no_error_but_are_frames():
-    found = score([trace([nan, 0.2, nan, 0.4])], 0.0, 1.0)
+    found = score([trace([nan, 0.2, nan, 0.4])], STILL)
     assert found.error_mean == pytest.approx(0.3)
     assert found.frames == 4
-    assert score([trace([nan, nan])], 0.0, 1.0).error_worst is None
+    assert score([trace([nan, nan])], STILL).error_worst is None
 
 
 def test_both_shares_in_frame_are_counted_apart():
-    found = score([trace([0] * 4, [1.0, 0.0, -1e-5, -3.0], [1, 1, 1, 0])], 0.0, 1.0)
+    found = score([trace([0] * 4, [1.0, 0.0, -1e-5, -3.0], [1, 1, 1, 0])], STILL)
     assert found.in_frame == 0.5
     assert found.in_frame_four_points == 0.75
 
 
 def test_a_shot_that_frames_nothing_has_jerk_and_duration_only():
-    found = score([], 36.0 * 5, 5.0)
-    assert found == (0, None, None, None, None, None, None, 6.0, 5.0)
+    found = score([], Motion(36.0 * 5, 0.25 * 5, 6.0, 4.0, 5.0))
+    assert found == (0, None, None, None, None, None, None, 6.0, 0.5, 1.5, 5.0)
 
 
 def test_squared_jerk_of_powers_of_time_is_exact():
@@ -108,3 +110,6 @@ def test_a_plan_is_measured_by_what_its_certificate_says():
     t = np.linspace(shot.start, shot.end, 200_001)[:-1]
     jerk = np.linalg.norm(curve.channels(0, 1, 2).derivative(3)(t), axis=1)
     assert together.jerk_rms == pytest.approx(sqrt((jerk**2).mean()), rel=1e-3)
+    turning = np.linalg.norm(curve.channels(3, 4).derivative(3)(t), axis=1)
+    assert together.turn_jerk_rms == pytest.approx(sqrt((turning**2).mean()), rel=1e-3)
+    assert together.off_place is None  # nobody asks for a place between keyframes

@@ -12,8 +12,9 @@ from shotc.ir.framed import at_start
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import KEYED, arrivals, in_order, place_of, settled
 from shotc.ir.limits import Timing, Vec3
-from shotc.ir.mission import Beside, Composition, Keyframe, MissionIR, Promise, Shot
+from shotc.ir.mission import Beside, Composition, Keyframe, MissionIR, Shot
 from shotc.ir.origin import OriginMap
+from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules
 from shotc.ir.target import Target
 

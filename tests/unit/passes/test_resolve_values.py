@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from shotc.geom.solids import Cylinder, Prism
 from shotc.ir.limits import Limits, Timing, Vec3
-from shotc.ir.mission import MissionIR, Promise
+from shotc.ir.mission import MissionIR
+from shotc.ir.promise import Promise
 from shotc.passes.resolve.checks.motion import least_shot, least_travel
 from shotc.spec.presets import PRESETS
 from tests.support import resolve_missions

@@ -181,9 +181,14 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
     length = np.append(np.diff(breaks), 0.0)
     filmed = (breaks >= leg.start - 1e-9) & (breaks < leg.end - 1e-9)
     near, paid = 1.0 / references.usual**2, _unit(references)
+    smoother = subject.placed.shot.smoother
     binds, turn = _binds(subject, references), np.array(weights.TURN)
     free = references.placed and not subject.together
-    turn = np.where(filmed[:, None], turn, (0.0 if free else weights.UNWATCHED) * turn)
+    turn = np.where(
+        filmed[:, None],
+        turn * smoother ** np.array(weights.TURN_ORDERS),
+        (0.0 if free else weights.UNWATCHED) * turn,
+    )
     drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
     unit = weights.TOGETHER if subject.together else binds
     values = {
@@ -193,7 +198,7 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
         "leash": np.full(n + 1, near / weights.LEASH**2),
         "near": references.reach**-2.0,
         "target": references.target,
-        "jerk": weights.JERK * near * np.where(filmed, 1.0, weights.UNSEEN),
+        "jerk": weights.JERK * near * np.where(filmed, smoother**weights.JERK_ORDER, weights.UNSEEN),
         "turn": turn if references.watches else np.zeros((n + 1, 6)),
         "steep": steepest(subject, breaks),
         "free": np.where(filmed & references.watches, 0.0, UNFILMED),

@@ -2,7 +2,8 @@
 
 Each term is an integral over the film of a square: of the distance to the ideal place as a share of the
 usual distance to the target, of the drone's jerk as such a share, and of the rates, accelerations and jerks
-of the ray to the target (the camera's yaw and pitch; Eq. 12 of Alcantara et al. has the rates).
+of the ray to the target (the camera's yaw and pitch; Eq. 12 of Alcantara et al. has the rates). What a shot's
+smoothing is over the normal one multiplies the weights of its motion by its powers.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ PLACED = 1e5  # instead, where the author gave the places, or says how the targe
 YIELDS = 10.0  # instead, where they yield to what would hide it
 JERK = 0.5**6  # s^6: wiggles of the place shorter than half a second vanish, as in the convex guide
 TURN = (0.0, 0.0, 0.5, 0.5, 0.25, 0.25)  # s^2, s^4, s^6: yaw and pitch rate, acceleration, jerk
+JERK_ORDER, TURN_ORDERS = 6, (2, 2, 4, 4, 6, 6)  # powers of seconds in these
 STEEP = 10.0  # of a metre by which the gimbal's pitch range is left, as such a share, for a second
 FAINT = 1e-3  # of the place's weight, on the ways into and out of the film, against that in the film
 UNSEEN = 0.1  # of the jerk's weight there

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.ground import Above, GroundHeight, flat
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Promise, Shot
+from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Shot
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules
 from shotc.ir.target import Target
 from shotc.kinds import moving
@@ -116,6 +117,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         size=shot.size,
         allow=tuple(dict.fromkeys((*spec.rules.allow, *shot.allow))),
         above=_above(shot),
+        smoothing=shot.smoothing or spec.rules.smoothing,
     )
 
 

@@ -8,6 +8,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import owner_of
 from shotc.ir.path import ClockDeviation, from_what_was_asked
+from shotc.ir.smoothing import NORMAL_S, written
 from shotc.planning.clock.remedy import BesideMeshes
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
@@ -36,7 +37,9 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
             label = mission.origins.key(owner.path, "what stands there")
             labels += [] if label in labels else [label]
         causes.append(cause if owner is None else owner.words)
-    notes = [f"what stands against it: {', '.join(causes)}, and that it is flown smoothly"]
+    calm = shot.smoothing > NORMAL_S
+    smoothly = f"with `smoothing: {written(shot.smoothing)}`" if calm else "smoothly"
+    notes = [f"what stands against it: {', '.join(causes)}, and that it is flown {smoothly}"]
     if len(stretches) > 1:
         often = ", ".join(f"{d.distance:.2f} m at t = {d.t:.1f} s" for d in stretches[:TOLD])
         more = f" and {len(stretches) - TOLD} more" if len(stretches) > TOLD else ""
@@ -46,7 +49,8 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
         f"shot `{shot.id}` leaves its place by {worst.distance:.2f} m at t = {worst.t:.1f} s",
         tuple(labels),
         tuple(notes),
-        "give the shot more room, or the drone higher limits"
+        ("write `smoothing: normal`, or " if calm else "")
+        + "give the shot more room, or the drone higher limits"
         + (f", or let drones be seen by `{SILENT}`" if PICTURES in causes else ""),
     )
 

@@ -87,9 +87,11 @@ def test_limits_explain_the_way_to_stop_and_what_is_too_fast() -> None:
     one = flight()
     limits = replace(one.drone.limits, speed=4.0, climb=inf, acceleration=2.0, jerk=8.0)
     slow = Flight(one.mission, replace(one.drone, limits=limits), one.track)
-    assert for_its_limits(slow, EAST) == pytest.approx(1.0 * 20.0 + 4.0**2 / 4.0 + 4.0 * 2.0 / 8.0)
+    held_back = 1.0 * 20.0 + 4.0**2 / 4.0 + 4.0 * 2.0 / 8.0
+    assert for_its_limits(slow, EAST, 0.5) == pytest.approx(held_back)
+    assert for_its_limits(slow, EAST, 1.5) == pytest.approx(held_back + 4.0 * 1.0)
     still = Way(np.zeros((5, 3)), np.arange(5.0))
-    assert for_its_limits(slow, still) == 0.0
+    assert for_its_limits(slow, still, 1.5) == 0.0
 
 
 def test_what_films_nobody_counts_as_ten_metres_away() -> None:

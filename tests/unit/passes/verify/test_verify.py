@@ -10,9 +10,9 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, box
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Promise
 from shotc.ir.path import HFOV
 from shotc.ir.power import Power
+from shotc.ir.promise import Promise
 from shotc.ir.target import Target
 from shotc.ir.thrust import drawn
 from shotc.ir.trajectory import TrajectoryIR

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from shotc.cli.summary import certificate_text
 from shotc.ir.measures import told_apart
-from shotc.ir.mission import Promise
+from shotc.ir.promise import Promise
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.report import ENDING, RULES, STARTING, report

@@ -9,9 +9,10 @@ import pytest
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import quintic_hermite
 from shotc.geom.solids import box
-from shotc.ir.mission import Promise, Zone
+from shotc.ir.mission import Zone
 from shotc.ir.obstacle_mesh import obstacle_mesh
 from shotc.ir.path import CAM_YAW, HFOV, PathDeviation
+from shotc.ir.promise import Promise
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import Verify, judge
 from shotc.passes.verify.visible import longest

@@ -9,8 +9,8 @@ import pytest
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.solids import Cylinder
-from shotc.ir.mission import Promise
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, PathDeviation
+from shotc.ir.promise import Promise
 from shotc.passes.verify import judge
 from shotc.passes.verify.loss import at_limit
 from tests.support.records import replace

@@ -10,8 +10,9 @@ from shotc.ir.allow import HIDDEN
 from shotc.ir.coverage import coverage
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Timing
-from shotc.ir.mission import MissionIR, Promise
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import MovingLeg
+from shotc.ir.promise import Promise
 from shotc.ir.target import Target
 from tests.support.mesh_spaces import with_meshes
 from tests.support.path_scenes import framed, legs, mission, planned, shot
