@@ -134,7 +134,7 @@ def _energy(plan: VerifiedIR) -> Iterator[str]:
         shots = (c for c in claims if c.subject == whole.subject and c.shot is not None)
         parts = [f"{c.shot} {at_least(c.worst)} Wh" for c in shots]
         left = f"{at_most(100 * (1 - whole.worst / full), 0)} % left at landing"
-        text = f"{whole.subject} takes {at_least(whole.worst)} of {full:.1f} Wh, {left}"
+        text = f"{whole.subject} takes {at_least(whole.worst)} of {full:.4g} Wh, {left}"
         yield f"{text}, {100 * power.reserve:.0f} % kept" + (f": {', '.join(parts)}" if parts else "")
 
 

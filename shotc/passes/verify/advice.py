@@ -96,7 +96,7 @@ def _in_space(claim: Claim, code: str) -> str:
         "V009": f"fly {lack} higher, or lower `ground_clearance` to {worst}",
         "V010": f"keep {lack} more distance, or lower `target_clearance` to {worst}",
         "V052": f"keep {lack} more distance, or lower `obstacle_clearance` to {worst}",
-        "V055": f"shorten the mission or fly it calmer, by {lack}, or land with less `reserve`",
+        "V055": f"shorten the mission by {lack}, fly it calmer, or write what `power` there is",
         "V013": f"shorten the mission by {lack}, or raise `endurance` to {worst}",
     }
     return texts.get(code, "")

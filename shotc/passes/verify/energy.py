@@ -11,6 +11,7 @@ from shotc.geom.bernstein import lift_off
 from shotc.geom.integral import integral_convex
 from shotc.geom.pieces import cut
 from shotc.ir.limits import G_M_S2
+from shotc.ir.measures import measure
 from shotc.ir.power import Power
 from shotc.ir.thrust import hover_ratio
 from shotc.ir.trajectory import Claim
@@ -30,12 +31,21 @@ def energy(flight: Flight) -> Iterator[Claim]:
     path = (*flight.drone.path, "power", "battery")
     whole = taken(flight, power, lift_off(curve), curve.end)
     limit = Limit(ENERGY, power.usable / J_WH, "Wh", path)
-    yield claim(flight, limit, Worst(whole / J_WH, curve.end))
+    yield claim(flight, limit, Worst(whole / J_WH))
     for phase in flight.track.phases:
         if phase.shot is not None:
-            least = taken(flight, power, phase.start, phase.end) / J_WH
             told = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
-            yield claim(flight, told, Worst(least, phase.end))
+            yield claim(flight, told, Worst(taken(flight, power, phase.start, phase.end) / J_WH))
+
+
+def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
+    """Return what the shots of a flight take of its energy; empty for any other claim."""
+    if claim.constraint != ENERGY:
+        return ""
+    shots = [c for c in certificate if c.constraint == ENERGY and c.subject == claim.subject and c.shot]
+    parts = [f"shot `{c.shot}` takes {measure(c.worst, c.unit)}" for c in shots]
+    rest = claim.worst - sum(c.worst for c in shots)
+    return ", ".join([*parts, f"all else {measure(rest, claim.unit)}"])
 
 
 def taken(flight: Flight, power: Power, start: float, end: float) -> float:

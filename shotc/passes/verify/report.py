@@ -15,6 +15,7 @@ from shotc.ir.show import Display
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN, Rule, advice, wind_note
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
+from shotc.passes.verify.energy import energy_note
 from shotc.passes.verify.hidden import hidden_by
 from shotc.passes.verify.meeting import meeting
 from shotc.passes.verify.nearby import file_labels, nearest_part
@@ -177,7 +178,8 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
         help_ = promise_help(claim, rule.code, shot, certificate)
     else:
         message = f"{_who(claim)}: {_state(claim, rule.code)}"
-        notes += filter(None, [wind_note(mission, claim), *nearest_part(mission, claim)])
+        told = [wind_note(mission, claim), energy_note(claim, certificate)]
+        notes += filter(None, [*told, *nearest_part(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
     limit = f"{_side(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))
