@@ -30,11 +30,13 @@ from shotc.ir.path import (
 from shotc.ir.phases import PhaseName
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 from shotc.planning.obstacles import FreeSpaces, pad_space
-from shotc.planning.path.ahead import Course, course_of, headed, nearest_ends
+from shotc.planning.path.ahead import KEPT_SHARE, Course, course_of, headed, nearest_ends
+from shotc.planning.path.bends import as_clear, bent_ends, bent_starts, over_cone
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE_M, TURN_LENGTH_M_RAD
 from shotc.planning.path.shots import AngleFailure, Failure, PlannedShot, stack
 from shotc.planning.path.transit import transit_curve
+from shotc.planning.timing.estimate import leg_time
 from shotc.solvers.conic import Status
 
 SAME_ANGLE = 1e-6
@@ -191,12 +193,11 @@ def _transit(
         position = transit_curve(flight.spaces, flight.drone, a, b)
         if not isinstance(position, Piecewise):
             return position
-        course = None if flight.look_ahead is None else course_of(position, flight.look_ahead)
-        if course is None:
+        found = _soonest(flight, position, start, None if free_end else goal)
+        if found is None:
             curve = _with_angles(flight.drone, position, start, goal, free_end=free_end)
-            curves = curve if isinstance(curve, AngleFailure) else [curve]
-        else:
-            curves = _looking_ahead(flight.drone, (position, course), start, None if free_end else goal)
+            found = curve if isinstance(curve, AngleFailure) else [curve]
+        curves = found
     if isinstance(curves, AngleFailure):
         return curves
     return [_plain(phase, curves, path)] if curves else []
@@ -211,6 +212,38 @@ def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> l
     breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE)])
     curve = _with_angles(drone, Piecewise(breaks, np.linspace(a, b, 6)[None]), start, goal, free_end=free_end)
     return curve if isinstance(curve, AngleFailure) else [curve]
+
+
+def _soonest(
+    flight: Flight, position: Piecewise, start: Pose, goal: Pose | None
+) -> list[Piecewise] | AngleFailure | None:
+    """Return a way that looks ahead, bent at its ends where that takes less time than turns on the spot.
+
+    position : x, y, z over s; None where the mission does not ask for it, or the way has no course
+    """
+    drone, half_angle = flight.drone, flight.look_ahead
+    course = None if half_angle is None else course_of(position, half_angle)
+    if half_angle is None or course is None:
+        return None
+    best = _looking_ahead(drone, (position, course), start, goal)
+    if isinstance(best, AngleFailure):
+        return best
+    least, flown = _seconds(drone, best), position
+    for end, pose, bends in ((0, start, bent_starts), (-1, goal, bent_ends)):
+        if pose is None:
+            continue
+        over = over_cone(float(course.yaw[end]), pose[BODY_YAW], KEPT_SHARE * half_angle)
+        for way in bends(flown, over):
+            bent = course_of(way, half_angle) if as_clear(flight.spaces, way, position) else None
+            tried = None if bent is None else _looking_ahead(drone, (way, bent), start, goal)
+            if isinstance(tried, list) and (takes := _seconds(drone, tried)) < least:
+                best, least, position = tried, takes, way
+        flown = position
+    return best
+
+
+def _seconds(drone: Drone, curves: list[Piecewise]) -> float:
+    return leg_time(drone, _plain("transit", curves, ()))
 
 
 def _looking_ahead(

@@ -8,9 +8,16 @@ import numpy as np
 import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.geom.bernstein import Piecewise
+from shotc.geom.solids import Cylinder
 from shotc.geom.vec import wrapped
+from shotc.ir.owners import Owner
 from shotc.ir.path import BODY_YAW, CAM_YAW
 from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.planning.free_space import FreeSpace, Obstacle
+from shotc.planning.obstacles import FreeSpaces
+from shotc.planning.path import legs
+from shotc.planning.path.bends import as_clear, bent_ends, bent_starts, over_cone
 from tests.support.few import few
 
 pytestmark = pytest.mark.slow
@@ -102,3 +109,63 @@ shots:
     shot = next(p for p in track.phases if p.shot == "first")
     nose, course = track.curve(shot.start)[CAM_YAW], track.curve.derivative()(shot.start)[:2]
     assert abs(wrapped(float(nose) - float(np.arctan2(course[1], course[0])))) > radians(60.0)
+
+
+ASIDE = """\
+shotc: 1
+mission: aside
+drones: {cam: {model: x500, home: [0, -40]}}
+rules: {look_ahead: 45 deg}
+shots:
+  - {id: a, kind: static, drone: cam, at: [0, 0, 10], heading: 20 deg, pitch: 0 deg, timing: {duration: 3}}
+  - {id: b, kind: static, drone: cam, at: [60, 0, 10], heading: 20 deg, pitch: 0 deg, timing: {duration: 3}}
+"""
+
+
+def seconds_between(plan: VerifiedIR) -> float:
+    (track,) = plan.trajectory.drones
+    first, second = (p for p in track.phases if p.shot is not None)
+    return second.start - first.end
+
+
+def test_a_way_bends_where_that_takes_less_time_than_to_turn_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    bent = compiled(ASIDE).plan
+    assert bent is not None
+    for bends in ("bent_starts", "bent_ends"):
+        monkeypatch.setattr(legs, bends, lambda way, over: iter(()))
+    straight = compiled(ASIDE).plan
+    assert straight is not None
+    assert seconds_between(bent) < seconds_between(straight) - 0.8
+    assert claimed(bent).holds
+
+
+def test_a_bend_begins_where_its_nose_may_be_and_joins_the_old_way() -> None:
+    x = np.linspace(0.0, 50.0, 6)
+    way = Piecewise(np.array([0.0, 50.0]), np.column_stack([x, 0 * x, 9.0 + 0 * x])[None])
+    over = over_cone(0.0, radians(100.0), radians(40.0))
+    assert over == pytest.approx(radians(60.0))
+    bends = list(bent_starts(way, over))
+    assert bends
+    for bend in bends:
+        assert bend(0.0) == pytest.approx([0.0, 0.0, 9.0])
+        assert bend(40.0) == pytest.approx(way(40.0))
+        jumps = [np.abs(bend.derivative(k)(30.0 - 1e-9) - bend.derivative(k)(30.0 + 1e-9)) for k in (1, 2)]
+        assert np.max(jumps) < 1e-6
+    turns = [np.arctan2(*bend.derivative()(0.0)[[1, 0]]) for bend in bends]
+    assert max(turns) == pytest.approx(over)
+    (back, *_) = bent_ends(way, over)
+    assert back(0.0) == pytest.approx(way(0.0))
+    assert back(50.0) == pytest.approx(way(50.0))
+
+
+def test_a_bend_through_something_is_not_clear() -> None:
+    x = np.linspace(0.0, 50.0, 6)
+    way = Piecewise(np.array([0.0, 50.0]), np.column_stack([x, 0 * x, 9.0 + 0 * x])[None])
+    *_, wide = bent_starts(way, radians(60.0))
+    middle = wide(8.0)
+    owner = Owner("zone", "mast", ("world", "zones", "mast"))
+    mast = Obstacle(owner, Cylinder((float(middle[0]), float(middle[1])), 0.2, 0.0, 20.0), 0.5)
+    free = FreeSpace((), (), ())
+    assert as_clear(FreeSpaces(free, free), wide, way)
+    stands = FreeSpace((mast,), (), ())
+    assert not as_clear(FreeSpaces(stands, stands), wide, way)
