@@ -40,7 +40,8 @@ Refiners = Annotated[
     str | None,
     typer.Option(
         metavar="LIST",
-        help="Refiners to compare, separated by commas [all: none, ang, look-at, ours-4pt, ours, others].",
+        help="Refiners to compare, separated by commas [all: none, ang, look-at, framing-only, ours-4pt, "
+        "ours, others].",
     ),
 ]
 Smoothings = Annotated[
@@ -70,8 +71,10 @@ def compare(
     All start from the same convex path, are held to the same limits and are measured alike: how far the
     target is from its wanted place on screen, in how many frames it is whole, how smooth the flight is.
     What a shot promises (`require`) refuses no plan here; a promise that is broken is told. A refiner that
-    fails is a row that says so. The files are compare.json and compare.md with the table, compare.png with
-    the worst frame of each, and compare.rrd with the camera views side by side, for the rerun viewer.
+    fails is a row that says so. Of every refiner it is told at which frame of each shot it differs most from
+    the last one, by metres between the cameras plus degrees between where they look. The files are
+    compare.json and compare.md with the table, compare.png with the worst frame of each, differences.png
+    with the frames that differ most, and compare.rrd with the camera views, for the rerun viewer.
     Nothing here is to be flown; `shotc plan --refiner NAME` plans with one of them. Examples:
 
         shotc compare tower.yaml --refiners none,ours

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from shotc import plugins
 from shotc.api import Compilation, PlanOptions, compile_source
 from shotc.comparison.conditions import condition
+from shotc.comparison.differences import differences
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.comparison import Comparison, Condition
@@ -20,7 +21,7 @@ from shotc.ir.passes import PassContext, silent
 from shotc.ir.path import PathIR
 from shotc.source.file import SourceFile
 
-USUAL = ("none", "ang", "look-at", "ours-4pt", "ours")
+USUAL = ("none", "ang", "look-at", "framing-only", "ours-4pt", "ours")
 """The order of the framing paper, from the path as it is to the whole method."""
 
 
@@ -72,7 +73,8 @@ def compare_source(data: bytes, name: str, folder: Path | None, options: Options
         conditions += (_under(refiner, path, smoothing, options) for refiner in options.refiners)
     assert first is not None
     path, done = first
-    return Report(Comparison(path.keyframes.mission, tuple(conditions)), done.diagnostics, done.sources)
+    found = Comparison(path.keyframes.mission, tuple(conditions), differences(conditions))
+    return Report(found, done.diagnostics, done.sources)
 
 
 def _under(refiner: str, path: PathIR, smoothing: float | None, options: Options) -> Condition:

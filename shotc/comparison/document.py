@@ -28,6 +28,7 @@ def json_text(comparison: Comparison, *, seconds: bool) -> str:
             "source": {"file": mission.origins.file, "sha256": mission.source_sha256},
             "mission": mission.name,
             "refiners": [_condition(each, seconds=seconds) for each in comparison.conditions],
+            "differences": [each._asdict() for each in comparison.differences],
         }
     )
 

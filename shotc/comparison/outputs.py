@@ -9,6 +9,7 @@ from shotc import plugins
 from shotc.comparison.document import json_text
 from shotc.comparison.table import markdown
 from shotc.emit.base import Artifact, Emission
+from shotc.emit.storyboard.differing import draw_differences
 from shotc.emit.storyboard.side_by_side import draw_comparison
 from shotc.ir.comparison import Comparison
 
@@ -16,9 +17,10 @@ DPI = 110.0
 
 
 def artifacts(comparison: Comparison, progress: Callable[[str], None]) -> Emission:
-    """Return compare.json, compare.md, compare.png and compare.rrd; all but the last are the same every time.
+    """Return compare.json, compare.md, two pictures and compare.rrd; all but that are the same every time.
 
-    Where rerun is not installed its recording is left out with a warning.
+    differences.png is there where two conditions have a plan. Where rerun is not installed its
+    recording is left out with a warning.
     """
     made = [
         Artifact("compare.json", json_text(comparison, seconds=False).encode("ascii")),
@@ -26,6 +28,9 @@ def artifacts(comparison: Comparison, progress: Callable[[str], None]) -> Emissi
     ]
     progress("drawing compare.png")
     made.append(Artifact("compare.png", draw_comparison(comparison, DPI)))
+    if comparison.differences:
+        progress("drawing differences.png")
+        made.append(Artifact("differences.png", draw_differences(comparison, DPI)))
     if find_spec("rerun") is None:
         return Emission(tuple(made), (plugins.not_installed("P005", "output `compare.rrd`", ["rerun"]),))
     from shotc.emit.rerun_log.side_by_side import record_comparison

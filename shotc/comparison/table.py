@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from math import degrees, isfinite
 
 from shotc.emit.screen import off_place, percent
-from shotc.ir.comparison import Comparison, Condition, FlownShot, Score
+from shotc.ir.comparison import Comparison, Condition, Difference, FlownShot, Score
 from shotc.rounding import up
 
 HEADING = (
@@ -48,7 +48,7 @@ def rows(comparison: Comparison, *, seconds: bool) -> list[tuple[str, ...]]:
 
 
 def remarks(comparison: Comparison) -> list[str]:
-    """Return a line for every refiner without a plan, broken promise and shot that stayed convex."""
+    """Return a line for every refiner without a plan, broken promise, shot that stayed convex, difference."""
     lines = []
     for each in comparison.conditions:
         lines += [
@@ -57,7 +57,16 @@ def remarks(comparison: Comparison) -> list[str]:
         ]
         lines += [f"{each.name} breaks a promise, {d.code}: {d.message}" for d in each.broken]
         lines += [f"{each.name} did not refine all, {d.code}: {d.message}" for d in each.convex]
-    return lines
+    return [*lines, *map(_told, comparison.differences)]
+
+
+def _told(found: Difference) -> str:
+    at, there = (f"{time:.1f} s" for time in (found.time, found.other_time))
+    there = "" if at == there else f" ({there} there)"
+    return (
+        f"{found.condition} differs most from {found.other} in shot {found.shot} at {at}{there}: "
+        f"{found.metres:.2f} m, {found.degrees:.1f} deg; mean of metres plus degrees {found.mean:.2f}"
+    )
 
 
 def markdown(comparison: Comparison, *, seconds: bool) -> str:

@@ -121,9 +121,31 @@ class Condition:
         )
 
 
+class Difference(NamedTuple):
+    """How a shot under one condition differs from the same one under another.
+
+    mean : over the shot, of the metres between the cameras plus the degrees between where they look
+    time, other_time : of the frames at which that sum is largest, seconds of mission time
+    metres, degrees : there
+    """
+
+    shot: str
+    condition: str
+    other: str
+    mean: float
+    time: float
+    other_time: float
+    metres: float
+    degrees: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Comparison:
-    """One mission under several refiners, in the order they were asked for."""
+    """One mission under several refiners, in the order they were asked for.
+
+    differences : of each condition from the last one with a plan, its shots with the greatest first
+    """
 
     mission: MissionIR
     conditions: tuple[Condition, ...]
+    differences: tuple[Difference, ...] = ()

@@ -25,7 +25,7 @@ BENT = (ALONG, "return Outcome(bumped(path, 'pass', along(3, 0.2)))")
 FAILING = ("raise RuntimeError('no camera')",)
 SHORT = (ALONG, "return Outcome(bumped(path, 'pass', along(0, 40)))")
 PROMISE = "    require: {screen_error: 0.05}\n"
-FILES = ["compare.json", "compare.md", "compare.png", "compare.rrd"]
+FILES = ["compare.json", "compare.md", "compare.png", "compare.rrd", "differences.png"]
 Install = Callable[..., None]
 
 
@@ -82,7 +82,7 @@ def test_each_refiner_is_a_row_whether_it_keeps_promises_breaks_them_or_fails(
 
 def shape(document: dict) -> None:
     """Hold a compare.json to the shape that others read; no clock reading is in it."""
-    assert list(document) == ["format", "version", "tool", "source", "mission", "refiners"]
+    assert list(document) == ["format", "version", "tool", "source", "mission", "refiners", "differences"]
     assert (document["format"], document["version"]) == ("shotc-compare", 1)
     none, bent, failing = document["refiners"]
     score = [
@@ -139,7 +139,7 @@ def test_what_is_written_is_the_same_every_time(run: Run, yard: Path, install: I
     install("bent", *BENT)
     for folder in ("one", "two"):
         assert run("compare", str(yard), "--refiners", "bent", "-o", folder).code == 0
-    for name in FILES[:-1]:
+    for name in FILES[:3]:
         assert Path("one", name).read_bytes() == Path("two", name).read_bytes()
 
 
@@ -233,9 +233,9 @@ def test_without_rerun_its_recording_is_left_out(
     done = run("compare", str(good), "--refiners", "none", "-o", "out")
     assert done.code == 0
     assert "warning[P005]: output `compare.rrd` needs rerun" in done.err
-    assert sorted(path.name for path in Path("out").iterdir()) == FILES[:-1]
+    assert sorted(path.name for path in Path("out").iterdir()) == FILES[:3]  # of one plan nothing differs
 
 
 def test_the_usual_refiners_come_first_others_by_name() -> None:
-    known = ["zeal", "ours", "none", "ang", "look-at", "bold", "ours-4pt"]
-    assert ordered(known) == ["none", "ang", "look-at", "ours-4pt", "ours", "bold", "zeal"]
+    known = ["zeal", "ours", "none", "ang", "look-at", "bold", "ours-4pt", "framing-only"]
+    assert ordered(known) == ["none", "ang", "look-at", "framing-only", "ours-4pt", "ours", "bold", "zeal"]

@@ -62,7 +62,8 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
         if isinstance(leg, MovingLeg):
             path, messages = _refined(path, subject_of(path, drone, leg), condition)
         elif condition.aims == "framing":
-            path, messages = refine_one(path, leg.shot, condition.name)
+            keeps = condition.visibility != "none"
+            path, messages = refine_one(path, leg.shot, condition.name, keeps_whole=keeps)
         else:
             messages = [unrefined(path, leg.shot, f"`{condition.name}` goes from keyframe to keyframe")]
         diagnostics += messages

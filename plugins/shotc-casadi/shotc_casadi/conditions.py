@@ -1,4 +1,4 @@
-"""What is asked of the camera: the paper's conditions ANG, LOOK-AT and OURS, and its four-point form."""
+"""What is asked of the camera: the paper's conditions, with framing alone and with four points."""
 
 from __future__ import annotations
 
@@ -27,6 +27,9 @@ class Condition:
 OURS = Condition("ours", "hold the composition, with the whole target in the frame", "framing", "silhouette")
 OURS_4PT = Condition(
     "ours-4pt", "the same with the paper's four hull points for the target", "framing", "points"
+)
+FRAMING_ONLY = Condition(
+    "framing-only", "hold the composition, whether or not the target is whole", "framing", "none"
 )
 LOOK_AT = Condition("look-at", "look at points interpolated between keyframes", "look-at", "none")
 ANG = Condition("ang", "interpolate the author's camera angles between keyframes", "angles", "none")

@@ -92,5 +92,6 @@ def subjects(path: PathIR) -> list[Subject]:
 
 OURS = Refiner(conditions.OURS)
 OURS_4PT = Refiner(conditions.OURS_4PT)
+FRAMING_ONLY = Refiner(conditions.FRAMING_ONLY)
 LOOK_AT = Refiner(conditions.LOOK_AT)
 ANG = Refiner(conditions.ANG)

@@ -8,7 +8,7 @@ import pytest
 from shotc_casadi import problem
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.problem import USUAL_STAGES
-from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT
+from shotc_casadi.refiner import ANG, FRAMING_ONLY, LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.timeout import TIMEOUT_S
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -48,7 +48,7 @@ def test_a_weight_is_the_one_that_is_used(term):
 
 
 def test_every_condition_is_there():
-    for made in (OURS, OURS_4PT, LOOK_AT, ANG):
+    for made in (OURS, OURS_4PT, FRAMING_ONLY, LOOK_AT, ANG):
         assert f"| `{made.name}` |" in README
     assert TIMEOUT_S == 30.0  # "half a minute"
     assert f"in a range of {weights.RANGE} m" in README

@@ -9,7 +9,7 @@ import pytest
 from shotc_casadi import program, refiner, rounds
 from shotc_casadi.camera import NoFit
 from shotc_casadi.margins import Check
-from shotc_casadi.refiner import ANG, LOOK_AT, OURS, OURS_4PT
+from shotc_casadi.refiner import ANG, FRAMING_ONLY, LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.rounds import ROUNDS, SOLVERS
 
 from shotc import plugins
@@ -47,9 +47,9 @@ def refined(ir=None):
     return OURS.refine(ir or path(), PassContext())
 
 
-def test_the_seat_knows_all_four():
+def test_the_seat_knows_all_five():
     names = plugins.names("refiners")
-    for made in (OURS, OURS_4PT, LOOK_AT, ANG):
+    for made in (OURS, OURS_4PT, FRAMING_ONLY, LOOK_AT, ANG):
         assert made.name in names
         assert plugins.one("refiners", made.name).plugin is made
         assert made.api == 1

@@ -57,7 +57,7 @@ def worst_frame(shot: FlownShot) -> float:
 
 def _page(comparison: Comparison, dpi: float) -> bytes:
     mission, count = comparison.mission, len(comparison.conditions)
-    sizes = [_picture(mission.drone(shot.drone).aspect) for shot in mission.shots]
+    sizes = [picture_size(mission.drone(shot.drone).aspect) for shot in mission.shots]
     heights = [_height(size) for size in sizes]
     width = 2 * MARGIN + max(count, 2) * (CELL + GAP) - GAP
     height = HEADING + sum(heights) + 0.2
@@ -76,7 +76,8 @@ def _page(comparison: Comparison, dpi: float) -> bytes:
     return canvas.png()
 
 
-def _picture(aspect: float) -> tuple[float, float]:
+def picture_size(aspect: float) -> tuple[float, float]:
+    """Return the width and the height of a picture, inches."""
     width = min(CELL, TALLEST * aspect)
     return width, width / aspect
 
@@ -103,12 +104,9 @@ def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what
     """Draw the column of a shot that is flown; what : the number of the column and the top of its plot."""
     number, top = what
     width, height = panel.picture
-    moment = _moment(plan, shot, number)
+    moment = moment_at(plan, shot, worst_frame(shot), number)
     picture = Box(panel.left, panel.top - NAMES - height, width, height)
-    mission = plan.trajectory.keyframes.mission
-    over = float(moment.pose[2]) - mission.ground(float(moment.pose[0]), float(moment.pose[1]))
-    grid = max(1.0, round_length(abs(over) / 1.5))
-    draw_frame(canvas, Cell(picture, CELL), moment, mission, grid)
+    draw_moment(canvas, Cell(picture, CELL), plan, moment)
     plot = Box(panel.left + 0.34, picture.y - caption_height(CELL) - PLOT + 0.1, CELL - 0.34, PLOT - 0.22)
     draw_error(canvas, plot, shot, (moment.time, top))
     for i, text in enumerate(_facts(shot.score)):
@@ -116,10 +114,18 @@ def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what
         canvas.write(panel.left, plot.y - 0.36 - i * 0.17, text, Type(8.5, KEEP_OUT if lost else INK), CELL)
 
 
-def _moment(plan: VerifiedIR, shot: FlownShot, number: int) -> Moment:
+def moment_at(plan: VerifiedIR, shot: FlownShot, time: float, number: int) -> Moment:
+    """Return what a shot shows at a mission time, with its number on the page."""
     (placed,) = (p for p in plan.trajectory.keyframes.shots if p.shot.id == shot.id)
     (flight,) = (f for f in plan.trajectory.drones if f.drone == shot.drone)
-    return passing(plan, (placed, flight), worst_frame(shot), number)
+    return passing(plan, (placed, flight), time, number)
+
+
+def draw_moment(canvas: Canvas, cell: Cell, plan: VerifiedIR, moment: Moment) -> None:
+    """Draw the camera's picture at a moment, over a grid that is as wide as it is high."""
+    mission = plan.trajectory.keyframes.mission
+    over = float(moment.pose[2]) - mission.ground(float(moment.pose[0]), float(moment.pose[1]))
+    draw_frame(canvas, cell, moment, mission, max(1.0, round_length(abs(over) / 1.5)))
 
 
 def _facts(score: Score) -> list[str]:

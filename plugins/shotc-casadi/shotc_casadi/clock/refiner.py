@@ -60,12 +60,18 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
     return path, tuple(diagnostics)
 
 
-def refine_one(path: PathIR, shot: str, name: str) -> tuple[PathIR, list[Diagnostic]]:
-    """Return the path with one shot on its own clock refined, and what has to be said of it."""
+def refine_one(
+    path: PathIR, shot: str, name: str, *, keeps_whole: bool = True
+) -> tuple[PathIR, list[Diagnostic]]:
+    """Return the path with one shot on its own clock refined, and what has to be said of it.
+
+    keeps_whole : whether the place gives way where its one subject is not whole in the frame
+    """
     subject = subject_of(path, shot)
-    tried = _tried(path, subject, name, unseen=given_up(path.stats, shot) is None)
+    unseen = given_up(path.stats, shot) is None
+    tried = _tried(path, subject, name, unseen=unseen, keeps_whole=keeps_whole)
     if tried.refined.leg is None and tried.why == IN_PICTURE and prefers_free_pictures(subject.mission):
-        tried = _tried(path, subject, name, unseen=False)
+        tried = _tried(path, subject, name, unseen=False, keeps_whole=keeps_whole)
     message = tried.said
     if message is None and tried.refined.leg is None:
         message = unrefined(path, shot, tried.why)
@@ -82,11 +88,11 @@ class _Tried(NamedTuple):
     said: Diagnostic | None
 
 
-def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool) -> _Tried:
+def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keeps_whole: bool) -> _Tried:
     """Refine a shot; unseen : whether the drones' pictures are to be kept free."""
     refined = refine_clock(subject, unseen=unseen)
     message = _report(path, subject, refined, name)
-    whole = held_whole(subject, refined, unseen=unseen)
+    whole = held_whole(subject, refined, unseen=unseen) if keeps_whole else None
     new, why = refined.leg, GUIDE_BETTER
     if new is not None and not no_less(subject, subject.leg, new):
         refined, why = replace(refined, leg=None), SHOWS_LESS

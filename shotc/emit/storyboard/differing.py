@@ -1,0 +1,62 @@
+"""differences.png: each condition beside the last one, where they differ most, shot by shot."""
+
+from __future__ import annotations
+
+from shotc.emit.palette import INK, QUIET
+from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.frame import Cell, caption_height
+from shotc.emit.storyboard.side_by_side import (
+    CELL,
+    GAP,
+    HEADING,
+    MARGIN,
+    NAMES,
+    draw_moment,
+    moment_at,
+    picture_size,
+)
+from shotc.ir.comparison import Comparison, Difference
+
+FACTS = 0.36
+
+
+def draw_differences(comparison: Comparison, dpi: float) -> bytes:
+    """Return the page as PNG bytes, the same for the same comparison; ValueError where nothing differs."""
+    if not comparison.differences:
+        raise ValueError("no two conditions have a plan")
+    with house_style():
+        return _page(comparison, dpi)
+
+
+def _page(comparison: Comparison, dpi: float) -> bytes:
+    mission, found = comparison.mission, comparison.differences
+    sizes = [picture_size(mission.drone(mission.shot(each.shot).drone).aspect) for each in found]
+    heights = [NAMES + height + caption_height(CELL) + FACTS for _, height in sizes]
+    width, height = 2 * MARGIN + 2 * (CELL + GAP) - GAP, HEADING + sum(heights) + 0.2
+    canvas = Canvas(width, height, dpi)
+    canvas.write(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN)
+    text = "where two refiners differ most: metres between cameras plus degrees between where they look"
+    canvas.write(MARGIN, height - 0.95, text, Type(10, QUIET), width - 2 * MARGIN)
+    top = height - HEADING
+    for each, size, used in zip(found, sizes, heights, strict=True):
+        _row(canvas, comparison, each, (top, size))
+        top -= used
+    return canvas.png()
+
+
+def _row(
+    canvas: Canvas, comparison: Comparison, found: Difference, at: tuple[float, tuple[float, float]]
+) -> None:
+    """Draw two pictures beside each other; at : the top of the row, and the size of a picture, inches."""
+    top, (width, height) = at
+    for column, (name, time) in enumerate(((found.condition, found.time), (found.other, found.other_time))):
+        left = MARGIN + column * (CELL + GAP)
+        each = next(c for c in comparison.conditions if c.name == name)
+        assert each.plan is not None
+        shot = next(s for s in each.shots if s.id == found.shot)
+        canvas.write(left, top - 0.3, f"{name}, {found.shot}", Type(13, INK, bold=True), CELL)
+        picture = Box(left, top - NAMES - height, width, height)
+        draw_moment(canvas, Cell(picture, CELL), each.plan, moment_at(each.plan, shot, time, column + 1))
+    facts = f"{found.metres:.2f} m and {found.degrees:.1f} deg apart; mean of their sum {found.mean:.2f}"
+    base = top - NAMES - height - caption_height(CELL) - 0.02
+    canvas.write(MARGIN, base, facts, Type(8.5, INK), 2 * CELL + GAP)
