@@ -70,7 +70,7 @@ class Gimbal(NamedTuple):
         return reaches(self.pitch, pitch)
 
 
-class Lens(NamedTuple):
+class LensRange(NamedTuple):
     """What a camera's lens shows.
 
     longest, widest : horizontal fields of view at its ends, rad; of a fixed lens both are the same
@@ -118,7 +118,7 @@ class Drone(NamedTuple):
     autopilot: Literal["px4", "ardupilot"]
     path: KeyPath
     power: Power | None = None
-    lens: Lens | None = None
+    lens: LensRange | None = None
 
     @property
     def lasts(self) -> str:

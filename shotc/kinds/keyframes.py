@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, Lens
+from shotc.ir.mission import Deferred, LensRange
 from shotc.kinds.base import Expansion, Kind, Part, Scene, Stand
 from shotc.rounding import away
 from shotc.spec.shot import KeyframeSpec, ShotBase
@@ -53,7 +53,7 @@ def _keyframe(shot: KeyframesShot, scene: Scene, index: int) -> Part:
     )
 
 
-def _beyond_lens(scene: Scene, lens: Lens, hfov: float, *path: str | int) -> Diagnostic:
+def _beyond_lens(scene: Scene, lens: LensRange, hfov: float, *path: str | int) -> Diagnostic:
     name, longest, widest = scene.drone.name, degrees(lens.longest), degrees(lens.widest)
     if not lens.zooms:
         message = f"the lens of `{name}` is fixed: it shows {widest:.4g} deg and not {degrees(hfov):.4g} deg"

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import InitErrorDetails
 
-from shotc.ir.mission import Lens
+from shotc.ir.mission import LensRange
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
@@ -118,13 +118,13 @@ class CameraSpec(Model):
         return self.hfov if self.hfov is not None or self.lens is None else self.lens.widest
 
     @property
-    def lens(self) -> Lens | None:
+    def lens(self) -> LensRange | None:
         """The zoom lens; None where nothing is said of one."""
         if self.zoom is None:
             return None
         width = FULL_FRAME_M if self.sensor is None else self.sensor[0]
         widest, longest = (2 * atan(width / (2 * focal)) for focal in self.zoom)
-        return Lens(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate)
+        return LensRange(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate)
 
     @property
     def aspect_ratio(self) -> float | None:

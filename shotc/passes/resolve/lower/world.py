@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
 from shotc.ir.limits import Limits, Vec2, Vec3
-from shotc.ir.mission import Drone, Gimbal, Lens, Zone
+from shotc.ir.mission import Drone, Gimbal, LensRange, Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
 from shotc.kinds.base import counts_from_ground, stands
@@ -181,10 +181,10 @@ def _power(spec: DroneSpec, preset: Preset, density: float) -> Power | None:
     return power._replace(density=density)
 
 
-def _lens(camera: CameraSpec, preset: Preset) -> Lens | None:
+def _lens(camera: CameraSpec, preset: Preset) -> LensRange | None:
     """Return the lens of a camera; None where neither mission nor model says what it is."""
     hfov = camera.field_of_view or preset.hfov
-    return camera.lens or (Lens(hfov, hfov, 0.0) if preset.fixed_lens else None)
+    return camera.lens or (LensRange(hfov, hfov, 0.0) if preset.fixed_lens else None)
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Lens
+from shotc.ir.mission import LensRange
 from shotc.ir.path import HFOV
 from shotc.passes.verify import judge
 from tests.support.front_passes import resolved
@@ -63,9 +63,9 @@ def test_a_plan_that_zooms_too_fast_or_beyond_its_lens_is_refused() -> None:
     ir = done.plan.trajectory
     mission = ir.keyframes.mission
     for lens, code in (
-        (Lens(radians(28), WIDEST, radians(1)), "V060"),
-        (Lens(radians(40), WIDEST, inf), "V018"),
-        (Lens(radians(28), radians(70), inf), "V018"),
+        (LensRange(radians(28), WIDEST, radians(1)), "V060"),
+        (LensRange(radians(40), WIDEST, inf), "V018"),
+        (LensRange(radians(28), radians(70), inf), "V018"),
     ):
         drones = (mission.drones[0]._replace(lens=lens),)
         other = replace(ir, keyframes=replace(ir.keyframes, mission=replace(mission, drones=drones)))
@@ -82,7 +82,7 @@ def test_focal_lengths_count_on_the_sensor_or_on_a_frame_of_36_mm() -> None:
         assert found == []
         assert mission is not None
         drone = mission.drone("cam")
-        assert drone.lens == pytest.approx(Lens(longest, widest, pi / 18))
+        assert drone.lens == pytest.approx(LensRange(longest, widest, pi / 18))
         assert drone.hfov == pytest.approx(widest)
 
 
