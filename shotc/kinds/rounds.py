@@ -41,16 +41,19 @@ def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -
     ]
 
 
-def line(axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float) -> list[Vec3]:
+def line(
+    axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float, least: int = FEWEST
+) -> list[Vec3]:
     """Return points along a straight line in the upright plane of one azimuth.
 
     height : that the camera looks at, counted as altitude is; the points lie as dense as its view of it turns
+    least : pieces of the line
     """
     first, last = (atan2(z - height, d) for d, z in zip(distance, altitude, strict=True))
     turn = abs(last - first)
     nearest, farthest = sorted(hypot(d, z - height) for d, z in zip(distance, altitude, strict=True))
     zoom = farthest / max(nearest, 1e-6)
-    pieces = min(MOST, max(FEWEST, ceil(turn / ARC), ceil(zoom)))
+    pieces = min(MOST, max(least, ceil(turn / ARC), ceil(zoom)))
     return [
         bearing(axis, azimuth, _between(distance, t), _between(altitude, t))
         for t in (i / pieces for i in range(pieces + 1))

@@ -15,8 +15,8 @@ from shotc.passes.resolve import Resolve
 from shotc.spec.load import LoadedMission, load
 
 MODULES = (
-    "keyframes", "static", "orbit", "spiral", "elevator", "dolly", "crane", "top_down", "chase", "lead",
-    "lateral", "flyby", "follow_path", "framing", "display",
+    "keyframes", "static", "orbit", "spiral", "elevator", "dolly", "dolly_zoom", "crane", "top_down", "chase",
+    "lead", "lateral", "flyby", "follow_path", "framing", "display",
 )  # fmt: skip
 KINDS: dict[str, Kind] = {k.name: k for k in (import_module(f"shotc.kinds.{m}").KIND for m in MODULES)}
 EMITTERS = ("csv", "mavlink", "storyboard", "rerun", "skyc", "contact-sheet")

@@ -226,4 +226,17 @@ CODES: tuple[CodeInfo, ...] = (
         "that stands goes nowhere: leave `turn` out, and the offset is east, north and up.",
         ("from: target, offset", "from: tower, offset"),
     ),
+    _beside(
+        19,
+        "zoom-of-what-moves",
+        "a dolly zoom films a target that moves",
+        "A dolly zoom holds the size of a target that stands, while the camera goes to it or away from it. What moves is "
+        "held in its size by `kind: framing`, which keeps the distance instead.",
+        (
+            "offset: [0, -8, 3]}, look_at: runner}\n",
+            "offset: [0, -8, 3]}, look_at: runner}\n"
+            "  - {id: vertigo, kind: dolly-zoom, drone: cam1, target: runner, azimuth: 180 deg, distance: [40, 20],\n"
+            "     altitude: 12, timing: {after: round, duration: 20}}\n",
+        ),
+    ),
 )

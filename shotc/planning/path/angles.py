@@ -8,12 +8,11 @@ them, exact at the keyframes. Elsewhere the camera turns steadily from one keyfr
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
 from shotc.geom.vec import wrapped
@@ -213,11 +212,25 @@ def _grid(keyed: KeyedPath) -> Array:
 
 
 def _hfov(keyed: KeyedPath) -> Piecewise:
-    """Return the field of view over s: monotone between keyframes, at rest at each of them."""
+    """Return the field of view over s: monotone between keyframes, and at rest at those the user placed.
+
+    Generated ones that go on zooming are passed at the slope of the parabola through them and their
+    neighbours, at the ends of the one through the last three, but at 5/4 of the lesser slope beside them at
+    most: then the control points of the quintics stay in order.
+    """
     keys = [i for i in range(len(keyed.s)) if i == 0 or keyed.s[i] > keyed.s[i - 1]]
-    wide = [keyed.keyframes[i].hfov for i in keys]
-    ctrl = np.array([[[a]] * 3 + [[b]] * 3 for a, b in pairwise(wide)])
-    return Piecewise(keyed.s[keys], ctrl)
+    s, wide = keyed.s[keys], np.array([keyed.keyframes[i].hfov for i in keys])
+    slope = np.zeros(len(keys))
+    if len(keys) > 2:
+        placed = np.array([keyed.keyframes[i].placed for i in keys])
+        secant = np.diff(wide) / np.diff(s)
+        before, after = np.concatenate([secant[:1], secant]), np.concatenate([secant, secant[-1:]])
+        goes_on = ~placed & (before * after > 0.0)
+        wished = np.gradient(wide, s, edge_order=2)
+        most = 1.25 * np.minimum(np.abs(before), np.abs(after))
+        slope = np.where(goes_on, np.sign(before) * np.clip(np.sign(before) * wished, 0.0, most), 0.0)
+    still = np.zeros((len(keys), 1))
+    return quintic_hermite(s, wide[:, None], slope[:, None], still)
 
 
 def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
