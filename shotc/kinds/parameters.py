@@ -12,6 +12,7 @@ DISTANCES = {
     "spiral": "radius",
     "elevator": "distance",
     "dolly": "distance",
+    "dolly-zoom": "distance",
     "crane": "distance",
 }
 """By kind; each counts from the target's axis, and each of these kinds has `altitude`, which is z, too."""
