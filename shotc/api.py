@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from shotc import emission, plugins
 from shotc.checking import models_of
@@ -21,7 +21,7 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
-from shotc.ir.source import MissionSource
+from shotc.ir.source import Autopilot, MissionSource
 from shotc.lowering import lower, lower_kept, with_autopilot, with_smoothing
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import (
@@ -59,7 +59,7 @@ class PlanOptions(NamedTuple):
     deadline : seconds that the refiner may take, in a process of its own then
     headings : how a camera that follows nothing is turned, of ``solvers.headings.METHODS``;
         None means its ``DEFAULT``
-    autopilot : "px4" or "ardupilot" instead of what the drone's model says
+    autopilot : what flies every drone, instead of what its model says
     smoothing : seconds, of all shots, instead of what the mission says: for plans that are not kept
     stop_after : the name of the last pass to run; progress : called with each pass's name
     on_mission : called with the mission once it can be planned, before the solvers load
@@ -67,7 +67,7 @@ class PlanOptions(NamedTuple):
 
     refiner: str | None = None
     deadline: float | None = None
-    autopilot: Literal["px4", "ardupilot"] | None = None
+    autopilot: Autopilot | None = None
     stop_after: str | None = None
     seed: int = 0
     progress: Callable[[str], None] = silent

@@ -15,7 +15,7 @@ from shotc.diag.registry import has_errors
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
 from shotc.ir.passes import PassContext
-from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, kept_files
+from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, flown_by, kept_files
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile
@@ -86,10 +86,14 @@ def with_smoothing(keyframes: KeyframeIR, seconds: float | None) -> KeyframeIR:
 
 
 def with_autopilot(keyframes: KeyframeIR, autopilot: Autopilot | None) -> KeyframeIR:
-    """Return the mission with every drone under another autopilot than its model's, if one was chosen."""
+    """Return the mission with every drone under another autopilot than its model's, if one was chosen.
+
+    Files for machines that are flown otherwise give way to those that it flies.
+    """
     if autopilot is None:
         return keyframes
     mission = keyframes.mission
     drones = tuple(drone._replace(autopilot=autopilot) for drone in mission.drones)
     source = mission.source._replace(chosen=mission.source.chosen._replace(autopilot=autopilot))
-    return keyframes._replace(mission=mission._replace(drones=drones, source=source))
+    emit = flown_by(autopilot, mission.emit)
+    return keyframes._replace(mission=mission._replace(drones=drones, source=source, emit=emit))

@@ -22,7 +22,16 @@ from typing import NamedTuple, Self
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact
 
-FLOWN = ("plan.json", "trajectory.csv", "*.plan", "*.waypoints", "*-ned.csv", "*.skyc")
+FLOWN = (
+    "plan.json",
+    "trajectory.csv",
+    "*.plan",
+    "*.waypoints",
+    "*.kmz",
+    "*-litchi.csv",
+    "*-ned.csv",
+    "*.skyc",
+)
 """What is flown from, or made into something that is."""
 
 SHOWN = (

@@ -77,8 +77,8 @@ HeadingMethod = Annotated[
     ),
 ]
 Autopilot = Annotated[
-    Literal["px4", "ardupilot"] | None,
-    typer.Option(help="Write for this autopilot, whatever the drone's model says."),
+    Literal["px4", "ardupilot", "dji-fly", "pilot-2", "litchi"] | None,
+    typer.Option(help="Write for this autopilot or app, whatever the drone's model says."),
 ]
 StopAfter = Annotated[
     str | None,

@@ -17,7 +17,7 @@ from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
 from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
 from shotc.ir.smoothing import NORMAL_S
-from shotc.ir.source import MissionSource
+from shotc.ir.source import Autopilot, MissionSource
 from shotc.ir.target import Target
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
@@ -115,7 +115,7 @@ class Drone(NamedTuple):
     endurance: float
     priority: int
     body: Literal["forward", "follow-camera", "free"]
-    autopilot: Literal["px4", "ardupilot"]
+    autopilot: Autopilot
     path: KeyPath
     power: Power | None = None
     lens: LensRange | None = None

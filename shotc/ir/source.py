@@ -3,7 +3,23 @@
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-Autopilot = Literal["px4", "ardupilot"]
+Autopilot = Literal["px4", "ardupilot", "dji-fly", "pilot-2", "litchi"]
+"""What flies a drone: an autopilot that speaks MAVLink, an app of DJI's with waypoints, or Litchi's app."""
+
+TAKES: dict[Autopilot, tuple[str, ...]] = {
+    "px4": ("mavlink",),
+    "ardupilot": ("mavlink",),
+    "dji-fly": ("dji", "litchi"),
+    "pilot-2": ("dji",),
+    "litchi": ("litchi",),
+}
+"""The emitters whose files each of them flies; the first is used where nothing is asked for."""
+
+
+def flown_by(autopilot: Autopilot, emit: tuple[str, ...]) -> tuple[str, ...]:
+    """Return emitters with those in place whose files an autopilot flies, for those that others fly."""
+    others = {name for names in TAKES.values() for name in names} - set(TAKES[autopilot])
+    return tuple(dict.fromkeys(TAKES[autopilot][0] if name in others else name for name in emit))
 
 
 class Chosen(NamedTuple):

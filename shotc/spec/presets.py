@@ -12,6 +12,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.mission import Gimbal
 from shotc.ir.power import Power
 from shotc.ir.smoothing import NORMAL_S
+from shotc.ir.source import Autopilot
 
 Body = Literal["forward", "follow-camera", "free"]
 
@@ -52,7 +53,7 @@ class Preset(NamedTuple):
     aspect: float
     radius: float
     endurance: float
-    autopilot: Literal["px4", "ardupilot"]
+    autopilot: Autopilot
     body: Body
     source: str
     power: Power | None = None
@@ -75,6 +76,40 @@ RESERVE = 0.2  # of a battery, which is left at landing
 _X500_POWER = Power(
     mass=2.0, battery=14.8 * 5.2 * 3600.0, rotors=4, radius=5 * 0.0254, efficiency=1.0, reserve=RESERVE
 ).hovering_for(18 * 60.0)
+
+
+_DJI = "; speeds at most three quarters of the maker's in mode N, endurance of what it hovers or flies"
+_WIDE = radians(71.6)  # 24 mm equivalent, from the full width of a 4:3 sensor
+
+
+def _dji(
+    summary: str,
+    linear: tuple[float, float, float, float, float],
+    pitch: tuple[float, float],
+    minutes: float,
+    source: str,
+) -> Preset:
+    """Return a folding drone of DJI's: its gimbal does not pan, so that the body turns with the camera."""
+    small = "under 250 g" in summary
+    return Preset(
+        summary=summary,
+        limits=_limits(linear, (60.0, 90.0) if small else (70.0, 100.0)),
+        gimbal=_gimbal(pitch, (-10.0, 10.0), (60.0, 120.0)),
+        hfov=_WIDE,
+        aspect=16 / 9,
+        radius=0.3 if small else 0.4,
+        endurance=minutes * 60.0,
+        autopilot="dji-fly",
+        body="follow-camera",
+        source=source + _DJI,
+        fixed_lens=True,
+    )
+
+
+_MINI_3 = (7.5, 2.2, 2.2, 3.0, 8.0)
+_LIGHT = (9.0, 3.5, 3.0, 3.0, 8.0)
+_AIR = (11.0, 4.5, 4.5, 4.0, 10.0)
+_MAVIC = (11.0, 4.5, 4.0, 4.0, 10.0)
 
 _PX4 = "speeds and accelerations below PX4's default MPC_* limits; "
 
@@ -101,7 +136,7 @@ PRESETS: dict[str, Preset] = {
         aspect=16 / 9,
         radius=0.3,
         endurance=24 * 60.0,
-        autopilot="px4",
+        autopilot="dji-fly",
         body="follow-camera",
         source="class of the DJI Mini 4 Pro (24 mm equivalent lens), about half of its published maxima",
         fixed_lens=True,
@@ -114,11 +149,81 @@ PRESETS: dict[str, Preset] = {
         aspect=16 / 9,
         radius=0.4,
         endurance=30 * 60.0,
-        autopilot="px4",
+        autopilot="dji-fly",
         body="follow-camera",
         source="class of the DJI Mavic 3 (24 mm equivalent lens), about two thirds of its published maxima",
         fixed_lens=True,
     ),
+    "mini-3": _dji(
+        "DJI Mini 3, under 250 g, without waypoints of its own: flown by Litchi Pilot",
+        _MINI_3,
+        (-90.0, 60.0),
+        22.0,
+        "maker's data of the DJI Mini 3 (24 mm equivalent), speeds and endurance as of the Mini 3 Pro",
+    )._replace(autopilot="litchi"),
+    "mini-3-pro": _dji(
+        "DJI Mini 3 Pro, under 250 g, without waypoints of its own: flown by Litchi Pilot",
+        _MINI_3,
+        (-90.0, 60.0),
+        22.0,
+        "maker's data of the DJI Mini 3 Pro (mode N 10 m/s, hovers 30 min, 24 mm equivalent)",
+    )._replace(autopilot="litchi"),
+    "mini-4-pro": _dji(
+        "DJI Mini 4 Pro, under 250 g",
+        _LIGHT,
+        (-90.0, 60.0),
+        22.0,
+        "maker's data of the DJI Mini 4 Pro (N 12 m/s, up and down 5 m/s, hovers 30 min, 24 mm equivalent)",
+    ),
+    "mini-5-pro": _dji(
+        "DJI Mini 5 Pro, under 250 g",
+        _LIGHT,
+        (-90.0, 55.0),
+        23.0,
+        "maker's data of the DJI Mini 5 Pro (tilt to 55 deg, 24 mm equivalent), mode N as of the Mini 4 Pro",
+    ),
+    "air-3": _dji(
+        "DJI Air 3, 720 g, with its wide lens",
+        _AIR,
+        (-90.0, 60.0),
+        31.0,
+        "maker's data of the DJI Air 3 (mode N 15 m/s, hovers 42 min, 24 mm equivalent)",
+    ),
+    "air-3s": _dji(
+        "DJI Air 3S, 724 g, with its wide lens",
+        _AIR,
+        (-90.0, 60.0),
+        30.0,
+        "maker's data of the DJI Air 3S (hovers 41 min, 24 mm equivalent), mode N as of the Air 3",
+    ),
+    "mavic-3-classic": _dji(
+        "DJI Mavic 3 Classic, 895 g",
+        _MAVIC,
+        (-90.0, 35.0),
+        30.0,
+        "maker's data of the DJI Mavic 3 Classic (hovers 40 min, 24 mm equivalent), N as of the Mavic 3 Pro",
+    ),
+    "mavic-3-pro": _dji(
+        "DJI Mavic 3 Pro, 958 g, with its wide lens",
+        _MAVIC,
+        (-90.0, 35.0),
+        28.0,
+        "maker's data of the DJI Mavic 3 Pro (N 15 m/s, up and down 6 m/s, hovers 37 min, 24 mm equivalent)",
+    ),
+    "mavic-4-pro": _dji(
+        "DJI Mavic 4 Pro, 1063 g, with its wide lens",
+        _MAVIC,
+        (-90.0, 70.0),
+        34.0,
+        "maker's data of the DJI Mavic 4 Pro (flies 51 min, 28 mm equivalent), mode N taken as 15 m/s",
+    )._replace(hfov=radians(63.4)),
+    "mavic-3e": _dji(
+        "DJI Mavic 3 Enterprise, 915 g, flown by DJI Pilot 2",
+        _MAVIC,
+        (-90.0, 35.0),
+        28.0,
+        "maker's data of the DJI Mavic 3 Enterprise (mode N 15 m/s, hovers 38 min, 24 mm equivalent)",
+    )._replace(autopilot="pilot-2"),
     "solo": Preset(
         summary="ArduPilot quadrotor with an action camera on a gimbal without pan",
         limits=_limits((8.0, 3.0, 2.0, 2.5, 5.0), (60.0, 90.0)),

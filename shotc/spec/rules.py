@@ -102,5 +102,5 @@ class OutputSpec(Model):
     emit: tuple[Name, ...] | None = Field(
         default=None,
         description=f"emitters to run; {', '.join(presets.EMIT)}, for shows {', '.join(presets.SHOW_EMIT)},"
-        " if silent",
+        " if silent; for machines of DJI `dji` or `litchi` instead of `mavlink`",
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from math import ceil, degrees, dist
@@ -15,6 +15,7 @@ from shotc.diag.registry import has_errors
 from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.sampling import SAME_TIME
+from shotc.ir.source import TAKES
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.stream import checks
 from shotc.stream.aim import LiveAim
@@ -86,7 +87,7 @@ class Session:
 
         addresses : by drone; targets : by target
         """
-        found = [*unplaced(self.mission, self._plan)]
+        found = [*unplaced(self.mission, self._plan), *unheard(self.mission, addresses)]
         if found:
             return found
         for name, endpoint in addresses.items():
@@ -202,6 +203,19 @@ def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
             ("a vehicle's local frame is tied to the plan's by latitude and longitude",),
             "give the mission `world.origin: {lat: .., lon: .., alt: ..}` and plan again",
         )
+
+
+def unheard(mission: MissionIR, names: Iterable[str]) -> Iterator[Diagnostic]:
+    """Yield the drones that take no setpoints from outside."""
+    for drone in map(mission.drone, names):
+        if drone.autopilot not in AUTOPILOTS:
+            yield Diagnostic(
+                "A032",
+                f"drone `{drone.name}` is flown by {drone.autopilot}, which takes no setpoints",
+                (mission.origins.key(drone.path),),
+                (f"setpoints are for {' and '.join(AUTOPILOTS)}; its model is `{drone.model}`",),
+                f"fly its file: `shotc emit PLAN --emit {TAKES[drone.autopilot][0]}`",
+            )
 
 
 def zoomed(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:

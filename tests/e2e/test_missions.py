@@ -10,11 +10,12 @@ import pytest
 from shotc import api
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
+from shotc.ir.source import TAKES
 from tests.e2e.conftest import MISSIONS, Plan, each_mission
 from tests.support import written_missions
 from tests.support.compiled import freshly_compiled
 
-EMITTERS = ("csv", "mavlink", "storyboard", "rerun")
+EMITTERS = ("csv", "storyboard", "rerun")
 SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
     "courtyard": {"plan": [("V031", 22)], "emit": [("E101", 7)]},
     "keyframes": {"emit": [("E101", 1)]},
@@ -25,7 +26,7 @@ SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
     "pisa-campanile": {"emit": [("E102", 13)]},
     "river-path": {},
     "rooftop-survey": {},
-    "rotsee-sculler": {"emit": [("E107", 19)]},
+    "rotsee-sculler": {"emit": [("E118", 19), ("E118", 21), ("E118", 23)]},
     "runner": {"emit": [("E101", 1)]},
     "runner-three-cameras": {
         "plan": [("M008", 17), ("M008", 19), ("M008", 21)],
@@ -69,17 +70,19 @@ def test_all_outputs_are_made(plan: Plan, path: Path) -> None:
     planned = plan(path)
     expected = SAID[path.stem]
     assert said(planned.diagnostics) == [*expected.get("check", []), *expected.get("plan", [])]
-    emitted = api.emit_plan(planned.plan, EMITTERS)
+    flown = planned.mission.drones
+    machine = TAKES[flown[0].autopilot][0]
+    emitted = api.emit_plan(planned.plan, (*EMITTERS, machine))
     assert said(emitted.diagnostics) == expected.get("emit", [])
     files = {artifact.name: artifact.data for artifact in emitted.artifacts}
-    flown = [d for d in planned.mission.drones if planned.mission.origin]
-    mavlink = {f"{d.name}.plan" for d in flown}
-    mavlink |= {f"{d.name}.waypoints" for d in flown if d.autopilot == "ardupilot"}
+    flown = flown if planned.mission.origin else ()
+    machines = {f"{d.name}.{'kmz' if machine == 'dji' else 'plan'}" for d in flown}
+    machines |= {f"{d.name}.waypoints" for d in flown if d.autopilot == "ardupilot"}
     tables = {"plan.json", "trajectory.csv", "framing.csv"}
-    assert set(files) == tables | mavlink | {"storyboard.png", "mission.rrd"}
+    assert set(files) == tables | machines | {"storyboard.png", "mission.rrd"}
     assert files["storyboard.png"].startswith(b"\x89PNG\r\n\x1a\n")
     assert files["mission.rrd"].startswith(b"RRF")
-    for name in mavlink & {"cam1.plan"}:
+    for name in machines & {"cam1.plan"}:
         assert json.loads(files[name])["fileType"] == "Plan"
     assert all(len(data) > 60 for data in files.values())
 

@@ -28,7 +28,9 @@ TOLD_IN_WORDS = {
     "Q007": "where a keyframe goes is the author's choice",
     "N016": "a command of its own finds the target, or the author names it",
     "E101": "only the author knows where on earth it is",
-    **dict.fromkeys(("E102", "E105", "E107"), "it says what to do with the file, the mission is in order"),
+    **dict.fromkeys(
+        ("E102", "E105", "E107", "E116", "E118"), "it says what to do with the file, the mission is in order"
+    ),
 }
 """Codes whose help no rule applies, and why."""
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Literal
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.ir.source import Autopilot
 from shotc.planning.timing.leg import timed_once
-
-Autopilot = Literal["px4", "ardupilot"]
 
 
 def compiled(path: Path, refiner: str | None = None, autopilot: Autopilot | None = None) -> Compilation:

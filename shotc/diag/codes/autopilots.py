@@ -200,4 +200,11 @@ CODES: tuple[CodeInfo, ...] = (
         "What a zoom command means differs from camera to camera. The camera's path and angles are right, the field "
         "of view stays as it is. Zoom by hand, or give the shot one `hfov`.",
     ),
+    _fault(
+        32,
+        "machine-takes-no-setpoints",
+        "a drone of the plan is flown by an app, which takes no setpoints",
+        "`shotc stream` speaks MAVLink with PX4 and ArduPilot. Machines of DJI fly a file that is copied onto their "
+        "controller; `shotc emit` writes it.",
+    ),
 )

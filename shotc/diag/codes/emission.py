@@ -23,16 +23,24 @@ shots:
 output: {emit: [mavlink]}
 """
 
+_MOVING = (
+    _MAVLINK.replace("at: [0, 0, 6]", "track: {start: [0, 0, 6], velocity: [1, 0, 0]}")
+    .replace(
+        "    keyframes:\n      - {at: [-20, -25, 16], look_at: mast}\n      - {at: [20, -25, 16], look_at: mast}\n",
+        "    side: right\n    distance: 25\n    altitude: 16\n    timing: {duration: 10}\n",
+    )
+    .replace("kind: keyframes", "kind: lateral")
+)
+
 _MAVLINK_CODES = (
     CodeInfo(
         "E101",
-        "mavlink-needs-origin",
+        "mission-file-needs-origin",
         Severity.WARNING,
-        "MAVLink files or KML tours are skipped, because the mission has no world.origin",
-        "Autopilots fly missions in latitude and longitude, and tours are filmed there. Without `world.origin` the "
-        "plan has no place on the globe, so `<drone>.plan`, `<drone>.waypoints` and `<drone>.kml` are not written; "
-        "all other outputs are. Give the origin of the mission's frame, or leave `mavlink` and `kml` out of "
-        "`output.emit`.",
+        "mission files or KML tours are skipped, because the mission has no world.origin",
+        "Autopilots and apps fly missions in latitude and longitude, and tours are filmed there. Without `world.origin` "
+        "the plan has no place on the globe, so the files of `mavlink`, `dji`, `litchi` and `kml` are not written; all "
+        "other outputs are. Give the origin of the mission's frame, or leave them out of `output.emit`.",
         _MAVLINK.replace("world:\n  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n", ""),
         _MAVLINK,
         "plan",
@@ -111,12 +119,7 @@ _MAVLINK_CODES = (
         "target that moves is then somewhere else, and several drones meet where the plan keeps them apart. Fly "
         "such a mission with `shotc stream`, all drones on one clock; the file is good for rehearsing one "
         "drone's way without the target.",
-        _MAVLINK.replace("at: [0, 0, 6]", "track: {start: [0, 0, 6], velocity: [1, 0, 0]}")
-        .replace(
-            "    keyframes:\n      - {at: [-20, -25, 16], look_at: mast}\n      - {at: [20, -25, 16], look_at: mast}\n",
-            "    side: right\n    distance: 25\n    altitude: 16\n    timing: {duration: 10}\n",
-        )
-        .replace("kind: keyframes", "kind: lateral"),
+        _MOVING,
         _MAVLINK,
         "plan",
     ),
@@ -124,11 +127,76 @@ _MAVLINK_CODES = (
         "E110",
         "fleet-without-missions",
         Severity.WARNING,
-        "no MAVLink missions are written for a fleet",
+        "no mission files are written for a fleet",
         "The drones of a fleet keep their distance by being where they should be at every instant. A mission file "
         "is flown from waypoint to waypoint without a common clock, so a fleet that flies such files meets itself. "
         "`.skyc` is the format for shows: every drone's curve and lights over time, for Skybrush and the autopilots "
         "that follow it.",
+        "",
+        "",
+        "other",
+    ),
+)
+
+_MACHINE_CODES = (
+    CodeInfo(
+        "E116",
+        "other-machine",
+        Severity.WARNING,
+        "an output holds files for other machines than the drone's",
+        "What flies a drone stands with its model: `shotc list drones`. PX4 and ArduPilot fly `mavlink`, DJI's apps `dji` "
+        "or `litchi`. Where nothing is asked for, `plan` writes what the machines of the mission fly; `--autopilot` "
+        "writes for another one.",
+        _MAVLINK.replace("emit: [mavlink]", "emit: [dji]"),
+        _MAVLINK,
+        "plan",
+    ),
+    CodeInfo(
+        "E117",
+        "shot-shown-otherwise",
+        Severity.WARNING,
+        "a file of waypoints shows a shot otherwise than the plan",
+        "Machines that fly curves through waypoints keep to themselves how they curve and turn, so points are chosen under "
+        "all flight models at once: at most 0.05 half frames off at worst and 0.02 on average. Where that cannot be "
+        "had, for a camera that turns while the drone stands, or so near that points would have to be closer than "
+        "machines take them, the message says what was reached.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E118",
+        "target-drifts",
+        Severity.WARNING,
+        "a file without a clock films a target that moves",
+        "Such a machine starts when it is told to, and is sooner or later at each place than the plan, as it speeds up and "
+        "brakes by rules of its own. The message says how far the target goes meanwhile. Start by eye and frame "
+        "loosely, or fly the plan with `shotc stream` on a machine that takes it.",
+        _MOVING.replace("x500", "mini").replace("[mavlink]", "[dji]"),
+        _MAVLINK.replace("x500", "mini").replace("[mavlink]", "[dji]"),
+        "plan",
+    ),
+    CodeInfo(
+        "E119",
+        "curve-breaks-clearance",
+        Severity.ERROR,
+        "a file of waypoints is not written, because its curve would come too near to something",
+        "The curves of these machines leave the hull of their points, and nobody has published by how much. What is written "
+        "is flown again under every flight model; a file that comes nearer to a zone, a target, the ground or the "
+        "greatest height than the plan does, under any of them, is not written. Leave more room there, or let the way "
+        "bend less.",
+        "",
+        "",
+        "other",
+    ),
+    CodeInfo(
+        "E120",
+        "apart-by-timing",
+        Severity.ERROR,
+        "files of waypoints are not written, because timing alone keeps two drones apart",
+        "Two drones may use the same air one after the other in a plan, for all fly by one clock. Files of waypoints "
+        "have none: each is flown from whenever its pilot starts it. Where two ways come nearer to each other "
+        "than the separation, neither file is written. Give each drone air of its own, by zones or heights.",
         "",
         "",
         "other",
@@ -262,6 +330,7 @@ _VIEW_CODES = (
 CODES: tuple[CodeInfo, ...] = (
     *_FILE_CODES,
     *_MAVLINK_CODES,
+    *_MACHINE_CODES,
     *_SKYC_CODES,
     *_VIEW_CODES,
     CodeInfo(

@@ -25,13 +25,10 @@ from shotc.emit.mavlink.report import (
     clockless,
     coarsened,
     cut,
-    fleetless,
     left_out,
-    no_origin,
     note,
     raised,
     sidenotes,
-    zooms,
 )
 from shotc.emit.mavlink.speed import DEFAULTS
 from shotc.emit.mavlink.steps import Step, steps_of, whole_seconds
@@ -42,6 +39,7 @@ from shotc.emit.waypoints.clearance import Obstacle, keep_outs
 from shotc.emit.waypoints.compare import Error, compare, nearest_miss
 from shotc.emit.waypoints.flown import Flown
 from shotc.emit.waypoints.geo import Geo, tie
+from shotc.emit.waypoints.report import fleetless, flown_here, no_origin, zooms
 from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
@@ -60,16 +58,19 @@ class MavlinkEmitter:
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the mission files, with warnings and the error that the format adds."""
         mission = plan.trajectory.keyframes.mission
-        fleets = fleetless(mission, plan.trajectory.fleets)
+        fleets = fleetless(mission, plan.trajectory.fleets, self.name)
         if fleets and not plan.trajectory.drones:
             return Emission((), fleets)
+        flown, notes, others = flown_here(mission, plan.trajectory.drones, self.name, tuple(DIALECTS))
+        if not flown:
+            return Emission((), (*fleets, *others))
         if mission.origin is None:
-            return Emission((), (*fleets, no_origin(mission)))
-        emissions = [_Job.of(mission, flight).emit() for flight in plan.trajectory.drones]
+            return Emission((), (*fleets, *others, no_origin(mission, self.name)))
+        emissions = [_Job.of(mission, flight).emit() for flight in flown]
         return Emission(
             tuple(a for e in emissions for a in e.artifacts),
-            (*fleets, *(d for e in emissions for d in e.diagnostics)),
-            tuple(n for e in emissions for n in e.notes),
+            (*fleets, *others, *(d for e in emissions for d in e.diagnostics)),
+            (*notes, *(n for e in emissions for n in e.notes)),
         )
 
 

@@ -30,6 +30,7 @@ from shotc.emit.mavlink.items import (
 )
 from shotc.emit.mavlink.style import Command, Style
 from shotc.emit.waypoints.geo import Place
+from shotc.ir.source import Autopilot
 
 ITSELF = -2.0  # the mission's own system and component, for the gimbal's primary control
 
@@ -97,4 +98,4 @@ class ArduPilot:
 
 
 Dialect = Px4 | ArduPilot
-DIALECTS: dict[str, Dialect] = {"px4": Px4(), "ardupilot": ArduPilot()}
+DIALECTS: dict[Autopilot, Dialect] = {"px4": Px4(), "ardupilot": ArduPilot()}

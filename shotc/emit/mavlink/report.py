@@ -4,48 +4,16 @@ from __future__ import annotations
 
 from math import degrees
 
-import numpy as np
-
 from shotc.diag.model import Diagnostic
 from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
 from shotc.emit.waypoints.compare import Error
-from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import Drone, MissionIR
-from shotc.ir.path import HFOV
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least
 
-ZOOM_LEAST = np.radians(0.1)
 CUT_LEAST = 0.05  # metres, of clearance
-
-
-def no_origin(mission: MissionIR) -> Diagnostic:
-    """Say that there is no place on the globe to write down."""
-    return Diagnostic(
-        "E101",
-        "the MAVLink files are skipped: the mission has no world.origin",
-        (mission.origins.key(("world",)),),
-        ("waypoints are latitudes and longitudes",),
-        "write `origin: {lat: ..., lon: ..., alt: ...}` under `world`, or take `mavlink` out of `emit`",
-    )
-
-
-def fleetless(mission: MissionIR, fleets: tuple[FleetTrajectory, ...]) -> tuple[Diagnostic, ...]:
-    """Say once that fleets get no mission files; nothing where there is no fleet."""
-    if not fleets:
-        return ()
-    names = ", ".join(f"`{track.fleet}` ({len(track.coef)} drones)" for track in fleets)
-    return (
-        Diagnostic(
-            "E110",
-            f"no MAVLink mission is written for fleet {names}",
-            tuple(mission.origins.key(mission.fleet(track.fleet).path) for track in fleets),
-            ("a mission file has no common clock: drones that follow theirs would meet",),
-            "ask for `skyc` in `output.emit`, the format of shows; `trajectory.csv` has every drone",
-        ),
-    )
 
 
 def left_out(mission: MissionIR, drone: Drone, left: Left) -> Diagnostic:
@@ -84,27 +52,6 @@ def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Dia
         (f"{drone.autopilot} refuses a lower take-off",),
         "begin higher above the pad, or see that the air above it is free",
     )
-
-
-def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
-    """Say which shots zoom: lenses are too different for a mission file to say it."""
-    out: list[Diagnostic] = []
-    for phase in flight.phases:
-        hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
-        if phase.shot is None or np.ptp(hfov) < ZOOM_LEAST:
-            continue
-        shot = mission.shot(phase.shot)
-        low, high = degrees(hfov.min()), degrees(hfov.max())
-        out.append(
-            Diagnostic(
-                "E105",
-                f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}",
-                (mission.origins.key(shot.path),),
-                (f"the field of view goes from {low:.1f} deg to {high:.1f} deg",),
-                "zoom by hand, or give the shot one hfov",
-            )
-        )
-    return out
 
 
 def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import degrees
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +21,7 @@ from shotc.geom.vec import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import Phase
+from shotc.ir.source import Autopilot
 from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ class Style:
     aimed : shots in which each leg has a region of interest of its own
     """
 
-    autopilot: Literal["px4", "ardupilot"]
+    autopilot: Autopilot
     pans: bool
     followed: dict[str, Vec3]
     aimed: frozenset[str]

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, floor
+from math import ceil, floor, inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.flown import STAY_PACE, Flown
-from shotc.emit.waypoints.track import Poses, poses_at, project, subject_at
+from shotc.emit.waypoints.track import LOST, Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
+from shotc.ir.bodies import moved
 from shotc.ir.mission import Drone, MissionIR
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
@@ -21,6 +23,22 @@ Array = NDArray[np.float64]
 SEARCH = 3.0  # metres of way before and behind the expected place in which the nearest point is sought
 CHUNK = 256  # planned points compared at once, to bound memory
 ORDER = 1e-3  # how much a metre of wrong progress counts against a metre of distance
+
+
+@dataclass(frozen=True, slots=True)
+class ShotError:
+    """What a file adds to one shot: half frames, the worst frame's mission time.
+
+    lag : largest difference in time between plan and re-flight, s, counted from the shot's first frame
+    drift : how far the framed target moves in the lag of a frame at most, m
+    """
+
+    shot: str
+    worst: float
+    time: float
+    mean: float
+    lag: float
+    drift: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,31 +52,56 @@ class Error:
     time: float
     filmed: float
     planned: float
+    shots: tuple[ShotError, ...] = ()
 
 
-def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown) -> Error:
-    """Measure a re-flight against the plan at the output rate, by progress and not by time."""
-    drone = mission.drone(flight.drone)
-    position = heading = screen = filmed = planned = 0.0
-    worst = ("", 0.0)
+class _Met(NamedTuple):
+    """Re-flown poses, the mission times of the planned ones they are nearest to, when they are flown, s."""
+
+    time: Array
+    poses: Poses
+    elapsed: Array
+
+
+def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown, most: float = inf) -> Error:
+    """Measure a re-flight against the plan at the output rate, by progress and not by time.
+
+    most : Hz, a rate that is enough
+    """
+    rate = min(mission.rate, most)
+    position = heading = filmed = planned = 0.0
+    shots: list[ShotError] = []
     for part, (shot, start, end) in _parts(flight):
         inside = flown.part == part
-        time = _frames(start, end, mission.rate)
+        time = _frames(start, end, rate)
         if not inside.any() or not len(time):
             continue
         plan = poses_at(flight, time)
         met = _meet(plan, time, flown, inside)
-        position = max(position, float(np.linalg.norm(met.position - plan.position, axis=1).max()))
+        position = max(position, float(np.linalg.norm(met.poses.position - plan.position, axis=1).max()))
         if shot is None:
             continue
-        heading = max(heading, float(np.abs(wrapped(met.body_yaw - plan.body_yaw)).max()))
-        shift = _shift(mission, flight, time, plan, met, drone)
-        index = int(shift.argmax())
-        if shift[index] >= screen:
-            screen, worst = float(shift[index]), (shot, float(time[index]))
+        heading = max(heading, float(np.abs(wrapped(met.poses.body_yaw - plan.body_yaw)).max()))
+        shots.append(_shot_error(mission, flight, shot, plan, met))
         filmed += float(np.ptp(flown.elapsed[inside]))
         planned += end - start
-    return Error(position, heading, screen, *worst, filmed, planned)
+    # Of two frames that are equally bad, the later one is named.
+    worst = max(reversed(shots), key=lambda s: s.worst, default=ShotError("", 0.0, 0.0, 0.0, 0.0, 0.0))
+    return Error(position, heading, worst.worst, worst.shot, worst.time, filmed, planned, tuple(shots))
+
+
+def _shot_error(mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Poses, met: _Met) -> ShotError:
+    time = met.time
+    shift = _shift(mission, flight, time, plan, met.poses, mission.drone(flight.drone))
+    index = int(shift.argmax())
+    late = met.elapsed - met.elapsed[0] - (time - time[0])
+    drift = 0.0
+    for span in (s for s in flight.framing if s.shot == shot):
+        filmed = mission.target(span.target)
+        away = moved(filmed, time + late) - moved(filmed, time)
+        drift = max(drift, float(np.linalg.norm(away, axis=1).max()))
+    lag = float(np.abs(late).max())
+    return ShotError(shot, float(shift[index]), float(time[index]), float(shift.mean()), lag, drift)
 
 
 def nearest_miss(obstacles: tuple[Obstacle, ...], flown: Flown) -> tuple[str, float]:
@@ -92,8 +135,8 @@ def _frames(start: float, end: float, rate: float) -> Array:
     return np.arange(ceil(start * rate - 1e-6), floor(end * rate + 1e-6) + 1) / rate
 
 
-def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> Poses:
-    """Return the re-flown poses nearest to the planned ones, in order of progress."""
+def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> _Met:
+    """Return what is nearest to the planned poses in a re-flight, in order of progress."""
     position = flown.position[inside]
     progress = flown.progress[inside] - flown.progress[inside][0]
     done = _progress(plan.position, time)
@@ -107,7 +150,8 @@ def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> 
         weight = share if values.ndim == 1 else share[:, None]
         return np.asarray(values[index] + weight * (values[after] - values[index]))
 
-    return Poses(mix(position), mix(yaw[0]), mix(yaw[1]), mix(flown.cam_pitch[inside]), plan.hfov)
+    poses = Poses(mix(position), mix(yaw[0]), mix(yaw[1]), mix(flown.cam_pitch[inside]), plan.hfov)
+    return _Met(time, poses, mix(flown.elapsed[inside]))
 
 
 def _progress(position: Array, time: Array) -> Array:
@@ -149,5 +193,6 @@ def _shift(
     mission: MissionIR, flight: DroneTrajectory, time: Array, plan: Poses, met: Poses, drone: Drone
 ) -> Array:
     subject = subject_at(mission, flight, time, plan)
-    shift = project(met, subject, drone) - project(plan, subject, drone)
-    return np.asarray(np.nan_to_num(np.hypot(*shift.T), nan=0.0))
+    meant = project(plan, subject, drone)
+    shift = np.hypot(*(project(met, subject, drone) - meant).T)
+    return np.where(np.isnan(meant[:, 0]), 0.0, np.nan_to_num(shift, nan=LOST))

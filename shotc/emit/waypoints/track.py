@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 SAMPLE_STEP = 0.1  # seconds; at 10 m/s and 3 m/s^2 the curve leaves its samples' chords by 4 mm
 REST_SPREAD = 1e-4  # metres of control points within which a piece stands still
 REST_LEAST = 0.25  # seconds; a shorter standstill is a turning point of the motion, not a hold
+LOST = 9.0  # half frames, of what a re-flight has behind the camera
 FAR = 1e4  # metres to the point that stands for "straight ahead" where nothing is framed
 
 
@@ -117,7 +118,7 @@ def project(poses: Poses, subject: Array, drone: Drone) -> Array:
     return np.stack([right / (depth * half), -down * drone.aspect / (depth * half)], axis=1)
 
 
-def select(poses: Poses, part: NDArray[np.bool_] | slice) -> Poses:
+def select(poses: Poses, part: NDArray[np.bool_] | NDArray[np.int64] | slice) -> Poses:
     """Return some of the poses."""
     return Poses(
         poses.position[part],

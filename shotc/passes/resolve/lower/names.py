@@ -7,8 +7,9 @@ from typing import Any
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.source import TAKES
 from shotc.spec.mission import MissionSpec
-from shotc.spec.presets import EMIT, SHOW_EMIT
+from shotc.spec.presets import EMIT, PRESETS, SHOW_EMIT
 from shotc.spec.shot import NO_DRONE
 from shotc.spec.words import nearest
 
@@ -21,7 +22,11 @@ def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
     """Return the emitters that a mission asks for, or, where it is silent, those that suit what it flies."""
     if spec.output.emit is not None:
         return spec.output.emit
-    return SHOW_EMIT if any(shot.kind == "display" for shot in spec.shots) else EMIT
+    if any(shot.kind == "display" for shot in spec.shots):
+        return SHOW_EMIT
+    machines = dict.fromkeys(TAKES[PRESETS[drone.model].autopilot][0] for drone in spec.drones.values())
+    flown = tuple(machines) or ("mavlink",)
+    return tuple(name for each in EMIT for name in (flown if each == "mavlink" else (each,)))
 
 
 def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str] | None) -> list[Diagnostic]:

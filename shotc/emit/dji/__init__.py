@@ -1,0 +1,28 @@
+"""DJI WPML missions (``.kmz``): for DJI Fly, and for DJI Pilot 2."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from shotc.emit.base import Emission
+from shotc.emit.dji.kmz import POINTS_MOST, read_kmz, write_kmz
+from shotc.emit.waypoints.machine_files import Format, emit_files
+from shotc.emit.waypoints.models import CURVED
+from shotc.ir.trajectory import VerifiedIR
+
+FORMAT = Format("dji", ("dji-fly", "pilot-2"), POINTS_MOST, ".kmz", CURVED, write_kmz, read_kmz)
+
+
+class DjiEmitter:
+    """Writes a ``.kmz`` for each drone that is flown by an app of DJI's."""
+
+    name: ClassVar[str] = "dji"
+    summary: ClassVar[str] = "DJI waypoint missions (.kmz) for DJI Fly and Pilot 2"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the missions, with the error that they add and what they cannot carry."""
+        return emit_files(plan, FORMAT)
+
+
+EMITTER = DjiEmitter()

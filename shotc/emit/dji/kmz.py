@@ -1,0 +1,70 @@
+"""The ``.kmz`` container: written as DJI's apps take it, and read back by local names."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from io import BytesIO
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from shotc.emit.dji.profiles import profile_of
+from shotc.emit.dji.wpml import KML, PASS, Document
+from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.ir.mission import Drone
+
+TEMPLATE, WAYLINES = "wpmz/template.kml", "wpmz/waylines.wpml"
+POINTS_MOST = 200  # of a mission in DJI Fly
+_KINDS = {"startRecord": "start", "stopRecord": "stop", "hover": "stay"}
+
+
+def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
+    """Return the file's bytes; the same input gives the same bytes.
+
+    It holds two files and no entries of folders: the apps find no waypoints in a file that has them.
+    """
+    document = Document(points, profile_of(drone))
+    ET.register_namespace("", KML)
+    ET.register_namespace("wpml", document.profile.namespace)
+    stream = BytesIO()
+    with ZipFile(stream, "w") as archive:
+        for name, data in ((TEMPLATE, document.template()), (WAYLINES, document.waylines())):
+            archive.writestr(ZipInfo(name), data, ZIP_DEFLATED)
+    return stream.getvalue()
+
+
+def read_kmz(data: bytes) -> list[Waypoint]:
+    """Return the points of a mission of ours; curve is 0, for these machines go through their points."""
+    with ZipFile(BytesIO(data)) as archive:
+        root = ET.fromstring(archive.read(WAYLINES))
+    return [_waypoint(mark) for mark in root.iter() if _local(mark) == "Placemark"]
+
+
+def _waypoint(mark: ET.Element) -> Waypoint:
+    lon, lat = (float(part) for part in _text(mark, "coordinates").split(","))
+    return Waypoint(
+        Place(lat, lon, float(_text(mark, "executeHeight"))),
+        float(_text(mark, "waypointHeadingAngle")),
+        float(_text(mark, "waypointGimbalPitchAngle")),
+        float(_text(mark, "waypointSpeed")),
+        _text(mark, "waypointTurnMode") != PASS,
+        tuple(_action(each) for each in mark.iter() if _local(each) == "action" and _kind(each) in _KINDS),
+    )
+
+
+def _kind(action: ET.Element) -> str:
+    return _text(action, "actionActuatorFunc")
+
+
+def _action(action: ET.Element) -> Action:
+    kind = _KINDS[_kind(action)]
+    if kind == "stay":
+        return Action("stay", float(_text(action, "hoverTime")))
+    return Action("start" if kind == "start" else "stop")
+
+
+def _text(parent: ET.Element, name: str) -> str:
+    return next(each.text or "" for each in parent.iter() if _local(each) == name)
+
+
+def _local(element: ET.Element) -> str:
+    return element.tag.rpartition("}")[2]

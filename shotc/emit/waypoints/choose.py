@@ -1,0 +1,247 @@
+"""Choosing points: as few as keep picture, place and clearances under all flight models at once.
+
+Every stretch begins with its two ends; the worst of its legs gets a point in its middle until all is within
+bounds or no leg can be cut any more.
+"""
+
+from __future__ import annotations
+
+from bisect import insort
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.waypoints.clearance import Obstacle, shortfall
+from shotc.emit.waypoints.flown import STAY_PACE
+from shotc.emit.waypoints.models import TURNINGS, Legs, Shape, legs_of, times_of, turned
+from shotc.emit.waypoints.route import Route
+from shotc.emit.waypoints.stations import LEG_LEAST, Gap, Station, stations_of
+from shotc.emit.waypoints.track import LOST, Poses, Track, project, select
+from shotc.ir.mission import Drone
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+WORST, MEAN = 0.05, 0.02  # half frames that a file may add to a shot
+KEPT = 0.93  # of these when points are chosen: places and angles are rounded afterwards
+POSITION = 1.0  # metres that a way may leave the plan
+NEARER = 0.02  # metres by which a clearance may be cut deeper than by the plan
+UNEVEN = 2.2  # times as long as its neighbour a leg may be where that one is beyond its bounds
+TURN_MOST = radians(150.0)  # of one leg, so that the shortest turn is the planned one
+SPEED_LEAST, SPEED_MOST = 0.1, 15.0  # m/s
+CURVE_SHARE, CURVE_MOST = 0.45, 2.0  # of the shorter leg at a point, and metres: where a corner is rounded
+ROUNDS = 400
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Chooser:
+    """Chooses the points of one drone's route.
+
+    way : (n,), metres flown before each sample, stays at STAY_PACE
+    planned : by how much each sample is too near to each obstacle, m, (n,) each
+    """
+
+    track: Track
+    drone: Drone
+    obstacles: tuple[Obstacle, ...]
+    shapes: tuple[Shape, ...]
+    way: Array
+    planned: tuple[Array, ...]
+
+    def stations(self) -> list[Station]:
+        """Return the stations of the route."""
+        needed, gaps = stations_of(self.track, self.way)
+        parts = [_Part(gap, self._seeds(gap)) for gap in gaps]
+        for _ in range(ROUNDS):
+            stations, owners = _joined(needed, parts)
+            scores = self._scores(stations, owners, parts)
+            cuts = self._cuts(stations, owners, scores)
+            for leg, sample in cuts.items():
+                insort(parts[owners[leg]].inner, sample)
+            if not cuts:
+                break
+        return _joined(needed, parts)[0]
+
+    def route(self, stations: list[Station]) -> Route:
+        """Return the stations as a route, nothing rounded."""
+        poses, time = self.track.poses, self.track.time
+        position = poses.position[[s.first for s in stations]]
+        legs = [(a.last, b.first) for a, b in pairwise(stations)]
+        speed = [(self.way[b] - self.way[a]) / (time[b] - time[a]) for a, b in legs]
+        length = np.linalg.norm(np.diff(position, axis=0), axis=1)
+        shorter = np.minimum(np.append(length, np.inf), np.insert(length, 0, np.inf))
+        return Route(
+            position,
+            np.array([self._angle(poses.cam_yaw, s) for s in stations]),
+            np.array([self._angle(poses.cam_pitch, s) for s in stations]),
+            np.clip(np.append(speed, speed[-1:] or [SPEED_LEAST]), SPEED_LEAST, SPEED_MOST),
+            np.array([s.stops for s in stations]),
+            np.array([sum(a.seconds for a in s.actions) for s in stations]),
+            np.minimum(CURVE_SHARE * shorter, CURVE_MOST),
+            tuple(s.actions for s in stations),
+        )
+
+    def _angle(self, angles: Array, station: Station) -> float:
+        if station.aim is not None:
+            return float(angles[station.aim])
+        stay = angles[station.first : station.last + 1]
+        return float(stay.max() + stay.min()) / 2
+
+    def _seeds(self, gap: Gap) -> list[int]:
+        """Return the first points within a gap: none, but where its ends are one place."""
+        position = self.track.poses.position
+        if np.linalg.norm(position[gap.last] - position[gap.first]) >= LEG_LEAST:
+            return []
+        thirds = [self._at(self.way[gap.first] + s * self._length(gap) / 3) for s in (1, 2)]
+        return [i for i in thirds if gap.first < i < gap.last]
+
+    def _length(self, gap: Gap) -> float:
+        return float(self.way[gap.last] - self.way[gap.first])
+
+    def _at(self, way: float) -> int:
+        return int(np.searchsorted(self.way, way))
+
+    def _cuts(self, stations: list[Station], owners: Index, scores: list[Array]) -> dict[int, int]:
+        """Return the samples to put points at, by leg: one for each part that is beyond its bounds.
+
+        A leg much shorter than a neighbour bends most curves most, and the neighbour is cut instead.
+        """
+        ends = [(a.last, b.first) for a, b in pairwise(stations)]
+        length = [self.way[b] - self.way[a] for a, b in ends]
+        cuts: dict[int, int] = {}
+        for k, score in enumerate(scores):
+            if score.max() <= 1:
+                continue
+            for i in np.flatnonzero(owners == k)[np.argsort(-score, kind="stable")]:
+                beside = [j for j in (i - 1, i + 1) if 0 <= j < len(ends) and length[j] > UNEVEN * length[i]]
+                leg = max(beside, key=length.__getitem__, default=i)
+                middle = self._middle(*ends[leg])
+                if middle is not None:
+                    cuts[int(leg)] = middle
+                    break
+        return cuts
+
+    def _middle(self, a: int, b: int) -> int | None:
+        """Return the sample in the middle of a leg, or None where its halves would be too short."""
+        middle = self._at((self.way[a] + self.way[b]) / 2)
+        return middle if a < middle < b and self._far(a, middle) and self._far(middle, b) else None
+
+    def _far(self, a: int, b: int) -> bool:
+        position = self.track.poses.position
+        return bool(np.linalg.norm(position[b] - position[a]) >= LEG_LEAST)
+
+    def _scores(self, stations: list[Station], owners: Index, parts: list[_Part]) -> list[Array]:
+        """Return how far each leg of each part is beyond its bounds, 1 is at them.
+
+        Where a part's mean alone is beyond its bound, so are all of its legs, in the order of their worst.
+        """
+        if len(stations) < 2:
+            return [np.zeros(1) for _ in parts]
+        route = self.route(stations)
+        samples, legs = self._matched(stations)
+        worst, mean = np.zeros(len(owners)), np.zeros(len(parts))
+        filmed = np.array([part.gap.shot is not None for part in parts])
+        for shape in self.shapes:
+            flown = legs_of(route, shape)
+            off, errors = self._judge(route, flown, samples, legs)
+            near = self._nearer(flown, samples, legs, off)
+            worst = np.maximum(worst, _most(off, legs, len(owners)) / POSITION)
+            worst = np.maximum(worst, near / NEARER)
+            for error in errors:
+                screen = np.where(filmed[owners], _most(error, legs, len(owners)) / (WORST * KEPT), 0.0)
+                worst = np.maximum(worst, screen)
+                count = np.maximum(np.bincount(owners[legs], minlength=len(parts)), 1)
+                sums = np.bincount(owners[legs], error, minlength=len(parts))
+                mean = np.maximum(mean, np.where(filmed, sums / count / (MEAN * KEPT), 0.0))
+        turns = np.abs(np.diff(route.yaw))
+        worst = np.where(turns > TURN_MOST, np.inf, worst)
+        lifted = worst * np.where(mean > 1, np.maximum(1.0, mean), 1.0)[owners]
+        return [
+            np.maximum(lifted[owners == k], 1.0 + 1e-6) if mean[k] > 1 else lifted[owners == k]
+            for k in range(len(parts))
+        ]
+
+    def _matched(self, stations: list[Station]) -> tuple[Index, Index]:
+        """Return the samples that belong to legs, and the leg of each."""
+        spans = [np.arange(a.last, b.first + 1) for a, b in pairwise(stations)]
+        return np.concatenate(spans), np.repeat(np.arange(len(spans)), [len(s) for s in spans])
+
+    def _judge(self, route: Route, flown: Legs, samples: Index, leg: Index) -> tuple[Array, list[Array]]:
+        """Return the distance of each sample from its flown place, m, and by turning the error on screen."""
+        first = np.searchsorted(leg, leg)
+        last = np.searchsorted(leg, leg, side="right") - 1
+        way = self.way[samples]
+        share = (way - way[first]) / np.maximum(way[last] - way[first], 1e-9)
+        ruler = (flown.share + np.arange(len(flown.way))[:, None]).ravel()
+        at = np.interp(share + leg, ruler, np.arange(len(ruler)))
+        low = np.clip(np.floor(at).astype(int), leg * flown.way.shape[1], (leg + 1) * flown.way.shape[1] - 2)
+        rest = at - low
+
+        def mix(values: Array) -> Array:
+            flat = values.reshape(len(ruler), -1)
+            return np.asarray(flat[low] + rest[:, None] * (flat[low + 1] - flat[low]))
+
+        position = mix(flown.position)
+        planned = select(self.track.poses, samples)
+        subject = self.track.subject[samples]
+        meant = project(planned, subject, self.drone)
+        errors = []
+        for turning in TURNINGS:
+            turn = mix(turned(route, flown, times_of(route, flown, turning.ramp), turning))[:, 0]
+            yaw = route.yaw[leg] + turn * (route.yaw[leg + 1] - route.yaw[leg])
+            pitch = route.pitch[leg] + turn * (route.pitch[leg + 1] - route.pitch[leg])
+            shift = project(Poses(position, yaw, yaw, pitch, planned.hfov), subject, self.drone) - meant
+            errors.append(np.nan_to_num(np.hypot(*shift.T), nan=LOST))
+        return np.linalg.norm(position - planned.position, axis=1), errors
+
+    def _nearer(self, flown: Legs, samples: Index, leg: Index, off: Array) -> Array:
+        """Return by how much each leg cuts a clearance deeper than the plan does there, m."""
+        count = len(flown.way)
+        reach = _most(off, leg, count) + NEARER
+        nearer = np.zeros(count)
+        for obstacle, planned in zip(self.obstacles, self.planned, strict=True):
+            held = _most(planned[samples], leg, count, start=-np.inf)
+            close = np.flatnonzero(held > -reach)
+            if len(close):
+                points = flown.position[close]
+                depth = shortfall(obstacle, points.reshape(-1, 3)).reshape(points.shape[:2]).max(axis=1)
+                nearer[close] = np.maximum(nearer[close], depth - np.maximum(held[close], 0.0))
+        return nearer
+
+
+@dataclass(slots=True)
+class _Part:
+    """A gap with the samples chosen in it, in order."""
+
+    gap: Gap
+    inner: list[int] = field(default_factory=list)
+
+
+def chooser_of(
+    track: Track, drone: Drone, obstacles: tuple[Obstacle, ...], shapes: tuple[Shape, ...]
+) -> Chooser:
+    """Return the chooser of one drone's track."""
+    steps = np.linalg.norm(np.diff(track.poses.position, axis=0), axis=1)
+    way = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE * 0.01 * np.diff(track.time))))
+    planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
+    return Chooser(track, drone, obstacles, shapes, way, planned)
+
+
+def _joined(needed: list[Station], parts: list[_Part]) -> tuple[list[Station], Index]:
+    """Return all stations in order, and the part of each leg."""
+    stations, owners = [needed[0]], []
+    for k, part in enumerate(parts):
+        stations += [Station(i, i, aim=i) for i in part.inner]
+        stations.append(needed[k + 1])
+        owners += [k] * (len(part.inner) + 1)
+    return stations, np.array(owners, dtype=np.int64)
+
+
+def _most(values: Array, leg: Index, count: int, start: float = 0.0) -> Array:
+    """Return the greatest of the values of each leg."""
+    most = np.full(count, start)
+    np.maximum.at(most, leg, values)
+    return most

@@ -1,0 +1,253 @@
+"""From a verified plan to the files of machines that fly curves through waypoints without a clock.
+
+A format says how points are written and read, how many a file holds, and by which curves its machines fly.
+Points are chosen under all flight models at once; what is written is read back and flown under each of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.diag.model import Diagnostic
+from shotc.emit.base import Artifact, Emission
+from shotc.emit.waypoints import report
+from shotc.emit.waypoints.choose import Chooser, chooser_of
+from shotc.emit.waypoints.clearance import Obstacle, bounds, owner_of, shortfall
+from shotc.emit.waypoints.compare import Error, ShotError, compare
+from shotc.emit.waypoints.geo import Geo, tie
+from shotc.emit.waypoints.models import TURNINGS, Shape, fly, legs_of
+from shotc.emit.waypoints.route import Action, Route, Waypoint, route_of
+from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
+from shotc.emit.waypoints.track import Track, track_of
+from shotc.geom.camera import heading_of
+from shotc.geom.vec import wrapped
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.source import Autopilot
+from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
+
+Array = NDArray[np.float64]
+
+CUT_LEAST = 0.05  # metres by which a re-flight may be nearer to anything than the plan is
+SAME_PLACE = 0.1  # metres between points that some machines take for one, and refuse
+ASIDE = 0.15  # metres that one of them moves
+FINE = 66  # samples of a leg, less one, when clearances are judged
+RATE_MOST = 10.0  # Hz of frames at which a picture is judged: it changes slowly
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A family of files.
+
+    emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
+    shapes : the curves by which its machines may fly
+    """
+
+    emitter: str
+    machines: tuple[Autopilot, ...]
+    most: int
+    ending: str
+    shapes: tuple[Shape, ...]
+    write: Callable[[list[Waypoint], Drone], bytes]
+    read: Callable[[bytes], list[Waypoint]]
+
+
+def emit_files(plan: VerifiedIR, form: Format) -> Emission:
+    """Return the files of all drones that fly a format, with what it cannot carry and the error it adds."""
+    ir = plan.trajectory
+    mission = ir.keyframes.mission
+    told = list(report.fleetless(mission, ir.fleets, form.emitter))
+    flights, notes, others = report.flown_here(mission, ir.drones, form.emitter, form.machines)
+    told += others
+    if not flights:
+        return Emission((), tuple(told))
+    if mission.origin is None:
+        return Emission((), (*told, report.no_origin(mission, form.emitter)))
+    jobs = [_Job.of(mission, flight, form) for flight in flights]
+    written = [job.written() for job in jobs]
+    meeting = kept_apart_by_time(mission, {f.drone: w.ways for f, w in zip(flights, written, strict=True)})
+    told += [report.meets(mission, each) for each in meeting]
+    refused = {name for each in meeting for name in each.names}
+    emissions = [job.emission(each) for job, each in zip(jobs, written, strict=True)]
+    kept = [e for f, e in zip(flights, emissions, strict=True) if f.drone not in refused]
+    return Emission(
+        tuple(a for e in kept for a in e.artifacts),
+        (*told, *(d for e in kept for d in e.diagnostics)),
+        (*notes, *(n for e in kept for n in e.notes)),
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Written:
+    """The files of a drone, the route read back from them, and the places of its legs by each curve."""
+
+    artifacts: tuple[Artifact, ...]
+    route: Route
+    legs: tuple[Array, ...]
+
+    @property
+    def ways(self) -> Array:
+        """Places all along what the drone may come by, (n, 3)."""
+        return np.concatenate([evenly(legs.reshape(-1, 3)) for legs in self.legs])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Job:
+    """One drone's part of the emission."""
+
+    mission: MissionIR
+    flight: DroneTrajectory
+    drone: Drone
+    form: Format
+    geo: Geo
+    track: Track
+    chooser: Chooser
+    obstacles: tuple[Obstacle, ...]
+
+    @staticmethod
+    def of(mission: MissionIR, flight: DroneTrajectory, form: Format) -> _Job:
+        assert mission.origin is not None
+        drone = mission.drone(flight.drone)
+        track, obstacles = track_of(mission, flight), bounds(mission, drone)
+        chooser = chooser_of(track, drone, obstacles, form.shapes)
+        return _Job(mission, flight, drone, form, tie(mission.origin, drone.home), track, chooser, obstacles)
+
+    def written(self) -> _Written:
+        """Choose the points, write them, and read them back."""
+        route = self.chooser.route(self.chooser.stations())
+        points = _two(waypoints_of(_parted(route), self.geo))
+        blocks = split(points, self.form.most)
+        named = [f"-{i + 1}" for i in range(len(blocks))] if len(blocks) > 1 else [""]
+        artifacts = tuple(
+            Artifact(f"{self.drone.name}{number}{self.form.ending}", self.form.write(block, self.drone))
+            for number, block in zip(named, blocks, strict=True)
+        )
+        route = route_of(joined([self.form.read(a.data) for a in artifacts]), self.geo)
+        return _Written(artifacts, route, tuple(legs_of(route, s, FINE).position for s in self.form.shapes))
+
+    def emission(self, written: _Written) -> Emission:
+        """Return the files, unless they come too near to something, and what is to be told of them."""
+        faults = self._broken(written)
+        if faults:
+            return Emission((), tuple(faults))
+        error = self._error(written.route)
+        told = [
+            *report.lens(self.mission, self.flight),
+            *report.beyond(self.mission, self.flight, self.track, error),
+            *report.drifts(self.mission, self.flight, error),
+        ]
+        files = [a.name for a in written.artifacts]
+        notes = report.notes(self.drone, files, len(written.route.position), error, self._models)
+        return Emission(written.artifacts, tuple(told), tuple(notes))
+
+    @property
+    def _models(self) -> int:
+        return len(self.form.shapes) * len(TURNINGS)
+
+    def _error(self, route: Route) -> Error:
+        """Return the worst that a file adds under any flight model."""
+        errors: list[Error] = []
+        for shape, turning in product(self.form.shapes, TURNINGS):
+            flown = fly(route, legs_of(route, shape), turning)
+            errors.append(compare(self.mission, self.flight, flown, RATE_MOST))
+        shots = tuple(_worst_shot([e.shots[i] for e in errors]) for i in range(len(errors[0].shots)))
+        worst = max(errors, key=lambda e: e.screen)
+        return replace(
+            worst,
+            position=max(e.position for e in errors),
+            heading=max(e.heading for e in errors),
+            filmed=max(e.filmed for e in errors),
+            shots=shots,
+        )
+
+    def _broken(self, written: _Written) -> list[Diagnostic]:
+        """Return what a re-flight comes nearer to than the plan, under the curve that is worst for it."""
+        found: list[Diagnostic] = []
+        for obstacle, planned in zip(self.obstacles, self.chooser.planned, strict=True):
+            held = max(float(planned.max()), 0.0)
+            places = [legs.reshape(-1, 3) for legs in written.legs]
+            depths = [shortfall(obstacle, each) - held for each in places]
+            worst = max(range(len(depths)), key=lambda k: float(depths[k].max()))
+            deepest = int(depths[worst].argmax())
+            if depths[worst][deepest] <= CUT_LEAST:
+                continue
+            away = np.linalg.norm(self.track.poses.position - places[worst][deepest], axis=1)
+            time = float(self.track.time[int(away.argmin())])
+            depth, owner = float(depths[worst][deepest]), owner_of(obstacle, places[worst][deepest])
+            found.append(report.broken(self.mission, self.drone, owner, depth, time))
+        return found
+
+
+def _worst_shot(errors: list[ShotError]) -> ShotError:
+    worst = max(errors, key=lambda e: e.worst)
+    return replace(
+        worst,
+        mean=max(e.mean for e in errors),
+        lag=max(e.lag for e in errors),
+        drift=max(e.drift for e in errors),
+    )
+
+
+def _parted(route: Route) -> Route:
+    """Move points that share a place with an earlier one towards the one before them.
+
+    An orbit that ends where it began has such points, and so has a flight that ends above its pad.
+    """
+    position = route.position.copy()
+    for i in range(1, len(position)):
+        way = position[i - 1] - position[i]
+        if np.linalg.norm(position[:i] - position[i], axis=1).min() < SAME_PLACE:
+            position[i] += ASIDE * way / max(float(np.linalg.norm(way)), ASIDE)
+    return replace(route, position=position)
+
+
+def _two(points: list[Waypoint]) -> list[Waypoint]:
+    """Return at least two points, as every format asks: the second half-way down to the pad."""
+    if len(points) > 1:
+        return points
+    place = replace(points[0].place, alt=points[0].place.alt / 2)
+    return [points[0], replace(points[0], place=place, actions=())]
+
+
+def waypoints_of(route: Route, geo: Geo) -> list[Waypoint]:
+    """Return a route as it stands in files."""
+    return [
+        Waypoint(
+            place,
+            float(np.degrees(wrapped(heading_of(float(route.yaw[i]))))),
+            float(np.degrees(route.pitch[i])),
+            float(route.speed[i]),
+            bool(route.stops[i]),
+            route.actions[i],
+            float(route.curve[i]),
+        )
+        for i, place in enumerate(geo.places(route.position))
+    ]
+
+
+def split(points: list[Waypoint], most: int) -> list[list[Waypoint]]:
+    """Return blocks of at most ``most`` points; each begins where the last one ends, at a stop if it can."""
+    blocks: list[list[Waypoint]] = []
+    while len(points) > most:
+        stops = [i for i in range(most // 2, most) if points[i].stops]
+        at = stops[-1] if stops else most - 1
+        actions = points[at].actions
+        first = next((k for k, a in enumerate(actions) if a.kind == "start"), len(actions))
+        end = replace(points[at], stops=True, actions=actions[:first])
+        blocks.append([*points[:at], end])
+        points = [replace(points[at], stops=True, actions=actions[first:]), *points[at + 1 :]]
+    return [*blocks, points]
+
+
+def joined(blocks: list[list[Waypoint]]) -> list[Waypoint]:
+    """Return the points of all blocks, each place once."""
+    points = list(blocks[0])
+    for before, block in pairwise(blocks):
+        actions: tuple[Action, ...] = (*before[-1].actions, *block[0].actions)
+        points[-1] = replace(block[0], actions=actions)
+        points += block[1:]
+    return points

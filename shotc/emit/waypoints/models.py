@@ -1,0 +1,161 @@
+"""Flight models: all the ways in which a machine may fly a route, as nobody has published the one.
+
+What is open is the curve, whether it begins anew at a stop, and whether angles turn with the way or with
+time, which depends on how hard the machine accelerates. What a file adds is the worst over all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.waypoints import paths
+from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.route import Route
+
+Array = NDArray[np.float64]
+
+SAMPLES = 33  # of a leg, less one
+GENTLE, BRISK = 1.5, 3.0  # m/s^2, of the ramps between speeds
+STAY_STEP = 0.1  # seconds between samples of a stay
+SLOWEST = 0.05  # m/s, so that no leg takes for ever
+
+Shape = Callable[[Route, int], Array]
+"""From a route and a count to samples (m - 1, count + 1, 3) of its legs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """How angles go from one point to the next: ramps in m/s^2; by time, or by way."""
+
+    ramp: float
+    by_time: bool
+
+
+TURNINGS = (Turning(BRISK, by_time=False), Turning(BRISK, by_time=True), Turning(GENTLE, by_time=True))
+
+
+def _cubic(route: Route, count: int, *, tangents: paths.Tangents, cut: bool) -> Array:
+    return paths.through(route.position, route.stops, tangents, count, cut=cut)
+
+
+def _rounded(route: Route, count: int) -> Array:
+    return paths.rounded(route.position, route.curve, count)
+
+
+_SPLINES = (
+    *(paths.catmull_rom(alpha) for alpha in (0.5, 0.0, 1.0)),
+    paths.natural,
+    *(paths.handles(share) for share in (0.2, 0.4, 0.6)),
+)
+_STRAIGHT: Shape = partial(_cubic, tangents=paths.straight, cut=True)
+CURVED: tuple[Shape, ...] = (
+    *(partial(_cubic, tangents=t, cut=cut) for t, cut in product(_SPLINES, (True, False))),
+    _STRAIGHT,
+)
+"""Curves through the points, as DJI's machines may fly them."""
+ROUNDED: tuple[Shape, ...] = (_rounded, _STRAIGHT)
+"""Straight legs with rounded corners, as Litchi flies them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Legs:
+    """Samples of every leg of a route.
+
+    position : (m - 1, k + 1, 3); way : (m - 1, k + 1), metres from the leg's beginning
+    """
+
+    position: Array
+    way: Array
+
+    @property
+    def share(self) -> Array:
+        """Progress on each leg, 0 to 1."""
+        return self.way / np.maximum(self.way[:, -1:], paths.SHORT)
+
+
+def legs_of(route: Route, shape: Shape, count: int = SAMPLES) -> Legs:
+    """Return the legs of a route."""
+    position = shape(route, count)
+    steps = np.linalg.norm(np.diff(position, axis=1), axis=2)
+    return Legs(position, np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1))
+
+
+def times_of(route: Route, legs: Legs, ramp: float) -> Array:
+    """Return the seconds since each leg's beginning, (m - 1, k + 1): at its speed, with ramps between speeds.
+
+    A machine brakes before it stops, and changes from one speed to the next behind the point.
+    """
+    length = legs.way[:, -1]
+    goal = np.maximum(route.speed[:-1], SLOWEST)
+    entry = np.zeros(len(length))
+    for i in range(1, len(length)):
+        if not route.stops[i]:
+            last = entry[i - 1] ** 2
+            change = 2 * ramp * length[i - 1]
+            near = min(last + change, goal[i - 1] ** 2) if last < goal[i - 1] ** 2 else last - change
+            entry[i] = np.sqrt(max(near, min(last, goal[i - 1] ** 2)))
+    square = entry[:, None] ** 2
+    rising = np.minimum(square + 2 * ramp * legs.way, goal[:, None] ** 2)
+    falling = np.maximum(square - 2 * ramp * legs.way, goal[:, None] ** 2)
+    square = np.where(square < goal[:, None] ** 2, rising, falling)
+    braking = np.where(route.stops[1:, None], 2 * ramp * (length[:, None] - legs.way), np.inf)
+    speed = np.sqrt(np.maximum(np.minimum(square, braking), 0.0))
+    mean = np.maximum((speed[:, 1:] + speed[:, :-1]) / 2, SLOWEST / 2)
+    steps = np.diff(legs.way, axis=1) / mean
+    return np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1)
+
+
+def turned(route: Route, legs: Legs, times: Array, turning: Turning) -> Array:
+    """Return the share of its turn that each sample of a leg has made, (m - 1, k + 1)."""
+    if not turning.by_time:
+        return legs.share
+    return np.asarray(times / np.maximum(times[:, -1:], paths.SHORT))
+
+
+def fly(route: Route, legs: Legs, turning: Turning) -> Flown:
+    """Return the flight over the legs, stays included; camera and body have one yaw, no gimbal pans here."""
+    times = times_of(route, legs, turning.ramp)
+    share = turned(route, legs, times, turning)
+    rows: list[Array] = []
+    part, way, now = 0.0, 0.0, 0.0
+    for i in range(len(route.position)):
+        for action in route.actions[i]:
+            if action.kind == "stay":
+                stay = _stay(route, legs, i, action.seconds)
+                rows.append(_stamped(stay, part, way, now))
+                way, now = way + action.seconds * STAY_PACE, now + action.seconds
+            else:
+                part += 1
+        if i < len(legs.way):
+            yaw = route.yaw[i] + share[i] * (route.yaw[i + 1] - route.yaw[i])
+            pitch = route.pitch[i] + share[i] * (route.pitch[i + 1] - route.pitch[i])
+            leg = np.column_stack([legs.position[i], yaw, pitch, legs.way[i], times[i]])
+            rows.append(_stamped(leg, part, way, now))
+            way, now = way + float(legs.way[i, -1]), now + float(times[i, -1])
+    table = np.concatenate(rows)
+    yaw, pitch, progress, elapsed, film = table[:, 3:].T
+    return Flown(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed)
+
+
+def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
+    """Return rows of position, yaw, pitch, way and time of a stay at a point."""
+    time = np.linspace(0.0, seconds, max(2, int(seconds / STAY_STEP)) + 1)
+    place = legs.position[i, 0] if i < len(legs.position) else legs.position[-1, -1]
+    ones = np.ones(len(time))
+    return np.column_stack(
+        [np.tile(place, (len(time), 1)), route.yaw[i] * ones, route.pitch[i] * ones, time * STAY_PACE, time]
+    )
+
+
+def _stamped(rows: Array, part: float, way: float, now: float) -> Array:
+    """Return rows with progress and time counted on, and the part of the film that they belong to."""
+    counted = rows.copy()
+    counted[:, 5] += way
+    counted[:, 6] += now
+    return np.column_stack([counted, np.full(len(rows), part)])

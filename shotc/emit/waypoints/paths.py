@@ -1,0 +1,120 @@
+"""Ways through waypoints, as machines fly them that keep their curves to themselves.
+
+Every leg, the way from one point to the next, is sampled alike. DJI says "third-order Bezier curve" and no
+more; its flights look like a centripetal Catmull-Rom spline. Litchi rounds corners by a quadratic Bezier.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+Tangents = Callable[[Array], tuple[Array, Array]]
+"""From points (m, 3) to the handles of each leg, (m - 1, 3) each: from its start, and back from its end."""
+
+SHORT = 1e-9  # metres, instead of a length that is none
+
+
+def through(points: Array, stops: Mask, tangents: Tangents, count: int, *, cut: bool) -> Array:
+    """Return samples (m - 1, count + 1, 3) of the cubics through points (m, 3).
+
+    stops : (m,), where the machine stands still; cut : whether the curve begins anew there
+    """
+    if not cut:
+        return _cubics(points, *tangents(points), count)
+    ends = [0, *(int(i) for i in np.flatnonzero(stops) if 0 < i < len(points) - 1), len(points) - 1]
+    runs = [points[a : b + 1] for a, b in pairwise(ends)]
+    return np.concatenate([_cubics(run, *tangents(run), count) for run in runs])
+
+
+def straight(points: Array) -> tuple[Array, Array]:
+    """Return the handles of straight legs."""
+    third = np.diff(points, axis=0) / 3
+    return third, third
+
+
+def catmull_rom(alpha: float) -> Tangents:
+    """Return Catmull-Rom tangents; alpha : 0 uniform, 0.5 centripetal, 1 chordal. End points are mirrored.
+
+    Yuksel, Schaefer and Keyser, "Parameterization and applications of Catmull-Rom curves", 2011.
+    """
+
+    def tangents(points: Array) -> tuple[Array, Array]:
+        way = np.diff(points, axis=0)
+        way = np.concatenate([way[:1], way, way[-1:]])
+        knots = np.maximum(np.linalg.norm(way, axis=1), SHORT)[:, None] ** alpha
+        before, after = knots[:-1], knots[1:]
+        rate = way[:-1] / before - (way[:-1] + way[1:]) / (before + after) + way[1:] / after
+        span = knots[1:-1]
+        return rate[:-1] * span / 3, rate[1:] * span / 3
+
+    return tangents
+
+
+def handles(share: float) -> Tangents:
+    """Return handles along the chord between a point's neighbours, ``share`` of the leg long."""
+
+    def tangents(points: Array) -> tuple[Array, Array]:
+        way = np.diff(points, axis=0)
+        along = np.concatenate([way[:1], points[2:] - points[:-2], way[-1:]])
+        along = along / np.maximum(np.linalg.norm(along, axis=1), SHORT)[:, None]
+        length = share * np.linalg.norm(way, axis=1)[:, None]
+        return along[:-1] * length, along[1:] * length
+
+    return tangents
+
+
+def natural(points: Array) -> tuple[Array, Array]:
+    """Return the handles of the natural cubic spline over the length of the chords."""
+    way = np.diff(points, axis=0)
+    span = np.maximum(np.linalg.norm(way, axis=1), SHORT)
+    count = len(points)
+    matrix, right = np.zeros((count, count)), np.zeros((count, 3))
+    rows = np.arange(1, count - 1)
+    matrix[rows, rows - 1], matrix[rows, rows + 1] = 1 / span[:-1], 1 / span[1:]
+    matrix[rows, rows] = 2 / span[:-1] + 2 / span[1:]
+    right[rows] = 3 * (way[:-1] / span[:-1, None] ** 2 + way[1:] / span[1:, None] ** 2)
+    matrix[0, 0], matrix[-1, -1] = 2 / span[0], 2 / span[-1]
+    matrix[0, 1], matrix[-1, -2] = 1 / span[0], 1 / span[-1]
+    right[0], right[-1] = 3 * way[0] / span[0] ** 2, 3 * way[-1] / span[-1] ** 2
+    rate = np.linalg.solve(matrix, right)
+    return rate[:-1] * span[:, None] / 3, rate[1:] * span[:, None] / 3
+
+
+def rounded(points: Array, sizes: Array, count: int) -> Array:
+    """Return samples (m - 1, count + 1, 3) of straight legs whose corners are quadratic Bezier curves.
+
+    sizes : (m,), metres from an inner point to where its curve begins and ends; a leg begins and ends at the
+        middle of a curve, so none goes through its inner points
+    """
+    way = np.diff(points, axis=0)
+    unit = way / np.maximum(np.linalg.norm(way, axis=1), SHORT)[:, None]
+    sizes = sizes.copy()
+    sizes[0] = sizes[-1] = 0.0
+    third = count // 3
+    half = np.linspace(0.5, 1.0, third + 1)[:, None, None]
+    leave = _corner(points[:-1], np.concatenate([unit[:1], unit[:-1]]), unit, sizes[:-1], half)
+    reach = _corner(points[1:], unit, np.concatenate([unit[1:], unit[-1:]]), sizes[1:], half - 0.5)
+    share = np.linspace(0.0, 1.0, count - 2 * third + 1)[1:-1, None, None]
+    between = leave[-1] + share * (reach[0] - leave[-1])
+    return np.asarray(np.concatenate([leave, between, reach]).swapaxes(0, 1))
+
+
+def _corner(points: Array, before: Array, after: Array, sizes: Array, t: Array) -> Array:
+    """Return places (k, m, 3) on the curves round corners, at shares ``t`` (k, 1, 1)."""
+    size = sizes[:, None]
+    start, end = points - size * before, points + size * after
+    return np.asarray((1 - t) ** 2 * start + 2 * t * (1 - t) * points + t**2 * end)
+
+
+def _cubics(points: Array, leave: Array, reach: Array, count: int) -> Array:
+    t = np.linspace(0.0, 1.0, count + 1)[None, :, None]
+    a, d = points[:-1, None], points[1:, None]
+    b, c = a + leave[:, None], d - reach[:, None]
+    return np.asarray((1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t**2 * (1 - t) * c + t**3 * d)

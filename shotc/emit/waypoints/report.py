@@ -1,0 +1,241 @@
+"""What emitters of waypoints tell: what a format cannot carry, why nothing is written, and what it adds."""
+
+from __future__ import annotations
+
+from math import degrees, tan
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.emit.waypoints.choose import MEAN, WORST
+from shotc.emit.waypoints.compare import Error, ShotError
+from shotc.emit.waypoints.stations import LEG_LEAST
+from shotc.emit.waypoints.timing import Meeting
+from shotc.emit.waypoints.track import Track
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.owners import Owner
+from shotc.ir.path import HFOV
+from shotc.ir.source import TAKES, Autopilot
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.rounding import at_least
+
+ZOOM_LEAST = np.radians(0.1)
+TURN_LEAST = np.radians(1.0)  # of a camera on a drone that stands
+FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
+"""What the files of an emitter are called."""
+
+
+def no_origin(mission: MissionIR, emitter: str) -> Diagnostic:
+    """Say that there is no place on the globe to write down."""
+    return Diagnostic(
+        "E101",
+        f"the {FILES[emitter]} files are skipped: the mission has no world.origin",
+        (mission.origins.key(("world",)),),
+        ("waypoints are latitudes and longitudes",),
+        f"write `origin: {{lat: ..., lon: ..., alt: ...}}` under `world`, or take `{emitter}` out of `emit`",
+    )
+
+
+def fleetless(
+    mission: MissionIR, fleets: tuple[FleetTrajectory, ...], emitter: str
+) -> tuple[Diagnostic, ...]:
+    """Say once that fleets get no mission files; nothing where there is no fleet."""
+    if not fleets:
+        return ()
+    names = ", ".join(f"`{track.fleet}` ({len(track.coef)} drones)" for track in fleets)
+    return (
+        Diagnostic(
+            "E110",
+            f"no {FILES[emitter]} mission is written for fleet {names}",
+            tuple(mission.origins.key(mission.fleet(track.fleet).path) for track in fleets),
+            ("a mission file has no common clock: drones that follow theirs would meet",),
+            "ask for `skyc` in `output.emit`, the format of shows; `trajectory.csv` has every drone",
+        ),
+    )
+
+
+def flown_here(
+    mission: MissionIR, flights: tuple[DroneTrajectory, ...], emitter: str, machines: tuple[Autopilot, ...]
+) -> tuple[list[DroneTrajectory], list[str], list[Diagnostic]]:
+    """Return the flights of machines that take these files, and what is told of the others.
+
+    That is a note where some of the mission's drones take them, and a warning for each drone where none does.
+    """
+    here = [f for f in flights if mission.drone(f.drone).autopilot in machines]
+    others = [mission.drone(f.drone) for f in flights if mission.drone(f.drone).autopilot not in machines]
+    if here:
+        named = ", ".join(f"{drone.name} ({drone.autopilot})" for drone in others)
+        return here, [f"{emitter}: no file for {named}, which fly others"] if others else [], []
+    return [], [], [_not_flown(mission, drone, emitter, machines) for drone in others]
+
+
+def _not_flown(mission: MissionIR, drone: Drone, emitter: str, machines: tuple[Autopilot, ...]) -> Diagnostic:
+    fit = " or ".join(f"`{name}`" for name in TAKES[drone.autopilot])
+    return Diagnostic(
+        "E116",
+        f"no {FILES[emitter]} file is written for {drone.name}, which is flown by {drone.autopilot}",
+        (mission.origins.key(drone.path),),
+        (f"{FILES[emitter]} files are flown by {' and '.join(machines)}; its model is `{drone.model}`",),
+        f"ask for {fit} in `output.emit`, or plan with `--autopilot {machines[0]}`",
+    )
+
+
+def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
+    """Say which shots zoom: lenses are too different for a mission file to say it."""
+    out: list[Diagnostic] = []
+    for phase in flight.phases:
+        hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
+        if phase.shot is None or np.ptp(hfov) < ZOOM_LEAST:
+            continue
+        shot = mission.shot(phase.shot)
+        low, high = degrees(hfov.min()), degrees(hfov.max())
+        out.append(
+            Diagnostic(
+                "E105",
+                f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}",
+                (mission.origins.key(shot.path),),
+                (f"the field of view goes from {low:.1f} deg to {high:.1f} deg",),
+                "zoom by hand, or give the shot one hfov",
+            )
+        )
+    return out
+
+
+def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
+    """Say which shots are not filmed with the lens as it stands: these files change no field of view."""
+    drone = mission.drone(flight.drone)
+    out: list[Diagnostic] = []
+    for phase in (p for p in flight.phases if p.shot is not None):
+        hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
+        if np.abs(hfov - drone.hfov).max() < ZOOM_LEAST:
+            continue
+        shot = mission.shot(phase.shot or "")
+        edge = float(np.abs(np.tan(hfov / 2) / tan(drone.hfov / 2) - 1).max())
+        low, high = degrees(hfov.min()), degrees(hfov.max())
+        wanted = f"from {low:.1f} deg to {high:.1f} deg" if high - low > 0.1 else f"{high:.1f} deg"
+        out.append(
+            Diagnostic(
+                "E105",
+                f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}",
+                (mission.origins.key(shot.path),),
+                (
+                    f"the field of view is {wanted}, the lens has {degrees(drone.hfov):.1f} deg: the edge of"
+                    f" the picture is up to {at_least(edge, 3)} half frames off",
+                ),
+                "zoom by hand, or film the shot with the field of view of the lens",
+            )
+        )
+    return out
+
+
+def beyond(mission: MissionIR, flight: DroneTrajectory, track: Track, error: Error) -> list[Diagnostic]:
+    """Say which shots a file shows otherwise than the plan, and why."""
+    out: list[Diagnostic] = []
+    for each in error.shots:
+        if each.worst <= WORST and each.mean <= MEAN:
+            continue
+        shot = mission.shot(each.shot)
+        reason, help_ = _why(track, each)
+        out.append(
+            Diagnostic(
+                "E117",
+                f"the file of {flight.drone} shows shot {shot.id} up to {at_least(each.worst, 3)} half frames"
+                " beside the plan",
+                (mission.origins.key(shot.path),),
+                (
+                    f"worst at t = {each.time:.1f} s, {at_least(each.mean, 3)} on average; meant are at most"
+                    f" {WORST} and {MEAN} under every flight model",
+                    reason,
+                ),
+                help_,
+            )
+        )
+    return out
+
+
+def _why(track: Track, each: ShotError) -> tuple[str, str]:
+    """Return why a shot is shown otherwise, and what to do."""
+    for stretch in track.stretches:
+        part = slice(stretch.first, stretch.last + 1)
+        turn = max(np.ptp(track.poses.cam_yaw[part]), np.ptp(track.poses.cam_pitch[part]))
+        if stretch.shot == each.shot and stretch.rest and turn > TURN_LEAST:
+            return (
+                f"its camera turns by {degrees(turn):.0f} deg while the drone stands, and such a file turns"
+                " it on the way to the next point alone",
+                "let the drone move while the camera turns, or turn it by hand",
+            )
+    return (
+        f"its points are as near as {LEG_LEAST} m, nearer ones are refused",
+        "film from farther away, or turn more slowly for the way that is flown",
+    )
+
+
+def drifts(mission: MissionIR, flight: DroneTrajectory, error: Error) -> list[Diagnostic]:
+    """Say how far a moving target is away from where it is filmed: these files have no clock."""
+    out: list[Diagnostic] = []
+    for each in error.shots:
+        names = dict.fromkeys(r.target for r in flight.framing if r.shot == each.shot)
+        moving = [name for name in names if mission.target(name).track is not None]
+        if not moving:
+            continue
+        shot = mission.shot(each.shot)
+        out.append(
+            Diagnostic(
+                "E118",
+                f"the file of {flight.drone} has no clock, and the target of shot {shot.id} moves",
+                (mission.origins.key(shot.path),),
+                (
+                    f"the machine is up to {at_least(each.lag, 1)} s off the plan's time within the shot;"
+                    f" meanwhile `{moving[0]}` goes up to {at_least(each.drift, 1)} m",
+                    "a late start adds the way that the target makes meanwhile",
+                ),
+                "start it by eye, frame more loosely, or fly the plan itself with `shotc stream` on a machine"
+                " that takes it",
+            )
+        )
+    return out
+
+
+def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: float) -> Diagnostic:
+    """Say that a file would be flown too near to something, and is not written."""
+    return Diagnostic(
+        "E119",
+        f"no file is written for {drone.name}: its curve comes {at_least(depth)} m too near to {owner.words}",
+        (mission.origins.key(drone.path), mission.origins.key(owner.path)),
+        (
+            f"the plan keeps off it; the curve that is worst for it does not, at about t = {time:.1f} s",
+            f"points cannot be nearer to each other than {LEG_LEAST} m",
+        ),
+        f"leave {at_least(depth, 1)} m more room there, or let the way bend less",
+    )
+
+
+def meets(mission: MissionIR, meeting: Meeting) -> Diagnostic:
+    """Say that two drones would meet, were they not where they are in time, and get no files."""
+    one, other = meeting.names
+    return Diagnostic(
+        "E120",
+        f"no files are written for {one} and {other}: timing alone keeps them apart",
+        tuple(mission.origins.key(mission.drone(name).path) for name in meeting.names),
+        (
+            f"their ways come within {meeting.distance:.1f} m of each other, the separation is"
+            f" {mission.rules.separation:.1f} m",
+            "each of these files is flown from whenever its pilot starts it",
+        ),
+        "give each drone air of its own by zones or heights, or film with one drone",
+    )
+
+
+def notes(drone: Drone, files: list[str], count: int, error: Error, models: int) -> list[str]:
+    """Return the lines that say what a drone's files are worth."""
+    named = ", ".join(files)
+    text = f"{drone.autopilot} {named}: {count} waypoints, position within {at_least(error.position)} m"
+    if not error.shot:
+        return [text]
+    mean = max(each.mean for each in error.shots)
+    return [
+        f"{text}, adds at most {at_least(error.screen, 3)} of the screen (shot {error.shot}, t ="
+        f" {error.time:.1f} s) and {at_least(mean, 3)} on average under all of {models} flight models; films"
+        f" {error.filmed:.0f} s at most where the plan films {error.planned:.0f} s"
+    ]

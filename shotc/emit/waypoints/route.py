@@ -1,0 +1,72 @@
+"""A route: the waypoints of one file, for machines that fly curves through them without a clock."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.waypoints.geo import Geo, Place
+from shotc.geom.camera import yaw_of
+
+Array = NDArray[np.float64]
+
+
+class Action(NamedTuple):
+    """What is done at a point: recording starts or stops, or the drone stays for some seconds."""
+
+    kind: Literal["start", "stop", "stay"]
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Waypoint:
+    """One point of a file.
+
+    heading : of the camera, degrees clockwise from North in [-180, 180); pitch : degrees, negative looks down
+    speed : of the leg that begins here, m/s; stops : whether the drone stands still here
+    actions : in their order; curve : metres from here to where a corner is rounded, for machines that do
+    """
+
+    place: Place
+    heading: float
+    pitch: float
+    speed: float
+    stops: bool
+    actions: tuple[Action, ...] = ()
+    curve: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Route:
+    """Waypoints as arrays in W, a row each.
+
+    position : (m, 3), m; yaw, pitch : (m,), rad, yaw without jumps, each turn the shortest
+    speed : (m,), m/s; stops : (m,); stays : (m,), s; curve : (m,), m
+    actions : of each point
+    """
+
+    position: Array
+    yaw: Array
+    pitch: Array
+    speed: Array
+    stops: NDArray[np.bool_]
+    stays: Array
+    curve: Array
+    actions: tuple[tuple[Action, ...], ...]
+
+
+def route_of(points: list[Waypoint], geo: Geo) -> Route:
+    """Return waypoints, as read from a file, in W."""
+    return Route(
+        np.array([geo.point(p.place) for p in points]),
+        np.unwrap([yaw_of(float(np.radians(p.heading))) for p in points]),
+        np.radians([p.pitch for p in points]),
+        np.array([p.speed for p in points]),
+        np.array([p.stops for p in points]),
+        np.array([sum(a.seconds for a in p.actions) for p in points]),
+        np.array([p.curve for p in points]),
+        tuple(p.actions for p in points),
+    )

@@ -1,0 +1,119 @@
+"""Where a route has to have a point: at the ends of shots and ways, and where the plan stands still."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.waypoints.route import Action
+from shotc.emit.waypoints.track import Stretch, Track
+
+Array = NDArray[np.float64]
+
+LEG_LEAST = 0.7  # metres between neighbouring points; DJI's older machines refuse 0.5
+SETTLE = 1.0  # seconds at most of a stay that is not filmed: without a clock nobody waits for anything
+STAY_LEAST = 0.1  # seconds; a stay of 0 makes DJI's machines refuse the file
+STANDSTILL = 0.05  # m/s
+
+
+@dataclass(frozen=True, slots=True)
+class Station:
+    """A point of a route.
+
+    first, last : samples of the track between which the plan stands here; the same where it does not
+    aim : the sample whose camera angles the point has, None for the middle of those between first and last
+    """
+
+    first: int
+    last: int
+    stops: bool = False
+    actions: tuple[Action, ...] = ()
+    aim: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """The way between two stations, ``first`` to ``last`` of the track."""
+
+    first: int
+    last: int
+    shot: str | None
+
+
+def stations_of(track: Track, way: Array) -> tuple[list[Station], list[Gap]]:
+    """Return the stations that a track needs, and the gap after each but the last.
+
+    way : (n,), metres flown before each sample
+    A stretch too short for two points is a stay at the first of them.
+    """
+    groups, gaps = _grouped(track, way)
+    shot: str | None = None
+    stations: list[Station] = []
+    for i, group in enumerate(groups):
+        before = gaps[i - 1] if i else None
+        after = gaps[i] if i < len(gaps) else None
+        actions: list[Action] = []
+        for stretch in group:
+            actions += _changed(shot, stretch.shot)
+            shot = stretch.shot
+            seconds = float(track.time[stretch.last] - track.time[stretch.first])
+            seconds = round(seconds if shot else min(seconds, SETTLE), 1)
+            actions += [Action("stay", seconds)] if seconds >= STAY_LEAST else []
+        actions += _changed(shot, after.shot if after else None)
+        shot = after.shot if after else None
+        first, last = _ends(track, group, before, after)
+        ends = before is None or after is None
+        stays = any(a.kind == "stay" for a in actions)
+        stops = ends or stays or _speed(track, first) < STANDSTILL
+        stations.append(Station(first, last, stops, tuple(actions), _aim(group, before, after, first, last)))
+    return stations, gaps
+
+
+def _grouped(track: Track, way: Array) -> tuple[list[list[Stretch]], list[Gap]]:
+    """Return the stays at each station, and the gaps between them."""
+    groups: list[list[Stretch]] = [[]]
+    gaps: list[Gap] = []
+    for stretch in track.stretches:
+        if stretch.rest or _is_short(track, way, stretch):
+            groups[-1].append(stretch)
+        else:
+            gaps.append(Gap(stretch.first, stretch.last, stretch.shot))
+            groups.append([])
+    return groups, gaps
+
+
+def _is_short(track: Track, way: Array, stretch: Stretch) -> bool:
+    return bool(way[stretch.last] - way[stretch.first] < LEG_LEAST)
+
+
+def _ends(track: Track, group: list[Stretch], before: Gap | None, after: Gap | None) -> tuple[int, int]:
+    first = group[0].first if group else before.last if before else after.first if after else 0
+    last = group[-1].last if group else first
+    return first, last
+
+
+def _aim(group: list[Stretch], before: Gap | None, after: Gap | None, first: int, last: int) -> int | None:
+    """Return the sample whose angles serve what is filmed: the way on, the way here, or the stay itself."""
+    if after is not None and after.shot is not None:
+        return last
+    if before is not None and before.shot is not None:
+        return first
+    return None if any(stretch.shot for stretch in group) else last
+
+
+def _changed(before: str | None, after: str | None) -> Iterator[Action]:
+    if before != after and before is not None:
+        yield Action("stop")
+    if before != after and after is not None:
+        yield Action("start")
+
+
+def _speed(track: Track, index: int) -> float:
+    """Return the speed about a sample, the smaller of before and behind it, m/s."""
+    low, high = max(index - 1, 0), min(index + 1, len(track.time) - 1)
+    steps = np.linalg.norm(np.diff(track.poses.position[low : high + 1], axis=0), axis=1)
+    times = np.diff(track.time[low : high + 1])
+    return float((steps / np.maximum(times, 1e-9)).min()) if len(steps) else 0.0

@@ -1,0 +1,52 @@
+"""Drones that would meet without a clock: places of two flights nearer to each other than the separation."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from math import ceil
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+from shotc.ir.mission import MissionIR
+
+STEP = 0.5  # metres between places of a way; at 3 m that makes a distance 0.02 m too large at most
+LESS = 0.05  # metres of a separation that rounding may cost
+
+
+class Meeting(NamedTuple):
+    """Two drones by name, and how near their ways come, m."""
+
+    names: tuple[str, str]
+    distance: float
+
+
+def kept_apart_by_time(mission: MissionIR, ways: dict[str, Array]) -> list[Meeting]:
+    """Return the pairs of drones whose ways come nearer than the separation, whenever they are there.
+
+    ways : places (n, 3) of each; those above its pad are added
+    """
+    trees = {
+        name: cKDTree(np.concatenate([way, *_columns(mission, name, way)])) for name, way in ways.items()
+    }
+    found: list[Meeting] = []
+    for one, other in combinations(trees, 2):
+        distance = float(trees[one].query(trees[other].data)[0].min())
+        if distance < mission.rules.separation - LESS:
+            found.append(Meeting((one, other), distance))
+    return found
+
+
+def evenly(way: Array) -> Array:
+    """Return places (k, 3) every STEP along a way given by places (n, 3), its ends among them."""
+    done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1)))
+    at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP) + 1))
+    return np.stack([np.interp(at, done, axis) for axis in way.T], axis=1)
+
+
+def _columns(mission: MissionIR, name: str, way: Array) -> list[Array]:
+    """Return places between the pad and the first and the last place of a way."""
+    home = np.array(mission.drone(name).home)
+    return [evenly(np.stack([home, end])) for end in (way[0], way[-1])]
