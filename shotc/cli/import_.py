@@ -13,11 +13,11 @@ from shotc.cli.inputs import STDIN, STDIN_NAME
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.emit.base import Artifact
+from shotc.importers.cameras.takes import Asked
+from shotc.importers.formats import FORMATS
 from shotc.importers.xml_tree import LARGEST
 from shotc.output import write
 from shotc.source.file import WHOLE_FILE
-
-FORMATS = ("multidrone",)
 
 FormatArgument = Annotated[str, typer.Argument(metavar="FORMAT", help=f"What it is: {', '.join(FORMATS)}.")]
 FileArgument = Annotated[
@@ -30,10 +30,30 @@ OutputFile = Annotated[
     ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Refuse what would have to be assumed.")]
+Every = Annotated[
+    bool, typer.Option("--every", help="Keep all cameras, those that the others imply as well.")
+]
+Times = Annotated[
+    bool, typer.Option("--times", help="Keep when each camera is reached, not only how long a take lasts.")
+]
+Fps = Annotated[
+    float | None, typer.Option("--fps", metavar="N", help="Frames a second, of blender-camera; 24 if silent.")
+]
+Ground = Annotated[
+    float | None,
+    typer.Option("--ground", metavar="METRES", help="Altitude of the ground, above sea level."),
+]
 
 
 def import_(
-    format: FormatArgument, file: FileArgument, output: OutputFile = None, strict: Strict = False
+    format: FormatArgument,
+    file: FileArgument,
+    output: OutputFile = None,
+    strict: Strict = False,
+    every: Every = False,
+    times: Times = False,
+    fps: Fps = None,
+    ground: Ground = None,
 ) -> None:
     """Start a mission from one of another tool.
 
@@ -41,18 +61,30 @@ def import_(
     their distances and times, sequences become drones, trajectories become the tracks of targets, and
     `RULE_OF_THIRDS` becomes a third with room on the side to which the target moves.
 
+    `kml` reads tours of Google Earth (`gx:Tour`, KML or KMZ), or the cameras of placemarks in their order;
+    `blender-camera` a table of frames `frame,x,y,z,rx,ry,rz,lens`, or with `qw,qx,qy,qz`, in metres, Z up;
+    `qgc` waypoints, headings and gimbal commands of a QGroundControl plan; `litchi` the table of its Hub.
+    Each tour, animation or recording becomes a shot of `keyframes`; tours and animations keep how long they
+    last, where the drone is fast enough. Cameras that the others imply are left out: what is as far away as
+    the camera is high stays within 0.01 half frames of where the file shows it.
+
     What the file leaves open, has wrong or says twice is assumed: each assumption is a warning with its
     line and column, and a comment in the mission, where it is easily changed. `--strict` refuses instead.
     What is written is a mission that `shotc check` accepts, or nothing is.
 
-    Example: `shotc import multidrone karting.xml -o karting.yaml`
+    Example: `shotc import kml tour.kml --ground 408 -o tour.yaml`
     """
     from shotc.checking import check_source
-    from shotc.importers.mission import import_multidrone
+    from shotc.importers.mission import imported
 
     if format not in FORMATS:
         raise typer.BadParameter(f"`{format}` is none; there are: {', '.join(FORMATS)}", param_hint="FORMAT")
-    made = import_multidrone(_read(file), STDIN_NAME if file == STDIN else file, strict=strict)
+    for option, value, low, high in (("--fps", fps, 1.0, 1000.0), ("--ground", ground, -500.0, 9000.0)):
+        if value is not None and not low <= value <= high:
+            raise typer.BadParameter(f"from {low:g} to {high:g}, please", param_hint=option)
+    asked = Asked(every=every, times=times, fps=fps, ground=ground)
+    name = STDIN_NAME if file == STDIN else file
+    made = imported(format, _read(file), name, strict=strict, asked=asked)
     console.report(made.diagnostics, made.sources)
     if made.text is None:
         raise typer.Exit(console.EXIT_REJECTED)
@@ -66,6 +98,8 @@ def import_(
         raise typer.Exit(console.EXIT_REJECTED)
     _save(made.text, output)
     counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
+    if made.cameras:
+        counts += f", {_counted(made.keyframes, 'keyframe')} of {_counted(made.cameras, 'camera')}"
     console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
 
 

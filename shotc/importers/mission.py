@@ -7,15 +7,22 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
+from shotc.importers.cameras import blender, kml, litchi, qgc
+from shotc.importers.cameras.takes import Asked, Footage, Refused
+from shotc.importers.cameras.write import written
+from shotc.importers.formats import WHAT
 from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, label, told
-from shotc.importers.xml_tree import XmlFault, parse_xml, shown
+from shotc.importers.xml_tree import LARGEST, Node, XmlFault, parse_xml, shown
 from shotc.source.file import SourceFile, Span
 
 MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
 """How many of an element are read: more is no mission, and would take minutes."""
+
+START = Node("", 1, 1, wide=1)
+USUAL = Asked()
 
 
 class Imported(NamedTuple):
@@ -24,6 +31,7 @@ class Imported(NamedTuple):
     text : the mission, or None where a diagnostic is an error
     sources : the text that the diagnostics point into
     drones, shots : how many
+    keyframes, cameras : how many keyframes were made of how many cameras, where cameras are imported
     """
 
     text: str | None
@@ -31,6 +39,55 @@ class Imported(NamedTuple):
     sources: dict[str, SourceFile]
     drones: int = 0
     shots: int = 0
+    keyframes: int = 0
+    cameras: int = 0
+
+
+def imported(format: str, data: bytes, name: str, *, strict: bool, asked: Asked = USUAL) -> Imported:
+    """Make a mission of a file of one of ``formats.FORMATS``.
+
+    data : any bytes; name : how to show the file; strict : refuse instead of assuming anything
+    """
+    if format == "multidrone":
+        return import_multidrone(data, name, strict=strict)
+    return _import_cameras(format, data, name, asked, strict=strict)
+
+
+def _import_cameras(format: str, data: bytes, name: str, asked: Asked, *, strict: bool) -> Imported:
+    notes = Notes()
+    if len(data) > LARGEST:
+        found: Footage | Refused = Refused("I001", f"it is larger than {LARGEST / 1e6:.0f} MB", START)
+        text = ""
+    else:
+        text, found = _footage(format, data, name, asked, notes)
+    sources = {name: SourceFile(name, text)}
+    if isinstance(found, Footage):
+        made = written(PurePath(name).stem, WHAT[format], found, asked, notes)
+        if made is not None:
+            said = told(name, notes, strict=strict)
+            result = None if has_errors(said) else made.text
+            return Imported(result, said, sources, 1, made.shots, made.keyframes, made.cameras)
+        found = Refused("I003", "it holds no take of two cameras or more, and a shot needs two", found.node)
+    message = f"`{name}` cannot be imported: {found.message}"
+    wrong = Diagnostic(found.code, message, (label(name, found.node),), (), found.help)
+    return Imported(None, (*told(name, notes, strict=False), wrong), sources)
+
+
+def _footage(
+    format: str, data: bytes, name: str, asked: Asked, notes: Notes
+) -> tuple[str, Footage | Refused]:
+    """Return the text of a file of cameras, to show its lines, and what it holds."""
+    if format == "qgc":
+        return shown(data), qgc.footage(data, name, asked, notes)
+    if format in ("blender-camera", "litchi"):
+        read = blender.footage if format == "blender-camera" else litchi.footage
+        return shown(data), read(shown(data), asked, notes)
+    plain = kml.unpacked(data)
+    root = plain if isinstance(plain, XmlFault) else parse_xml(plain)
+    if isinstance(root, XmlFault):
+        node = Node("", root.line, root.column, wide=1)
+        return "" if isinstance(plain, XmlFault) else shown(plain), Refused("I001", root.message, node)
+    return "" if isinstance(plain, XmlFault) else shown(plain), kml.footage(root, asked, notes)
 
 
 def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:

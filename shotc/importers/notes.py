@@ -54,7 +54,7 @@ def plain(text: str, most: int | None = None) -> str:
 
 def label(file: str, node: Node) -> Label:
     """Return a label on an element's tag."""
-    end = node.column + len(node.tag) + 1
+    end = node.column + (node.wide or len(node.tag) + 1)
     return Label(file, Span(node.line, node.column, node.line, end))
 
 

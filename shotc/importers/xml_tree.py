@@ -16,7 +16,10 @@ DEEPEST = 60
 
 @dataclass(slots=True)
 class Node:
-    """An element: its name, its text without that of its children, and where it begins, from 1."""
+    """An element: its name, its text without that of its children, and where it begins, from 1.
+
+    wide : characters that it takes where it is no element of XML but a value of another format, else 0
+    """
 
     tag: str
     line: int
@@ -24,6 +27,7 @@ class Node:
     attributes: dict[str, str] = field(default_factory=dict)
     text: str = ""
     children: list[Node] = field(default_factory=list)
+    wide: int = 0
 
     def first(self, tag: str) -> Node | None:
         """Return the first child of that name, or None."""

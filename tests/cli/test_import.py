@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 import yaml
 
 from tests.cli.conftest import Run
+from tests.support.camera_files import GOOD
 
 XML = """\
 <mission eventRef="GO">
@@ -95,7 +97,38 @@ def test_what_is_no_mission_is_refused(run: Run, karting: Path, text: str) -> No
     assert "error[I00" in done.err
 
 
+@pytest.mark.parametrize("format", GOOD)
+def test_files_of_cameras_are_written_as_missions_that_check_accepts(
+    run: Run, tmp_path: Path, format: str
+) -> None:
+    (tmp_path / "cameras").write_bytes(GOOD[format])
+    done = run("import", format, "cameras", "-o", "mission.yaml")
+    assert (done.code, done.out) == (0, "")
+    assert re.search(r"imported 1 drone, 1 shot, \d keyframes of \d cameras; \d assumption", done.err)
+    assert run("check", "mission.yaml").code == 0
+
+
+def test_options_of_an_import_are_what_the_importer_is_told(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "tour.kml").write_bytes(GOOD["kml"])
+    given = yaml.safe_load(run("import", "kml", "tour.kml", "--ground", "408", "--every", "--times").out)
+    assert given["world"]["origin"]["alt"] == 408
+    assert [k["time"] for k in given["shots"][0]["keyframes"]] == [0.0, 6.0, 11.0]
+    (tmp_path / "camera.csv").write_bytes(GOOD["blender-camera"])
+    slow = yaml.safe_load(run("import", "blender-camera", "camera.csv", "--fps", "4").out)
+    assert slow["shots"][0]["timing"]["duration"] == 6.0
+    assert run("import", "blender-camera", "camera.csv", "--fps", "0").code == 2
+    assert run("import", "kml", "tour.kml", "--ground", "nan").code == 2
+
+
+def test_a_tour_of_100_megabytes_is_refused_at_its_beginning(run: Run, tmp_path: Path) -> None:
+    with (tmp_path / "tour.kml").open("wb") as file:
+        file.truncate(100_000_000)
+    done = run("import", "kml", "tour.kml")
+    assert (done.code, done.out) == (1, "")
+    assert "larger than 4 MB" in done.err
+
+
 def test_an_unknown_format_is_a_matter_of_usage(run: Run, karting: Path) -> None:
-    done = run("import", "litchi", str(karting))
+    done = run("import", "nuke", str(karting))
     assert done.code == 2
-    assert "there are: multidrone" in done.err
+    assert "there are: multidrone, kml" in " ".join(done.err.split())

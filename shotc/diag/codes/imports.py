@@ -16,22 +16,25 @@ CODES: tuple[CodeInfo, ...] = (
         1,
         "import-unreadable",
         "a file to import cannot be read",
-        "The importer for `multidrone` reads XML without a document type: at most 4 MB, 100 shooting actions with 200 "
-        "roles and 2000 points, which is more than a mission can be. The message says what the file is instead, or "
-        "where it breaks off. Export it again.",
+        "Importers read at most 4 MB. XML has no document type, so no entities. `multidrone` reads 100 shooting actions "
+        "with 200 roles and 2000 points, the others 10,000 cameras: more is no mission. Of a KMZ the first document is "
+        "read, no further than 4 MB. The message says what the file is instead, or where it breaks off. Export it again.",
     ),
     _code(
         2,
         "import-foreign",
         "a file to import is of another sort",
-        "A mission of the MultiDrone project is XML with the root `mission`. This file is XML, but no such mission.",
+        "A mission of the MultiDrone project is XML with the root `mission`, a tour has the root `kml`, a plan of "
+        "QGroundControl is JSON with `mission` and `items`, and tables of Blender and Litchi name their columns in "
+        "their first line. This file can be read, but is none of the sort that was asked for.",
     ),
     _code(
         3,
         "import-empty",
         "a file to import holds nothing to film",
-        "A mission is made of shooting actions that say where their target goes, or where their formation begins. "
-        "This file has none that can be read.",
+        "A mission is made of shooting actions that say where their target goes, or where their formation begins; or of "
+        "a tour, an animation or waypoints with two cameras or more, for a shot goes from one to another. This file has "
+        "none that can be read.",
     ),
     _code(
         4,
@@ -54,5 +57,12 @@ CODES: tuple[CodeInfo, ...] = (
         "an imported file asks for what cannot be flown",
         "What an importer writes is a mission that `shotc check` accepts. Where check finds errors that no assumption "
         "can mend, nothing is written; the errors are those of the mission that was made.",
+    ),
+    _code(
+        7,
+        "import-mixed-heights",
+        "heights of a file to import do not count from one level",
+        "Some heights count from sea level, others from the ground or from a home, and nothing in the file says how "
+        "high that is. `--ground` gives its altitude, so that all of them count from it.",
     ),
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from collections.abc import Sequence as Rows
 from typing import NamedTuple
@@ -15,6 +14,7 @@ from shotc.importers.multidrone.scene import drones, targets, world
 from shotc.importers.multidrone.shots import shot_of
 from shotc.importers.multidrone.targets import LEAD
 from shotc.importers.multidrone.timing import task_of, timed
+from shotc.importers.names import safe
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
@@ -39,7 +39,7 @@ def written_mission(
     number = max(film.first + len(film.action.roles) - 1 for film in films)
     lines = [
         "shotc: 1",
-        f"mission: {_safe(name)}",
+        f"mission: {safe(name)}",
         *world(frame),
         *targets(films, root, frame, notes),
         *drones(films, number, root, notes),
@@ -76,7 +76,7 @@ def _shot(film: Film, k: int, frame: Frame, notes: Notes) -> list[str]:
     made = shot_of(task)
     which = f"-{k + 1}" if len(film.action.roles) > 1 else ""
     fields = [
-        f"id: {film.id}{which}-{_safe(role.kind).lower()}",
+        f"id: {film.id}{which}-{safe(role.kind).lower()}",
         f"kind: {made.kind}",
         f"drone: cam{film.first + k}",
     ]
@@ -94,8 +94,3 @@ def _shot(film: Film, k: int, frame: Frame, notes: Notes) -> list[str]:
         f"     {made.params},",
         f"     timing: {{start: {film.start:g}, duration: {film.duration:g}}}}}",
     ]
-
-
-def _safe(name: str) -> str:
-    kept = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:40].strip("-")
-    return kept or "mission"

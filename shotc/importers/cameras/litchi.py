@@ -1,0 +1,110 @@
+"""Litchi: a mission as the table that its Hub exports. Heights count from the take-off.
+
+Columns: litchiutilities.com/docs/litchiCsv.php. Between waypoints Litchi turns the camera evenly, so each one
+is a keyframe; curve sizes are not read, for a plan passes through its keyframes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from shotc.importers.cameras.places import aim, is_place, origin_at, reached, without_far, world
+from shotc.importers.cameras.table import Row, table_of
+from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Origin, Refused, recorded
+from shotc.importers.notes import Notes
+
+EXAMPLE = "latitude,longitude,altitude(m),heading(deg),...,gimbalmode,gimbalpitchangle,..."
+FOOT_M = 0.3048
+ACTIONS = range(1, 16)
+STAY, START, STOP, TILT = 0, 2, 3, 5
+FOCUS = 1
+"""Gimbal mode in which the camera keeps to the point of interest."""
+
+
+def footage(text: str, asked: Asked, notes: Notes) -> Footage | Refused:
+    """Return the takes of a Litchi mission: what is recorded, or all of it where nothing is."""
+    height = ("altitude(m)", "altitude(ft)")
+    table = table_of(text, [("latitude",), ("longitude",), height, ("heading(deg)",)], EXAMPLE)
+    if isinstance(table, Refused):
+        return table
+    if len(table.rows) > MOST_CAMERAS:
+        message = f"it has {len(table.rows)} waypoints; at most {MOST_CAMERAS} are read"
+        return Refused("I001", message, table.rows[MOST_CAMERAS].node)
+    rows = [row for row in table.rows if _is_placed(row, notes)]
+    if not rows:
+        return Refused("I003", "it holds no waypoint that says where it is", table.node)
+    origin = origin_at(
+        rows[0].number("latitude", notes) or 0.0,
+        rows[0].number("longitude", notes) or 0.0,
+        asked.ground or 0.0,
+    )
+    feet = height[0] not in table.heads
+    if asked.ground is None:
+        message = "heights count from the take-off, whose altitude the file does not have"
+        notes.assume(table.node, message, "flat ground at sea level; `--ground` is its altitude")
+    if any(row.number("altitudemode", Notes()) == 1 for row in rows):
+        notes.assume(table.heads["altitudemode"], "heights over the ground", "the ground is flat")
+    if any((row.number("curvesize(m)", Notes()) or row.number("curvesize(ft)", Notes())) for row in rows):
+        message = "Litchi cuts the corners of waypoints with a curve size"
+        notes.assume(table.node, message, "the camera passes through all of them")
+    unheard = Notes()
+    cameras = list(_cameras(rows, origin, notes, feet=feet))
+    kinds = [{kind for kind, _ in _actions(row, unheard)} for row in rows]
+    if any(row.number("speed(m/s)", unheard) or row.number("speed(ft/s)", unheard) for row in rows):
+        notes.assume(table.node, "speeds of waypoints are not read", "the drone goes at its own pace")
+    takes = recorded(
+        table.node, cameras, [START in found for found in kinds], [STOP in found for found in kinds]
+    )
+    return Footage(table.node, without_far(takes, notes), origin)
+
+
+def _is_placed(row: Row, notes: Notes) -> bool:
+    lat, lon = row.number("latitude", notes), row.number("longitude", notes)
+    if is_place(lat, lon):
+        return True
+    notes.assume(row.node, "a waypoint without a latitude and a longitude", "it is left out")
+    return False
+
+
+def _cameras(rows: list[Row], origin: Origin, notes: Notes, *, feet: bool) -> Iterator[Camera]:
+    pitch = 0.0
+    for row in rows:
+        unit = FOOT_M if feet else 1.0
+        height = row.number("altitude(ft)" if feet else "altitude(m)", notes)
+        if height is None:
+            notes.assume(row.node, "a waypoint without an altitude", "0 m")
+        place = (row.number("latitude", notes) or 0.0, row.number("longitude", notes) or 0.0)
+        at = world(origin, *place, unit * (height or 0.0), absolute=False)
+        mode, told = row.number("gimbalmode", notes), row.number("gimbalpitchangle", notes)
+        tilted = [value for kind, value in _actions(row, notes) if kind == TILT]
+        if mode is not None and mode > 0 and told is not None:
+            pitch = told
+        pitch = tilted[-1] if tilted else pitch
+        heading = row.number("heading(deg)", notes)
+        if heading is None:
+            notes.assume(row.node, "a waypoint without a heading", "0 deg, North")
+        hold = sum(value for kind, value in _actions(row, notes) if kind == STAY) / 1000.0
+        focus = _focus(row, origin, notes, feet=feet)
+        if focus is None or mode != FOCUS:
+            reach = reached(row.cells.get("gimbalpitchangle", row.node), pitch, notes)
+            yield Camera(row.node, at, (heading or 0.0) % 360.0, reach, hold=max(0.0, hold))
+        else:
+            bearing, tilt = aim(at, focus)
+            reached(row.node, tilt, notes)
+            yield Camera(row.node, at, bearing, tilt, hold=max(0.0, hold), look_at=focus)
+
+
+def _focus(row: Row, origin: Origin, notes: Notes, *, feet: bool) -> tuple[float, float, float] | None:
+    """Return a waypoint's point of interest, None where it has none (0, 0)."""
+    lat, lon = row.number("poi_latitude", notes), row.number("poi_longitude", notes)
+    if not is_place(lat, lon) or lat is None or lon is None or (lat == 0.0 and lon == 0.0):
+        return None
+    height = row.number("poi_altitude(ft)" if feet else "poi_altitude(m)", notes) or 0.0
+    return world(origin, lat, lon, height * (FOOT_M if feet else 1.0), absolute=False)
+
+
+def _actions(row: Row, notes: Notes) -> Iterator[tuple[int, float]]:
+    for i in ACTIONS:
+        kind = row.number(f"actiontype{i}", notes)
+        if kind is not None and kind >= 0:
+            yield int(kind), row.number(f"actionparam{i}", notes) or 0.0

@@ -1,0 +1,50 @@
+"""Whether a drone is fast enough for a take's own time, with room for its curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import degrees, dist, hypot, sqrt
+
+from shotc.importers.cameras.takes import Camera
+from shotc.importers.cameras.thin import unwound
+from shotc.ir.limits import Limits
+
+SHARE = 0.75
+"""Of what the drone can do that a take may ask for."""
+
+
+def too_fast(cameras: Sequence[Camera], limits: Limits) -> Camera | None:
+    """Return the first camera from which a drone comes too late to what is next, None where it is in time."""
+    for camera, lasts, least in (*_turns(unwound(cameras), limits), *_stretches(cameras, limits)):
+        if least > SHARE * lasts:
+            return camera
+    return None
+
+
+def _turns(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, float, float]]:
+    """Yield every camera with the seconds to the next, and the least for the turn and the way to it."""
+    for a, b in pairwise(cameras):
+        up = b.at[2] - a.at[2]
+        across = dist(a.at[:2], b.at[:2]) / limits.speed
+        upright = up / limits.climb if up > 0 else -up / limits.descent
+        turn = abs(b.heading - a.heading) / degrees(limits.yaw_rate)
+        yield a, (b.time or 0.0) - (a.time or 0.0) - a.hold, max(across, upright, turn)
+
+
+def _stretches(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, float, float]]:
+    """Yield where each flight from rest to rest begins, how long it lasts, and the least that it takes."""
+    inner = [i for i in range(1, len(cameras) - 1) if cameras[i].hold > 0.0]
+    for i, j in pairwise([0, *inner, len(cameras) - 1]):
+        some = cameras[i : j + 1]
+        steps = [[q - p for p, q in zip(a.at, b.at, strict=True)] for a, b in pairwise(some)]
+        across = sum(hypot(x, y) for x, y, _ in steps)
+        up, down = sum(max(z, 0.0) for _, _, z in steps), sum(max(-z, 0.0) for _, _, z in steps)
+        ways = ((across, limits.speed), (up, limits.climb), (down, limits.descent))
+        least = max(_least(way, speed, limits.acceleration) for way, speed in ways)
+        yield some[0], (some[-1].time or 0.0) - (some[0].time or 0.0) - some[0].hold, least
+
+
+def _least(way: float, speed: float, push: float) -> float:
+    """Return the least seconds from rest to rest."""
+    return way / speed + speed / push if way * push > speed * speed else 2.0 * sqrt(way / push)

@@ -1,0 +1,85 @@
+"""Places on the globe as places of W, and heights that count from one level."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan2, degrees, hypot
+from statistics import median
+
+from shotc.geom.geodetic import above_ground, to_world
+from shotc.geom.vec import Vec3
+from shotc.importers.cameras.takes import Origin, Take
+from shotc.importers.notes import Notes
+from shotc.importers.xml_tree import Node
+
+FAR_M = 20_000.0
+"""Metres from the middle of all cameras beyond which one belongs to no flight."""
+LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees; of the gimbal of the drone that is written
+LARGEST_NUMBER = 1e9
+ROLLED_DEG = 0.5
+"""Degrees by which a picture is tilted before anybody sees it."""
+
+
+def origin_at(lat: float, lon: float, alt: float) -> Origin:
+    """Return the origin of W at a place, rounded as it is written."""
+    return Origin(round(lat, 7), round(lon, 7), round(alt, 3))
+
+
+def world(origin: Origin, lat: float, lon: float, height: float, *, absolute: bool) -> Vec3:
+    """Return a place of the globe in W; height : metres above sea level, or over the ground, z = 0."""
+    return to_world((lat, lon, height), origin) if absolute else above_ground((lat, lon, height), origin)
+
+
+def is_place(lat: float | None, lon: float | None) -> bool:
+    """Tell whether two numbers are a latitude and a longitude, degrees."""
+    return lat is not None and lon is not None and abs(lat) < 89.9 and abs(lon) <= 360.0
+
+
+def aim(at: Vec3, to: Vec3) -> tuple[float, float]:
+    """Return heading and pitch of the way from one place of W to another, degrees."""
+    x, y, z = (b - a for a, b in zip(at, to, strict=True))
+    return degrees(atan2(x, y)) % 360.0, degrees(atan2(z, hypot(x, y)))
+
+
+def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
+    """Return takes without cameras that are far from most others: a tour often begins above the continent."""
+    cameras = [camera for take in takes for camera in take.cameras]
+    if not cameras:
+        return ()
+    middle = [median(camera.at[k] for camera in cameras) for k in range(3)]
+    kept = []
+    for take in takes:
+        near = []
+        for camera in take.cameras:
+            away = hypot(*(a - b for a, b in zip(camera.at, middle, strict=True)))
+            if away < FAR_M:
+                near.append(camera)
+            else:
+                notes.assume(
+                    camera.node, f"a camera that is {away / 1000:.0f} km from most others", "it is left out"
+                )
+        kept.append(take._replace(cameras=tuple(near)))
+    return tuple(kept)
+
+
+def reached(node: Node, pitch: float, notes: Notes) -> float:
+    """Return a pitch that the drone's gimbal reaches, degrees."""
+    nearest = max(LOWEST_PITCH, min(HIGHEST_PITCH, pitch))
+    if abs(nearest - pitch) > 1e-6:
+        notes.assume(node, f"a pitch of {pitch:.1f} deg is out of a gimbal's range", f"{nearest:g} deg")
+    return nearest
+
+
+def level(node: Node, roll: float, notes: Notes) -> None:
+    """Note that a camera is tilted sideways."""
+    if abs(roll) > ROLLED_DEG:
+        notes.assume(node, f"the camera is rolled by {roll:.1f} deg", "a level horizon")
+
+
+def number(text: str) -> float | None:
+    """Return a number that may be a place, a time or an angle, None for any other text."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if abs(value) < LARGEST_NUMBER and "_" not in text else None

@@ -1,0 +1,239 @@
+"""QGroundControl: a ``.plan`` of waypoints. Heights count from its home unless their frame says otherwise.
+
+Format: docs.qgroundcontrol.com, file_formats/plan; commands: mavlink.io, common.xml. What is told between two
+waypoints holds from the first of them: a gimbal's angles against the body, or a place to look at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import dist
+from typing import Any, NamedTuple
+
+from shotc.geom.vec import Vec3
+from shotc.importers.cameras.places import (
+    LARGEST_NUMBER,
+    aim,
+    is_place,
+    origin_at,
+    reached,
+    without_far,
+    world,
+)
+from shotc.importers.cameras.takes import (
+    MOST_CAMERAS,
+    Asked,
+    Camera,
+    Footage,
+    Origin,
+    Refused,
+    Take,
+    recorded,
+)
+from shotc.importers.notes import Notes, plain
+from shotc.importers.xml_tree import Node
+from shotc.source.file import Span
+from shotc.source.yaml_tree import Document, parse
+
+WAYPOINT, SPLINE = 16, 82
+SPEED, LOOK, LOOK_NO_MORE, LOOK_OLD, GIMBAL, MOUNT, START, STOP = 178, 195, 197, 201, 1000, 205, 2500, 2501
+QUIET = frozenset((20, 21, 22, 1001, 115, SPEED, LOOK, LOOK_NO_MORE, LOOK_OLD, GIMBAL, MOUNT, START, STOP))
+"""Commands that are read, or that a plan has of its own: take-off, landing, return, who moves the gimbal."""
+SEA_LEVEL, HOME_LEVEL, TERRAIN = (0, 5), (3, 6), (10, 11)
+"""Frames that heights count in."""
+YAW_LOCK = 16
+"""Flag of command 1000: yaw counts from North, not from the body."""
+PARAMETERS = 7
+
+
+class Item(NamedTuple):
+    """One command. params : seven numbers, None where there is none."""
+
+    node: Node
+    command: int
+    frame: int
+    params: tuple[float | None, ...]
+
+
+@dataclass(slots=True)
+class _Aim:
+    """Where the camera looks: a place of W, or angles against the body, or as they are told from North."""
+
+    place: Vec3 | None = None
+    pitch: float | None = None
+    yaw: float = 0.0
+    locked: bool = False
+
+
+def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Refused:
+    """Return the takes of a plan: what is recorded, or all waypoints where nothing is."""
+    document = parse(data.replace(b"\t", b" "), name)  # tabs between values are JSON, and no YAML
+    if document.faults:
+        fault = document.faults[0]
+        return Refused("I001", f"it is no JSON: {fault.message}", _node(fault.span))
+    mission = document.root.get("mission") if isinstance(document.root, dict) else None
+    listed = mission.get("items") if isinstance(mission, dict) else None
+    whole = _node(document.values.get((), Span(1, 1, 1, 2)))
+    if not isinstance(mission, dict) or not isinstance(listed, list):
+        return Refused("I002", "it is no plan of QGroundControl: it has no `mission` with `items`", whole)
+    if len(listed) > MOST_CAMERAS:
+        message = f"it has {len(listed)} items; at most {MOST_CAMERAS} are read"
+        return Refused("I001", message, _at(document, "mission", "items", MOST_CAMERAS))
+    items = list(_items(document, listed, notes))
+    ways = [item for item in items if item.command in (WAYPOINT, SPLINE)]
+    if not ways:
+        return Refused("I003", "it holds no waypoint that says where it is", whole)
+    origin = _origin(document, mission, ways[0], asked, notes)
+    absolute = [item for item in ways if item.frame in SEA_LEVEL]
+    if isinstance(origin, Refused):
+        return origin
+    if (
+        absolute
+        and len(absolute) < len(ways)
+        and "plannedHomePosition" not in mission
+        and asked.ground is None
+    ):
+        message = "some waypoints count from sea level, others from a home that the file does not have"
+        return Refused(
+            "I007", message, absolute[0].node, "give the altitude of the ground: `--ground METRES`"
+        )
+    for part in ("geoFence", "rallyPoints"):
+        found = document.root.get(part)
+        if isinstance(found, dict) and any(isinstance(v, list) and v for v in found.values()):
+            notes.assume(_at(document, part), f"`{part}` is not imported", "zones of your own, or none")
+    if (fast := next((item for item in items if item.command == SPEED), None)) is not None:
+        notes.assume(fast.node, "speeds between waypoints are not read", "the drone goes at its own pace")
+    takes = _takes(whole, items, origin, notes)
+    return Footage(whole, without_far(takes, notes), origin, home=(0.0, 0.0, 0.0))
+
+
+def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[Item]:
+    for i, item in enumerate(listed):
+        node = _at(document, "mission", "items", i)
+        command = item.get("command") if isinstance(item, dict) else None
+        params = item.get("params") if isinstance(item, dict) else None
+        if not isinstance(command, int) or not isinstance(params, list):
+            kind = item.get("complexItemType") if isinstance(item, dict) else None
+            what = f"a `{plain(kind, 30)}`" if isinstance(kind, str) else "no simple item"
+            notes.assume(node, f"item {i + 1} is {what}", "it is left out")
+            continue
+        numbers = [_number(value) for value in params[:PARAMETERS]]
+        numbers += [None] * (PARAMETERS - len(numbers))
+        frame = item.get("frame")
+        made = Item(node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers))
+        if command in (WAYPOINT, SPLINE) and (
+            not is_place(made.params[4], made.params[5]) or made.params[6] is None
+        ):
+            notes.assume(node, f"item {i + 1} is a waypoint without a place", "it is left out")
+            continue
+        if command not in QUIET and command not in (WAYPOINT, SPLINE):
+            notes.assume(node, f"item {i + 1} is command {command}, which no camera needs", "it is left out")
+            continue
+        yield made
+
+
+def _is_placed(item: Item) -> bool:
+    return is_place(item.params[4], item.params[5]) and item.params[6] is not None
+
+
+def _origin(
+    document: Document, mission: dict[str, Any], first: Item, asked: Asked, notes: Notes
+) -> Origin | Refused:
+    home = mission.get("plannedHomePosition")
+    if home is not None:
+        place = [_number(value) for value in home] if isinstance(home, list) else []
+        lat, lon, alt = place if len(place) == 3 else (None, None, None)
+        if lat is None or lon is None or not is_place(lat, lon):
+            node = _at(document, "mission", "plannedHomePosition")
+            return Refused("I002", "its `plannedHomePosition` is no latitude, longitude and altitude", node)
+        return origin_at(lat, lon, asked.ground if asked.ground is not None else (alt or 0.0))
+    if asked.ground is None:
+        message = "the file has no `plannedHomePosition`"
+        taken = "home is at the first waypoint, at sea level; `--ground` is its altitude"
+        notes.assume(first.node, message, taken)
+    return origin_at(first.params[4] or 0.0, first.params[5] or 0.0, asked.ground or 0.0)
+
+
+def _takes(whole: Node, items: Sequence[Item], origin: Origin, notes: Notes) -> list[Take]:
+    """Return the waypoints as cameras; the commands after one belong to it."""
+    cameras: list[Camera] = []
+    starts: list[bool] = []
+    stops: list[bool] = []
+    looks, heading = _Aim(), 0.0
+    first = next(i for i, item in enumerate(items) if item.command in (WAYPOINT, SPLINE))
+    for item in items[:first]:
+        _told(item, looks, origin)
+    i = first
+    while i < len(items):
+        item, i = items[i], i + 1
+        at = _place(item, origin, notes)
+        heading = item.params[3] if item.params[3] is not None else _ahead(items, i, at, origin, heading)
+        after = []
+        while i < len(items) and items[i].command not in (WAYPOINT, SPLINE):
+            after.append(items[i])
+            _told(items[i], looks, origin)
+            i += 1
+        hold = max(0.0, item.params[0] or 0.0) if item.command == WAYPOINT else 0.0
+        cameras.append(_camera(item, at, heading, looks, notes)._replace(hold=hold))
+        starts.append(any(told.command == START for told in after))
+        stops.append(any(told.command == STOP for told in after))
+    return recorded(whole, cameras, starts, stops)
+
+
+def _place(item: Item, origin: Origin, notes: Notes) -> Vec3:
+    _, _, _, _, lat, lon, height = item.params
+    if item.frame in TERRAIN:
+        notes.assume(item.node, "a height over terrain", "the ground is flat")
+    above = (height or 0.0) + (0.0 if item.frame in SEA_LEVEL else origin.alt)
+    return world(origin, lat or 0.0, lon or 0.0, above, absolute=True)
+
+
+def _ahead(items: Sequence[Item], i: int, at: Vec3, origin: Origin, otherwise: float) -> float:
+    """Return the way to the next waypoint: where a vehicle faces that is told nothing."""
+    for item in items[i:]:
+        if item.command in (WAYPOINT, SPLINE):
+            to = _place(item, origin, Notes())
+            return aim(at, to)[0] if dist(at[:2], to[:2]) > 0.1 else otherwise
+    return otherwise
+
+
+def _told(item: Item, looks: _Aim, origin: Origin) -> None:
+    """Take what a command says of where the camera looks."""
+    p = item.params
+    if item.command in (LOOK, LOOK_OLD) and is_place(p[4], p[5]) and (p[4], p[5]) != (0.0, 0.0):
+        looks.place = _place(item, origin, Notes())
+    elif item.command == LOOK_NO_MORE:
+        looks.place = None
+    elif item.command == GIMBAL and p[0] is not None:
+        looks.pitch, looks.yaw, looks.place = p[0], p[1] or 0.0, None
+        looks.locked = bool(int(p[4] or 0.0) & YAW_LOCK)
+    elif item.command == MOUNT and p[0] is not None:
+        looks.pitch, looks.yaw, looks.locked, looks.place = p[0], p[2] or 0.0, False, None
+
+
+def _camera(item: Item, at: Vec3, heading: float, looks: _Aim, notes: Notes) -> Camera:
+    if looks.place is not None and dist(at, looks.place) > 0.1:
+        bearing, pitch = aim(at, looks.place)
+        if reached(item.node, pitch, notes) == pitch:
+            return Camera(item.node, at, bearing, pitch, look_at=looks.place)
+        return Camera(item.node, at, bearing, reached(item.node, pitch, notes))
+    if looks.pitch is None:
+        notes.assume(item.node, "no command says where the gimbal points", "level, straight ahead")
+    bearing = looks.yaw if looks.locked else heading + looks.yaw
+    return Camera(item.node, at, bearing % 360.0, reached(item.node, looks.pitch or 0.0, notes))
+
+
+def _number(value: Any) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return float(value) if abs(value) < LARGEST_NUMBER else None
+
+
+def _at(document: Document, *path: str | int) -> Node:
+    return _node(document.values.get(path, Span(1, 1, 1, 2)))
+
+
+def _node(span: Span) -> Node:
+    wide = span.end_column - span.column if span.end_line == span.line else 1
+    return Node("", span.line, span.column, wide=max(1, wide))

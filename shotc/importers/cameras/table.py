@@ -1,0 +1,80 @@
+"""Tables as text: rows of cells that know their line and column."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from shotc.importers.cameras.places import number
+from shotc.importers.cameras.takes import Refused
+from shotc.importers.notes import Notes, plain
+from shotc.importers.xml_tree import Node
+
+SEPARATORS = (",", ";", "\t")
+
+
+class Row(NamedTuple):
+    """One row: its first cell, which stands for it, and its cells by the names of their columns."""
+
+    node: Node
+    cells: dict[str, Node]
+
+    def text(self, column: str) -> str:
+        """Return a cell's text, empty where there is none."""
+        cell = self.cells.get(column)
+        return "" if cell is None else cell.text
+
+    def number(self, column: str, notes: Notes) -> float | None:
+        """Return a cell's number, None where there is none, with a note where it is something else."""
+        cell = self.cells.get(column)
+        if cell is None or not cell.text:
+            return None
+        value = number(cell.text)
+        if value is None:
+            notes.assume(cell, f"`{plain(cell.text, 20)}` is no number", "none")
+        return value
+
+
+class Table(NamedTuple):
+    """A table. node : its first line; heads : its columns' cells, by their names in small letters."""
+
+    node: Node
+    heads: dict[str, Node]
+    rows: tuple[Row, ...]
+
+
+def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> Table | Refused:
+    """Return a table whose first line names its columns.
+
+    needed : for each column that there has to be, the names that it may have; example : such a first line
+    """
+    lines = text.splitlines()
+    first = next((i for i, line in enumerate(lines) if line.strip()), None)
+    start = Node("", 1, 1, wide=1)
+    if first is None or "\0" in text:
+        return Refused("I001", "it is empty" if first is None else "it is no text", start)
+    separator = max(SEPARATORS, key=lines[first].count)
+    heads = {cell.text.lower(): cell for cell in reversed(_cells(lines[first], first, separator))}
+    head = Node("", first + 1, 1, wide=max(1, len(lines[first])))
+    for names in needed:
+        if not heads.keys() & set(names):
+            message = f"it has no column `{names[0]}` in its first line"
+            return Refused("I002", message, head, f"begin it with a line such as `{example}`")
+    order = list(dict.fromkeys(cell.text.lower() for cell in _cells(lines[first], first, separator)))
+    return Table(head, heads, tuple(_rows(lines, first, separator, order)))
+
+
+def _rows(lines: Sequence[str], first: int, separator: str, order: Sequence[str]) -> Iterator[Row]:
+    for i in range(first + 1, len(lines)):
+        cells = _cells(lines[i], i, separator)
+        if any(cell.text for cell in cells):
+            yield Row(cells[0], dict(zip(order, cells, strict=False)))
+
+
+def _cells(line: str, index: int, separator: str) -> list[Node]:
+    cells, column = [], 1
+    for part in line.split(separator):
+        text = part.strip().strip('"').strip()
+        cells.append(Node("", index + 1, column, text=text, wide=max(1, len(part))))
+        column += len(part) + 1
+    return cells

@@ -1,0 +1,125 @@
+"""Cameras that the others imply, left out: the picture between those that stay hardly changes.
+
+A camera may go where the one that is interpolated in its place, evenly between its neighbours, shows every
+corner and the middle of its frame within ``PICTURE`` half frames of where it does itself. What is filmed is
+taken to be as far away as the camera is high over the ground, and no nearer than ``NEAREST_M``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import accumulate, pairwise
+from math import cos, hypot, inf, radians, sin, tan
+from typing import NamedTuple
+
+from shotc.geom.vec import Vec3
+from shotc.importers.cameras.takes import Camera
+
+PICTURE = 0.01
+"""Half frames by which a picture may be off."""
+NEAREST_M = 5.0
+ASPECT = 16 / 9
+"""Width over height of the frame."""
+WIDEST_TURN_DEG = 120.0
+"""Between neighbours that stay: a turn of half a circle could be flown either way."""
+CORNERS = ((0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
+
+
+class _View(NamedTuple):
+    """A camera for projections: its place, axes, and the tangents of half its frame."""
+
+    at: Vec3
+    right: Vec3
+    up: Vec3
+    forward: Vec3
+    wide: float
+    high: float
+
+
+def thinned(cameras: Sequence[Camera], usual_hfov: float, *, on_clock: bool) -> tuple[Camera, ...]:
+    """Return the cameras that are needed, by the method of Ramer, Douglas and Peucker.
+
+    The first and the last stay, those that rest, and those that look at a place.
+
+    on_clock : whether a camera is to be where it is at its time, or only where it is on its way
+    """
+    lens = [camera._replace(hfov=camera.hfov or usual_hfov) for camera in unwound(cameras)]
+    way = _way(lens, on_clock=on_clock)
+    kept = {0, len(lens) - 1, *(i for i, camera in enumerate(lens) if camera.hold > 0 or camera.look_at)}
+    spans = list(pairwise(sorted(kept)))
+    while spans:
+        first, last = spans.pop()
+        worst, at = _worst(lens, way, first, last)
+        if worst > PICTURE:
+            kept.add(at)
+            spans += [(first, at), (at, last)]
+    return tuple(cameras[i] for i in sorted(kept))
+
+
+def unwound(cameras: Sequence[Camera]) -> list[Camera]:
+    """Return the cameras with headings that do not jump by whole turns."""
+    out: list[Camera] = []
+    for camera in cameras:
+        turns = round((out[-1].heading - camera.heading) / 360.0) if out else 0
+        out.append(camera._replace(heading=camera.heading + 360.0 * turns))
+    return out
+
+
+def picture_change(a: Camera, b: Camera) -> float:
+    """Return how far apart two cameras show what a sees, half frames; infinite where it is behind b."""
+    one, other = _view(a), _view(b)
+    depth = max(NEAREST_M, a.at[2])
+    worst = 0.0
+    for u, v in CORNERS:
+        away = [
+            p - q + depth * (f + u * one.wide * r + v * one.high * t)
+            for p, q, f, r, t in zip(one.at, other.at, one.forward, one.right, one.up, strict=True)
+        ]
+        x, y, z = (sum(d * k for d, k in zip(away, axis, strict=True)) for axis in other[1:4])
+        if z <= 0.0:
+            return inf
+        worst = max(worst, hypot(x / z / other.wide - u, y / z / other.high - v))
+    return worst
+
+
+def _way(cameras: Sequence[Camera], *, on_clock: bool) -> list[float]:
+    """Return how far along each camera is: its time, or how much the picture has changed."""
+    if on_clock:
+        return [camera.time or 0.0 for camera in cameras]
+    steps = (min(picture_change(a, b), 1.0) for a, b in pairwise(cameras))
+    return list(accumulate(steps, initial=0.0))
+
+
+def _worst(cameras: Sequence[Camera], way: Sequence[float], first: int, last: int) -> tuple[float, int]:
+    """Return how far the picture is off at worst between two cameras that stay, and at which."""
+    a, b = cameras[first], cameras[last]
+    if last - first < 2:
+        return 0.0, first
+    if abs(b.heading - a.heading) > WIDEST_TURN_DEG:
+        return inf, (first + last) // 2
+    whole = way[last] - way[first]
+    worst, at = 0.0, first
+    for i in range(first + 1, last):
+        share = (way[i] - way[first]) / whole if whole > 0 else 0.0
+        off = picture_change(cameras[i], _between(a, b, share))
+        if off > worst:
+            worst, at = off, i
+    return worst, at
+
+
+def _between(a: Camera, b: Camera, share: float) -> Camera:
+    def mixed(p: float, q: float) -> float:
+        return p + share * (q - p)
+
+    x, y, z = (mixed(p, q) for p, q in zip(a.at, b.at, strict=True))
+    hfov = mixed(a.hfov or 0.0, b.hfov or 0.0)
+    return a._replace(
+        at=(x, y, z), heading=mixed(a.heading, b.heading), pitch=mixed(a.pitch, b.pitch), hfov=hfov
+    )
+
+
+def _view(camera: Camera) -> _View:
+    h, p, wide = radians(camera.heading), radians(camera.pitch), tan(radians(camera.hfov or 0.0) / 2)
+    forward = (sin(h) * cos(p), cos(h) * cos(p), sin(p))
+    up = (-sin(h) * sin(p), -cos(h) * sin(p), cos(p))
+    return _View(camera.at, (cos(h), -sin(h), 0.0), up, forward, wide, wide / ASPECT)

@@ -1,0 +1,151 @@
+"""Takes as a mission of ``keyframes``, with every assumption as a comment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import cos, degrees, dist, radians, sin
+from typing import NamedTuple
+
+from shotc.importers.cameras.pace import too_fast
+from shotc.importers.cameras.takes import Asked, Camera, Footage, Take
+from shotc.importers.cameras.thin import PICTURE, thinned
+from shotc.importers.names import safe
+from shotc.importers.notes import Notes
+from shotc.spec.presets import PRESETS
+
+MODEL = "pro"
+BEHIND_M = 10.0
+"""Metres behind the first camera at which a drone stands of whose home nothing is known."""
+SAME_M, SAME_DEG = 1e-3, 1e-3
+"""Within which two cameras are one."""
+SAME_LENS_DEG = 1e-3
+"""Within which all cameras have one field of view."""
+
+
+class Written(NamedTuple):
+    """A mission as text, and how many shots and keyframes it has of how many cameras."""
+
+    text: str
+    shots: int
+    keyframes: int
+    cameras: int
+
+
+def written(name: str, what: str, footage: Footage, asked: Asked, notes: Notes) -> Written | None:
+    """Return a mission, None where no take has two cameras; name : of it, what : it comes from."""
+    takes = [take for take in map(_rested, footage.takes) if len(take.cameras) > 1]
+    for take in footage.takes:
+        if len(take.cameras) == 1 and len(footage.takes) > 1:
+            notes.assume(take.cameras[0].node, "a take of one camera", "it is left out")
+    if not takes:
+        return None
+    usual, lenses = _lenses(takes)
+    kept = [
+        take if asked.every else take._replace(cameras=thinned(take.cameras, usual, on_clock=asked.times))
+        for take in takes
+    ]
+    counts = (sum(len(take.cameras) for take in takes), sum(len(take.cameras) for take in kept))
+    shots = [
+        line for i, take in enumerate(kept) for line in _shot(_id(kept, i), take, asked, notes, lenses=lenses)
+    ]
+    drone = _drone(footage, kept[0].cameras[0], usual, notes)
+    head = [f"# Imported from {what}."]
+    if counts[1] < counts[0]:
+        kept_of = f"{counts[1]} of {counts[0]} cameras"
+        head.append(f"# {kept_of}: between them the picture is within {PICTURE:g} half frames of the file's.")
+    said = {f"# {note.comment}": None for note in notes.found}
+    body = ["shotc: 1", f"mission: {safe(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
+    return Written("\n".join([*head, *said, *body, ""]), len(kept), counts[1], counts[0])
+
+
+def _rested(take: Take) -> Take:
+    """Return a take without cameras that are the one before once more: the camera rests there."""
+    out: list[Camera] = []
+    for camera in take.cameras:
+        if not out or not _same(out[-1], camera):
+            out.append(camera)
+        elif camera.time is not None and out[-1].time is not None:
+            out[-1] = out[-1]._replace(hold=camera.time + camera.hold - out[-1].time)
+    return take._replace(cameras=tuple(out))
+
+
+def _same(a: Camera, b: Camera) -> bool:
+    turned = abs((b.heading - a.heading + 180.0) % 360.0 - 180.0) + abs(b.pitch - a.pitch)
+    zoomed = abs((a.hfov or 0.0) - (b.hfov or 0.0))
+    return dist(a.at, b.at) < SAME_M and turned < SAME_DEG and zoomed < SAME_LENS_DEG
+
+
+def _lenses(takes: list[Take]) -> tuple[float, bool]:
+    """Return the drone's field of view, and whether keyframes have others."""
+    found = [camera.hfov for take in takes for camera in take.cameras if camera.hfov is not None]
+    if not found:
+        return degrees(PRESETS[MODEL].hfov), False
+    return found[0], max(found) - min(found) > SAME_LENS_DEG
+
+
+def _world(footage: Footage) -> Iterator[str]:
+    if footage.origin is not None:
+        lat, lon, alt = footage.origin
+        yield f"world: {{origin: {{lat: {lat:.7f}, lon: {lon:.7f}, alt: {alt:.3f}}}}}"
+
+
+def _drone(footage: Footage, first: Camera, hfov: float, notes: Notes) -> list[str]:
+    home = footage.home
+    if home is None:
+        x, y, _ = first.at
+        way = radians(first.heading)
+        home = (x - BEHIND_M * sin(way), y - BEHIND_M * cos(way), 0.0)
+        message = "the file does not say which drone it is, nor where it stands"
+        notes.assume(footage.node, message, f"model {MODEL}, {BEHIND_M:g} m behind the first camera")
+    else:
+        notes.assume(footage.node, "the file does not say which drone it is", f"model {MODEL}")
+    at = ", ".join(f"{value + 0.0:.4f}" for value in home)
+    lens = f"camera: {{hfov: {hfov:.4f} deg}}" if first.hfov is not None else ""
+    return [f"  cam1: {{model: {MODEL}, home: [{at}]{', ' if lens else ''}{lens}}}"]
+
+
+def _id(takes: list[Take], i: int) -> str:
+    """Return a shot's id: its take's name, with a number where another one has it, too."""
+    names = [safe(take.name, "take") for take in takes]
+    return names[i] if names.count(names[i]) == 1 else f"{names[i]}-{names[: i + 1].count(names[i])}"
+
+
+def _shot(name: str, take: Take, asked: Asked, notes: Notes, *, lenses: bool) -> Iterator[str]:
+    yield f"  - id: {name}"
+    yield "    kind: keyframes"
+    yield "    drone: cam1"
+    timed = _timed(take, notes)
+    if timed:
+        first, last = take.cameras[0], take.cameras[-1]
+        yield f"    timing: {{duration: {(last.time or 0.0) + last.hold - (first.time or 0.0):.3f}}}"
+    yield "    keyframes:"
+    for camera in take.cameras:
+        parts = [f"at: [{', '.join(f'{value + 0.0:.4f}' for value in camera.at)}]"]
+        if camera.look_at is not None:
+            parts.append(f"look_at: [{', '.join(f'{value + 0.0:.4f}' for value in camera.look_at)}]")
+        else:
+            parts += [f"heading: {_compass(camera.heading)} deg", f"pitch: {camera.pitch + 0.0:.4f} deg"]
+        if lenses and camera.hfov is not None:
+            parts.append(f"hfov: {camera.hfov:.4f} deg")
+        if camera.hold > 0.0:
+            parts.append(f"hold: {camera.hold:.3f}")
+        if timed and asked.times and camera.time is not None:
+            parts.append(f"time: {camera.time - (take.cameras[0].time or 0.0):.3f}")
+        yield f"      - {{{', '.join(parts)}}}"
+
+
+def _compass(heading: float) -> str:
+    """Return a heading below 360 deg, which is a direction and counts no turns."""
+    text = f"{heading % 360.0:.4f}"
+    return "0.0000" if text == "360.0000" else text
+
+
+def _timed(take: Take, notes: Notes) -> bool:
+    """Tell whether a take is flown in its own time: one that is too fast is flown in the drone's."""
+    if any(camera.time is None for camera in take.cameras):
+        return False
+    fast = too_fast(take.cameras, PRESETS[MODEL].limits)
+    if fast is not None:
+        message = "from this camera on the take is too fast for the drone"
+        notes.assume(fast.node, message, "the shot takes as long as the drone needs")
+    return fast is None

@@ -1,0 +1,13 @@
+"""Names of other tools as names of the language."""
+
+from __future__ import annotations
+
+import re
+
+LONGEST = 40
+
+
+def safe(name: str, otherwise: str = "mission") -> str:
+    """Return a name of letters, digits and `-`, or another where none of these is left."""
+    kept = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:LONGEST].strip("-")
+    return kept or otherwise
