@@ -22,6 +22,7 @@ Residuals = list[float]
 FAR_M = 1e5  # metres beyond which nothing is filmed
 HALVINGS = 60
 HARD_WEIGHT = 10.0  # weight of what has to hold
+NEAR_WEIGHT = 0.3  # weight of a place that the camera stays near: a tenth of the way off is 0.03 half frames
 FAINT_WEIGHT = 0.01  # weight of what is free: that it stays as it is, and is level
 EDGE_SHARE = 0.97  # of half a frame, within which a whole target is kept
 NUDGE = 1e-6
@@ -41,10 +42,14 @@ class Lens(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Where the camera may be: lowest z, metres, and the distance it keeps from subjects."""
+    """Where the camera may be: lowest z, metres, and the distance it keeps from subjects.
+
+    drawn : the place that it stays near as far as the picture lets it (viewpoint Eq. 10), or None
+    """
 
     floor: float
     near: float
+    drawn: Vec3 | None = None
 
 
 class Wanted(NamedTuple):
@@ -245,7 +250,7 @@ def viewpoint(
     reach = max(hypot(*minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
-        found = _residuals(pose, subjects, lens, room.near, (since, reach))
+        found = _residuals(pose, subjects, lens, room, (since, reach))
         return found, inf if found is None else _dot(found, found)
 
     low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
@@ -307,7 +312,7 @@ def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) 
 
 
 def _residuals(
-    pose: Pose, subjects: Sequence[Wanted], lens: Lens, near: float, faint: tuple[Since | None, float]
+    pose: Pose, subjects: Sequence[Wanted], lens: Lens, room: Room, faint: tuple[Since | None, float]
 ) -> Residuals | None:
     """Return all terms; None where a subject reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
@@ -336,11 +341,20 @@ def _residuals(
         found += _off_view(s, offset)
         if s.elevation is None:
             found.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
-        found.append(HARD_WEIGHT * max(0.0, near - s.shape.gap(offset)))
+        found.append(HARD_WEIGHT * max(0.0, room.near - s.shape.gap(offset)))
+    found += _off_place(eye, room.drawn, subjects)
     if since is not None:
         found += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
         found.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
     return found
+
+
+def _off_place(eye: Vec3, drawn: Vec3 | None, subjects: Sequence[Wanted]) -> Residuals:
+    """Return how far a camera is from the place that it stays near, as shares of that one's distance."""
+    if drawn is None:
+        return []
+    away = max(hypot(*minus(drawn, middle_of(subjects))), 1.0)
+    return [NEAR_WEIGHT * (e - d) / away for e, d in zip(eye, drawn, strict=True)]
 
 
 def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:

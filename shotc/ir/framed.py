@@ -78,7 +78,7 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
 def course_of(mission: MissionIR, shot: Shot, start: float) -> Course:
     """Return the course of a framing whose first frame is at ``start``."""
     scene = Scene(mission, shot, start)
-    return _alone(scene) if len(shot.subjects) == 1 else _several(scene)
+    return _alone(scene) if len(shot.subjects) == 1 and scene.drawn is None else _several(scene)
 
 
 def places_of(composition: Composition) -> list[Vec2]:
@@ -181,7 +181,7 @@ def _clear_bearing(scene: Scene, target: Target, beside: _Beside) -> OffsetPoint
 
 
 def _several(scene: Scene) -> Course:
-    """Return the course of several subjects."""
+    """Return the course of several subjects, or of one beside a place that the camera stays near."""
     shot, ideal = scene.shot, scene.shot.ideal
     assert ideal is not None
     first, subjects = _opening(scene)
@@ -204,6 +204,9 @@ def _opening(scene: Scene) -> tuple[Pose, tuple[Subject, ...]]:
     come = scene.comes_from(middle_of(wanted))
     turns = [WIDE * ((k + 1) // 2) * (1 if k % 2 else -1) for k in range(round(2 * pi / WIDE))]
     asked = [w.azimuth for w in wanted if w.azimuth is not None]
+    if scene.drawn is not None:
+        x, y, _ = minus(scene.drawn, middle_of(wanted))
+        asked.append(atan2(x, y))
     found: list[tuple[float, Pose, tuple[Subject, ...]]] = []
     for azimuth in [*asked, *(come + turn for turn in turns)]:
         guess = first_pose(wanted, scene.lens, scene.room, azimuth)

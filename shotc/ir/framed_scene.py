@@ -48,6 +48,8 @@ class Scene:
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
         self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
         self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
+        self.drawn = None if shot.ideal is None else shot.ideal.near
+        self.room = self.room._replace(drawn=self.drawn)
 
     def _ground(self) -> float:
         """Return the highest ground below the subjects, metres of W."""

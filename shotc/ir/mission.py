@@ -227,6 +227,7 @@ class Ideal(NamedTuple):
     framed : True where the points are found from how the subjects are to appear (``ir.framed``), for the
         time at which the shot begins, as far as that is known
     above : what up counts from in the frames "target" and "heading"
+    near : the place near which a framing's camera stays as far as the picture lets it
     """
 
     frame: Literal["world", "target", "heading", "about", "keyframes"]
@@ -236,6 +237,7 @@ class Ideal(NamedTuple):
     aim: Vec2 | None = None
     framed: bool = False
     above: Above = "target"
+    near: Vec3 | None = None
 
 
 class Subject(NamedTuple):

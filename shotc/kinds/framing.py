@@ -9,7 +9,7 @@ from shotc.ir.mission import Deferred, Ideal, Subject
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.moving import evenly
 from shotc.kinds.setpoints import WHAT, SetpointSpec, ViewSpec, setpoint_faults, setpoints_of
-from shotc.spec.fields import Frame, Name, ShotSize
+from shotc.spec.fields import Frame, Name, Position, ShotSize
 from shotc.spec.model import Model
 from shotc.spec.shot import ShotBase
 
@@ -35,6 +35,9 @@ class FramingShot(ShotBase):
 
     kind: Literal["framing"] = Field(description="what sort of shot it is")
     subjects: tuple[SubjectSpec, ...] = Field(min_length=1, description="who is in the picture, and how")
+    near: Position | None = Field(
+        default=None, description="place near which the camera stays as far as the picture lets it"
+    )
 
 
 def expand(shot: FramingShot, scene: Scene) -> Expansion:
@@ -59,7 +62,8 @@ def expand(shot: FramingShot, scene: Scene) -> Expansion:
         )
         for i, s in enumerate(shot.subjects)
     )
-    ideal = Ideal("about", subjects[0].target, evenly([ORIGIN]), framed=True)
+    near = None if shot.near is None else scene.place(shot.near)
+    ideal = Ideal("about", subjects[0].target, evenly([ORIGIN]), framed=True, near=near)
     return Expansion(ideal=ideal, subjects=subjects)
 
 

@@ -110,11 +110,11 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
         )
         for centre, s in zip(centres[0], framed, strict=True)
     ]
-    rng = np.random.default_rng(5)
+    rng, room = np.random.default_rng(5), viewpoint.Room(0.0, 0.0)
     for _ in range(20):
         at = np.array([2.0, -7.0, 2.0]) + rng.uniform(-2, 2, 3)
         look = np.array([0.5 * pi, -0.1]) + rng.uniform(-0.2, 0.2, 2)
-        theirs = viewpoint._residuals((*at, *look), references, lens_of(of.drone), 0.0, (None, 1.0))
+        theirs = viewpoint._residuals((*at, *look), references, lens_of(of.drone), room, (None, 1.0))
         assert theirs is not None
         ours = sum(float(ca.sumsqr(term(row, at, look, [half, half / of.drone.aspect]))) for row in rows)
         assert ours == pytest.approx(float(np.dot(theirs, theirs)), rel=2e-3, abs=1e-6)

@@ -147,7 +147,7 @@ def test_no_general_solver_does_better_from_where_ours_ends(seed: int) -> None:
     pose, cost = viewpoint(subjects, LENS, ROOM, first_pose(subjects, LENS, ROOM, 0.5))
 
     def residuals(x: np.ndarray) -> np.ndarray:
-        found = module._residuals(tuple(x), subjects, LENS, ROOM.near, (None, 10.0))
+        found = module._residuals(tuple(x), subjects, LENS, ROOM, (None, 10.0))
         return np.full(26, 1e3) if found is None else np.array(found)
 
     low = [-np.inf, -np.inf, ROOM.floor - 1e-9, -np.inf, LENS.pitch[0] - 1e-9]

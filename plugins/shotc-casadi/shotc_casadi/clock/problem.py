@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.plugin_api.refiner import Array, HalfSpaces
+from shotc.plugin_api.refiner import Array, HalfSpaces, viewpoint
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.picture import SUBJECT
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
@@ -191,11 +191,18 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
     )
     drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
     unit = weights.TOGETHER if subject.together else binds
+    drawn, ideal = subject.near, references.ideal
+    place, leash = binds * near * np.ones(n + 1), near / weights.LEASH**2
+    if drawn is not None:  # viewpoint Eq. 10, as the ideal has it
+        away = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
+        share = viewpoint.NEAR_WEIGHT / np.maximum(away, 1.0)
+        place = np.where(filmed, weights.TOGETHER * share**2, place)
+        ideal, leash = np.where(filmed[:, None], drawn, ideal), 0.0
     values = {
         "length": length,
-        "ideal": references.ideal,
-        "place": binds * near * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
-        "leash": np.full(n + 1, near / weights.LEASH**2),
+        "ideal": ideal,
+        "place": place * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
+        "leash": np.full(n + 1, leash),
         "near": references.reach**-2.0,
         "target": references.target,
         "jerk": weights.JERK * near * np.where(filmed, smoother**weights.JERK_ORDER, weights.UNSEEN),

@@ -91,6 +91,12 @@ class ClockSubject:
         return self.held_whole or len(self.framed) > 1
 
     @property
+    def near(self) -> Array | None:
+        """The place near which the camera of several subjects stays as far as the picture lets it, (3,)."""
+        ideal = self.placed.shot.ideal
+        return None if ideal is None or ideal.near is None or not self.together else np.array(ideal.near)
+
+    @property
     def aim(self) -> tuple[float, float] | None:
         """The yaw and pitch that the camera keeps, if the author gave them."""
         return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import asin, degrees, isnan
+from math import asin, degrees, dist, isnan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
@@ -29,6 +29,7 @@ from shotc.passes.resolve.checks.framing_remedies import (
 from shotc.rounding import up
 
 OFF_PLACE = 0.05  # half frames
+OFF_PLACE_M = 0.5  # metres from a place that a camera stays near
 OFF_SIZE = 0.1  # share of the size asked
 OFF_VIEW = 0.09  # rad
 APART = 2.0  # times smaller than asked that a subject may be, for others to be in the picture with it
@@ -50,7 +51,7 @@ def check_course(mission: MissionIR, course: Course, *, advise: bool = True) -> 
     if blocked is not None:
         yield blocked
         return
-    if len(shot.subjects) > 1:
+    if len(shot.subjects) > 1 or (shot.ideal is not None and shot.ideal.near is not None):
         yield from _together(mission, course)
 
 
@@ -263,18 +264,35 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
         if compromise:
             notes.append(f"`{subject.target}` is {', '.join(compromise)}")
             labels.append(mission.origins.value(subject.path))
+    far = _far_from_place(course)
+    if far is not None:
+        notes.append(far)
+        labels.append(mission.origins.value((*shot.path, "near")))
     if notes:
         if not _known(mission, shot):
             notes.append(
                 f"so it is where the shot begins at {course.times[0]:.1f} s; the plan says when it does"
             )
+        near = shot.ideal is not None and shot.ideal.near is not None
+        what = "what is asked of" if near else "the subjects of"
         yield Diagnostic(
             "M034",
-            f"the subjects of shot `{shot.id}` cannot all appear as asked at once",
+            f"{what} shot `{shot.id}` cannot all {'be had' if near else 'appear as asked'} at once",
             tuple(labels),
             tuple(notes),
             "leave out what matters least, or hold to what matters by `require`",
         )
+
+
+def _far_from_place(course: Course) -> str | None:
+    """Say how far the camera is from the place that it is to stay near, where that is worth telling."""
+    near = None if course.shot.ideal is None else course.shot.ideal.near
+    if near is None:
+        return None
+    away, t = max((dist(pose[:3], near), t) for t, pose in zip(course.times, course.poses, strict=True))
+    if away <= OFF_PLACE_M:
+        return None
+    return f"the camera is {away:.1f} m from the place that it stays near at t = {t:.1f} s"
 
 
 def _known(mission: MissionIR, shot: Shot) -> bool:
@@ -288,7 +306,7 @@ def _apart(
 ) -> Diagnostic | None:
     """Tell a subject that is out of the picture, or far too small for others to be in it."""
     shot = course.shot
-    others = ", ".join(f"`{s.target}`" for s in shot.subjects if s is not subject)
+    others = ", ".join(f"`{s.target}`" for s in shot.subjects if s is not subject) or "its camera near there"
     label = mission.origins.value(subject.path)
     if len(seen) < len(course.times):
         return Diagnostic(
