@@ -2,6 +2,9 @@
 
 from typing import Literal, NamedTuple
 
+SLOW_M_S = 0.5
+"""Speed over ground up to which a drone has no course."""
+
 
 class TransitClearance(NamedTuple):
     """What a drone's body keeps away from on its ways between shots, metres; see ``ir.transits``.

@@ -14,14 +14,12 @@ import numpy as np
 from shotc.geom.heading import sup_off_course
 from shotc.geom.pieces import Pieces, cut
 from shotc.ir.path import BODY_YAW, X, Y, Z
+from shotc.ir.rules import SLOW_M_S
 from shotc.ir.trajectory import Claim
 from shotc.ir.transits import Way, ways
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
 CONSTRAINT = "look ahead"
-SLOW_M_S = 0.5
-"""Speed over ground up to which a drone has no course."""
-
 AT_REST_M_S = 1e-6
 
 

@@ -17,6 +17,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.ir.mission import Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Pose
+from shotc.ir.rules import SLOW_M_S
 from shotc.planning.path.body import FAINT_WEIGHT, UPRIGHT_SLOPE
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
@@ -53,24 +54,34 @@ class Course(NamedTuple):
         return self._replace(yaw=self.yaw + turns, low=self.low + turns, high=self.high + turns)
 
 
-def course_of(position: Piecewise, half_angle: float) -> Course | None:
+def course_of(drone: Drone, position: Piecewise, half_angle: float) -> Course | None:
     """Return the course of a way, x, y, z over s; None where it goes straight up or down, or has corners."""
     for finer in FINER:
         breaks = subdivide(position.breaks, finer)
         share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
         at = breaks[:-1, None] + np.diff(breaks)[:, None] * share
-        rate = position.derivative()(at.ravel())[:, :2]
-        moves = np.linalg.norm(rate, axis=1) > UPRIGHT_SLOPE
+        rate = position.derivative()(at.ravel())
+        moves = _moves(drone, rate)
         if not moves.any():
             return None
         known = np.flatnonzero(moves)
-        yaw = np.interp(np.arange(len(rate)), known, np.unwrap(np.arctan2(*rate[known].T[::-1])))
+        yaw = np.interp(np.arange(len(rate)), known, np.unwrap(np.arctan2(rate[known, 1], rate[known, 0])))
         each, there = yaw.reshape(at.shape), moves.reshape(at.shape).any(axis=1)
         low = np.where(there, each.max(axis=1) - KEPT_SHARE * half_angle, -ANY_RAD)
         high = np.where(there, each.min(axis=1) + KEPT_SHARE * half_angle, ANY_RAD)
         if (low < high).all():
             return Course(breaks, at.ravel(), yaw, moves, low, high)
     return None
+
+
+def _moves(drone: Drone, rate: Array) -> Array:
+    """Tell where a drone may be so fast over ground that it has a course; rate : of its place over s, (M, 3).
+
+    It rises and sinks no faster than it can, so that on a steep way it is slow over ground.
+    """
+    level, rise = np.linalg.norm(rate[:, :2], axis=1), rate[:, 2]
+    fastest = np.where(rise > 0.0, drone.limits.climb, drone.limits.descent)
+    return np.asarray(level > np.maximum(UPRIGHT_SLOPE, KEPT_SHARE * SLOW_M_S * np.abs(rise) / fastest))
 
 
 def headed(

@@ -222,7 +222,7 @@ def _soonest(
     position : x, y, z over s; None where the mission does not ask for it, or the way has no course
     """
     drone, half_angle = flight.drone, flight.look_ahead
-    course = None if half_angle is None else course_of(position, half_angle)
+    course = None if half_angle is None else course_of(drone, position, half_angle)
     if half_angle is None or course is None:
         return None
     best = _looking_ahead(drone, (position, course), start, goal)
@@ -234,7 +234,7 @@ def _soonest(
             continue
         over = over_cone(float(course.yaw[end]), pose[BODY_YAW], KEPT_SHARE * half_angle)
         for way in bends(flown, over):
-            bent = course_of(way, half_angle) if as_clear(flight.spaces, way, position) else None
+            bent = course_of(drone, way, half_angle) if as_clear(flight.spaces, way, position) else None
             tried = None if bent is None else _looking_ahead(drone, (way, bent), start, goal)
             if isinstance(tried, list) and (takes := _seconds(drone, tried)) < least:
                 best, least, position = tried, takes, way
@@ -280,7 +280,7 @@ def turned_way(
 ) -> MovingLeg | AngleFailure:
     """Return an unfilmed leg through the same places, from other angles to others; ends : its poses."""
     position, (start, goal) = leg.curve.channels(0, 1, 2), ends
-    course = None if look_ahead is None else course_of(position, look_ahead)
+    course = None if look_ahead is None else course_of(drone, position, look_ahead)
     if course is not None:
         found = headed(drone, position, course.wound(start[BODY_YAW]), ends)
         return AngleFailure("body", found) if isinstance(found, Status) else replace(leg, curve=found)

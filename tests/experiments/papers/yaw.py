@@ -15,6 +15,7 @@ from shotc.solvers.headings import METHODS
 from shotc.solvers.headings.measure import distance, effort
 from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import HeadingTask
+from tests.experiments.papers import nose
 from tests.experiments.papers.headings import SETTINGS, instances
 from tests.experiments.papers.plots import png
 from tests.experiments.papers.report import Table
@@ -75,7 +76,7 @@ def tables() -> list[Table]:
             first = not found
             notes, plot = (PAPER, _plot(outcomes)) if first else ((), None)
             found.append(Table(title[0].upper() + title[1:], COLUMNS, rows(outcomes), notes, plot))
-    return found
+    return [*found, nose.table()]
 
 
 def run(tasks: list[HeadingTask]) -> dict[str, list[Outcome]]:

@@ -17,6 +17,7 @@ from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.planning.free_space import FreeSpace, Obstacle
 from shotc.planning.obstacles import FreeSpaces
 from shotc.planning.path import legs
+from shotc.planning.path.ahead import Course, course_of
 from shotc.planning.path.bends import as_clear, bent_ends, bent_starts, over_cone
 from tests.support.few import few
 
@@ -169,3 +170,20 @@ def test_a_bend_through_something_is_not_clear() -> None:
     assert as_clear(FreeSpaces(free, free), wide, way)
     stands = FreeSpace((mast,), (), ())
     assert not as_clear(FreeSpaces(stands, stands), wide, way)
+
+
+def test_a_way_so_steep_that_the_drone_is_slow_over_ground_has_no_course() -> None:
+    plan = compiled(ASIDE).plan
+    assert plan is not None
+    (who,) = plan.trajectory.keyframes.mission.drones
+    assert (who.limits.climb, who.limits.descent) == (3.0, 1.5)
+    x = np.linspace(0.0, 20.0, 6)
+
+    def course(level: float, rise: float) -> Course | None:
+        way = np.column_stack([level * x, 0 * x, 30.0 + rise * x])[None]
+        return course_of(who, Piecewise(np.array([0.0, 20.0]), way), radians(30.0))
+
+    # Over ground it makes 0.3 m/s at 1.5 m/s down, 0.6 m/s at 3 m/s up.
+    assert course(0.2, -1.0) is None
+    assert course(0.2, 1.0) is not None
+    assert course(0.5, -1.0) is not None
