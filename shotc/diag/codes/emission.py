@@ -203,6 +203,20 @@ _MACHINE_CODES = (
     ),
 )
 
+_UNAIDED_CODES = (
+    CodeInfo(
+        "E121",
+        "no-waypoints-of-its-own",
+        Severity.WARNING,
+        "a drone flies no waypoints by itself",
+        "Mini 3 and Mini 3 Pro have no waypoints, in DJI Fly or in its programming interface. Litchi Pilot steers them over "
+        "the controller from Litchi's table, which ends where the radio link does. That is a beta, for Android alone.",
+        _MAVLINK.replace("x500", "mini-3-pro").replace("[mavlink]", "[litchi]"),
+        _MAVLINK.replace("x500", "mini-4-pro").replace("[mavlink]", "[litchi]"),
+        "plan",
+    ),
+)
+
 _SKYC_CODES = (
     CodeInfo(
         "E111",
@@ -331,6 +345,7 @@ CODES: tuple[CodeInfo, ...] = (
     *_FILE_CODES,
     *_MAVLINK_CODES,
     *_MACHINE_CODES,
+    *_UNAIDED_CODES,
     *_SKYC_CODES,
     *_VIEW_CODES,
     CodeInfo(

@@ -32,7 +32,8 @@ NEARER = 0.02  # metres by which a clearance may be cut deeper than by the plan
 UNEVEN = 2.2  # times as long as its neighbour a leg may be where that one is beyond its bounds
 TURN_MOST = radians(150.0)  # of one leg, so that the shortest turn is the planned one
 SPEED_LEAST, SPEED_MOST = 0.1, 15.0  # m/s
-CURVE_SHARE, CURVE_MOST = 0.45, 2.0  # of the shorter leg at a point, and metres: where a corner is rounded
+CURVE_SHARE = 0.45  # of the shorter leg at a point, where its corner is rounded at most
+CURVE_LEAST, CURVE_MOST = 0.2, 2.0  # metres; the least at a stop
 ROUNDS = 400
 
 
@@ -42,6 +43,7 @@ class Chooser:
 
     way : (n,), metres flown before each sample, stays at STAY_PACE
     planned : by how much each sample is too near to each obstacle, m, (n,) each
+    halts : whether the machine stands still at every point where it does something
     """
 
     track: Track
@@ -50,6 +52,7 @@ class Chooser:
     shapes: tuple[Shape, ...]
     way: Array
     planned: tuple[Array, ...]
+    halts: bool
 
     def stations(self) -> list[Station]:
         """Return the stations of the route."""
@@ -67,6 +70,7 @@ class Chooser:
 
     def route(self, stations: list[Station]) -> Route:
         """Return the stations as a route, nothing rounded."""
+        stops = np.array([s.stops or (self.halts and bool(s.actions)) for s in stations])
         poses, time = self.track.poses, self.track.time
         position = poses.position[[s.first for s in stations]]
         legs = [(a.last, b.first) for a, b in pairwise(stations)]
@@ -78,9 +82,9 @@ class Chooser:
             np.array([self._angle(poses.cam_yaw, s) for s in stations]),
             np.array([self._angle(poses.cam_pitch, s) for s in stations]),
             np.clip(np.append(speed, speed[-1:] or [SPEED_LEAST]), SPEED_LEAST, SPEED_MOST),
-            np.array([s.stops for s in stations]),
+            stops,
             np.array([sum(a.seconds for a in s.actions) for s in stations]),
-            np.minimum(CURVE_SHARE * shorter, CURVE_MOST),
+            np.where(stops, CURVE_LEAST, np.minimum(CURVE_SHARE * shorter, CURVE_MOST)),
             tuple(s.actions for s in stations),
         )
 
@@ -221,13 +225,18 @@ class _Part:
 
 
 def chooser_of(
-    track: Track, drone: Drone, obstacles: tuple[Obstacle, ...], shapes: tuple[Shape, ...]
+    track: Track,
+    drone: Drone,
+    obstacles: tuple[Obstacle, ...],
+    shapes: tuple[Shape, ...],
+    *,
+    halts: bool = False,
 ) -> Chooser:
     """Return the chooser of one drone's track."""
     steps = np.linalg.norm(np.diff(track.poses.position, axis=0), axis=1)
     way = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE * 0.01 * np.diff(track.time))))
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
-    return Chooser(track, drone, obstacles, shapes, way, planned)
+    return Chooser(track, drone, obstacles, shapes, way, planned, halts)
 
 
 def _joined(needed: list[Station], parts: list[_Part]) -> tuple[list[Station], Index]:

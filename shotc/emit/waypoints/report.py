@@ -81,6 +81,22 @@ def _not_flown(mission: MissionIR, drone: Drone, emitter: str, machines: tuple[A
     )
 
 
+def without_waypoints(mission: MissionIR, flights: tuple[DroneTrajectory, ...]) -> tuple[Diagnostic, ...]:
+    """Say which drones fly no waypoints by themselves, so that an app has to steer them."""
+    drones = [mission.drone(f.drone) for f in flights]
+    return tuple(
+        Diagnostic(
+            "E121",
+            f"{drone.name} is a `{drone.model}`, which flies no waypoints by itself",
+            (mission.origins.key(drone.path),),
+            ("Litchi Pilot (a beta, for Android) steers it from this file, over its controller",),
+            "try it in a wide place first, or film with a model that has waypoints, as `mini-4-pro`",
+        )
+        for drone in drones
+        if drone.autopilot == "litchi"
+    )
+
+
 def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     """Say which shots zoom: lenses are too different for a mission file to say it."""
     out: list[Diagnostic] = []

@@ -1,0 +1,47 @@
+"""Litchi missions (``.csv``): for its Mission Hub, and for Litchi Pilot on machines without waypoints."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar
+
+from shotc.emit.base import Emission
+from shotc.emit.litchi.table import POINTS_MOST, read_table, write_table
+from shotc.emit.waypoints.machine_files import Format, emit_files
+from shotc.emit.waypoints.models import ROUNDED
+from shotc.emit.waypoints.report import without_waypoints
+from shotc.ir.trajectory import VerifiedIR
+
+FORMAT = Format(
+    "litchi",
+    ("dji-fly", "litchi"),
+    POINTS_MOST,
+    "-litchi.csv",
+    ROUNDED,
+    lambda points, _: write_table(points),
+    read_table,
+    halts=True,
+)
+SETTINGS = (
+    "litchi: set in the Hub what the table cannot say: Heading Mode Custom (WD), Path Mode Curved Turns,"
+    " Finish Action Land; record by hand where Litchi does nothing at the points of a curved mission"
+)
+
+
+class LitchiEmitter:
+    """Writes a table for each drone that Litchi flies."""
+
+    name: ClassVar[str] = "litchi"
+    summary: ClassVar[str] = "Litchi waypoint missions (.csv)"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the missions, with the error that they add and what they cannot carry."""
+        made = emit_files(plan, FORMAT)
+        if not made.artifacts:
+            return made
+        told = without_waypoints(plan.trajectory.keyframes.mission, plan.trajectory.drones)
+        return replace(made, diagnostics=(*made.diagnostics, *told), notes=(*made.notes, SETTINGS))
+
+
+EMITTER = LitchiEmitter()

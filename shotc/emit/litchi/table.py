@@ -1,0 +1,101 @@
+"""Litchi's table of 46 columns: a row for each waypoint, written and read back."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from io import StringIO
+from math import ceil
+
+from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.route import Action, Waypoint
+
+POINTS_MOST = 99  # of a block of Litchi's
+ACTIONS_MOST = 15  # of a point
+STAY_MOST = 32.0  # seconds of one action
+NONE, STAY, START, STOP = -1, 0, 2, 3
+COLUMNS = (
+    "latitude",
+    "longitude",
+    "altitude(m)",
+    "heading(deg)",
+    "curvesize(m)",
+    "rotationdir",
+    "gimbalmode",
+    "gimbalpitchangle",
+    *(f"action{what}{n}" for n in range(1, ACTIONS_MOST + 1) for what in ("type", "param")),
+    "altitudemode",
+    "speed(m/s)",
+    "poi_latitude",
+    "poi_longitude",
+    "poi_altitude(m)",
+    "poi_altitudemode",
+    "photo_timeinterval",
+    "photo_distinterval",
+)
+
+
+def write_table(points: list[Waypoint]) -> bytes:
+    """Return the table's bytes; the same input gives the same bytes.
+
+    Headings are the points' own (Heading Mode Custom), pitch is interpolated, heights count from take-off.
+    """
+    stream = StringIO()
+    table = csv.writer(stream, lineterminator="\n")
+    table.writerow(COLUMNS)
+    table.writerows(_row(point) for point in points)
+    return stream.getvalue().encode()
+
+
+def read_table(data: bytes) -> list[Waypoint]:
+    """Return the points of a table; the drone stops at its ends, and where it does something."""
+    rows = list(csv.DictReader(StringIO(data.decode())))
+    points = [_waypoint(row) for row in rows]
+    last = len(points) - 1
+    return [replace(p, stops=i in (0, last) or bool(p.actions)) for i, p in enumerate(points)]
+
+
+def _row(point: Waypoint) -> list[str]:
+    place = point.place
+    actions = [pair for action in point.actions for pair in _pairs(action)]
+    actions += [(NONE, 0)] * (ACTIONS_MOST - len(actions))
+    return [
+        f"{place.lat:.9f}",
+        f"{place.lon:.9f}",
+        f"{place.alt:.2f}",
+        f"{round(point.heading % 360.0, 1) % 360.0:.1f}",
+        f"{point.curve:.2f}",
+        "0",
+        "2",
+        f"{point.pitch:.1f}",
+        *(str(number) for pair in actions[:ACTIONS_MOST] for number in pair),
+        "0",
+        f"{point.speed:.2f}",
+        *("0", "0", "0", "0", "-1", "-1"),
+    ]
+
+
+def _pairs(action: Action) -> list[tuple[int, int]]:
+    """Return the action's type and parameter, several times where a stay is longer than one may be."""
+    if action.kind != "stay":
+        return [(START if action.kind == "start" else STOP, 0)]
+    count = ceil(action.seconds / STAY_MOST)
+    return [(STAY, round(1000 * action.seconds / count))] * count
+
+
+def _waypoint(row: dict[str, str]) -> Waypoint:
+    heading = float(row["heading(deg)"])
+    pairs = [(int(row[f"actiontype{n}"]), int(row[f"actionparam{n}"])) for n in range(1, ACTIONS_MOST + 1)]
+    return Waypoint(
+        Place(float(row["latitude"]), float(row["longitude"]), float(row["altitude(m)"])),
+        heading - 360.0 if heading >= 180.0 else heading,
+        float(row["gimbalpitchangle"]),
+        float(row["speed(m/s)"]),
+        stops=False,
+        actions=tuple(_action(kind, value) for kind, value in pairs if kind != NONE),
+        curve=float(row["curvesize(m)"]),
+    )
+
+
+def _action(kind: int, value: int) -> Action:
+    return Action("stay", value / 1000) if kind == STAY else Action("start" if kind == START else "stop")
