@@ -236,8 +236,8 @@ def setpoints() -> Table:
         tuple(rows),
         (
             f"one shot, refined: each setpoint is held for {HELD_S:g} s, and {CHANGE_S:g} s lead from one to "
-            "the next; errors on the way are from what is asked then. The paper's subject also stands up from "
-            "sitting",
+            "the next; errors on the way are from what is asked then. The paper's subject stands up from "
+            "sitting, too",
         ),
     )
 
