@@ -9,6 +9,7 @@ from math import degrees, dist, hypot, sqrt
 from shotc.importers.cameras.takes import Camera
 from shotc.importers.cameras.thin import unwound
 from shotc.ir.limits import Limits
+from shotc.spec.presets import ZOOM_RATE
 
 SHARE = 0.75
 """Of what the drone can do that a take may ask for."""
@@ -23,13 +24,14 @@ def too_fast(cameras: Sequence[Camera], limits: Limits) -> Camera | None:
 
 
 def _turns(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, float, float]]:
-    """Yield every camera with the seconds to the next, and the least for the turn and the way to it."""
+    """Yield every camera with the seconds to the next, and the least for the turn, way and zoom to it."""
     for a, b in pairwise(cameras):
         up = b.at[2] - a.at[2]
         across = dist(a.at[:2], b.at[:2]) / limits.speed
         upright = up / limits.climb if up > 0 else -up / limits.descent
         turn = abs(b.heading - a.heading) / degrees(limits.yaw_rate)
-        yield a, (b.time or 0.0) - (a.time or 0.0) - a.hold, max(across, upright, turn)
+        zoom = abs((b.hfov or 0.0) - (a.hfov or 0.0)) / degrees(ZOOM_RATE)
+        yield a, (b.time or 0.0) - (a.time or 0.0) - a.hold, max(across, upright, turn, zoom)
 
 
 def _stretches(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, float, float]]:

@@ -22,6 +22,8 @@ ASPECT = 16 / 9
 """Width over height of the frame."""
 WIDEST_TURN_DEG = 120.0
 """Between neighbours that stay: a turn of half a circle could be flown either way."""
+MOST_APART = 200
+"""Cameras from one that stays to the next at most: a file may be made to take long."""
 CORNERS = ((0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
 
 
@@ -39,13 +41,14 @@ class _View(NamedTuple):
 def thinned(cameras: Sequence[Camera], usual_hfov: float, *, on_clock: bool) -> tuple[Camera, ...]:
     """Return the cameras that are needed, by the method of Ramer, Douglas and Peucker.
 
-    The first and the last stay, those that rest, and those that look at a place.
+    The first, the last and every 200th stay, those that rest, and those that look at a place.
 
     on_clock : whether a camera is to be where it is at its time, or only where it is on its way
     """
     lens = [camera._replace(hfov=camera.hfov or usual_hfov) for camera in unwound(cameras)]
     way = _way(lens, on_clock=on_clock)
-    kept = {0, len(lens) - 1, *(i for i, camera in enumerate(lens) if camera.hold > 0 or camera.look_at)}
+    needed = (i for i, camera in enumerate(lens) if camera.hold > 0 or camera.look_at)
+    kept = {*range(0, len(lens), MOST_APART), len(lens) - 1, *needed}
     spans = list(pairwise(sorted(kept)))
     while spans:
         first, last = spans.pop()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from math import cos, degrees, dist, radians, sin
+from collections.abc import Callable, Iterator
+from math import ceil, cos, degrees, dist, floor, radians, sin, tan
 from typing import NamedTuple
 
 from shotc.importers.cameras.pace import too_fast
@@ -18,6 +18,8 @@ BEHIND_M = 10.0
 """Metres behind the first camera at which a drone stands of whose home nothing is known."""
 SAME_M, SAME_DEG = 1e-3, 1e-3
 """Within which two cameras are one."""
+FRAME_MM = 36.0
+"""Width of the frame that focal lengths of a zoom lens count on."""
 SAME_LENS_DEG = 1e-3
 """Within which all cameras have one field of view."""
 
@@ -39,7 +41,8 @@ def written(name: str, what: str, footage: Footage, asked: Asked, notes: Notes) 
             notes.assume(take.cameras[0].node, "a take of one camera", "it is left out")
     if not takes:
         return None
-    usual, lenses = _lenses(takes)
+    widest, narrowest = _lenses(takes)
+    usual, lenses = takes[0].cameras[0].hfov or widest, widest - narrowest > SAME_LENS_DEG
     kept = [
         take if asked.every else take._replace(cameras=thinned(take.cameras, usual, on_clock=asked.times))
         for take in takes
@@ -48,7 +51,7 @@ def written(name: str, what: str, footage: Footage, asked: Asked, notes: Notes) 
     shots = [
         line for i, take in enumerate(kept) for line in _shot(_id(kept, i), take, asked, notes, lenses=lenses)
     ]
-    drone = _drone(footage, kept[0].cameras[0], usual, notes)
+    drone = _drone(footage, kept[0].cameras[0], notes, zoom=(widest, narrowest) if lenses else None)
     head = [f"# Imported from {what}."]
     if counts[1] < counts[0]:
         kept_of = f"{counts[1]} of {counts[0]} cameras"
@@ -75,12 +78,11 @@ def _same(a: Camera, b: Camera) -> bool:
     return dist(a.at, b.at) < SAME_M and turned < SAME_DEG and zoomed < SAME_LENS_DEG
 
 
-def _lenses(takes: list[Take]) -> tuple[float, bool]:
-    """Return the drone's field of view, and whether keyframes have others."""
+def _lenses(takes: list[Take]) -> tuple[float, float]:
+    """Return the widest and the narrowest field of view, degrees; the drone's own where none is told."""
     found = [camera.hfov for take in takes for camera in take.cameras if camera.hfov is not None]
-    if not found:
-        return degrees(PRESETS[MODEL].hfov), False
-    return found[0], max(found) - min(found) > SAME_LENS_DEG
+    own = degrees(PRESETS[MODEL].hfov)
+    return max(found, default=own), min(found, default=own)
 
 
 def _world(footage: Footage) -> Iterator[str]:
@@ -89,7 +91,8 @@ def _world(footage: Footage) -> Iterator[str]:
         yield f"world: {{origin: {{lat: {lat:.7f}, lon: {lon:.7f}, alt: {alt:.3f}}}}}"
 
 
-def _drone(footage: Footage, first: Camera, hfov: float, notes: Notes) -> list[str]:
+def _drone(footage: Footage, first: Camera, notes: Notes, *, zoom: tuple[float, float] | None) -> list[str]:
+    """Return the line of the drone; zoom : its widest and narrowest field of view, where it has several."""
     home = footage.home
     if home is None:
         x, y, _ = first.at
@@ -100,8 +103,17 @@ def _drone(footage: Footage, first: Camera, hfov: float, notes: Notes) -> list[s
     else:
         notes.assume(footage.node, "the file does not say which drone it is", f"model {MODEL}")
     at = ", ".join(f"{value + 0.0:.4f}" for value in home)
-    lens = f"camera: {{hfov: {hfov:.4f} deg}}" if first.hfov is not None else ""
-    return [f"  cam1: {{model: {MODEL}, home: [{at}]{', ' if lens else ''}{lens}}}"]
+    lens = ""
+    if zoom is not None:
+        lens = f", camera: {{zoom: [{_focal(zoom[0], floor)} mm, {_focal(zoom[1], ceil)} mm]}}"
+    elif first.hfov is not None:
+        lens = f", camera: {{hfov: {first.hfov:.4f} deg}}"
+    return [f"  cam1: {{model: {MODEL}, home: [{at}]{lens}}}"]
+
+
+def _focal(hfov: float, rounded: Callable[[float], int]) -> str:
+    """Return the focal length of a field of view on a frame 36 mm wide, millimetres."""
+    return f"{rounded(1e4 * FRAME_MM / 2.0 / tan(radians(hfov) / 2.0)) / 1e4:.4f}"
 
 
 def _id(takes: list[Take], i: int) -> str:

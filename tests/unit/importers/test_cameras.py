@@ -132,10 +132,10 @@ def ahead(at: np.ndarray, angles: np.ndarray, away: float) -> np.ndarray:
 @pytest.mark.parametrize("plan", [PLAN, film_set()], ids=["orbit", "zoom"])
 def test_cameras_that_are_left_out_are_implied_by_those_that_stay(plan) -> None:
     def rows(found: dict[str, Any]) -> np.ndarray:
-        lens = lens_of(found)
+        lens = found["drones"]["cam1"]["camera"].get("hfov")
         return np.array(
             [
-                [*k["at"], deg(k["heading"]), deg(k["pitch"]), deg(k.get("hfov", f"{lens} deg"))]
+                [*k["at"], deg(k["heading"]), deg(k["pitch"]), deg(k.get("hfov", lens))]
                 for k in found["shots"][0]["keyframes"]
             ]
         )
@@ -156,6 +156,22 @@ def test_cameras_that_are_left_out_are_implied_by_those_that_stay(plan) -> None:
         changes = [np.linalg.norm(screen(b[:3], b[3:], points) - own, axis=1).max() for b in between]
         assert min(changes) < PICTURE * 1.05
     assert segment == len(kept) - 1
+
+
+def test_a_tour_that_zooms_has_a_zoom_lens_and_one_that_zooms_too_fast_no_duration() -> None:
+    def zooming(seconds: float) -> dict[str, Any]:
+        long = camera(lat=LAT + 1e-4).replace("<gx:horizFov>60<", "<gx:horizFov>30<")
+        return mission("kml", kml(tour(fly(camera()), fly(long, seconds))))
+
+    slow = zooming(10.0)
+    short, tele = (float(f.removesuffix(" mm")) for f in slow["drones"]["cam1"]["camera"]["zoom"])
+    angles = [np.degrees(2 * np.arctan(18.0 / f)) for f in (short, tele)]
+    assert angles == pytest.approx([60.0, 30.0], abs=1e-3)
+    assert angles[0] >= 60.0
+    assert angles[1] <= 30.0
+    assert [k["hfov"] for k in slow["shots"][0]["keyframes"]] == ["60.0000 deg", "30.0000 deg"]
+    assert slow["shots"][0]["timing"] == {"duration": 10.0}
+    assert "timing" not in zooming(3.9)["shots"][0]
 
 
 def test_a_tour_keeps_its_time_its_waits_and_its_name() -> None:
