@@ -62,7 +62,7 @@ def import_(
     `RULE_OF_THIRDS` becomes a third with room on the side to which the target moves.
 
     `kml` reads tours of Google Earth (`gx:Tour`, KML or KMZ), or the cameras of placemarks in their order;
-    `blender-camera` a table of frames `frame,x,y,z,rx,ry,rz,lens`, or with `qw,qx,qy,qz`, in metres, Z up;
+    `blender-camera` a table `frame,x,y,z,rx,ry,rz,lens`, or with `qw,qx,qy,qz` and `hfov`, metres with Z up;
     `qgc` waypoints, headings and gimbal commands of a QGroundControl plan; `litchi` the table of its Hub.
     Each tour, animation or recording becomes a shot of `keyframes`; tours and animations keep how long they
     last, where the drone is fast enough. Cameras that the others imply are left out: what is as far away as

@@ -1,8 +1,9 @@
 """Blender: a camera's animation as a table, one row a frame. There is no standard, so its first line counts.
 
 Columns: ``frame``, or ``time`` in seconds; ``x``, ``y``, ``z``; Euler angles ``rx``, ``ry``, ``rz`` of order
-XYZ, or a quaternion ``qw``, ``qx``, ``qy``, ``qz``; ``lens`` and ``sensor``, millimetres, may be missing. A
-camera of Blender looks along its own -Z with Y up, in a world whose Z is up: x, y, z are East, North, Up.
+XYZ, or a quaternion ``qw``, ``qx``, ``qy``, ``qz``; the lens as ``hfov``, degrees, or as ``lens`` and
+``sensor``, millimetres, or not at all. A camera of Blender looks along its own -Z with Y up, in a world whose
+Z is up: x, y, z are East, North and Up.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ NAMES = {
     },
     **{f"q{k}": (f"q{k}", f"quat_{k}", f"quaternion_{k}", f"rotation_quaternion_{k}") for k in "wxyz"},
     "lens": ("lens", "focal_length", "focal", "lens_mm", "focal_mm"),
+    "hfov": ("hfov", "fov_x", "angle_x"),
     "sensor": ("sensor", "sensor_width", "sensor_mm"),
 }
 """What columns may be called; angles may end in ``_deg`` or ``_rad``."""
@@ -108,9 +110,9 @@ def _unit(table: Table, columns: dict[str, str], notes: Notes) -> float:
 
 
 def _lens_noted(table: Table, columns: dict[str, str], notes: Notes) -> None:
-    if "lens" not in columns:
+    if "lens" not in columns and "hfov" not in columns:
         taken = f"{USUAL_LENS:g} mm on a sensor {USUAL_SENSOR:g} mm wide, as a new camera of Blender has"
-        notes.assume(table.node, "the file has no column `lens`", taken)
+        notes.assume(table.node, "the file has no column `hfov`, nor `lens`", taken)
 
 
 def _camera(row: Row, values: dict[str, float | None], unit: float, notes: Notes) -> Camera | None:
@@ -124,10 +126,17 @@ def _camera(row: Row, values: dict[str, float | None], unit: float, notes: Notes
         forward if hypot(forward[0], forward[1]) > LEVEL_AXIS else _times(up, -1.0 if forward[2] > 0 else 1.0)
     )
     level(row.node, degrees(asin(max(-1.0, min(1.0, right[2])))), notes)
-    lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
-    hfov = max(1.0, min(170.0, degrees(2 * atan(sensor / 2 / max(lens, 1e-3)))))
     heading = degrees(atan2(flat[0], flat[1])) % 360.0
-    return Camera(row.node, (x, y, z), heading, reached(row.node, pitch, notes), hfov)
+    return Camera(row.node, (x, y, z), heading, reached(row.node, pitch, notes), _hfov(values))
+
+
+def _hfov(values: dict[str, float | None]) -> float:
+    """Return the horizontal field of view of a frame that is wider than high, degrees."""
+    told = values.get("hfov")
+    if told is None:
+        lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
+        told = degrees(2 * atan(sensor / 2 / max(lens, 1e-3)))
+    return max(1.0, min(170.0, told))
 
 
 def _axes(values: dict[str, float | None], unit: float) -> tuple[Vec3, Vec3, Vec3] | None:

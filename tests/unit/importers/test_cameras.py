@@ -257,12 +257,12 @@ def test_frames_of_blender_are_the_cameras_that_they_were(form: str) -> None:
         ),
         "quaternion": ("qw,qx,qy,qz", lambda r: r.as_quat()[[3, 0, 1, 2]]),
     }[form]
-    lens = 18.0 / np.tan(states[0, HFOV] / 2)
+    lens = 18.0 / np.tan(states[0, HFOV] / 2) if form != "quaternion" else np.degrees(states[0, HFOV])
     rows = [
         ",".join(f"{v:.9f}" for v in [1 + 24 * (t - 22.0), *s[:3], *rotation(r), lens])
         for t, s, r in zip(times, states, turns, strict=True)
     ]
-    data = "\n".join([f"frame,x,y,z,{head},lens", *rows]).encode()
+    data = "\n".join([f"frame,x,y,z,{head},{'hfov' if form == 'quaternion' else 'lens'}", *rows]).encode()
     found = mission("blender-camera", data, every=True, fps=24.0)
     assert found["shots"][0]["timing"]["duration"] == pytest.approx(30.0, abs=1e-3)
     assert lens_of(found) == pytest.approx(np.degrees(states[0, HFOV]), abs=1e-3)
