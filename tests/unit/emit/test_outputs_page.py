@@ -37,7 +37,7 @@ from shotc.simulation.wind import Wind
 from tests.support.film_plans import orbit_plan
 
 PAGE = (Path(shotc.__file__).parent / "docs" / "outputs.md").read_text(encoding="utf-8")
-NAMED = set(re.findall(r"`([^`]+)`", PAGE))
+NAMED = set(re.findall(r"`([^`]+)`", re.sub(r"```.*?```", "", PAGE, flags=re.DOTALL)))
 BOLD = set(re.findall(r"\*\*(\w+)\*\*", PAGE))
 RECORDS = (
     Claim,
