@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import ClassVar
 
 from shotc.emit.base import Emission
@@ -13,6 +14,12 @@ from shotc.ir.trajectory import VerifiedIR
 FORMAT = Format("dji", ("dji-fly", "pilot-2"), POINTS_MOST, ".kmz", CURVED, write_kmz, read_kmz)
 
 
+COPIED = (
+    "dji-fly: take off from the pad, heights count from there; the file takes the place of one that DJI Fly"
+    " has saved on the controller (shotc/docs/flying.md)"
+)
+
+
 class DjiEmitter:
     """Writes a ``.kmz`` for each drone that is flown by an app of DJI's."""
 
@@ -22,7 +29,10 @@ class DjiEmitter:
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the missions, with the error that they add and what they cannot carry."""
-        return emit_files(plan, FORMAT)
+        made = emit_files(plan, FORMAT)
+        drones = plan.trajectory.keyframes.mission.drones
+        copied = made.artifacts and any(drone.autopilot == "dji-fly" for drone in drones)
+        return replace(made, notes=(*made.notes, COPIED)) if copied else made
 
 
 EMITTER = DjiEmitter()

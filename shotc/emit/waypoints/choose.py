@@ -30,6 +30,7 @@ KEPT = 0.93  # of these when points are chosen: places and angles are rounded af
 POSITION = 1.0  # metres that a way may leave the plan
 NEARER = 0.02  # metres by which a clearance may be cut deeper than by the plan
 UNEVEN = 2.2  # times as long as its neighbour a leg may be where that one is beyond its bounds
+LEG_MOST = 40.0  # metres, so that samples of legs are near to each other
 TURN_MOST = radians(150.0)  # of one leg, so that the shortest turn is the planned one
 SPEED_LEAST, SPEED_MOST = 0.1, 15.0  # m/s
 CURVE_SHARE = 0.45  # of the shorter leg at a point, where its corner is rounded at most
@@ -161,7 +162,8 @@ class Chooser:
                 sums = np.bincount(owners[legs], error, minlength=len(parts))
                 mean = np.maximum(mean, np.where(filmed, sums / count / (MEAN * KEPT), 0.0))
         turns = np.abs(np.diff(route.yaw))
-        worst = np.where(turns > TURN_MOST, np.inf, worst)
+        long = np.linalg.norm(np.diff(route.position, axis=0), axis=1) > LEG_MOST
+        worst = np.where((turns > TURN_MOST) | long, np.inf, worst)
         lifted = worst * np.where(mean > 1, np.maximum(1.0, mean), 1.0)[owners]
         return [
             np.maximum(lifted[owners == k], 1.0 + 1e-6) if mean[k] > 1 else lifted[owners == k]

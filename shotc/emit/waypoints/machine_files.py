@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
-from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ from shotc.emit.waypoints.choose import Chooser, chooser_of
 from shotc.emit.waypoints.clearance import Obstacle, bounds, owner_of, shortfall
 from shotc.emit.waypoints.compare import Error, ShotError, compare
 from shotc.emit.waypoints.geo import Geo, tie
-from shotc.emit.waypoints.models import SAMPLES, TURNINGS, Shape, fly, legs_of
+from shotc.emit.waypoints.models import TURNINGS, Shape, fly, legs_of
 from shotc.emit.waypoints.route import Action, Route, Waypoint, route_of
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import Track, track_of
@@ -36,8 +35,7 @@ Array = NDArray[np.float64]
 CUT_LEAST = 0.05  # metres by which a re-flight may be nearer to anything than the plan is
 SAME_PLACE = 0.1  # metres between points that some machines take for one, and refuse
 ASIDE = 0.15  # metres that one of them moves
-FINE = 66  # samples of a leg, less one, when clearances are judged
-SAMPLES_A_METRE = 2.0  # of the longest leg, where a third of them may be all of its straight part
+FINE = 160  # samples of a leg, less one, when clearances are judged: one every quarter of a metre at least
 RATE_MOST = 10.0  # Hz of frames at which a picture is judged: it changes slowly
 
 
@@ -154,11 +152,8 @@ class _Job:
     def _error(self, route: Route) -> Error:
         """Return the worst that a file adds under any flight model."""
         errors: list[Error] = []
-        # Legs are matched with the plan within 3 m of way: no gap between samples may be as wide.
-        longest = float(np.linalg.norm(np.diff(route.position, axis=0), axis=1).max())
-        count = max(SAMPLES, ceil(SAMPLES_A_METRE * longest))
         for shape, turning in product(self.form.shapes, TURNINGS):
-            flown = fly(route, legs_of(route, shape, count), turning)
+            flown = fly(route, legs_of(route, shape), turning)
             errors.append(compare(self.mission, self.flight, flown, RATE_MOST))
         shots = tuple(_worst_shot([e.shots[i] for e in errors]) for i in range(len(errors[0].shots)))
         worst = max(errors, key=lambda e: e.screen)

@@ -97,11 +97,11 @@ def rounded(points: Array, sizes: Array, count: int) -> Array:
     unit = way / np.maximum(np.linalg.norm(way, axis=1), SHORT)[:, None]
     sizes = sizes.copy()
     sizes[0] = sizes[-1] = 0.0
-    third = count // 3
-    half = np.linspace(0.5, 1.0, third + 1)[:, None, None]
+    bend = count // 8
+    half = np.linspace(0.5, 1.0, bend + 1)[:, None, None]
     leave = _corner(points[:-1], np.concatenate([unit[:1], unit[:-1]]), unit, sizes[:-1], half)
     reach = _corner(points[1:], unit, np.concatenate([unit[1:], unit[-1:]]), sizes[1:], half - 0.5)
-    share = np.linspace(0.0, 1.0, count - 2 * third + 1)[1:-1, None, None]
+    share = np.linspace(0.0, 1.0, count - 2 * bend + 1)[1:-1, None, None]
     between = leave[-1] + share * (reach[0] - leave[-1])
     return np.asarray(np.concatenate([leave, between, reach]).swapaxes(0, 1))
 

@@ -137,7 +137,8 @@ def test_what_is_read_is_what_was_written(orbit):
 def test_few_points_keep_the_orbit_under_all_models_and_the_note_says_it(orbit):
     points = read_kmz(orbit.artifacts[0].data)
     assert orbit.diagnostics == ()
-    (note,) = orbit.notes
+    note, copied = orbit.notes
+    assert "take off from the pad" in copied
     assert note.startswith(f"dji-fly cam1.kmz: {len(points)} waypoints, position within ")
     worst = float(note.split("adds at most ")[1].split()[0])
     mean = float(note.split(" and ")[1].split()[0])
@@ -253,8 +254,8 @@ def test_drones_that_timing_alone_keeps_apart_get_no_files():
     mission = orbit_mission()
     one = mission.drones[0]._replace(autopilot="dji-fly")
     far = one._replace(name="cam2", home=(0.0, -50.0, 0.0))
-    source = orbit_plan()
-    first = source.trajectory.drones[0]
+    first = straight()
+    source = plan(first)
 
     def pair(other):
         keyframes = replace(source.trajectory.keyframes, mission=replace(mission, drones=(one, far)))
