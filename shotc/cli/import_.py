@@ -82,6 +82,14 @@ def import_(
     for option, value, low, high in (("--fps", fps, 1.0, 1000.0), ("--ground", ground, -500.0, 9000.0)):
         if value is not None and not low <= value <= high:
             raise typer.BadParameter(f"from {low:g} to {high:g}, please", param_hint=option)
+    for option, given, those in (
+        ("--fps", fps is not None, ("blender-camera",)),
+        ("--ground", ground is not None, ("kml", "qgc", "litchi")),
+        ("--times", times, ("kml", "blender-camera")),
+        ("--every", every, FORMATS[1:]),
+    ):
+        if given and format not in those:
+            raise typer.BadParameter(f"it is for {', '.join(those)}", param_hint=option)
     asked = Asked(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
     made = imported(format, _read(file), name, strict=strict, asked=asked)

@@ -117,6 +117,7 @@ def test_options_of_an_import_are_what_the_importer_is_told(run: Run, tmp_path: 
     slow = yaml.safe_load(run("import", "blender-camera", "camera.csv", "--fps", "4").out)
     assert slow["shots"][0]["timing"]["duration"] == 6.0
     assert run("import", "blender-camera", "camera.csv", "--fps", "0").code == 2
+    assert run("import", "kml", "tour.kml", "--fps", "24").code == 2
     assert run("import", "kml", "tour.kml", "--ground", "nan").code == 2
 
 

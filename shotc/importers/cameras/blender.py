@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import asin, atan, atan2, cos, degrees, hypot, pi, radians, sin
 
 from shotc.geom.vec import Vec3
-from shotc.importers.cameras.places import level, reached, without_far
+from shotc.importers.cameras.places import level, reached, shown, without_far
 from shotc.importers.cameras.table import Row, Table, table_of
 from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Refused, Take
 from shotc.importers.notes import Notes
@@ -136,7 +136,7 @@ def _hfov(values: dict[str, float | None]) -> float:
     if told is None:
         lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
         told = degrees(2 * atan(sensor / 2 / max(lens, 1e-3)))
-    return max(1.0, min(170.0, told))
+    return shown(told)
 
 
 def _axes(values: dict[str, float | None], unit: float) -> tuple[Vec3, Vec3, Vec3] | None:

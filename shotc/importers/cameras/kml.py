@@ -16,7 +16,16 @@ from typing import NamedTuple
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 from shotc.geom.vec import Vec3
-from shotc.importers.cameras.places import is_place, level, number, origin_at, reached, without_far, world
+from shotc.importers.cameras.places import (
+    is_place,
+    level,
+    number,
+    origin_at,
+    reached,
+    shown,
+    without_far,
+    world,
+)
 from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Origin, Refused, Take
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import LARGEST, Node, XmlFault
@@ -238,5 +247,5 @@ def _camera(view: View, origin: Origin, notes: Notes) -> Camera:
     back = view.range * sin(tilt)
     at = (x - back * sin(heading), y - back * cos(heading), z + view.range * cos(tilt))
     pitch = reached(view.node, view.tilt - 90.0, notes)
-    hfov = USUAL_HFOV_DEG if view.hfov is None else max(1.0, min(170.0, view.hfov))
+    hfov = USUAL_HFOV_DEG if view.hfov is None else shown(view.hfov)
     return Camera(view.node, at, view.heading, pitch, hfov, view.time, view.hold)

@@ -15,6 +15,8 @@ from shotc.importers.xml_tree import Node
 FAR_M = 20_000.0
 """Metres from the middle of all cameras beyond which one belongs to no flight."""
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees; of the gimbal of the drone that is written
+NARROWEST_DEG, WIDEST_DEG = 1.01, 169.9
+"""Fields of view just inside those of the language, for focal lengths are rounded."""
 LARGEST_NUMBER = 1e9
 ROLLED_DEG = 0.5
 """Degrees by which a picture is tilted before anybody sees it."""
@@ -68,6 +70,11 @@ def reached(node: Node, pitch: float, notes: Notes) -> float:
     if abs(nearest - pitch) > 1e-6:
         notes.assume(node, f"a pitch of {pitch:.1f} deg is out of a gimbal's range", f"{nearest:g} deg")
     return nearest
+
+
+def shown(hfov: float) -> float:
+    """Return a field of view that the language has, degrees."""
+    return max(NARROWEST_DEG, min(WIDEST_DEG, hfov))
 
 
 def level(node: Node, roll: float, notes: Notes) -> None:
