@@ -13,6 +13,7 @@ from operator import mul
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at, frustum_margins, view
+from shotc.geom.normal_equations import damped_step
 from shotc.geom.shapes import TargetShape
 from shotc.geom.vec import Vec2, Vec3, minus
 
@@ -296,7 +297,7 @@ def _lowered(search: _Search, at: _Found, columns: list[Residuals]) -> _Found:
     normal = [[_dot(columns[i], columns[k]) for k in free] for i in free]
     damping = at.damping
     for _ in range(DAMPINGS):
-        step = dict(zip(free, _solved(normal, [gradient[i] for i in free], damping), strict=True))
+        step = dict(zip(free, damped_step(normal, [gradient[i] for i in free], damping), strict=True))
         moved = tuple(p - search.scale[i] * step.get(i, 0.0) for i, p in enumerate(at.pose))
         later = _within(moved, search.low, search.high)
         found, value = search.cost(later)
@@ -371,26 +372,6 @@ def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:
     if elevation is not None:
         return [atan2(-offset[2], level) - elevation]
     return []
-
-
-def _solved(normal: list[list[float]], gradient: list[float], damping: float) -> list[float]:
-    """Solve the damped normal equations by Gaussian elimination with pivots."""
-    n = len(gradient)
-    rows = [[*normal[i], gradient[i]] for i in range(n)]
-    for i in range(n):
-        rows[i][i] += damping * max(normal[i][i], 1e-9)
-    for i in range(n):
-        best = max(range(i, n), key=lambda k: abs(rows[k][i]))
-        rows[i], rows[best] = rows[best], rows[i]
-        pivot = rows[i][i] or 1e-300
-        for k in range(i + 1, n):
-            share = rows[k][i] / pivot
-            rows[k] = [a - share * b for a, b in zip(rows[k], rows[i], strict=True)]
-    step = [0.0] * n
-    for i in reversed(range(n)):
-        rest = rows[i][n] - sum(rows[i][k] * step[k] for k in range(i + 1, n))
-        step[i] = rest / (rows[i][i] or 1e-300)
-    return step
 
 
 def _moved(pose: Pose, i: int, step: float) -> Pose:

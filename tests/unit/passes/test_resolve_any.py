@@ -46,6 +46,9 @@ parameters: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "spiral": st.fixed_dictionaries({"radius": spans, "altitude": spans}, optional={"sweep": angles}),
     "elevator": st.fixed_dictionaries({"azimuth": angles, "distance": lengths, "altitude": spans}),
     "dolly": st.fixed_dictionaries({"azimuth": angles, "distance": spans, "altitude": lengths}),
+    "dolly-zoom": st.fixed_dictionaries(
+        {"azimuth": angles, "distance": spans, "altitude": lengths}, optional={"hfov": st.just("40 deg")}
+    ),
     "crane": st.fixed_dictionaries({"azimuth": angles, "distance": spans, "altitude": spans}),
     "top-down": st.fixed_dictionaries({"altitude": lengths}, optional={"drift": points}),
     "follow-path": st.fixed_dictionaries(
