@@ -139,7 +139,7 @@ class _Job:
         told = [
             *report.lens(self.mission, self.flight),
             *report.beyond(self.mission, self.flight, self.track, error),
-            *report.drifts(self.mission, self.flight, error),
+            *report.drifts(self.mission, self.flight, self.track, error),
         ]
         files = [a.name for a in written.artifacts]
         notes = report.notes(self.drone, files, len(written.route.position), error, self._models)

@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic
 from shotc.emit.waypoints.choose import MEAN, WORST
 from shotc.emit.waypoints.compare import Error, ShotError
 from shotc.emit.waypoints.stations import LEG_LEAST
-from shotc.emit.waypoints.timing import Meeting
+from shotc.emit.waypoints.timing import Meeting, too_near
 from shotc.emit.waypoints.track import Track
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import Drone, MissionIR
@@ -187,7 +187,7 @@ def _why(track: Track, each: ShotError) -> tuple[str, str]:
     )
 
 
-def drifts(mission: MissionIR, flight: DroneTrajectory, error: Error) -> list[Diagnostic]:
+def drifts(mission: MissionIR, flight: DroneTrajectory, track: Track, error: Error) -> list[Diagnostic]:
     """Say how far a moving target is away from where it is filmed: these files have no clock."""
     out: list[Diagnostic] = []
     for each in error.shots:
@@ -196,6 +196,8 @@ def drifts(mission: MissionIR, flight: DroneTrajectory, error: Error) -> list[Di
         if not moving:
             continue
         shot = mission.shot(each.shot)
+        near = [name for name in moving if too_near(mission, flight, track.poses.position, name) > 0]
+        crossed = [f"timing alone keeps the drone clear of `{name}`, whose way it crosses" for name in near]
         out.append(
             Diagnostic(
                 "E118",
@@ -205,6 +207,7 @@ def drifts(mission: MissionIR, flight: DroneTrajectory, error: Error) -> list[Di
                     f"the machine is up to {at_least(each.lag, 1)} s off the plan's time within the shot;"
                     f" meanwhile `{moving[0]}` goes up to {at_least(each.drift, 1)} m",
                     "a late start adds the way that the target makes meanwhile",
+                    *crossed,
                 ),
                 "start it by eye, frame more loosely, or fly the plan itself with `shotc stream` on a machine"
                 " that takes it",

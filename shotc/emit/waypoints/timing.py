@@ -9,9 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from shotc.emit.waypoints.clearance import shortfall
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import target_owner
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.clearances import Clearance
 
+TRACK_STEP_S = 0.5  # between places of a target that moves
 STEP = 0.5  # metres between places of a way; at 3 m that makes a distance 0.02 m too large at most
 LESS = 0.05  # metres of a separation that rounding may cost
 
@@ -37,6 +42,15 @@ def kept_apart_by_time(mission: MissionIR, ways: dict[str, Array]) -> list[Meeti
         if distance < mission.rules.separation - LESS:
             found.append(Meeting((one, other), distance))
     return found
+
+
+def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str) -> float:
+    """Return by how much a way (n, 3) is too near to a moving target, wherever that is in the flight, m."""
+    target, drone = mission.target(name), mission.drone(flight.drone)
+    metres = mission.rules.beside_target(drone.radius)
+    times = np.arange(flight.curve.start, flight.curve.end + TRACK_STEP_S, TRACK_STEP_S)
+    bodies = (Clearance(target_owner(target), target.solid_at(t), metres) for t in times.tolist())
+    return max(float(shortfall(body, way).max()) for body in bodies)
 
 
 def evenly(way: Array) -> Array:

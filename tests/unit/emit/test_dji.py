@@ -248,6 +248,15 @@ def test_a_target_that_moves_drifts_by_the_worst_time_error():
     lag, drift = (float(told.notes[0].split("up to ")[i].split()[0]) for i in (1, 2))
     assert lag > 0.3
     assert drift == pytest.approx(2 * lag, abs=0.25)
+    assert len(told.notes) == 2
+
+
+def test_a_target_whose_way_the_drone_crosses_is_told_as_such():
+    crossing = TOWER._replace(track=Track((0.0,), ((20.0, -200.0, 12.0),), after=(0.0, 5.0, 0.0)))
+    mission = replace(orbit_mission(), targets=(crossing,))
+    emission = EMITTER.emit(plan(straight(), mission=mission, target="tower", autopilot="dji-fly"))
+    told = next(d for d in emission.diagnostics if d.code == "E118")
+    assert told.notes[2] == "timing alone keeps the drone clear of `tower`, whose way it crosses"
 
 
 def test_drones_that_timing_alone_keeps_apart_get_no_files():
