@@ -70,8 +70,9 @@ def emit_files(plan: VerifiedIR, form: Format) -> Emission:
         return Emission((), (*told, report.no_origin(mission, form.emitter)))
     jobs = [_Job.of(mission, flight, form) for flight in flights]
     written = [job.written() for job in jobs]
-    meeting = kept_apart_by_time(mission, {f.drone: w.ways for f, w in zip(flights, written, strict=True)})
-    told += [report.meets(mission, each) for each in meeting]
+    ways = {f.drone: w.ways for f, w in zip(flights, written, strict=True)}
+    meeting = kept_apart_by_time(mission, ways, [f for f in ir.drones if f.drone not in ways])
+    told += [report.meets(mission, each, ways) for each in meeting]
     refused = {name for each in meeting for name in each.names}
     emissions = [job.emission(each) for job, each in zip(jobs, written, strict=True)]
     kept = [e for f, e in zip(flights, emissions, strict=True) if f.drone not in refused]

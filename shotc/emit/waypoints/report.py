@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from math import degrees, tan
 
 import numpy as np
@@ -66,7 +67,7 @@ def flown_here(
     others = [mission.drone(f.drone) for f in flights if mission.drone(f.drone).autopilot not in machines]
     if here:
         named = ", ".join(f"{drone.name} ({drone.autopilot})" for drone in others)
-        return here, [f"{emitter}: no file for {named}, which fly others"] if others else [], []
+        return here, [f"{emitter}: no file for {named}, flown otherwise"] if others else [], []
     return [], [], [_not_flown(mission, drone, emitter, machines) for drone in others]
 
 
@@ -230,17 +231,20 @@ def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: f
     )
 
 
-def meets(mission: MissionIR, meeting: Meeting) -> Diagnostic:
-    """Say that two drones would meet, were they not where they are in time, and get no files."""
-    one, other = meeting.names
+def meets(mission: MissionIR, meeting: Meeting, flown: Collection[str]) -> Diagnostic:
+    """Say that two drones would meet, were they not where they are in time, and get no files.
+
+    flown : the drones that these files are for, one of the two at least
+    """
+    refused = " and ".join(name for name in meeting.names if name in flown)
     return Diagnostic(
         "E120",
-        f"no files are written for {one} and {other}: timing alone keeps them apart",
+        f"no file is written for {refused}: timing alone keeps {' and '.join(meeting.names)} apart",
         tuple(mission.origins.key(mission.drone(name).path) for name in meeting.names),
         (
             f"their ways come within {meeting.distance:.1f} m of each other, the separation is"
             f" {mission.rules.separation:.1f} m",
-            "each of these files is flown from whenever its pilot starts it",
+            "such a file is flown from whenever its pilot starts it",
         ),
         "give each drone air of its own by zones or heights, or film with one drone",
     )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from collections.abc import Sequence
+from itertools import combinations, product
 from math import ceil
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.emit.waypoints.clearance import shortfall
+from shotc.emit.waypoints.track import SAMPLE_STEP
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import target_owner
@@ -28,16 +30,22 @@ class Meeting(NamedTuple):
     distance: float
 
 
-def kept_apart_by_time(mission: MissionIR, ways: dict[str, Array]) -> list[Meeting]:
+def kept_apart_by_time(
+    mission: MissionIR, ways: dict[str, Array], others: Sequence[DroneTrajectory]
+) -> list[Meeting]:
     """Return the pairs of drones whose ways come nearer than the separation, whenever they are there.
 
-    ways : places (n, 3) of each; those above its pad are added
+    ways : places (n, 3) of each drone without a clock; those above its pad are added
+    others : the flights of drones that other machines fly; pairs of these are none
     """
     trees = {
         name: cKDTree(np.concatenate([way, *_columns(mission, name, way)])) for name, way in ways.items()
     }
+    clocked = {flight.drone: cKDTree(evenly(_places(flight))) for flight in others}
+    pairs = [*combinations(trees, 2), *product(trees, clocked)]
+    trees |= clocked
     found: list[Meeting] = []
-    for one, other in combinations(trees, 2):
+    for one, other in pairs:
         distance = float(trees[one].query(trees[other].data)[0].min())
         if distance < mission.rules.separation - LESS:
             found.append(Meeting((one, other), distance))
@@ -58,6 +66,12 @@ def evenly(way: Array) -> Array:
     done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1)))
     at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP) + 1))
     return np.stack([np.interp(at, done, axis) for axis in way.T], axis=1)
+
+
+def _places(flight: DroneTrajectory) -> Array:
+    """Return the places of a flight from pad to pad, (n, 3)."""
+    curve = flight.curve
+    return curve(np.arange(curve.start, curve.end + SAMPLE_STEP, SAMPLE_STEP))[:, :3]
 
 
 def _columns(mission: MissionIR, name: str, way: Array) -> list[Array]:

@@ -285,6 +285,24 @@ def test_drones_that_timing_alone_keeps_apart_get_no_files():
     assert "E120" not in [d.code for d in EMITTER.emit(free).diagnostics]
 
 
+def test_a_drone_that_timing_keeps_apart_from_one_with_a_clock_gets_no_file():
+    mission = orbit_mission()
+    one = mission.drones[0]._replace(autopilot="dji-fly")
+    other = one._replace(name="cam2", home=(0.0, -50.0, 0.0), autopilot="px4")
+    first = straight()
+    source = plan(first)
+    keyframes = replace(source.trajectory.keyframes, mission=replace(mission, drones=(one, other)))
+    flights = (first, replace(first, drone="cam2"))
+    emission = EMITTER.emit(
+        replace(source, trajectory=replace(source.trajectory, keyframes=keyframes, drones=flights))
+    )
+    assert emission.artifacts == ()
+    assert emission.diagnostics[0].message == (
+        "no file is written for cam1: timing alone keeps cam1 and cam2 apart"
+    )
+    assert emission.notes[0] == "dji: no file for cam2 (px4), flown otherwise"
+
+
 def test_a_mission_is_split_at_its_stops_and_joined_again():
     points = read_kmz(emitted(orbit_plan()).artifacts[0].data)
     blocks = split(points, 9)
