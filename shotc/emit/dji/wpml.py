@@ -12,8 +12,8 @@ from shotc.emit.waypoints.route import Waypoint
 KML = "http://www.opengis.net/kml/2.2"
 CREATED_MS = 1704067200000  # 2024-01-01: the same plan gives the same bytes, whenever that is
 APPROACH = 5.0  # m/s to the first point, which is above the pad
-RETURN_HEIGHT = 100  # metres; DJI Pilot 2 asks for one, DJI Fly has its own
-SECURE_HEIGHT = 20  # metres to which DJI Pilot 2 climbs before it goes to a first point elsewhere
+RETURN_OVER = 10.0  # metres above the highest point at which it returns; DJI Fly has a height of its own
+CLIMB_LEAST = 1.2  # metres, of the height to which DJI Pilot 2 climbs before it goes to the first point
 STOP = "toPointAndStopWithContinuityCurvature"
 PASS = "toPointAndPassWithContinuityCurvature"
 
@@ -79,10 +79,12 @@ class Document:
         self._put(config, "exitOnRCLost", "executeLostAction")
         self._put(config, "executeRCLostAction", "goBack")
         if self.profile.full_template:
-            self._put(config, "takeOffSecurityHeight", SECURE_HEIGHT)
+            climb = max(self.points[0].place.alt, CLIMB_LEAST)
+            self._put(config, "takeOffSecurityHeight", f"{climb:.1f}")
         self._put(config, "globalTransitionalSpeed", f"{APPROACH:g}")
         if self.profile.full_template:
-            self._put(config, "globalRTHHeight", RETURN_HEIGHT)
+            back = max(p.place.alt for p in self.points) + RETURN_OVER
+            self._put(config, "globalRTHHeight", f"{back:.0f}")
         drone = self._put(config, "droneInfo")
         self._put(drone, "droneEnumValue", self.profile.drone[0])
         self._put(drone, "droneSubEnumValue", self.profile.drone[1])

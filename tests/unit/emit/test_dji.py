@@ -125,6 +125,9 @@ def test_the_template_holds_the_points_for_pilot_2_alone():
         sizes[autopilot] = len([e for e in root.iter() if local(e) == "Placemark"])
         assert texts(root, "finishAction") == ["autoLand"]
     assert sizes == {"dji-fly": 0, "pilot-2": len(read_kmz(data))}
+    highest = max(p.place.alt for p in read_kmz(data))
+    assert texts(root, "globalRTHHeight") == [f"{highest + 10:.0f}"]
+    assert texts(root, "takeOffSecurityHeight") == [f"{read_kmz(data)[0].place.alt:.1f}"]
 
 
 def test_what_is_read_is_what_was_written(orbit):
