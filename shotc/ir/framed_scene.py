@@ -6,9 +6,10 @@ from math import atan2, ceil, hypot
 from shotc.geom.vec import Vec3, plus
 from shotc.geom.viewpoint import Lens, Room, Wanted
 from shotc.ir.begins import first_start
+from shotc.ir.drone import Drone
 from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
 from shotc.ir.ideal import ideal_place, offset_at
-from shotc.ir.mission import Drone, MissionIR, OffsetPoints, Shot, Subject
+from shotc.ir.mission import MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
 KNOT = 0.5  # seconds between the knots of a course

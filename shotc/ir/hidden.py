@@ -9,7 +9,8 @@ from shotc.geom.line_of_sight import crosses
 from shotc.geom.shapes import bodies_of, touch
 from shotc.geom.solids import depth, distance
 from shotc.geom.vec import Vec3, minus, plus
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import GROUND, Owner, mesh_owner, target_owner, zone_owner
 from shotc.ir.target import Target
 

@@ -4,20 +4,19 @@ World frame W (East, North, Up, metres), radians, seconds; ``path`` is where an 
 the mission file (see ``OriginMap``).
 """
 
-from math import radians
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from shotc.geom.solids import Solid
+from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, counted_from, flat
-from shotc.ir.limits import Limits, Range, Timing, Vec2, Vec3, reaches
+from shotc.ir.limits import Timing, Vec2, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.power import Power
 from shotc.ir.promise import Promise
 from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
 from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
 from shotc.ir.smoothing import NORMAL_S
-from shotc.ir.source import Autopilot, MissionSource
+from shotc.ir.source import MissionSource
 from shotc.ir.target import Target
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
@@ -52,83 +51,6 @@ class Zone(NamedTuple):
     keep: Literal["in", "out"]
     solid: Solid
     path: KeyPath
-
-
-class Gimbal(NamedTuple):
-    """Camera angles the gimbal reaches: pitch against the horizon, yaw against the body.
-
-    pitch, yaw : (lowest, highest), rad; rate, acceleration : per axis, rad/s, rad/s^2
-    """
-
-    pitch: Range
-    yaw: Range
-    rate: float
-    acceleration: float
-
-    def reaches(self, pitch: float) -> bool:
-        """Tell whether the camera comes to a pitch, rad."""
-        return reaches(self.pitch, pitch)
-
-
-class LensRange(NamedTuple):
-    """What a camera's lens shows.
-
-    longest, widest : horizontal fields of view at its ends, rad; of a fixed lens both are the same
-    rate : how fast the field of view changes at most, rad/s; 0 of a fixed lens
-    """
-
-    longest: float
-    widest: float
-    rate: float
-
-    @property
-    def zooms(self) -> bool:
-        """Tell whether it has more than one field of view."""
-        return self.longest < self.widest
-
-    def shows(self, hfov: float) -> bool:
-        """Tell whether it has this field of view, rad, to a hundredth of a degree."""
-        return self.longest - SAME_LENS_RAD <= hfov <= self.widest + SAME_LENS_RAD
-
-
-SAME_LENS_RAD = radians(0.01)
-
-
-class Drone(NamedTuple):
-    """A drone with its presets filled in.
-
-    home : p_WB at rest on its pad
-    hfov : horizontal field of view, rad, where a shot asks for no other; aspect : width / height
-    radius : of the body sphere, m; endurance : s, of a drone whose battery is known what that hovers
-    power : its battery and rotors, None where nobody knows them
-    lens : None where nobody says what the camera carries
-    """
-
-    name: str
-    model: str
-    home: Vec3
-    limits: Limits
-    gimbal: Gimbal
-    hfov: float
-    aspect: float
-    radius: float
-    endurance: float
-    priority: int
-    body: Literal["forward", "follow-camera", "free"]
-    autopilot: Autopilot
-    path: KeyPath
-    power: Power | None = None
-    lens: LensRange | None = None
-
-    @property
-    def lasts(self) -> str:
-        """How long it can stay in the air, in words, and by what."""
-        if self.power is None:
-            return f"{self.endurance:.1f} s"
-        usable, kept = self.power.usable / 3600.0, 100 * self.power.reserve
-        return (
-            f"{self.endurance:.1f} s, {usable:.1f} Wh at {self.power.hover:.0f} W hovering, {kept:.0f} % kept"
-        )
 
 
 class Composition(NamedTuple):

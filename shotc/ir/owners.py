@@ -3,7 +3,8 @@
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from shotc.geom.vec import Vec3
-from shotc.ir.mission import Drone, MissionIR, Zone
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.origin import KeyPath
 from shotc.ir.target import Target
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import CHANNELS, HFOV
 from shotc.ir.show import Fleet
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR

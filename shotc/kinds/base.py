@@ -10,9 +10,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from shotc.diag.model import Diagnostic
 from shotc.geom.camera import yaw_of
 from shotc.geom.geodetic import above_ground
+from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, GroundHeight, counted_from, flat
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import Beside, Composition, Deferred, Drone, GeoOrigin, Ideal, Keyframe, Subject
+from shotc.ir.mission import (
+    Beside,
+    Composition,
+    Deferred,
+    GeoOrigin,
+    Ideal,
+    Keyframe,
+    Subject,
+)
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
 from shotc.ir.target import Target

@@ -6,7 +6,8 @@ from typing import Literal
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, LensRange
+from shotc.ir.drone import LensRange
+from shotc.ir.mission import Deferred
 from shotc.kinds.base import Expansion, Kind, Part, Scene, Stand
 from shotc.rounding import away
 from shotc.spec.shot import KeyframeSpec, ShotBase

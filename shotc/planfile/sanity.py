@@ -10,8 +10,9 @@ from shotc.geom.shapes import CylinderShape, GroupShape, TargetShape
 from shotc.geom.solids import Cylinder, Solid, is_simple, signed_area
 from shotc.geom.track import Track
 from shotc.geom.vec import plus
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import in_order, is_keyed
-from shotc.ir.mission import Drone, Ideal, MissionIR, Shot
+from shotc.ir.mission import Ideal, MissionIR, Shot
 from shotc.ir.path import CHANNELS
 from shotc.ir.power import Power
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR

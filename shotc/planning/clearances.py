@@ -18,8 +18,9 @@ from shotc.geom.solids import (
     point,
     signed_distance,
 )
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner, drone_owner, target_owner, zone_owner
 from shotc.rounding import at_least, at_most, down, up
 

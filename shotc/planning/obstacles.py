@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from shotc.geom.solid_arrays.points import bounded
 from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_pockets
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import CEILING, GROUND, Owner, mesh_owner, target_owner, zone_owner
 from shotc.ir.transits import Apart, from_target, from_zones
 from shotc.planning.beside_mesh import BesideMesh

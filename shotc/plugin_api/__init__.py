@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from shotc.diag.model import Diagnostic, Label
     from shotc.emit.base import Artifact, Emission, Emitter, Prepares
     from shotc.geom.bernstein import Piecewise
+    from shotc.ir.drone import Drone
     from shotc.ir.fleet import FleetTrajectory
     from shotc.ir.keyframes import KeyframeIR
     from shotc.ir.limits import Vec2, Vec3
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
         Beside,
         Composition,
         Deferred,
-        Drone,
         GeoOrigin,
         Ideal,
         Keyframe,

@@ -19,9 +19,9 @@ from shotc.geom.vec import wrapped
 from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import flying, moved, parts_of_one, shapes
 from shotc.ir.coverage import HALF_SHARE, coverage
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import keeps_a_place
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
-from shotc.ir.mission import Drone
 from shotc.ir.needs import with_need
 from shotc.ir.obstacle_mesh import body_prisms
 from shotc.ir.occlusion import others_of

@@ -13,7 +13,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.surface.ground import height_at
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.flight import Flown

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import references, subjects
 from shotc.ir.trajectory import DroneTrajectory

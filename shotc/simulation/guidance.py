@@ -10,7 +10,8 @@ import numpy as np
 from shotc import plugins
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.planning.clearances import clearances_of, from_parked
 from shotc.plugin_api.replanner import Cone, Keeping, Plan, Traffic
 from shotc.simulation.film import Film

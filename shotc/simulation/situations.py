@@ -11,7 +11,8 @@ import numpy as np
 
 from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import Drone, MissionIR, Subject
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR, Subject
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.phases import Phase
 from shotc.ir.setpoints import Asked

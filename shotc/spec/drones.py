@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import InitErrorDetails
 
-from shotc.ir.mission import LensRange
+from shotc.ir.drone import LensRange
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,

@@ -8,8 +8,8 @@ accelerations of gimbals, and jerks, are hardly ever published; they are what sm
 from math import radians
 from typing import Literal, NamedTuple
 
+from shotc.ir.drone import Gimbal
 from shotc.ir.limits import Limits
-from shotc.ir.mission import Gimbal
 from shotc.ir.power import Power
 from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.source import Autopilot

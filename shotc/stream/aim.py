@@ -10,7 +10,8 @@ import numpy as np
 
 from shotc.geom.camera import aim_at, view
 from shotc.geom.vec import Vec2, Vec3, direction, minus, wrapped
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import subjects
 from shotc.ir.trajectory import DroneTrajectory

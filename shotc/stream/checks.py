@@ -14,7 +14,8 @@ import numpy as np
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.earth import of_world, to_world
 from shotc.geom.vec import Vec3, minus
-from shotc.ir.mission import Drone, GeoOrigin, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.rounding import up
 from shotc.stream.autopilots import MULTIROTORS, NAMES, Action, LossRule
 from shotc.stream.messages import Place

@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import Drone, GeoOrigin
+from shotc.ir.drone import Drone
+from shotc.ir.mission import GeoOrigin
 from shotc.ir.target import Target
 from tests.e2e.conftest import Plan, Planned, each_mission
 from tests.support.csv_tables import Table

@@ -11,9 +11,10 @@ from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism
 from shotc.geom.vec import direction
+from shotc.ir.drone import Drone, Gimbal
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Limits, Timing
-from shotc.ir.mission import Composition, Drone, GeoOrigin, Gimbal, Keyframe, MissionIR, Shot, Zone
+from shotc.ir.mission import Composition, GeoOrigin, Keyframe, MissionIR, Shot, Zone
 from shotc.ir.origin import OriginMap
 from shotc.ir.phases import KeyframeTime, Phase, Reference
 from shotc.ir.promise import Promise

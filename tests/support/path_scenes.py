@@ -9,9 +9,10 @@ import numpy as np
 from shotc.geom.camera import aim_at
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder, Prism, Solid, distance
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import KeyframeIR, PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Drone, MissionIR, Shot, Zone
+from shotc.ir.mission import MissionIR, Shot, Zone
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, MovingLeg, PathIR, PathLeg
 from shotc.ir.promise import Promise

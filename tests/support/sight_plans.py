@@ -7,7 +7,8 @@ from math import radians
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules

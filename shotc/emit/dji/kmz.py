@@ -10,7 +10,7 @@ from shotc.emit.dji.profiles import profile_of
 from shotc.emit.dji.wpml import KML, PASS, Document
 from shotc.emit.waypoints.geo import Place
 from shotc.emit.waypoints.route import Action, Waypoint
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 
 TEMPLATE, WAYLINES = "wpmz/template.kml", "wpmz/waylines.wpml"
 POINTS_MOST = 200  # of a mission in DJI Fly

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,7 +41,8 @@ from shotc.emit.waypoints.flown import Flown
 from shotc.emit.waypoints.geo import Geo, tie
 from shotc.emit.waypoints.report import fleetless, flown_here, no_origin, zooms
 from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 COARSER = 16.0  # times the tolerances at most, first those of framing, then that of position

@@ -33,8 +33,8 @@ from shotc.emit.mavlink.steps import SAME, Step
 from shotc.emit.mavlink.style import Command, Style, turns_body
 from shotc.emit.waypoints.geo import Geo, Place
 from shotc.emit.waypoints.track import Poses, Track, select
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone
 
 Array = NDArray[np.float64]
 

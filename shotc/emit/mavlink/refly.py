@@ -24,7 +24,7 @@ from shotc.emit.waypoints.flown import STAY_PACE, Flown
 from shotc.emit.waypoints.geo import Geo, Place
 from shotc.geom.camera import yaw_of
 from shotc.geom.vec import wrapped
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 
 Array = NDArray[np.float64]
 

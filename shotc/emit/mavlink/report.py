@@ -9,7 +9,8 @@ from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
 from shotc.emit.waypoints.compare import Error
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least
 

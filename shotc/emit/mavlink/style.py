@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints.track import Poses, Track, project, select
 from shotc.geom.vec import wrapped
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.source import Autopilot
 from shotc.ir.trajectory import DroneTrajectory

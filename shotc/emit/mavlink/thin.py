@@ -16,7 +16,7 @@ from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_o
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.track import SAMPLE_STEP, Poses, Stretch, Track, project, select
 from shotc.geom.vec import wrapped
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 
 Array = NDArray[np.float64]
 

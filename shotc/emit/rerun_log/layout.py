@@ -16,7 +16,8 @@ from shotc.emit.rerun_log.opening import Stand, filmed_span, first_stand
 from shotc.emit.rerun_log.series import Plot
 from shotc.emit.rerun_log.terrain_mesh import TERRAIN
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR
 
 BACKGROUND = (24, 27, 32, 255)

@@ -18,7 +18,8 @@ from shotc.geom.framing import Cameras, Frames
 from shotc.geom.shapes import bodies_of
 from shotc.geom.silhouette import project_loops, shape_contour
 from shotc.ir.bodies import moved, shapes
-from shotc.ir.mission import Composition, Drone
+from shotc.ir.drone import Drone
+from shotc.ir.mission import Composition
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase, Reference
 from shotc.ir.sampling import framed, projected

@@ -10,7 +10,8 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.ir.bodies import moved
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, X, Y, Z
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory

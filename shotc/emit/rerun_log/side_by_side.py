@@ -19,7 +19,7 @@ from shotc.emit.scene_extent import scene_bounds
 from shotc.emit.screen import error_top, percent
 from shotc.geom.bernstein import Array
 from shotc.ir.comparison import Comparison, Condition
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.trajectory import VerifiedIR
 
 HEAD, PLOT, MOST = 0.04, 0.16, 0.7

@@ -11,10 +11,11 @@ from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
 from shotc.emit.storyboard.worst import Worst, worst_framing
 from shotc.geom.bernstein import Array
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.limits import Vec2
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import from_what_was_asked
 from shotc.ir.phases import KeyframeTime
 from shotc.ir.target import Target

@@ -20,7 +20,7 @@ from shotc.emit.waypoints.models import TURNINGS, Legs, Shape, legs_of, times_of
 from shotc.emit.waypoints.route import Route
 from shotc.emit.waypoints.stations import LEG_LEAST, Gap, Station, stations_of
 from shotc.emit.waypoints.track import LOST, Poses, Track, project, select
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -9,7 +9,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import footprint_distances, signed_distance
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import CEILING, GROUND, Owner
 from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.clearances import Clearance, clearances_of, from_parked

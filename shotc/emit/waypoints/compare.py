@@ -14,7 +14,8 @@ from shotc.emit.waypoints.flown import STAY_PACE, Flown
 from shotc.emit.waypoints.track import LOST, Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.bodies import moved
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 

@@ -26,7 +26,8 @@ from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import Track, track_of
 from shotc.geom.camera import heading_of
 from shotc.geom.vec import wrapped
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.source import Autopilot
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 

@@ -13,8 +13,9 @@ from shotc.emit.waypoints.compare import Error, ShotError
 from shotc.emit.waypoints.stations import LEG_LEAST
 from shotc.emit.waypoints.timing import Meeting, too_near
 from shotc.emit.waypoints.track import Track
+from shotc.ir.drone import Drone
 from shotc.ir.fleet import FleetTrajectory
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner
 from shotc.ir.path import HFOV
 from shotc.ir.source import TAKES, Autopilot

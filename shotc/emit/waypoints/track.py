@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import View
 from shotc.ir.bodies import moved
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from math import ceil, dist
 from typing import NamedTuple
 
+from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.passes import PassContext
 from shotc.kinds.base import Kind
 from shotc.passes.resolve import Resolve

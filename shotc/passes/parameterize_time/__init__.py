@@ -15,7 +15,8 @@ from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import concatenate, lift_off
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import ClockLeg, DronePath, HoldLeg, Leg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import TrajectoryIR

@@ -11,11 +11,12 @@ from shotc.geom.camera import aim_at, view
 from shotc.geom.vec import Vec2, Vec3
 from shotc.geom.viewpoint import Lens, Wanted, distance_for, lens_for, nearest
 from shotc.ir.begins import first_start
+from shotc.ir.drone import Drone
 from shotc.ir.framed_scene import lens_of
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR, frozen
+from shotc.ir.mission import MissionIR, frozen
 from shotc.spec.words import each
 
 LOOKS = 40  # stretches of a shot on its own clock

@@ -10,7 +10,7 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.phases import UPRIGHT, Reference
 from shotc.ir.tolerances import AT_REST

@@ -15,7 +15,8 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, sup_channel
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import (
     BODY_YAW,
     CAM_PITCH,

@@ -14,9 +14,10 @@ from typing import ClassVar, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import ClockLeg, Deviation, DronePath, Leg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory

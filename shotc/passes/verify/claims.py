@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 
 from shotc.geom.proof import Bound
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.trajectory import Claim, DroneTrajectory, Method
 

@@ -14,9 +14,10 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import depth, distance
 from shotc.ir.bodies import moved
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
 from shotc.ir.measures import measure
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.promises import bends

@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import inf_channel, norm, sup_channel, sup_convex
-from shotc.ir.mission import SAME_LENS_RAD
+from shotc.ir.drone import SAME_LENS_RAD
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.thrust import lean, thrust_to_weight
 from shotc.ir.trajectory import Claim

@@ -17,7 +17,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import Bound, norm, sup_convex
 from shotc.geom.sight import WITHIN_RAD, off_axis, outside
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import SAME_TIME, cameras, clock

@@ -10,8 +10,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import View
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedShot, PlacedSubject
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.planning.clock.keyed import Keyed, keyed_of
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
 from shotc.geom.vec import Vec2
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.planning.clock.aims import CameraTask, aims_at
 from shotc.planning.clock.bounds import NEARLY_SHARE, at_rest
 from shotc.planning.clock.clock import Clock

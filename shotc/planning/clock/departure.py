@@ -21,7 +21,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.taper import SLOPE, Taper
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner
 from shotc.ir.path import MovingLeg, PathLeg
 from shotc.ir.phases import PhaseName

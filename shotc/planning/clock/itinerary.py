@@ -14,9 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import carriers
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import ClockDeviation, Leg, MovingLeg, Pose, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask

@@ -18,9 +18,10 @@ from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.camera import View, aim_at
 from shotc.geom.track_array import places as track_places
 from shotc.geom.vec import wrapped
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import arrivals, is_keyed
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.phases import KeyframeTime, Reference
 
 STEEP_SHARE = 0.1  # of a line of sight that is level, below which it has no bearing to turn to

@@ -19,7 +19,8 @@ from shotc.geom.solid_arrays.planes import separate
 from shotc.geom.solid_arrays.points import support
 from shotc.geom.solids import Solid
 from shotc.geom.track_array import places
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner, target_owner
 from shotc.ir.transits import from_target
 from shotc.planning.corridor import rows_of

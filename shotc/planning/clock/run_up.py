@@ -16,9 +16,10 @@ from math import hypot, sqrt
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 
 STEP_S = 0.5  # seconds over which the speed at the ends of a shot is measured
 SPLINE_RATIO = 1.05  # of the least time, that a spline takes: its control points keep the limits

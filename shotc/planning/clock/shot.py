@@ -13,9 +13,10 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.sampling import worst_of_runs
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.vec import Vec2
+from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, Shot
+from shotc.ir.mission import Shot
 from shotc.ir.owners import Owner
 from shotc.ir.path import LIMITS, SIGHT, ClockDeviation, ClockLeg
 from shotc.ir.phases import Reference

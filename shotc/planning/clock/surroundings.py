@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import ClockLeg, PathIR
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.between import widened

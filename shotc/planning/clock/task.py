@@ -9,8 +9,9 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import moved
+from shotc.ir.drone import Drone
 from shotc.ir.hiding_surfaces import surfaces_before
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import Owner
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.bounds import Bound

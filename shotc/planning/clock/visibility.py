@@ -17,7 +17,8 @@ from shotc.geom.bspline import value_rows
 from shotc.geom.framing import Cameras
 from shotc.geom.sight import off_axis, outside
 from shotc.ir.bodies import flying, standing_at
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.preference import prefers_free_pictures
 from shotc.ir.trajectory import DroneTrajectory

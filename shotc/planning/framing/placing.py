@@ -8,9 +8,10 @@ from typing import NamedTuple
 from shotc.geom.camera import aim_at
 from shotc.geom.shapes import POINT
 from shotc.geom.vec import Vec2, Vec3, direction, minus
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
-from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.framing.candidates import TOUCH_M, Setting, nearest_candidate, nearest_on_verticals
 from shotc.planning.framing.whole_turns import with_turns
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, spline, subdivide
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV, Pose
 from shotc.ir.rules import SLOW_M_S
 from shotc.planning.path.body import FAINT_WEIGHT, UPRIGHT_SLOPE

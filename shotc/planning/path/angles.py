@@ -16,8 +16,9 @@ from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
 from shotc.geom.vec import wrapped
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import FramingSpan
 from shotc.planning.path.lines import SAME_PLACE_M
 from shotc.planning.path.turns import steady

@@ -13,7 +13,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import spline
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import closest_points, support
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import GROUND, Owner
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, Wall
 from shotc.planning.obstacles import flight_space

@@ -14,7 +14,8 @@ from itertools import pairwise
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import MovingLeg, Pose, TimedPath
 from shotc.planning.path.legs import end_of, turned_way
 from shotc.planning.path.shots import AngleFailure

@@ -12,7 +12,8 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict, subdivide
 from shotc.geom.solid_arrays.segments import segment_distances
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.path import (
     BODY_YAW,

@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import FAR_M
 from shotc.geom.solid_arrays.segments import segment_distances
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from shotc.geom.bernstein import Piecewise
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import DronePath, HoldLeg, PathIR, PathLeg
 from shotc.planning.obstacles import free_spaces_of, pad_space
 from shotc.planning.path.in_time import in_time

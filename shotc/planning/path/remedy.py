@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import CEILING, GROUND, Owner, zone_owner
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.path.lines import Line, straight_line

@@ -10,8 +10,9 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import restrict
 from shotc.geom.sampling import worst_of_runs
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
 from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches

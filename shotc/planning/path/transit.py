@@ -21,7 +21,7 @@ from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
 from shotc.geom.taper import SLOPE
 from shotc.geom.vec import Vec3
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, blocked, bounds_slack, taper
 from shotc.planning.obstacles import FreeSpaces

@@ -16,7 +16,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.solvers.headings import DEFAULT
 from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import HeadingTask, nearest_turns

@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import restrict
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import BODY_YAW, HFOV, HoldLeg, MovingLeg, PathLeg
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.shots import stack

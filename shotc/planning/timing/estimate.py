@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import HoldLeg, MovingLeg, PathLeg
 from shotc.planning.timing.deadlines import DueLeg, TooFast, has_times
 from shotc.planning.timing.grid import evened, rough_profile

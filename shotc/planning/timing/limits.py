@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV, X, Y, Z
 
 Array = NDArray[np.float64]

@@ -20,8 +20,8 @@ from scipy.optimize import minimize
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.solids import Cylinder
 from shotc.geom.vec import wrapped
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Limits
-from shotc.ir.mission import Drone
 from shotc.ir.owners import Owner
 from shotc.ir.path import BODY_YAW, Pose
 from shotc.planning.free_space import FreeSpace, Obstacle

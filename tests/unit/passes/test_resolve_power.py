@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from tests.support.front_passes import resolved
 from tests.support.resolve_missions import faults, only
 

@@ -11,8 +11,9 @@ from math import asin, degrees, inf
 import numpy as np
 
 from shotc.diag.model import Label
+from shotc.ir.drone import Drone
 from shotc.ir.limits import G_M_S2
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.flown import usages
 from shotc.planning.timing.limits import Ceiling, ceiling_of

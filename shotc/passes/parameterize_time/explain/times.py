@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.path import Leg, PathLeg
 from shotc.ir.phases import Phase
 from shotc.passes.labels import phases_in_words, timing_value

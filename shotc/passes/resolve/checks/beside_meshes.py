@@ -16,9 +16,10 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.geom.surface.near import nearest, within
 from shotc.geom.surface.triangles import segment_distances
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.origin import KeyPath
 from shotc.ir.owners import mesh_owner

@@ -9,8 +9,9 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import heading_of, view
 from shotc.geom.vec import Vec2
 from shotc.ir.begins import first_start
+from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
-from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.labels import framing_label
 from shotc.planning.framing.candidates import Setting

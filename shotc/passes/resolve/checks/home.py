@@ -8,8 +8,9 @@ from math import atan2, cos, dist, inf, radians, sin, sqrt
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import signed_distance
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.planning.clearances import NUDGE_M, ROUNDING_M, Clearance, clearances_of, move, outward
 from shotc.rounding import at_least
 

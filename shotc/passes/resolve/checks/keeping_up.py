@@ -14,10 +14,11 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start, known_start
+from shotc.ir.drone import Drone
 from shotc.ir.framed import course_of
 from shotc.ir.ideal import TO_CATCH_UP, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.rounding import down, up
 
 WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good

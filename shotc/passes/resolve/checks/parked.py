@@ -7,7 +7,8 @@ from math import dist
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import point
-from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.drone import Drone
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.owners import drone_owner
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.planning.clearances import ROUNDING_M, Clearance, free_move

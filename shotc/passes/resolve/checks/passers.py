@@ -15,7 +15,8 @@ from shotc.geom.solids import closest_on_segment, distance
 from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.passes.resolve.checks.home import ROUND, stands_free
 from shotc.passes.resolve.lower.names import AUTO

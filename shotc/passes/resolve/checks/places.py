@@ -12,7 +12,8 @@ from collections.abc import Callable, Iterator
 from functools import cache, partial
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.ir.mission import Drone, Keyframe, MissionIR, Shot
+from shotc.ir.drone import Drone
+from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.clear_path import Change, clear_path
 from shotc.passes.resolve.checks.move_out import move_out

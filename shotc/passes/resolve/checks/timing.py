@@ -8,10 +8,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
+from shotc.ir.drone import Drone
 from shotc.ir.flown_order import flown_order
 from shotc.ir.keyed import is_keyed
 from shotc.ir.limits import Vec3
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.motion import least_shot, least_travel, length
 from shotc.passes.resolve.checks.wind import less_wind
 from shotc.rounding import at_least

@@ -1,7 +1,8 @@
 """The wind as the cause of a time that is too short: how much less of it would do."""
 
+from shotc.ir.drone import Drone
 from shotc.ir.limits import Limits
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.motion import least_shot
 from shotc.rounding import at_least, down
 

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
+from shotc.ir.drone import Drone
 from shotc.ir.framed import Course
 from shotc.ir.ground import GroundHeight, flat
-from shotc.ir.mission import Drone, GeoOrigin, MissionIR, Zone
+from shotc.ir.mission import GeoOrigin, MissionIR, Zone
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed

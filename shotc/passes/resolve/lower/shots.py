@@ -4,9 +4,10 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, GroundHeight, flat
 from shotc.ir.limits import Timing
-from shotc.ir.mission import Deferred, Drone, GeoOrigin, Keyframe, Shot
+from shotc.ir.mission import Deferred, GeoOrigin, Keyframe, Shot
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules

@@ -10,8 +10,9 @@ from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
+from shotc.ir.drone import Drone, Gimbal, LensRange
 from shotc.ir.limits import Limits, Vec2, Vec3
-from shotc.ir.mission import Drone, Gimbal, LensRange, Zone
+from shotc.ir.mission import Zone
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.power import SEA_LEVEL_KG_M3, Power, density_at
 from shotc.kinds.base import counts_from_ground, stands

@@ -12,8 +12,9 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces
 from shotc.geom.surface.ground import leaves
+from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedShot
-from shotc.ir.mission import Drone, MissionIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.owners import GROUND, Owner, owner_of
 from shotc.ir.path import PathDeviation
 from shotc.ir.terrain import Terrain

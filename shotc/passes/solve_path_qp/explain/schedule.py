@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.drone import Drone
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import TO_CATCH_UP, ideal_place
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.labels import phases_in_words, timing_value
 from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate
 from shotc.rounding import at_least, down, plain, up

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import LensRange
+from shotc.ir.drone import LensRange
 from shotc.ir.path import HFOV
 from shotc.passes.verify import judge
 from tests.support.front_passes import resolved

@@ -10,7 +10,7 @@ from shotc.checking import check_source
 from shotc.cli.summary import summary
 from shotc.emit.csv_table import CsvTable
 from shotc.emit.waypoints.clearance import keep_outs
-from shotc.ir.mission import Drone
+from shotc.ir.drone import Drone
 from shotc.ir.parked import bodies, parked
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify import judge

@@ -11,7 +11,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.camera import view
 from shotc.geom.shapes import CylinderShape
-from shotc.ir.mission import Gimbal
+from shotc.ir.drone import Gimbal
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.ir.target import Target
 from shotc.planning.path.body import BodyTask, body_line

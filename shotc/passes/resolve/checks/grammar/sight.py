@@ -4,10 +4,11 @@ from math import hypot, tan
 from typing import NamedTuple
 
 from shotc.geom.vec import minus
+from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyed import arrivals, carriers, is_keyed
 from shotc.ir.limits import Vec2, Vec3
-from shotc.ir.mission import Drone, MissionIR, Shot
+from shotc.ir.mission import MissionIR, Shot
 
 
 class Sight(NamedTuple):

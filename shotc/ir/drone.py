@@ -1,0 +1,86 @@
+"""A drone with its camera, as planning takes it. Plain Python."""
+
+from math import radians
+from typing import Literal, NamedTuple
+
+from shotc.ir.limits import Limits, Range, Vec3, reaches
+from shotc.ir.origin import KeyPath
+from shotc.ir.power import Power
+from shotc.ir.source import Autopilot
+
+SAME_LENS_RAD = radians(0.01)
+"""By how much a field of view may be beyond those of a lens: it is rounding."""
+
+
+class Gimbal(NamedTuple):
+    """Camera angles the gimbal reaches: pitch against the horizon, yaw against the body.
+
+    pitch, yaw : (lowest, highest), rad; rate, acceleration : per axis, rad/s, rad/s^2
+    """
+
+    pitch: Range
+    yaw: Range
+    rate: float
+    acceleration: float
+
+    def reaches(self, pitch: float) -> bool:
+        """Tell whether the camera comes to a pitch, rad."""
+        return reaches(self.pitch, pitch)
+
+
+class LensRange(NamedTuple):
+    """What a camera's lens shows.
+
+    longest, widest : horizontal fields of view at its ends, rad; of a fixed lens both are the same
+    rate : how fast the field of view changes at most, rad/s; 0 of a fixed lens
+    """
+
+    longest: float
+    widest: float
+    rate: float
+
+    @property
+    def zooms(self) -> bool:
+        """Tell whether it has more than one field of view."""
+        return self.longest < self.widest
+
+    def shows(self, hfov: float) -> bool:
+        """Tell whether it has this field of view, rad, to a hundredth of a degree."""
+        return self.longest - SAME_LENS_RAD <= hfov <= self.widest + SAME_LENS_RAD
+
+
+class Drone(NamedTuple):
+    """A drone with its presets filled in.
+
+    home : p_WB at rest on its pad
+    hfov : horizontal field of view, rad, where a shot asks for no other; aspect : width / height
+    radius : of the body sphere, m; endurance : s, of a drone whose battery is known what that hovers
+    power : its battery and rotors, None where nobody knows them
+    lens : None where nobody says what the camera carries
+    """
+
+    name: str
+    model: str
+    home: Vec3
+    limits: Limits
+    gimbal: Gimbal
+    hfov: float
+    aspect: float
+    radius: float
+    endurance: float
+    priority: int
+    body: Literal["forward", "follow-camera", "free"]
+    autopilot: Autopilot
+    path: KeyPath
+    power: Power | None = None
+    lens: LensRange | None = None
+
+    @property
+    def lasts(self) -> str:
+        """How long it can stay in the air, in words, and by what."""
+        if self.power is None:
+            return f"{self.endurance:.1f} s"
+        usable, kept = self.power.usable / 3600.0, 100 * self.power.reserve
+        return (
+            f"{self.endurance:.1f} s, {usable:.1f} Wh at {self.power.hover:.0f} W hovering, {kept:.0f} % kept"
+        )
