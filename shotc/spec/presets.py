@@ -88,16 +88,20 @@ def _dji(
     pitch: tuple[float, float],
     minutes: float,
     source: str,
+    *,
+    light: bool = False,
 ) -> Preset:
-    """Return a folding drone of DJI's: its gimbal does not pan, so that the body turns with the camera."""
-    small = "under 250 g" in summary
+    """Return a folding drone of DJI's: its gimbal does not pan, so that the body turns with the camera.
+
+    light : whether it has less than 250 g
+    """
     return Preset(
         summary=summary,
-        limits=_limits(linear, (60.0, 90.0) if small else (70.0, 100.0)),
+        limits=_limits(linear, (60.0, 90.0) if light else (70.0, 100.0)),
         gimbal=_gimbal(pitch, (-10.0, 10.0), (60.0, 120.0)),
         hfov=_WIDE,
         aspect=16 / 9,
-        radius=0.3 if small else 0.4,
+        radius=0.3 if light else 0.4,
         endurance=minutes * 60.0,
         autopilot="dji-fly",
         body="follow-camera",
@@ -160,6 +164,7 @@ PRESETS: dict[str, Preset] = {
         (-90.0, 60.0),
         22.0,
         "maker's data of the DJI Mini 3 (24 mm equivalent), speeds and endurance as of the Mini 3 Pro",
+        light=True,
     )._replace(autopilot="litchi"),
     "mini-3-pro": _dji(
         "DJI Mini 3 Pro, under 250 g, without waypoints of its own: flown by Litchi Pilot",
@@ -167,6 +172,7 @@ PRESETS: dict[str, Preset] = {
         (-90.0, 60.0),
         22.0,
         "maker's data of the DJI Mini 3 Pro (mode N 10 m/s, hovers 30 min, 24 mm equivalent)",
+        light=True,
     )._replace(autopilot="litchi"),
     "mini-4-pro": _dji(
         "DJI Mini 4 Pro, under 250 g",
@@ -174,6 +180,7 @@ PRESETS: dict[str, Preset] = {
         (-90.0, 60.0),
         22.0,
         "maker's data of the DJI Mini 4 Pro (N 12 m/s, up and down 5 m/s, hovers 30 min, 24 mm equivalent)",
+        light=True,
     ),
     "mini-5-pro": _dji(
         "DJI Mini 5 Pro, under 250 g",
@@ -181,6 +188,7 @@ PRESETS: dict[str, Preset] = {
         (-90.0, 55.0),
         23.0,
         "maker's data of the DJI Mini 5 Pro (tilt to 55 deg, 24 mm equivalent), mode N as of the Mini 4 Pro",
+        light=True,
     ),
     "air-3": _dji(
         "DJI Air 3, 720 g, with its wide lens",

@@ -161,7 +161,8 @@ def test_endurance_is_the_whole_flight_from_the_pad_on(plan: Plan, path: Path) -
 def lift_off(motion: Table) -> tuple[float, float]:
     """Between which times a drone leaves its pad; one that moves at the first step leaves it at once."""
     names = [name for name in motion.header if name not in ("t_s", *TEXT)]
-    still = (motion.numbers(*names) == motion.numbers(*names)[0]).all(axis=1)
+    rows = motion.numbers(*names)
+    still = ((rows == rows[0]) | np.isnan(rows[0])).all(axis=1)  # what is not known is empty
     first = int(np.argmin(still))
     t = motion["t_s"]
     return (0.0, 0.0) if first == 1 else (float(t[first - 1]), float(t[first]))
