@@ -27,6 +27,7 @@ COLUMNS = (
     "t_s,drone,phase,shot,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,ax_m_s2,ay_m_s2,az_m_s2,"
     "body_yaw_rad,cam_yaw_rad,cam_pitch_rad,cam_yaw_rate_rad_s,cam_pitch_rate_rad_s,hfov_rad"
 )
+EFFORT = ",tilt_rad,thrust_to_weight,airspeed_m_s,power_w"
 POSITION = ("x_m", "y_m", "z_m")
 VELOCITY = ("vx_m_s", "vy_m_s", "vz_m_s")
 ACCELERATION = ("ax_m_s2", "ay_m_s2", "az_m_s2")
@@ -54,7 +55,7 @@ def largest(values: Array) -> float:
 def test_columns_and_clock(plan: Plan, path: Path) -> None:
     for planned, drone, table, step in flown(plan, path):
         geodetic = ",lat_deg,lon_deg,alt_m" if planned.mission.origin else ""
-        assert table.header == tuple((COLUMNS + geodetic).split(","))
+        assert table.header == tuple((COLUMNS + geodetic + EFFORT).split(","))
         assert table["t_s"] == pytest.approx(np.arange(len(table)) * step, abs=1e-9)
         end = planned.tracks[drone.name].curve.end
         assert (len(table) - 2) * step < end <= (len(table) - 1) * step + 1e-9
@@ -103,6 +104,18 @@ def test_take_off_and_landing_are_vertical_at_home(plan: Plan, path: Path) -> No
             assert np.hypot(x - home[0], y - home[1]).max() < 1e-5
             assert z.min() > home[2] - 1e-5
             assert (np.diff(z) * (1 if phase == "takeoff" else -1) > -1e-6).all()
+
+
+def test_tilt_and_thrust_are_those_of_the_acceleration_and_weight(plan: Plan, path: Path) -> None:
+    for _, drone, table, _ in flown(plan, path):
+        a, b, c = table.numbers(*ACCELERATION).T
+        assert table["tilt_rad"] == pytest.approx(np.arctan2(np.hypot(a, b), c + 9.80665), abs=1e-7)
+        pushed = np.sqrt(a * a + b * b + (c + 9.80665) ** 2) / 9.80665
+        assert table["thrust_to_weight"] == pytest.approx(pushed, abs=1e-7)
+        if not any(drone.limits.wind) and not np.isnan(table["airspeed_m_s"]).any():
+            across = np.hypot(*table.numbers(*VELOCITY[:2]).T)
+            assert table["airspeed_m_s"] == pytest.approx(across, abs=1e-7)
+        assert np.isnan(table["power_w"]).all() == (drone.power is None)
 
 
 def test_velocity_and_acceleration_are_the_derivatives_of_position(plan: Plan, path: Path) -> None:
