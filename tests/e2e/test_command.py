@@ -90,7 +90,7 @@ def test_a_rejected_mission_writes_nothing(place: Path) -> None:
         ["--stop-after", "emit"],
         ["--dump-ir", "nope"],
         ["--seed", "x"],
-        ["second.yaml"],
+        ["second.yaml", "--time-passes"],
     ],
     ids=" ".join,
 )

@@ -20,7 +20,7 @@ CLOCKS = {"clock": (), "beside": (0, 2), "together": (1, 1, 2)}
 @cache
 def made(kind, planes):
     """A stage of a shot with keyframes, or of one on its own clock, beside ellipsoids or of two subjects."""
-    return clock.stage(planes, *CLOCKS[kind]) if kind in CLOCKS else stage(kind, planes)
+    return clock.stage(clock.Sizes(planes, *CLOCKS[kind])) if kind in CLOCKS else stage(kind, planes)
 
 
 def sizes(s):

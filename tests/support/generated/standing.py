@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from shotc.spec.presets import PRESETS
 from tests.support.generated.cameras import Camera
 from tests.support.generated.dice import Dice
 from tests.support.generated.optics import FARTHEST, fitting_distance, shows
@@ -114,7 +115,7 @@ def _kind(draw: Callable[..., object]) -> str:
 def _keyframes(corner: Corner) -> Draft | None:
     """Two to four places about the subject, from azimuth to azimuth, each at its own distance and height."""
     dice, subject = corner.dice, corner.subject
-    zoom = dice.chance(0.2)
+    zoom = dice.chance(0.2) and not PRESETS[corner.camera.model].fixed_lens
     azimuth, turn = corner.azimuth(), dice.sign()
     rows: list[dict[str, Any]] = []
     places: list[Array] = []

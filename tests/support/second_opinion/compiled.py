@@ -6,13 +6,11 @@ from functools import cache
 from pathlib import Path
 
 from shotc import api
-from shotc.ir.source import TAKES
-from shotc.ir.trajectory import VerifiedIR
-from shotc.lowering import with_autopilot
 from tests.support.compiled import Autopilot, compiled
-from tests.support.records import replace
 from tests.support.second_opinion.case import Case
 from tests.support.second_opinion.mission import Mission
+
+FLIES_MAVLINK = {"px4", "ardupilot"}
 
 
 @cache
@@ -20,14 +18,9 @@ def case_of(path: Path, refiner: str | None = None, autopilot: Autopilot | None 
     """Return the files that a mission becomes; it looks at MAVLink, which DJI's machines would not get."""
     done = compiled(path, refiner, autopilot)
     assert done.plan is not None, [(d.code, d.message) for d in done.diagnostics]
-    emitted = api.emit_plan(_with_missions(done.plan), ["csv", "mavlink"])
+    emitted = api.emit_plan(done.plan, ["csv", "mavlink"])
     files = {artifact.name: artifact.data for artifact in emitted.artifacts}
-    return Case(Mission.of(path), files, tuple(map(str, emitted.notes)))
-
-
-def _with_missions(plan: VerifiedIR) -> VerifiedIR:
-    """Return a plan whose drones all take MAVLink missions."""
-    ir = plan.trajectory
-    if all("mavlink" in TAKES[drone.autopilot] for drone in ir.keyframes.mission.drones):
-        return plan
-    return replace(plan, trajectory=replace(ir, keyframes=with_autopilot(ir.keyframes, "px4")))
+    case = Case(Mission.of(path), files, tuple(map(str, emitted.notes)))
+    if all(drone["autopilot"] in FLIES_MAVLINK for drone in case.drones.values()):
+        return case
+    return case_of(path, refiner, "px4")

@@ -6,7 +6,7 @@ Keys are the names of the certificate's claims, so that the two can be compared.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from tests.support.second_opinion.flight import AT_HOME, BODY_YAW, CAM_PITCH, CA
 from tests.support.second_opinion.mission import BESIDE_TARGETS, GROUND, SEPARATION, Zone
 
 LENS = (np.radians(1.0), np.radians(170.0))
+ROUNDED = np.radians(0.01)
 GRAVITY = 9.80665
 SUMMED = 1e-3  # of an energy that is summed from samples
 FINE, ROUNDS = 15, 3  # a worst time is looked at again, this finely and often
@@ -83,6 +84,7 @@ def limits(case: Case, flight: Flight) -> Iterator[Worst]:
     yaw_rate = np.abs(rate[..., CAM_YAW] - rate[..., BODY_YAW])
     yaw_second = np.abs(second[..., CAM_YAW] - second[..., BODY_YAW])
     norm = np.linalg.norm
+    longest, widest, zoom_rate = _lens(case.drones[flight.drone])
     uppers = {
         "airspeed" if any(bound["wind"]) else "speed": (
             norm(rate[..., :2] - np.array(bound["wind"]), axis=-1),
@@ -100,9 +102,11 @@ def limits(case: Case, flight: Flight) -> Iterator[Worst]:
         "gimbal pitch acceleration": (np.abs(second[..., CAM_PITCH]), gimbal["acceleration"]),
         "gimbal yaw rate": (yaw_rate, gimbal["rate"]),
         "gimbal yaw acceleration": (yaw_second, gimbal["acceleration"]),
-        "field of view max": (value[..., HFOV], LENS[1]),
+        "field of view max": (value[..., HFOV], widest),
     }
     pushed = second[..., :3] + np.array([0.0, 0.0, GRAVITY])
+    if zoom_rate is not None:
+        uppers["zoom rate"] = np.abs(rate[..., HFOV]), zoom_rate
     if bound["tilt"] != "inf":
         upright = pushed[..., 2] / norm(pushed, axis=-1)
         uppers["tilt"] = np.arccos(np.clip(upright, -1.0, 1.0)), bound["tilt"]
@@ -111,12 +115,21 @@ def limits(case: Case, flight: Flight) -> Iterator[Worst]:
     lowers = {
         "gimbal pitch min": (value[..., CAM_PITCH], gimbal["pitch"][0]),
         "gimbal yaw min": (yaw, gimbal["yaw"][0]),
-        "field of view min": (value[..., HFOV], LENS[0]),
+        "field of view min": (value[..., HFOV], longest),
     }
     for name, (values, limit) in uppers.items():
         yield worst_of(name, flight.drone, float(limit), t, values)
     for name, (values, limit) in lowers.items():
         yield worst_of(name, flight.drone, float(limit), t, values, upper=False)
+
+
+def _lens(drone: dict[str, Any]) -> tuple[float, float, float | None]:
+    """Return the least and the largest field of view of a lens, and how fast it zooms where it does."""
+    lens = drone["lens"]
+    if lens is None:
+        return (*LENS, None)
+    fixed = lens["longest"] == lens["widest"]
+    return lens["longest"] - ROUNDED, lens["widest"] + ROUNDED, None if fixed else lens["rate"]
 
 
 def at_home(case: Case, flight: Flight) -> Iterator[Worst]:

