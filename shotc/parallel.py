@@ -15,6 +15,9 @@ from typing import Any, TypeVar
 S = TypeVar("S")
 T = TypeVar("T")
 
+GONE_S = 5.0
+"""Seconds in which a process that is killed is gone."""
+
 Hands = int | str
 """So many processes of this machine at most, or the cluster whose scheduler is at an address."""
 
@@ -73,13 +76,20 @@ def pool_of(
     others = set(active_children())
     context = get_context("fork" if sys.platform == "linux" else "spawn")
     pool = ProcessPoolExecutor(workers, context, _begin, (begin, given))
+    done = False
     try:
         yield pool
+        done = True
     finally:
         with uninterrupted():
-            for worker in set(active_children()) - others:
+            mine = set(active_children()) - others
+            for worker in mine:
                 worker.kill()  # it writes nothing to the disk
-            pool.shutdown()
+            for worker in mine:
+                worker.join(GONE_S)
+            # One that is killed in the middle of an answer leaves half of it in the pipe, and the thread that
+            # reads answers waits for the rest for good: nobody waits for that thread then.
+            pool.shutdown(wait=done)
 
 
 @contextmanager
