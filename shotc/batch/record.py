@@ -1,14 +1,11 @@
 """Missions of a batch that are planned while others are not: a batch that is killed goes on from there.
 
-One line of JSON a mission. A line that was not written to its end, or that belongs to another text, another
-version or other options, is passed over, and so is one of whose files any has changed since.
-The file goes when the batch is finished.
+An entry that belongs to another text, another version or other options is passed over, and so is one of whose
+files any has changed since. The file goes when the batch is finished.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import sha256
@@ -18,39 +15,34 @@ from typing import Any
 from shotc import __version__
 from shotc.batch.work import Job, Outcome, Planned
 from shotc.filenames import file_name
+from shotc.progress_file import ProgressFile
 
 NAME = "plan.unfinished.jsonl"
 
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """The missions of a batch that are planned; path : of the file."""
+    """The missions of a batch that are planned."""
 
-    path: Path
+    file: ProgressFile
+
+    @staticmethod
+    def of(root: Path) -> Record:
+        """Return what is kept in the folder of the folders of all missions."""
+        return Record(ProgressFile(root / NAME))
 
     def done(self) -> dict[str, dict[str, Any]]:
-        """Return what is kept, by the key of its job; nothing where the file cannot be read."""
-        try:
-            lines = self.path.read_text(encoding="ascii").splitlines()
-        except (OSError, ValueError):
-            return {}
-        return {entry["key"]: entry for line in lines for entry in _entry(line)}
+        """Return what is kept, by the key of its job."""
+        return {entry["key"]: entry for entry in self.file.entries()}
 
     def add(self, job: Job, made: Planned) -> None:
-        """Keep a mission whose files are written; a disk that does not take it is no reason to stop."""
+        """Keep a mission whose files are written."""
         entry = {
-            "key": key_of(job),
             "outcome": made.outcome._asdict(),
             "read": made.read,
             "written": [(each.name, sha256(each.data).hexdigest()) for each in made.artifacts],
         }
-        with suppress(OSError), self.path.open("a", encoding="ascii") as stream:
-            stream.write(json.dumps(entry) + "\n")
-
-    def forget(self) -> None:
-        """Remove the file."""
-        with suppress(OSError):
-            self.path.unlink(missing_ok=True)
+        self.file.add(key_of(job), entry)
 
 
 def key_of(job: Job) -> str:
@@ -83,10 +75,3 @@ def folder_of(outcome: Outcome, root: Path) -> Path:
 def _digest(path: Path) -> str:
     with path.open("rb") as stream:
         return sha256(stream.read()).hexdigest()
-
-
-def _entry(line: str) -> Iterator[dict[str, Any]]:
-    with suppress(ValueError):
-        entry = json.loads(line)
-        if isinstance(entry, dict) and isinstance(entry.get("key"), str):
-            yield entry

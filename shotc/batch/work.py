@@ -77,14 +77,12 @@ def _outcome(
     job: Job, mission: str | None, plan: VerifiedIR | None, diagnostics: tuple[Diagnostic, ...]
 ) -> Outcome:
     weights = [severity_of(each) for each in diagnostics]
-    ends = [] if plan is None else [track.curve.end for track in plan.trajectory.drones]
-    ends += [] if plan is None else [float(fleet.breaks[-1]) for fleet in plan.trajectory.fleets]
     return Outcome(
         job.name,
         mission,
         weights.count(Severity.ERROR),
         weights.count(Severity.WARNING),
-        max(ends, default=0.0),
+        0.0 if plan is None else plan.trajectory.end,
         0 if plan is None else len(plan.certificate),
     )
 

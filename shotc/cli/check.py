@@ -78,7 +78,4 @@ def _print(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile],
 def _conclusion(gathered: Gathered, *, clean: bool) -> str:
     number = len(gathered.missions)
     text = f"checked {number} mission{'s' if number > 1 else ''}" + (": no errors" if clean else "")
-    if gathered.skipped:
-        files = "file" if gathered.skipped == 1 else "files"
-        text += f"; passed over {gathered.skipped} YAML {files} without a top-level key `shotc`"
-    return text
+    return text + gathered.passed_over()

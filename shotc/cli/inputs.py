@@ -38,6 +38,13 @@ class Gathered:
         self.diagnostics: list[Diagnostic] = []
         self.skipped = 0
 
+    def passed_over(self) -> str:
+        """Return the end of a sentence that says how many YAML files are no missions; empty without one."""
+        if not self.skipped:
+            return ""
+        files = "file" if self.skipped == 1 else "files"
+        return f"; passed over {self.skipped} YAML {files} without a top-level key `shotc`"
+
 
 def read_mission(spec: str, stdin_name: str | None = None) -> MissionText:
     """Return the one mission a command is given; where it cannot be read, say so and exit."""

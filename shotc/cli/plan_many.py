@@ -10,10 +10,10 @@ import typer
 
 from shotc import plugins
 from shotc.api import PlanOptions
-from shotc.batch.record import NAME, Record, folder_of, key_of, still_true
+from shotc.batch.record import Record, folder_of, key_of, still_true
 from shotc.batch.work import Job, Outcome, Planned, planned
 from shotc.checking import models_of
-from shotc.cli import console
+from shotc.cli import console, refiner
 from shotc.cli.console import Progress, clock, table
 from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
 from shotc.cli.hands import at_work, no_cluster
@@ -43,8 +43,7 @@ def plan_many(
     root = output or Path("out")
     clashes, sources = _clashes(gathered.missions)
     faults = (*gathered.diagnostics, *no_cluster(hands if isinstance(hands, str) else None), *clashes)
-    if options.refiner is None and plugins.usual_refiner() == plugins.NO_REFINER:
-        faults = (*faults, plugins.no_refiner())
+    faults += refiner.missing(options.refiner)
     console.report(faults, sources)
     if has_errors(faults):
         return console.EXIT_REJECTED
@@ -56,8 +55,8 @@ def plan_many(
         for made in as_done(planned, batch.left, hands or cores()):
             batch.take(made)
             progress(f"{len(batch.outcomes)} of {len(jobs)} missions")
-    batch.record.forget()
-    console.out("\n".join(_lines(batch, gathered.skipped)))
+    batch.record.file.forget()
+    console.out("\n".join(_lines(batch, gathered)))
     rejected = any(each.errors for each in batch.outcomes.values())
     return console.EXIT_REJECTED if rejected else console.EXIT_CLEAN
 
@@ -68,7 +67,7 @@ class _Batch:
     def __init__(self, jobs: list[Job], root: Path) -> None:
         self.jobs = {job.name: job for job in jobs}
         self.root = root
-        self.record = Record(root / NAME)
+        self.record = Record.of(root)
         entries = self.record.done()
         earlier = {job.name: still_true(job, entries.get(key_of(job), {}), root) for job in jobs}
         self.outcomes = {name: outcome for name, outcome in earlier.items() if outcome is not None}
@@ -102,7 +101,7 @@ def _written(made: Planned, folder: Path) -> Planned:
     return made._replace(diagnostics=(*made.diagnostics, *faults), outcome=outcome)
 
 
-def _lines(batch: _Batch, skipped: int) -> Iterator[str]:
+def _lines(batch: _Batch, gathered: Gathered) -> Iterator[str]:
     outcomes = [batch.outcomes[name] for name in batch.jobs]
     yield from table([HEAD, *(_row(batch, outcome) for outcome in outcomes)])
     yield ""
@@ -110,10 +109,7 @@ def _lines(batch: _Batch, skipped: int) -> Iterator[str]:
     text = f"planned {good} of {len(outcomes)} missions"
     if batch.before:
         text += f"; {batch.before} of them before this run was stopped, whose warnings were told then"
-    if skipped:
-        files = "file" if skipped == 1 else "files"
-        text += f"; passed over {skipped} YAML {files} without a top-level key `shotc`"
-    yield text
+    yield text + gathered.passed_over()
 
 
 def _row(batch: _Batch, outcome: Outcome) -> tuple[str, ...]:

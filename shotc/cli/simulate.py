@@ -174,7 +174,7 @@ def simulate(
             done = rehearse(plan.trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
         made = artifacts(done, progress)
     paths, faults = write(made.artifacts, folder)
-    kept.forget()
+    kept.file.forget()
     found = (*made.diagnostics, *not_kept(done), *faults)
     console.report(found, sources)
     console.out(json_text(done) if format is Format.JSON else text(done, paths))

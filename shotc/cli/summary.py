@@ -48,14 +48,13 @@ LIMITS = (
 def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> str:
     """Return the text that ``shotc plan`` ends with."""
     ir, mission = plan.trajectory, plan.trajectory.keyframes.mission
-    length = max([*(track.curve.end for track in ir.drones), *(float(f.breaks[-1]) for f in ir.fleets)])
     shots = f"{len(mission.shots)} shot{'s' * (len(mission.shots) != 1)}"
     if ir.fleets:
         shots = headline(plan)
     tables = [rows for rows in (shot_rows(plan) if ir.drones else [], display_rows(plan)) if rows]
     return "\n".join(
         [
-            f"{mission.name}: {shots}, {clock(length)} in the air, planned and proved",
+            f"{mission.name}: {shots}, {clock(ir.end)} in the air, planned and proved",
             *(line for rows in tables for line in ("", *_indent(table(rows)))),
             "",
             *_indent(line for name, text in _facts(plan, notes) for line in _paragraph(name, text)),

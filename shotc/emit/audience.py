@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan, atan2, hypot, pi, tan
+from math import atan, atan2, hypot, pi
 from pathlib import PurePath
 
 import numpy as np
@@ -124,8 +124,3 @@ def pictures_shown(flight: FleetTrajectory) -> list[Shown]:
         first = found.get(key, shown)
         found[key] = Shown(first.display, first.picture, first.index, first.start, shown.end)
     return list(found.values())
-
-
-def focal_length(hfov: float, width: float = 36.0) -> float:
-    """Return the focal length of a field of view on a sensor of that width, both millimetres."""
-    return width / 2.0 / tan(hfov / 2.0)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from math import exp, log, remainder, tau
 from typing import NamedTuple, TypeVar
 
+from shotc.geom.ease import minimum_jerk
 from shotc.geom.vec import Vec2
 from shotc.ir.origin import KeyPath
 
@@ -104,6 +105,6 @@ def _eased(known: Sequence[tuple[float, float]], time: float) -> float:
     for after, next_value in known[1:]:
         if time < after:
             x = max(0.0, (time - before) / (after - before))
-            return value + x**3 * (10.0 - 15.0 * x + 6.0 * x * x) * (next_value - value)
+            return value + minimum_jerk(x) * (next_value - value)
         before, value = after, next_value
     return value

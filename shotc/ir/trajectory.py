@@ -40,6 +40,12 @@ class TrajectoryIR:
     stats: tuple[tuple[str, float | str], ...]
     fleets: tuple[FleetTrajectory, ...] = ()
 
+    @property
+    def end(self) -> float:
+        """When the last drone has landed, seconds; 0 where nobody flies."""
+        ends = [track.curve.end for track in self.drones] + [float(f.breaks[-1]) for f in self.fleets]
+        return max(ends, default=0.0)
+
 
 @dataclass(frozen=True, slots=True)
 class Claim:

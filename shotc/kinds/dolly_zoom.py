@@ -4,12 +4,13 @@ What is behind the target seems to shrink or to grow. The field of view of every
 which the target's outline is as high in the frame as in the first.
 """
 
-from math import ceil, degrees, floor, isfinite, radians, tan
+from math import ceil, degrees, floor, isfinite
 from typing import Literal
 
 from pydantic import Field
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.focal import focal_length
 from shotc.geom.vec import Vec3, minus
 from shotc.geom.viewpoint import Lens, Wanted, lens_for, size_from
 from shotc.ir.target import Target
@@ -21,7 +22,6 @@ from shotc.spec.shot import ShotBase
 PIECES = 24
 """Of the way at least: the size then strays by a thousandth or less between them, over a threefold change."""
 LEAST_WAY_M = 1e-3
-FULL_FRAME_MM = 36.0
 
 
 class DollyZoomShot(ShotBase):
@@ -83,10 +83,7 @@ def _lenses(
         return lenses
     low, high = degrees(min(lenses)), degrees(max(lenses))
     has = f"{degrees(drone.lens.longest):.4g} to {degrees(drone.lens.widest):.4g} deg"
-    short, long = (
-        floor(FULL_FRAME_MM / 2 / tan(radians(high) / 2)),
-        ceil(FULL_FRAME_MM / 2 / tan(radians(low) / 2)),
-    )
+    short, long = floor(1e3 * focal_length(max(lenses))), ceil(1e3 * focal_length(min(lenses)))
     message = f"this dolly-zoom takes {low:.4g} to {high:.4g} deg, and the lens of `{drone.name}` has {has}"
     help_ = (
         "shorten `distance`, begin with another `hfov`, or carry a lens that has it: "

@@ -9,6 +9,7 @@ from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.geom.bspline import IntArray, restrict, spline, subdivide
 from shotc.geom.camera import ROUNDING_M, UnitVector, View, aim_at, frustum_margins
+from shotc.geom.ease import minimum_jerk
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import worst_of_runs
 from shotc.geom.shapes import BodyShape, BoxShape, CylinderShape, TargetShape, bodies_of
@@ -57,7 +58,6 @@ from shotc.planning.clock.surroundings import Surroundings, surroundings
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, beside, corridor, kept, shortfall
 from shotc.planning.obstacles import flight_space
-from shotc.planning.path.angles import smoother
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.turns import steady
 from shotc.planning.path.with_camera import NoTransit, with_camera
@@ -142,6 +142,7 @@ __all__ = [
     "least_out",
     "leg_of",
     "leg_time",
+    "minimum_jerk",
     "moved",
     "others_of",
     "parts_of_one",
@@ -156,7 +157,6 @@ __all__ = [
     "seen",
     "shapes",
     "shortfall",
-    "smoother",
     "spline",
     "steady",
     "subdivide",

@@ -1,12 +1,11 @@
 """Runs that are done while others are not: kept, so that a simulation that is killed goes on from there.
 
-One line of JSON a block of runs. A line that was not written to its end, or that belongs to another plan or
-to other conditions, is passed over. The file goes when the simulation is finished.
+An entry is a block of runs. One that belongs to another plan or to other conditions is passed over. The file
+goes when the simulation is finished.
 """
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
@@ -19,6 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from shotc import __version__
 from shotc.ir.trajectory import TrajectoryIR
+from shotc.progress_file import ProgressFile
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
 from shotc.simulation.runs import Block, Strays
@@ -33,10 +33,10 @@ _RUNS: TypeAdapter[tuple[Run, ...]] = TypeAdapter(tuple[Run, ...])
 class Unfinished:
     """The blocks of one simulation that are done.
 
-    path : of the file; key : of the plan and its conditions
+    key : of the plan and its conditions
     """
 
-    path: Path
+    file: ProgressFile
     key: str
 
     @staticmethod
@@ -47,25 +47,18 @@ class Unfinished:
             digest.update(track.curve.breaks.tobytes() + track.curve.ctrl.tobytes())
         for fleet in ir.fleets:
             digest.update(fleet.breaks.tobytes() + fleet.coef.tobytes())
-        return Unfinished(folder / NAME, digest.hexdigest())
+        return Unfinished(ProgressFile(folder / NAME), digest.hexdigest())
 
     def done(self) -> tuple[Block, ...]:
-        """Return the blocks that are kept; none where the file cannot be read."""
-        try:
-            lines = self.path.read_text(encoding="ascii").splitlines()
-        except (OSError, ValueError):
-            return ()
-        return tuple(block for line in lines for block in self._block(line))
+        """Return the blocks that are kept."""
+        return tuple(block for entry in self.file.entries() for block in self._block(entry))
 
     def add(self, block: Block) -> None:
-        """Keep a block; a disk that does not take it is no reason to stop."""
-        document: dict[str, Any] = {"key": self.key, "runs": [asdict(run) for run in block.runs]}
+        """Keep a block."""
+        entry: dict[str, Any] = {"runs": [asdict(run) for run in block.runs]}
         if block.strays is not None:
-            document["strays"] = [block.strays.times.tolist(), block.strays.metres.tolist()]
-        with suppress(OSError):
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            with self.path.open("a", encoding="ascii") as stream:
-                stream.write(json.dumps(document) + "\n")
+            entry["strays"] = [block.strays.times.tolist(), block.strays.metres.tolist()]
+        self.file.add(self.key, entry)
 
     def keeping(self, blocks: Iterator[Block], earlier: Sequence[Block]) -> Iterator[Block]:
         """Yield blocks as they come, and keep those that are not among the earlier ones."""
@@ -74,15 +67,9 @@ class Unfinished:
                 self.add(block)
             yield block
 
-    def forget(self) -> None:
-        """Remove the file."""
-        with suppress(OSError):
-            self.path.unlink(missing_ok=True)
-
-    def _block(self, line: str) -> Iterator[Block]:
-        with suppress(ValueError, KeyError, TypeError, ValidationError):
-            document = json.loads(line)
-            if document["key"] == self.key:
-                strays = document.get("strays")
-                runs = _RUNS.validate_python(document["runs"])
+    def _block(self, entry: dict[str, Any]) -> Iterator[Block]:
+        if entry["key"] == self.key:
+            with suppress(ValueError, KeyError, TypeError, ValidationError):
+                strays = entry.get("strays")
+                runs = _RUNS.validate_python(entry["runs"])
                 yield Block(runs, None if strays is None else Strays(*map(np.array, strays)))

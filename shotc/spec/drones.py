@@ -1,12 +1,13 @@
 """Drones as a mission writes them: a preset, and what overrides it."""
 
-from math import atan, degrees, radians
+from math import degrees, radians
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import InitErrorDetails
 
+from shotc.geom.focal import FULL_FRAME_M, field_of_view
 from shotc.ir.drone import LensRange
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
@@ -42,8 +43,6 @@ ThrustToWeight = Annotated[float, Quantity("ThrustToWeight", "ratio", 1.02, 20.0
 Mass = Annotated[float, Quantity("Mass", "mass", SMALLEST["mass"])]
 Energy = Annotated[float, WattHours("Energy", "energy", 360.0)]
 Reserve = Annotated[float, Percentage("Reserve", "ratio", 0.0, 0.9, noun="reserve")]
-FULL_FRAME_M = 0.036
-"""Width of the frame that focal lengths count on where no sensor is written: they are equivalents then."""
 SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
 
 
@@ -114,7 +113,7 @@ class CameraSpec(Model):
     def field_of_view(self) -> float | None:
         """Horizontal field of view, rad; None where the preset decides."""
         if self.sensor is not None and self.focal_length is not None:
-            return 2 * atan(self.sensor[0] / (2 * self.focal_length))
+            return field_of_view(self.focal_length, self.sensor[0])
         return self.hfov if self.hfov is not None or self.lens is None else self.lens.widest
 
     @property
@@ -123,7 +122,7 @@ class CameraSpec(Model):
         if self.zoom is None:
             return None
         width = FULL_FRAME_M if self.sensor is None else self.sensor[0]
-        widest, longest = (2 * atan(width / (2 * focal)) for focal in self.zoom)
+        widest, longest = (field_of_view(focal, width) for focal in self.zoom)
         return LensRange(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate)
 
     @property

@@ -26,7 +26,7 @@ from shotc.plugin_api.refiner import (
     PlacedShot,
     aim_at,
     flight_space,
-    smoother,
+    minimum_jerk,
     steady,
 )
 from shotc_casadi.conditions import Condition
@@ -180,7 +180,7 @@ def _progress(at: Array, s: Array) -> tuple[Array, np.ndarray]:
     """Return the smooth progress within the interval between keyframes, (N + 1, 1), and which it is."""
     i = np.clip(np.searchsorted(at, s, side="right") - 1, 0, len(at) - 2)
     x = np.clip((s - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0)
-    return smoother(x)[:, None], i
+    return minimum_jerk(x)[:, None], i
 
 
 def _unwrapped(angles: list[tuple[float, float]], convex: Array) -> Array:

@@ -11,7 +11,6 @@ import json
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from math import tan
 from typing import ClassVar
 
 import numpy as np
@@ -31,6 +30,7 @@ from shotc.emit.previs.scene import (
     scene_of,
 )
 from shotc.geom.bernstein import Array
+from shotc.geom.focal import focal_length
 from shotc.ir.trajectory import VerifiedIR
 
 FILE = "mission.usda"
@@ -177,7 +177,7 @@ def _carried(motion: Motion) -> list[str]:
 
 
 def _camera(name: tuple[str, str], camera: Camera) -> Iterator[str]:
-    focal = [APERTURE / 2.0 / tan(hfov / 2.0) for hfov in camera.hfov.tolist()]
+    focal = [focal_length(hfov, APERTURE) for hfov in camera.hfov.tolist()]
     lens = f"float focalLength = {focal[0]:.9g}"
     if camera.zooms:
         lens = (

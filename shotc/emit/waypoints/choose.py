@@ -84,7 +84,6 @@ class Chooser:
             np.array([self._angle(poses.cam_pitch, s) for s in stations]),
             np.clip(np.append(speed, speed[-1:] or [SPEED_LEAST]), SPEED_LEAST, SPEED_MOST),
             stops,
-            np.array([sum(a.seconds for a in s.actions) for s in stations]),
             np.where(stops, CURVE_LEAST, np.minimum(CURVE_SHARE * shorter, CURVE_MOST)),
             tuple(s.actions for s in stations),
         )

@@ -44,7 +44,7 @@ class Route:
     """Waypoints as arrays in W, a row each.
 
     position : (m, 3), m; yaw, pitch : (m,), rad, yaw without jumps, each turn the shortest
-    speed : (m,), m/s; stops : (m,); stays : (m,), s; curve : (m,), m
+    speed : (m,), m/s; stops : (m,); curve : (m,), m
     actions : of each point
     """
 
@@ -53,7 +53,6 @@ class Route:
     pitch: Array
     speed: Array
     stops: NDArray[np.bool_]
-    stays: Array
     curve: Array
     actions: tuple[tuple[Action, ...], ...]
 
@@ -66,7 +65,6 @@ def route_of(points: list[Waypoint], geo: Geo) -> Route:
         np.radians([p.pitch for p in points]),
         np.array([p.speed for p in points]),
         np.array([p.stops for p in points]),
-        np.array([sum(a.seconds for a in p.actions) for p in points]),
         np.array([p.curve for p in points]),
         tuple(p.actions for p in points),
     )

@@ -8,8 +8,9 @@ Z is up: x, y, z are East, North and Up.
 
 from __future__ import annotations
 
-from math import asin, atan, atan2, cos, degrees, hypot, pi, radians, sin
+from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 
+from shotc.geom.focal import field_of_view
 from shotc.geom.vec import Vec3
 from shotc.importers.cameras.places import level, reached, shown, without_far
 from shotc.importers.cameras.table import Row, Table, table_of
@@ -135,7 +136,7 @@ def _hfov(values: dict[str, float | None]) -> float:
     told = values.get("hfov")
     if told is None:
         lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
-        told = degrees(2 * atan(sensor / 2 / max(lens, 1e-3)))
+        told = degrees(field_of_view(max(lens, 1e-3), sensor))
     return shown(told)
 
 

@@ -26,9 +26,10 @@ from shotc.importers.cameras.places import (
     without_far,
     world,
 )
-from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Origin, Refused, Take
+from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Refused, Take
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import LARGEST, Node, XmlFault
+from shotc.ir.mission import GeoOrigin
 
 OVER_GROUND_M = 10.0
 """Metres over the ground of the lowest camera, where nobody says how high the ground is."""
@@ -241,7 +242,7 @@ def _ground(views: list[View], asked: Asked, notes: Notes) -> float | Refused:
     return low - OVER_GROUND_M
 
 
-def _camera(view: View, origin: Origin, notes: Notes) -> Camera:
+def _camera(view: View, origin: GeoOrigin, notes: Notes) -> Camera:
     x, y, z = world(origin, *view.place, absolute=view.absolute)
     heading, tilt = radians(view.heading), radians(view.tilt)
     back = view.range * sin(tilt)

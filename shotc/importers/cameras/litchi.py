@@ -10,8 +10,9 @@ from collections.abc import Iterator
 
 from shotc.importers.cameras.places import aim, is_place, origin_at, reached, without_far, world
 from shotc.importers.cameras.table import Row, table_of
-from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Origin, Refused, recorded
+from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Refused, recorded
 from shotc.importers.notes import Notes
+from shotc.ir.mission import GeoOrigin
 
 EXAMPLE = "latitude,longitude,altitude(m),heading(deg),...,gimbalmode,gimbalpitchangle,..."
 FOOT_M = 0.3048
@@ -66,7 +67,7 @@ def _is_placed(row: Row, notes: Notes) -> bool:
     return False
 
 
-def _cameras(rows: list[Row], origin: Origin, notes: Notes, *, feet: bool) -> Iterator[Camera]:
+def _cameras(rows: list[Row], origin: GeoOrigin, notes: Notes, *, feet: bool) -> Iterator[Camera]:
     pitch = 0.0
     for row in rows:
         unit = FOOT_M if feet else 1.0
@@ -94,7 +95,7 @@ def _cameras(rows: list[Row], origin: Origin, notes: Notes, *, feet: bool) -> It
             yield Camera(row.node, at, bearing, tilt, hold=max(0.0, hold), look_at=focus)
 
 
-def _focus(row: Row, origin: Origin, notes: Notes, *, feet: bool) -> tuple[float, float, float] | None:
+def _focus(row: Row, origin: GeoOrigin, notes: Notes, *, feet: bool) -> tuple[float, float, float] | None:
     """Return a waypoint's point of interest, None where it has none (0, 0)."""
     lat, lon = row.number("poi_latitude", notes), row.number("poi_longitude", notes)
     if not is_place(lat, lon) or lat is None or lon is None or (lat == 0.0 and lon == 0.0):

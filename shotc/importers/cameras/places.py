@@ -8,9 +8,10 @@ from statistics import median
 
 from shotc.geom.geodetic import above_ground, to_world
 from shotc.geom.vec import Vec3
-from shotc.importers.cameras.takes import Origin, Take
+from shotc.importers.cameras.takes import Take
 from shotc.importers.notes import Notes
 from shotc.importers.xml_tree import Node
+from shotc.ir.mission import GeoOrigin
 
 FAR_M = 20_000.0
 """Metres from the middle of all cameras beyond which one belongs to no flight."""
@@ -22,12 +23,12 @@ ROLLED_DEG = 0.5
 """Degrees by which a picture is tilted before anybody sees it."""
 
 
-def origin_at(lat: float, lon: float, alt: float) -> Origin:
+def origin_at(lat: float, lon: float, alt: float) -> GeoOrigin:
     """Return the origin of W at a place, rounded as it is written."""
-    return Origin(round(lat, 7), round(lon, 7), round(alt, 3))
+    return GeoOrigin(round(lat, 7), round(lon, 7), round(alt, 3))
 
 
-def world(origin: Origin, lat: float, lon: float, height: float, *, absolute: bool) -> Vec3:
+def world(origin: GeoOrigin, lat: float, lon: float, height: float, *, absolute: bool) -> Vec3:
     """Return a place of the globe in W; height : metres above sea level, or over the ground, z = 0."""
     return to_world((lat, lon, height), origin) if absolute else above_ground((lat, lon, height), origin)
 

@@ -26,13 +26,13 @@ from shotc.importers.cameras.takes import (
     Asked,
     Camera,
     Footage,
-    Origin,
     Refused,
     Take,
     recorded,
 )
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
+from shotc.ir.mission import GeoOrigin
 from shotc.source.file import Span
 from shotc.source.yaml_tree import Document, parse
 
@@ -122,9 +122,7 @@ def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[
         numbers += [None] * (PARAMETERS - len(numbers))
         frame = item.get("frame")
         made = Item(node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers))
-        if command in (WAYPOINT, SPLINE) and (
-            not is_place(made.params[4], made.params[5]) or made.params[6] is None
-        ):
+        if command in (WAYPOINT, SPLINE) and not _is_placed(made):
             notes.assume(node, f"item {i + 1} is a waypoint without a place", "it is left out")
             continue
         if command not in QUIET and command not in (WAYPOINT, SPLINE):
@@ -139,7 +137,7 @@ def _is_placed(item: Item) -> bool:
 
 def _origin(
     document: Document, mission: dict[str, Any], first: Item, asked: Asked, notes: Notes
-) -> Origin | Refused:
+) -> GeoOrigin | Refused:
     home = mission.get("plannedHomePosition")
     if home is not None:
         place = [_number(value) for value in home] if isinstance(home, list) else []
@@ -155,7 +153,7 @@ def _origin(
     return origin_at(first.params[4] or 0.0, first.params[5] or 0.0, asked.ground or 0.0)
 
 
-def _takes(whole: Node, items: Sequence[Item], origin: Origin, notes: Notes) -> list[Take]:
+def _takes(whole: Node, items: Sequence[Item], origin: GeoOrigin, notes: Notes) -> list[Take]:
     """Return the waypoints as cameras; the commands after one belong to it."""
     cameras: list[Camera] = []
     starts: list[bool] = []
@@ -181,7 +179,7 @@ def _takes(whole: Node, items: Sequence[Item], origin: Origin, notes: Notes) -> 
     return recorded(whole, cameras, starts, stops)
 
 
-def _place(item: Item, origin: Origin, notes: Notes) -> Vec3:
+def _place(item: Item, origin: GeoOrigin, notes: Notes) -> Vec3:
     _, _, _, _, lat, lon, height = item.params
     if item.frame in TERRAIN:
         notes.assume(item.node, "a height over terrain", "the ground is flat")
@@ -189,7 +187,7 @@ def _place(item: Item, origin: Origin, notes: Notes) -> Vec3:
     return world(origin, lat or 0.0, lon or 0.0, above, absolute=True)
 
 
-def _ahead(items: Sequence[Item], i: int, at: Vec3, origin: Origin, otherwise: float) -> float:
+def _ahead(items: Sequence[Item], i: int, at: Vec3, origin: GeoOrigin, otherwise: float) -> float:
     """Return the way to the next waypoint: where a vehicle faces that is told nothing."""
     for item in items[i:]:
         if item.command in (WAYPOINT, SPLINE):
@@ -198,7 +196,7 @@ def _ahead(items: Sequence[Item], i: int, at: Vec3, origin: Origin, otherwise: f
     return otherwise
 
 
-def _told(item: Item, looks: _Aim, origin: Origin) -> None:
+def _told(item: Item, looks: _Aim, origin: GeoOrigin) -> None:
     """Take what a command says of where the camera looks."""
     p = item.params
     if item.command in (LOOK, LOOK_OLD) and is_place(p[4], p[5]) and (p[4], p[5]) != (0.0, 0.0):

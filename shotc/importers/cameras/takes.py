@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from shotc.geom.vec import Vec3
 from shotc.importers.xml_tree import Node
+from shotc.ir.mission import GeoOrigin
 
 MOST_CAMERAS = 10_000
 """How many cameras of a file are read: more is no shot, and would take minutes."""
@@ -59,14 +60,6 @@ def recorded(
     return [Take("", some[0].node, tuple(some)) for some in takes]
 
 
-class Origin(NamedTuple):
-    """The WGS84 place of W's origin: degrees, and metres above mean sea level."""
-
-    lat: float
-    lon: float
-    alt: float
-
-
 class Footage(NamedTuple):
     """All that is imported of a file.
 
@@ -76,7 +69,7 @@ class Footage(NamedTuple):
 
     node: Node
     takes: tuple[Take, ...]
-    origin: Origin | None = None
+    origin: GeoOrigin | None = None
     home: Vec3 | None = None
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import ceil, cos, degrees, dist, floor, radians, sin, tan
+from math import ceil, cos, degrees, dist, floor, radians, sin
 from typing import NamedTuple
 
+from shotc.geom.focal import focal_length
 from shotc.importers.cameras.pace import too_fast
 from shotc.importers.cameras.takes import Asked, Camera, Footage, Take
 from shotc.importers.cameras.thin import PICTURE, thinned
@@ -18,8 +19,6 @@ BEHIND_M = 10.0
 """Metres behind the first camera at which a drone stands of whose home nothing is known."""
 SAME_M, SAME_DEG = 1e-3, 1e-3
 """Within which two cameras are one."""
-FRAME_MM = 36.0
-"""Width of the frame that focal lengths of a zoom lens count on."""
 SAME_LENS_DEG = 1e-3
 """Within which all cameras have one field of view."""
 
@@ -113,7 +112,7 @@ def _drone(footage: Footage, first: Camera, notes: Notes, *, zoom: tuple[float, 
 
 def _focal(hfov: float, rounded: Callable[[float], int]) -> str:
     """Return the focal length of a field of view on a frame 36 mm wide, millimetres."""
-    return f"{rounded(1e4 * FRAME_MM / 2.0 / tan(radians(hfov) / 2.0)) / 1e4:.4f}"
+    return f"{rounded(1e7 * focal_length(radians(hfov))) / 1e4:.4f}"
 
 
 def _id(takes: list[Take], i: int) -> str:

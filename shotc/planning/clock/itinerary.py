@@ -28,7 +28,6 @@ from shotc.planning.clock.run_up import lead_in, way_time
 from shotc.planning.clock.shot import (
     ASKED,
     FROM_AFAR,
-    LESS_SHARE,
     Ask,
     NoMotion,
     OtherVehicles,
@@ -36,6 +35,7 @@ from shotc.planning.clock.shot import (
     timed_shot,
 )
 from shotc.planning.clock.starts import (
+    SLIGHT_M,
     ClockFailure,
     Meets,
     OutsideTrack,
@@ -62,7 +62,6 @@ from shotc.rounding import up
 LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
 """Seconds that a shot may begin later, for a motion or a way to it."""
 LATE_S = 1e-6  # seconds
-SLIGHT_M = 0.02  # metres
 AMPLE_RATIO = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
 
 
@@ -349,7 +348,7 @@ class Itinerary:
         tries = (aside(True, out), FROM_AFAR) if near.way.met else (aside(into, out),) if into or out else ()
         for asked in tries:
             far = self._reached_as(placed, start, asked)
-            if isinstance(far, Reached) and _better(far, near):
+            if isinstance(far, Reached) and far.better(near):
                 return far
         return near
 
@@ -390,12 +389,3 @@ class Itinerary:
         self.slack = way.slack
         self.legs += way.legs
         self.clock = way.end
-
-
-def _better(far: Reached, near: Reached) -> bool:
-    """Tell whether a shot whose ends lead elsewhere is better than one whose ways are in trouble."""
-    if far.way.met is not None or far.late > max(0.0, near.late):
-        return False
-    return near.way.met is not None or (
-        max(far.shot.lacks) < LESS_SHARE * max(near.shot.lacks) and far.shot.off <= near.shot.off + SLIGHT_M
-    )

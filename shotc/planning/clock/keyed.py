@@ -16,6 +16,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.camera import View, aim_at
+from shotc.geom.ease import minimum_jerk
 from shotc.geom.track_array import places as track_places
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
@@ -48,9 +49,9 @@ class Stretch:
         return same and self.a.reference is not None and self.b.reference is not None
 
     def share(self, times: Array) -> Array:
-        """Return how much of the way is done at times (M,), by the step 10 x^3 - 15 x^4 + 6 x^5."""
+        """Return how much of the way is done at times (M,)."""
         x = np.clip((times - self.start) / (self.end - self.start), 0.0, 1.0)
-        return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
+        return minimum_jerk(x)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,6 +16,7 @@ from math import hypot, sqrt
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.ease import minimum_jerk
 from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
@@ -76,8 +77,7 @@ class RunUp:
         y = np.minimum(x / (1.0 - goes_on), 1.0)
         evenly = np.minimum(1.0 - x, goes_on)
         flown = self.seconds * (evenly + (1.0 - goes_on) * (0.5 - y**3 + 0.5 * y**4))
-        z = np.minimum((1.0 - x) / ACROSS, 1.0)
-        beside = z**3 * (10.0 - 15.0 * z + 6.0 * z**2)
+        beside = minimum_jerk(np.minimum((1.0 - x) / ACROSS, 1.0))
         straight = self.place + (np.sign(away) * flown)[:, None] * self.velocity
         return np.asarray(straight + beside[:, None] * self.aside)
 

@@ -8,6 +8,7 @@ less is hidden from it, and its pictures are as whole. Keyframes keep their plac
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,16 +17,17 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.framing import Cameras, frames
 from shotc.geom.solid_arrays.points import distances
-from shotc.geom.solids import Solid
 from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import moved, shapes
 from shotc.ir.coverage import coverage
 from shotc.ir.hiding_surfaces import surfaces_before
 from shotc.ir.keyed import arrivals, is_keyed, stays
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import target_owner
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.target import Target
 from shotc.planning.clock.aims import aims_at
+from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.task import Task
 from shotc.planning.free_space import MARGIN_M
 from shotc.planning.layered import Course, Passing, Watched, led_round
@@ -89,23 +91,10 @@ def _watched(mission: MissionIR, target: Target, times: Array) -> Watched:
     return Watched(centres, np.ones(len(times), dtype=bool), *size, surfaces, zones)
 
 
-@dataclass(frozen=True, slots=True)
-class _Beside:
-    """A body that goes with a target, and what is kept from it."""
-
-    part: Solid
-    clearance: float
-    target: Target
-
-    def at(self, times: Array) -> Array:
-        """Return how far the target has moved at times (M,), shape (M, 3)."""
-        return moved(self.target, times)
-
-
-def _no_nearer(target: Target, times: Array, places: Array) -> _Beside:
+def _no_nearer(target: Target, times: Array, places: Array) -> Moving:
     """Return a target as what is passed no nearer than places (N, 3) at times are: it would be cropped."""
     least = distances(target.kept_clear, places - moved(target, times)).min()
-    return _Beside(target.kept_clear, float(least) - MARGIN_M, target)
+    return Moving(target_owner(target), target.kept_clear, float(least) - MARGIN_M, partial(moved, target))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -19,7 +19,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.planning.clock.departure import Meeting, Transfer
 from shotc.planning.clock.ideals import ideal_places
-from shotc.planning.clock.shot import NoMotion, TimedShot
+from shotc.planning.clock.shot import LESS_SHARE, NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import FreeSpace, bounds_slack
 from shotc.planning.path.shots import Failure
@@ -35,6 +35,7 @@ FINE_S = 0.1  # seconds between the first starts that are looked at
 COARSER = 100  # of them, after which they lie twice as far apart
 SHORTEST_S = 1.0  # seconds of track that are worth a shot
 ROUNDING_S = 1e-6  # seconds
+SLIGHT_M = 0.02  # metres, of which nobody takes notice
 SOON_S, WHOLE_S = 40.0, 1.0
 """Seconds by which a start is put off for a fence, and between the starts that are looked at."""
 
@@ -89,6 +90,15 @@ class Reached:
     way: Transfer
     late: float
     aside: tuple[bool, bool]
+
+    def better(self, near: Reached) -> bool:
+        """Tell whether a shot whose ends lead elsewhere is better than one whose ways are in trouble."""
+        if self.way.met is not None or self.late > max(0.0, near.late):
+            return False
+        return near.way.met is not None or (
+            max(self.shot.lacks) < LESS_SHARE * max(near.shot.lacks)
+            and self.shot.off <= near.shot.off + SLIGHT_M
+        )
 
 
 ClockFailure = Failure | NoMotion | OutsideTrack | Meets | TooLate

@@ -15,6 +15,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
+from shotc.geom.ease import minimum_jerk
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
@@ -169,11 +170,6 @@ def framing_spans(keyed: KeyedPath) -> tuple[FramingSpan, ...]:
         run = []
         spans += _watched(keyed, i)
     return (*spans, *_composed(keyed, run))
-
-
-def smoother(x: Array) -> Array:
-    """Return the C2 step 10 x^3 - 15 x^4 + 6 x^5 from 0 to 1, of the shape of x."""
-    return np.asarray(x**3 * (10.0 + x * (6.0 * x - 15.0)))
 
 
 def _composed(keyed: KeyedPath, run: list[int]) -> list[FramingSpan]:
@@ -346,7 +342,7 @@ def _aims(
     a, b = keyed.keyframes[i], keyed.keyframes[i + 1]
     if a.target is None or b.target is None or a.reference is None or b.reference is None:
         return [None] * len(at), None
-    x = smoother((at - keyed.s[i]) / (keyed.s[i + 1] - keyed.s[i]))[:, None]
+    x = minimum_jerk((at - keyed.s[i]) / (keyed.s[i + 1] - keyed.s[i]))[:, None]
     uv = (1 - x) * np.array(a.reference) + x * np.array(b.reference)
     ends = np.array([mission.target(a.target).centre, mission.target(b.target).centre])
     offset = (1 - x) * ends[0] + x * ends[1] - keyed.position(at)

@@ -24,7 +24,6 @@ def route(points, *, speed=3.0, stops=(), curve=2.0, actions=None):
         np.linspace(0.0, -0.5, count),
         np.broadcast_to(np.asarray(speed, dtype=float), count).copy(),
         stands,
-        np.zeros(count),
         np.full(count, curve),
         actions or ((),) * count,
     )

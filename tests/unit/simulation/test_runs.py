@@ -47,7 +47,7 @@ def test_what_was_kept_comes_back_as_it_was(tmp_path, ir, first) -> None:
     assert again.strays is not None
     assert first.strays is not None
     assert (again.strays.metres == first.strays.metres).all()
-    kept.forget()
+    kept.file.forget()
     assert not kept.done()
     assert not (tmp_path / "new" / NAME).exists()
 
@@ -83,7 +83,7 @@ def test_blocks_that_were_done_are_not_flown_again(monkeypatch, ir, first) -> No
 )
 def test_lines_that_are_not_whole_are_passed_over(tmp_path, ir, first, line) -> None:
     kept = Unfinished.of(tmp_path, ir, WINDY)
-    kept.path.write_text(line.replace("KEY", kept.key) + "\n")
+    kept.file.path.write_text(line.replace("KEY", kept.key) + "\n")
     kept.add(first)
     assert [block.runs for block in kept.done()] == [first.runs]
 

@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from shotc.emit.audience import ASPECT, audience, focal_length, picture_name, pictures_shown
+from shotc.emit.audience import ASPECT, audience, picture_name, pictures_shown
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View
+from shotc.geom.focal import focal_length
 from shotc.geom.solid_arrays.points import in_footprint
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.fleet import FleetTrajectory, Lights
@@ -143,7 +144,7 @@ def _camera(plan: VerifiedIR, index: int) -> Json:
         "type": "perspective",
         "position": _turned(np.array(seen.eye)),
         "orientation": _orientation(seen.view(ASPECT)),
-        "focalLength": round(focal_length(seen.hfov), 2),
+        "focalLength": round(1e3 * focal_length(seen.hfov), 2),
         "default": index == 0,
     }
 
