@@ -3,6 +3,7 @@
 from math import radians
 from typing import Literal, NamedTuple
 
+from shotc.geom.focal import FULL_FRAME_M, focal_length
 from shotc.ir.limits import Limits, Range, Vec3, reaches
 from shotc.ir.origin import KeyPath
 from shotc.ir.power import Power
@@ -33,11 +34,13 @@ class LensRange(NamedTuple):
 
     longest, widest : horizontal fields of view at its ends, rad; of a fixed lens both are the same
     rate : how fast the field of view changes at most, rad/s; 0 of a fixed lens
+    frame : width of the picture that its focal lengths count on, m
     """
 
     longest: float
     widest: float
     rate: float
+    frame: float = FULL_FRAME_M
 
     @property
     def zooms(self) -> bool:
@@ -47,6 +50,10 @@ class LensRange(NamedTuple):
     def shows(self, hfov: float) -> bool:
         """Tell whether it has this field of view, rad, to a hundredth of a degree."""
         return self.longest - SAME_LENS_RAD <= hfov <= self.widest + SAME_LENS_RAD
+
+    def focal(self, hfov: float) -> float:
+        """Return the focal length, m, at which it has a field of view, rad."""
+        return focal_length(hfov, self.frame)
 
 
 class Drone(NamedTuple):
@@ -74,6 +81,11 @@ class Drone(NamedTuple):
     path: KeyPath
     power: Power | None = None
     lens: LensRange | None = None
+
+    @property
+    def zooms(self) -> bool:
+        """Tell whether its lens is known to zoom, so that a file may command its field of view."""
+        return self.lens is not None and self.lens.zooms
 
     @property
     def lasts(self) -> str:

@@ -123,7 +123,7 @@ class CameraSpec(Model):
             return None
         width = FULL_FRAME_M if self.sensor is None else self.sensor[0]
         widest, longest = (field_of_view(focal, width) for focal in self.zoom)
-        return LensRange(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate)
+        return LensRange(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate, width)
 
     @property
     def aspect_ratio(self) -> float | None:

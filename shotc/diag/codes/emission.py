@@ -92,8 +92,9 @@ _MAVLINK_CODES = (
         "zoom-not-carried",
         Severity.WARNING,
         "a mission file does not carry the zoom of a shot",
-        "What a zoom command means differs from camera to camera, so the mission files hold none. The camera's "
-        "path and angles are right, the field of view stays. Zoom by hand, or give the shot one `hfov`.",
+        "MAVLink files and those of DJI Pilot 2 zoom a lens that `camera: {zoom: [24 mm, 70 mm]}` says is there; those of "
+        "DJI Fly and Litchi cannot. Where nothing is known of the lens, or the format has no zoom, the camera's path and "
+        "angles are right, and the field of view stays. Say what the camera carries, zoom by hand, or give the shot one `hfov`.",
         _MAVLINK.replace("[20, -25, 16], look_at: mast}", "[20, -25, 16], look_at: mast, hfov: 50 deg}"),
         _MAVLINK,
         "plan",
@@ -204,6 +205,22 @@ _MACHINE_CODES = (
 )
 
 _UNAIDED_CODES = (
+    CodeInfo(
+        "E122",
+        "promised-zoom-not-carried",
+        Severity.ERROR,
+        "a mission file is not written, because it would not carry the zoom of a shot that promises its framing",
+        "The picture of a shot with `require: {in_frame: ..., screen_error: ..., size: ...}` is proved with the field of view of "
+        "the plan. A file that leaves the lens as it stands shows another one, so it is not written. Say what the camera carries "
+        "with `camera: {zoom: ...}` where the machine takes zooms, film with one field of view, or promise nothing.",
+        _MAVLINK.replace(
+            "[20, -25, 16], look_at: mast}", "[20, -25, 16], look_at: mast, hfov: 60 deg}"
+        ).replace("    target: mast\n", "    target: mast\n    require: {in_frame: 50 %}\n"),
+        _MAVLINK.replace("[20, -25, 16], look_at: mast}", "[20, -25, 16], look_at: mast, hfov: 60 deg}")
+        .replace("    target: mast\n", "    target: mast\n    require: {in_frame: 50 %}\n")
+        .replace("home: [0, -40, 0]", "home: [0, -40, 0], camera: {zoom: [24 mm, 70 mm]}"),
+        "plan",
+    ),
     CodeInfo(
         "E121",
         "no-waypoints-of-its-own",

@@ -14,7 +14,7 @@ from shotc.ir.drone import Drone
 
 TEMPLATE, WAYLINES = "wpmz/template.kml", "wpmz/waylines.wpml"
 POINTS_MOST = 200  # of a mission in DJI Fly
-_KINDS = {"startRecord": "start", "stopRecord": "stop", "hover": "stay"}
+_KINDS = {"startRecord": "start", "stopRecord": "stop", "hover": "stay", "zoom": "zoom"}
 
 
 def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
@@ -59,6 +59,8 @@ def _action(action: ET.Element) -> Action:
     kind = _KINDS[_kind(action)]
     if kind == "stay":
         return Action("stay", float(_text(action, "hoverTime")))
+    if kind == "zoom":
+        return Action("zoom", focal=float(_text(action, "focalLength")))
     return Action("start" if kind == "start" else "stop")
 
 

@@ -189,6 +189,12 @@ class Document:
                 if action.kind == "stay":
                     self._put(self._action(group, ids, "hover"), "hoverTime", f"{action.seconds:.1f}")
                     continue
+                if action.kind == "zoom":
+                    params = self._action(group, ids, "zoom")
+                    self._put(params, "focalLength", f"{action.focal:.1f}")
+                    self._put(params, "isUseFocalFactor", 0)
+                    self._put(params, "payloadPositionIndex", 0)
+                    continue
                 params = self._action(group, ids, "startRecord" if action.kind == "start" else "stopRecord")
                 self._put(params, "payloadPositionIndex", 0)
         if i + 1 < len(self.points):

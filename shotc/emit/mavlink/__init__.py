@@ -39,7 +39,7 @@ from shotc.emit.waypoints.clearance import Obstacle, keep_outs
 from shotc.emit.waypoints.compare import Error, compare, nearest_miss
 from shotc.emit.waypoints.flown import Flown
 from shotc.emit.waypoints.geo import Geo, tie
-from shotc.emit.waypoints.report import fleetless, flown_here, no_origin, zooms
+from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
 from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -115,6 +115,10 @@ class _Job:
         )
 
     def emit(self) -> Emission:
+        not_carried = [] if self.style.zooms else lens(self.mission, self.flight)
+        faults = [d for d in not_carried if d.code == PROMISED]
+        if faults:
+            return Emission((), tuple(faults))
         flight = self._fit()
         everywhere = self.flight.curve(
             np.arange(self.flight.curve.start, self.flight.curve.end + SAMPLE_STEP, SAMPLE_STEP)
@@ -135,7 +139,7 @@ class _Job:
             artifacts.append(Artifact(name, data))
             notes.append(note(name, self.drone, len(flight.items), self._check(*read_waypoints(data))[1]))
         diagnostics = [left_out(self.mission, self.drone, left) for left in fence.left_out]
-        diagnostics += self._warnings(flight, flown, error)
+        diagnostics += [*self._warnings(flight, flown, error), *not_carried]
         notes += sidenotes(self.drone, flight.asked, flight.steps)
         return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes))
 
@@ -150,11 +154,7 @@ class _Job:
             raised(self.mission, self.drone, height, self.dialect.least_takeoff),
             cut(self.mission, self.drone, *nearest_miss(self.obstacles, flown)),
         ]
-        return (
-            [d for d in warnings if d is not None]
-            + zooms(self.mission, self.flight)
-            + clockless(self.mission, self.flight)
-        )
+        return [d for d in warnings if d is not None] + clockless(self.mission, self.flight)
 
     def _fit(self) -> _Flight:
         thinner = thinner_of(self.track, self.drone, self.style, self.obstacles)

@@ -1,6 +1,6 @@
 """From steps to mission items.
 
-Order between two waypoints: end of recording, end of following, speed, gimbal, start of recording,
+Order between two waypoints: end of recording, end of following, speed, gimbal, zoom, start of recording,
 heading last, because on ArduPilot a CONDITION command holds back every command behind it.
 """
 
@@ -32,6 +32,7 @@ from shotc.emit.mavlink.speed import Speeds, adapted, seconds
 from shotc.emit.mavlink.steps import SAME, Step
 from shotc.emit.mavlink.style import Command, Style, turns_body
 from shotc.emit.waypoints.geo import Geo, Place
+from shotc.emit.waypoints.lens import SAME_LENS, edge
 from shotc.emit.waypoints.track import Poses, Track, select
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
@@ -48,6 +49,7 @@ class Builder:
 
     yaw : body yaw commanded last, rad; aimed : gimbal angles commanded last, None after following
     region : point of W that the gimbal looks at, or None
+    hfov : field of view commanded last, rad
     """
 
     drone: Drone
@@ -59,6 +61,7 @@ class Builder:
     yaw: float | None = None
     aimed: Command | None = None
     region: Vec3 | None = None
+    hfov: float | None = None
 
     def build(self, track: Track, steps: list[Step]) -> list[Item]:
         """Return the whole flight: take-off, the steps, landing."""
@@ -93,6 +96,7 @@ class Builder:
             turned = self._aim(step.command)
         else:
             self._look(step.region, end.position[0])
+        self._zoom(step.command)
         if entered is not None:
             self.items.append(action(VIDEO_START))
         if self.dialect.turns_by_item and not (step.region and turns_body(self.drone)):
@@ -122,6 +126,14 @@ class Builder:
         self.items.append(self.dialect.gimbal(command, self.style))
         self.aimed = command
         return True
+
+    def _zoom(self, command: Command) -> None:
+        lens = self.drone.lens
+        if lens is None or not self.style.zooms:
+            return
+        if self.hfov is None or edge(command.hfov, self.hfov) > SAME_LENS:
+            self.items.append(self.dialect.zoom(lens, command.hfov))
+            self.hfov = command.hfov
 
     def _look(self, region: Vec3, position: Array) -> None:
         if self.region is not None and _parted(region, self.region, position) < SAME:

@@ -3,7 +3,8 @@
 PX4 takes yaw from the waypoint, NaN where it may choose, and fine gimbal angles from the gimbal
 manager once the mission has claimed it; it has no CONDITION_YAW. ArduPilot ignores a waypoint's yaw
 and radius, refuses NaN, holds for whole seconds, and keeps gimbal manager angles as whole degrees
-only, so the older mount command carries the angles there.
+only, so the older mount command carries the angles there. PX4 hands a focal length on to the camera;
+ArduPilot takes a share of the zoom's range alone, even in magnification (AP_Camera, AP_Mount_Siyi).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 from math import pi
 
 from shotc.emit.mavlink.items import (
+    CAMERA_ZOOM,
     GIMBAL_CONFIGURE,
     GIMBAL_PITCHYAW,
     LAND,
@@ -21,6 +23,8 @@ from shotc.emit.mavlink.items import (
     TAKEOFF,
     WAYPOINT,
     YAW_LOCK,
+    ZOOM_FOCAL_LENGTH,
+    ZOOM_RANGE,
     Item,
     action,
     at,
@@ -30,6 +34,8 @@ from shotc.emit.mavlink.items import (
 )
 from shotc.emit.mavlink.style import Command, Style
 from shotc.emit.waypoints.geo import Place
+from shotc.geom.focal import field_of_view
+from shotc.ir.drone import LensRange
 from shotc.ir.source import Autopilot
 
 ITSELF = -2.0  # the mission's own system and component, for the gimbal's primary control
@@ -61,6 +67,14 @@ class Px4:
         yaw = signed_deg(pi / 2 - command.cam_yaw) if style.pans else 0.0
         return action(GIMBAL_PITCHYAW, degrees_of(command.cam_pitch), yaw, None, None, flags)
 
+    def zoom(self, lens: LensRange, hfov: float) -> Item:
+        """Return a zoom to a field of view, rad: a focal length in mm, as the lens counts them."""
+        return action(CAMERA_ZOOM, float(ZOOM_FOCAL_LENGTH), round(1000 * lens.focal(hfov), 2))
+
+    def zoomed(self, lens: LensRange, value: float) -> float:
+        """Return the field of view, rad, of what a zoom says."""
+        return field_of_view(value / 1000, lens.frame)
+
     def land(self, place: Place, yaw: float) -> Item:
         """Return the landing."""
         return at(LAND, place, 0.0, 0.0, 0.0, compass_deg(yaw))
@@ -91,6 +105,17 @@ class ArduPilot:
         return action(
             MOUNT_CONTROL, degrees_of(command.cam_pitch), 0.0, yaw, 0.0, 0.0, 0.0, float(MOUNT_ANGLES)
         )
+
+    def zoom(self, lens: LensRange, hfov: float) -> Item:
+        """Return a zoom to a field of view, rad: in percent of the range of focal lengths."""
+        short, long = lens.focal(lens.widest), lens.focal(lens.longest)
+        share = (lens.focal(hfov) - short) / (long - short)
+        return action(CAMERA_ZOOM, float(ZOOM_RANGE), round(100 * min(max(share, 0.0), 1.0), 2))
+
+    def zoomed(self, lens: LensRange, value: float) -> float:
+        """Return the field of view, rad, of what a zoom says."""
+        short, long = lens.focal(lens.widest), lens.focal(lens.longest)
+        return field_of_view(short + value / 100 * (long - short), lens.frame)
 
     def land(self, place: Place, yaw: float) -> Item:
         """Return the landing."""

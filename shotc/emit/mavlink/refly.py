@@ -3,8 +3,8 @@
 The model, without dynamics (accelerations, wind and corner rounding are left out):
 straight legs at the speeds in force; the body turns at the start of a leg to the waypoint's yaw
 (PX4, at MPC_YAWRAUTO_MAX) or to the last CONDITION_YAW (ArduPilot, at its rate); gimbal angles are
-steps taken at the gimbal's rate; a region of interest is followed exactly, within the gimbal's range,
-and by ArduPilot with the whole body where the gimbal has no yaw.
+steps taken at the gimbal's rate, fields of view at the lens's; a region of interest is followed exactly,
+within the gimbal's range, and by ArduPilot with the whole body where the gimbal has no yaw.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink import items as mav
+from shotc.emit.mavlink.dialect import DIALECTS
 from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
@@ -48,6 +49,8 @@ class _Pilot:
     pan: float = nan
     pan_goal: float = nan
     earth: bool = False
+    hfov: float = nan
+    hfov_goal: float = nan
     roi: Array | None = None
     part: int = 0
     elapsed: float = 0.0
@@ -61,7 +64,7 @@ def refly(items: list[Item], geo: Geo, drone: Drone) -> Flown:
     pilot = _Pilot(drone, geo, DEFAULTS[drone.autopilot])
     for item in items:
         _RUN[item.command](pilot, item.params)
-    table = np.concatenate(pilot.rows) if pilot.rows else np.zeros((0, 9))
+    table = np.concatenate(pilot.rows) if pilot.rows else np.zeros((0, 10))
     return Flown(
         table[:, :3],
         table[:, 3],
@@ -70,6 +73,7 @@ def refly(items: list[Item], geo: Geo, drone: Drone) -> Flown:
         table[:, 6].astype(np.int64),
         table[:, 7],
         table[:, 8],
+        table[:, 9],
     )
 
 
@@ -114,9 +118,11 @@ def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:
         pitch = _slew(pilot.pitch, pilot.pitch_goal, pilot.drone.gimbal.rate, time)
         cam_yaw = pan if pilot.earth else body + pan
     part = np.full(len(time), float(pilot.part))
-    columns = [body, cam_yaw, pitch, part, pilot.progress + way, pilot.elapsed + time]
+    rate = 0.0 if pilot.drone.lens is None else pilot.drone.lens.rate
+    hfov = _slew(pilot.hfov, pilot.hfov_goal, rate, time)
+    columns = [body, cam_yaw, pitch, part, pilot.progress + way, pilot.elapsed + time, hfov]
     pilot.rows.append(np.column_stack([position, *columns]))
-    pilot.yaw, pilot.pitch = float(body[-1]), float(pitch[-1])
+    pilot.yaw, pilot.pitch, pilot.hfov = float(body[-1]), float(pitch[-1]), float(hfov[-1])
     pilot.pan = float(cam_yaw[-1] if pilot.earth else pan[-1])
     pilot.progress += float(way[-1])
     pilot.elapsed += float(time[-1])
@@ -156,6 +162,11 @@ def _mount(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
     pilot.pan_goal = -radians(_number(params[2]))
 
 
+def _zoom(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
+    assert pilot.drone.lens is not None
+    pilot.hfov_goal = DIALECTS[pilot.drone.autopilot].zoomed(pilot.drone.lens, _number(params[1]))
+
+
 def _look_at(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
     pilot.roi = _point(pilot, params)
 
@@ -186,6 +197,7 @@ _RUN: dict[int, Callable[[_Pilot, tuple[float | None, ...]], None]] = {
     mav.GIMBAL_CONFIGURE: _nothing,
     mav.GIMBAL_PITCHYAW: _pitch_yaw,
     mav.MOUNT_CONTROL: _mount,
+    mav.CAMERA_ZOOM: _zoom,
     mav.ROI_LOCATION: _look_at,
     mav.ROI_NONE: _look_away,
     mav.VIDEO_START: _record,

@@ -9,6 +9,7 @@ from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
 from shotc.emit.waypoints.compare import Error
+from shotc.emit.waypoints.report import zoomed_to
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -95,7 +96,7 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
     return (
         f"{text}, heading within {heading} deg, adds at most {at_least(error.screen, 3)} of the"
         f" screen (shot {error.shot}, t = {error.time:.1f} s); its waypoints take about {error.filmed:.0f} s"
-        f" where the plan films {error.planned:.0f} s"
+        f" where the plan films {error.planned:.0f} s{zoomed_to(error)}"
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from shotc.emit.mavlink.speed import SLOWEST
 from shotc.emit.mavlink.style import Command, Style, command_of, region_of
 from shotc.emit.mavlink.thin import Leg
+from shotc.emit.waypoints.lens import SAME_LENS, edge
 from shotc.emit.waypoints.track import Track
 from shotc.ir.limits import Vec3
 
@@ -51,7 +52,7 @@ def steps_of(track: Track, style: Style, legs: list[Leg]) -> list[Step]:
         steps.append(_aligned(track))
     for index, leg in enumerate(legs):
         step = _step(track, style, leg, legs[index + 1] if index + 1 < len(legs) else None)
-        if leg.rest and steps and _joins(track, steps[-1], step):
+        if leg.rest and steps and _joins(track, style, steps[-1], step):
             steps[-1] = replace(steps[-1], hold=step.hold, radius=RADIUS_REST)
         else:
             steps.append(step)
@@ -94,7 +95,7 @@ def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:
     return Step(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
 
 
-def _joins(track: Track, before: Step, stay: Step) -> bool:
+def _joins(track: Track, style: Style, before: Step, stay: Step) -> bool:
     if before.leg.shot != stay.leg.shot or before.leg.rest:
         return False
     part = slice(stay.leg.first, stay.leg.last + 1)
@@ -106,7 +107,7 @@ def _joins(track: Track, before: Step, stay: Step) -> bool:
     ):
         if np.abs(angles[part] - commanded).max() > SAME:
             return False
-    return True
+    return not style.zooms or bool(edge(poses.hfov[part], before.command.hfov).max() <= SAME_LENS)
 
 
 def _speed(track: Track, index: int) -> float:

@@ -16,6 +16,7 @@ from math import degrees
 import numpy as np
 from numpy.typing import NDArray
 
+from shotc.emit.waypoints.lens import middle_lens
 from shotc.emit.waypoints.track import Poses, Track, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
@@ -44,12 +45,14 @@ class Style:
     pans : the camera turns against the body, so the gimbal's yaw is commanded
     followed : shots whose target is one region of interest all along, with its centre in W
     aimed : shots in which each leg has a region of interest of its own
+    zooms : the lens is one that zooms, so that its field of view is commanded
     """
 
     autopilot: Autopilot
     pans: bool
     followed: dict[str, Vec3]
     aimed: frozenset[str]
+    zooms: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +60,14 @@ class Command:
     """The angles that one leg commands, rad: body yaw, camera yaw less body yaw, and camera pitch.
 
     cam_yaw : camera yaw in W, for gimbals that are told the earth's direction
+    hfov : field of view
     """
 
     body_yaw: float
     pan: float
     cam_yaw: float
     cam_pitch: float
+    hfov: float
 
 
 def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style:
@@ -82,7 +87,7 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
             followed[phase.shot] = mission.target(target).centre
         elif swivels(drone) and _gains(select(poses, inside), track.subject[inside]):
             aimed.add(phase.shot)
-    return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed))
+    return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed), drone.zooms)
 
 
 def region_of(style: Style, track: Track, part: slice, shot: str | None) -> Vec3 | None:
@@ -102,6 +107,7 @@ def command_of(poses: Poses, first: int, last: int, *, filmed: bool) -> Command:
         _middle((poses.cam_yaw - poses.body_yaw)[part]),
         _middle(poses.cam_yaw[part]),
         _middle(poses.cam_pitch[part]),
+        middle_lens(poses.hfov[part]),
     )
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, turns_body
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
+from shotc.emit.waypoints.lens import edge
 from shotc.emit.waypoints.track import SAMPLE_STEP, Poses, Stretch, Track, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
@@ -125,6 +126,8 @@ class Thinner:
         poses = self._flown(leg, planned, flown, share)
         if np.abs(wrapped(poses.body_yaw - planned.body_yaw)).max() > tolerance.heading:
             return False
+        if edge(planned.hfov, poses.hfov).max() > tolerance.screen:
+            return False
         subject = self.track.subject[part]
         shift = project(poses, subject, self.drone) - project(planned, subject, self.drone)
         return bool(np.nanmax(np.hypot(*shift.T), initial=0.0) <= tolerance.screen)
@@ -150,7 +153,8 @@ class Thinner:
             if turns_body(self.drone):
                 body = facing(flown, region)
             cam_yaw, pitch = follow(self.drone, flown, body, region)
-        return Poses(flown, body, cam_yaw, pitch, planned.hfov)
+        hfov = np.full(len(share), command.hfov) if self.style.zooms else planned.hfov
+        return Poses(flown, body, cam_yaw, pitch, hfov)
 
 
 def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Obstacle, ...]) -> Thinner:

@@ -16,17 +16,19 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.flown import STAY_PACE
+from shotc.emit.waypoints.lens import SAME_LENS, edge, middle_lens, shown_by, stay_and_zoom, zoomed
 from shotc.emit.waypoints.models import TURNINGS, Legs, Shape, legs_of, times_of, turned
-from shotc.emit.waypoints.route import Route
+from shotc.emit.waypoints.route import Action, Route
 from shotc.emit.waypoints.stations import LEG_LEAST, Gap, Station, stations_of
-from shotc.emit.waypoints.track import LOST, Poses, Track, project, select
-from shotc.ir.drone import Drone
+from shotc.emit.waypoints.track import LOST, Poses, Stretch, Track, project, select
+from shotc.ir.drone import Drone, LensRange
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 WORST, MEAN = 0.05, 0.02  # half frames that a file may add to a shot
 KEPT = 0.93  # of these when points are chosen: places and angles are rounded afterwards
+STEADY = 0.8  # of these when the drone stands and zooms: stays are whole tenths of a second
 POSITION = 1.0  # metres that a way may leave the plan
 NEARER = 0.02  # metres by which a clearance may be cut deeper than by the plan
 UNEVEN = 2.2  # times as long as its neighbour a leg may be where that one is beyond its bounds
@@ -45,6 +47,7 @@ class Chooser:
     way : (n,), metres flown before each sample, stays at STAY_PACE
     planned : by how much each sample is too near to each obstacle, m, (n,) each
     halts : whether the machine stands still at every point where it does something
+    lens : whose zoom the file commands; None where it does not
     """
 
     track: Track
@@ -54,10 +57,11 @@ class Chooser:
     way: Array
     planned: tuple[Array, ...]
     halts: bool
+    lens: LensRange | None = None
 
     def stations(self) -> list[Station]:
         """Return the stations of the route."""
-        needed, gaps = stations_of(self.track, self.way)
+        needed, gaps = stations_of(self.track, self.way, None if self.lens is None else self._stay)
         parts = [_Part(gap, self._seeds(gap)) for gap in gaps]
         for _ in range(ROUNDS):
             stations, owners = _joined(needed, parts)
@@ -85,8 +89,43 @@ class Chooser:
             np.clip(np.append(speed, speed[-1:] or [SPEED_LEAST]), SPEED_LEAST, SPEED_MOST),
             stops,
             np.where(stops, CURVE_LEAST, np.minimum(CURVE_SHARE * shorter, CURVE_MOST)),
-            tuple(s.actions for s in stations),
+            self._actions(stations),
         )
+
+    def _stay(self, stretch: Stretch) -> list[Action]:
+        """Return what is done while the drone stands, films and may zoom."""
+        assert self.lens is not None
+        part = slice(stretch.first, stretch.last + 1)
+        return stay_and_zoom(self.lens, self.track.time[part], self.track.poses.hfov[part], WORST * STEADY)
+
+    def _actions(self, stations: list[Station]) -> tuple[tuple[Action, ...], ...]:
+        """Return what is done at each station: its own, then the zoom for the way that begins there."""
+        if self.lens is None:
+            return tuple(s.actions for s in stations)
+        last, done = None, []
+        for i, station in enumerate(stations):
+            actions = list(station.actions)
+            last = next((a for a in reversed(actions) if a.kind == "zoom"), last)
+            if i + 1 < len(stations):
+                hfov = self._lens_of(station.last, stations[i + 1].first)
+                if last is None or edge(hfov, shown_by(self.lens, last)) > SAME_LENS:
+                    last = zoomed(self.lens, hfov)
+                    actions.append(last)
+            done.append(tuple(actions))
+        return tuple(done)
+
+    def _lens_of(self, a: int, b: int) -> float:
+        """Return the field of view of a leg, rad: in its middle, or at its end where nothing is filmed."""
+        hfov = self.track.poses.hfov
+        filmed = any(s.shot and s.first <= a and b <= s.last for s in self.track.stretches)
+        return middle_lens(hfov[a : b + 1]) if filmed else float(hfov[b])
+
+    def _edges(self, stations: list[Station], samples: Index, leg: Index) -> Array:
+        """Return how far the edge of the picture is off at each sample, half frames."""
+        if self.lens is None:
+            return np.zeros(len(samples))
+        lenses = np.array([self._lens_of(a.last, b.first) for a, b in pairwise(stations)])
+        return edge(self.track.poses.hfov[samples], lenses[leg])
 
     def _angle(self, angles: Array, station: Station) -> float:
         if station.aim is not None:
@@ -146,8 +185,10 @@ class Chooser:
             return [np.zeros(1) for _ in parts]
         route = self.route(stations)
         samples, legs = self._matched(stations)
-        worst, mean = np.zeros(len(owners)), np.zeros(len(parts))
+        mean = np.zeros(len(parts))
         filmed = np.array([part.gap.shot is not None for part in parts])
+        edges = _most(self._edges(stations, samples, legs), legs, len(owners)) / (WORST * KEPT)
+        worst = np.where(filmed[owners], edges, 0.0)
         for shape in self.shapes:
             flown = legs_of(route, shape)
             off, errors = self._judge(route, flown, samples, legs)
@@ -232,12 +273,13 @@ def chooser_of(
     shapes: tuple[Shape, ...],
     *,
     halts: bool = False,
+    lens: LensRange | None = None,
 ) -> Chooser:
     """Return the chooser of one drone's track."""
     steps = np.linalg.norm(np.diff(track.poses.position, axis=0), axis=1)
     way = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE * 0.01 * np.diff(track.time))))
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
-    return Chooser(track, drone, obstacles, shapes, way, planned, halts)
+    return Chooser(track, drone, obstacles, shapes, way, planned, halts, lens)
 
 
 def _joined(needed: list[Station], parts: list[_Part]) -> tuple[list[Station], Index]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.lens import edge
 from shotc.emit.waypoints.track import LOST, Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.bodies import moved
@@ -32,6 +33,7 @@ class ShotError:
 
     lag : largest difference in time between plan and re-flight, s, counted from the shot's first frame
     drift : how far the framed target moves in the lag of a frame at most, m
+    edge : how far the edge of the picture is off by the lens at most, half frames
     """
 
     shot: str
@@ -40,6 +42,7 @@ class ShotError:
     mean: float
     lag: float
     drift: float
+    edge: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +57,11 @@ class Error:
     filmed: float
     planned: float
     shots: tuple[ShotError, ...] = ()
+
+    @property
+    def edge(self) -> float:
+        """How far the edge of the picture is off by the lens at most, half frames."""
+        return max((each.edge for each in self.shots), default=0.0)
 
 
 class _Met(NamedTuple):
@@ -102,7 +110,8 @@ def _shot_error(mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Po
         away = moved(filmed, time + late) - moved(filmed, time)
         drift = max(drift, float(np.linalg.norm(away, axis=1).max()))
     lag = float(np.abs(late).max())
-    return ShotError(shot, float(shift[index]), float(time[index]), float(shift.mean()), lag, drift)
+    off = float(edge(plan.hfov, met.poses.hfov).max())
+    return ShotError(shot, float(shift[index]), float(time[index]), float(shift.mean()), lag, drift, off)
 
 
 def nearest_miss(obstacles: tuple[Obstacle, ...], flown: Flown) -> tuple[str, float]:
@@ -151,7 +160,9 @@ def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> 
         weight = share if values.ndim == 1 else share[:, None]
         return np.asarray(values[index] + weight * (values[after] - values[index]))
 
-    poses = Poses(mix(position), mix(yaw[0]), mix(yaw[1]), mix(flown.cam_pitch[inside]), plan.hfov)
+    hfov = mix(flown.hfov[inside])
+    hfov = np.where(np.isnan(hfov), plan.hfov, hfov)
+    poses = Poses(mix(position), mix(yaw[0]), mix(yaw[1]), mix(flown.cam_pitch[inside]), hfov)
     return _Met(time, poses, mix(flown.elapsed[inside]))
 
 

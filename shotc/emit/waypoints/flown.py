@@ -18,7 +18,7 @@ class Flown:
 
     part : (n,), counts starts and stops of recording: odd while the shots are filmed, in order
     progress : (n,), way flown in m, stays at STAY_PACE
-    elapsed : (n,), s
+    elapsed : (n,), s; hfov : (n,), rad, NaN where no field of view is commanded
     """
 
     position: Array
@@ -28,3 +28,4 @@ class Flown:
     part: NDArray[np.int64]
     progress: Array
     elapsed: Array
+    hfov: Array

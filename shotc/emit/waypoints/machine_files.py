@@ -26,7 +26,7 @@ from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import Track, track_of
 from shotc.geom.camera import heading_of
 from shotc.geom.vec import wrapped
-from shotc.ir.drone import Drone
+from shotc.ir.drone import Drone, LensRange
 from shotc.ir.mission import MissionIR
 from shotc.ir.source import Autopilot
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
@@ -46,6 +46,7 @@ class Format:
 
     emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
     shapes : the curves by which its machines may fly; halts : whether they stop where they do something
+    zooms : those of the machines whose zoom it commands
     """
 
     emitter: str
@@ -56,6 +57,11 @@ class Format:
     write: Callable[[list[Waypoint], Drone], bytes]
     read: Callable[[bytes], list[Waypoint]]
     halts: bool = False
+    zooms: tuple[Autopilot, ...] = ()
+
+    def lens(self, drone: Drone) -> LensRange | None:
+        """Return the lens that its files zoom, None where they do not."""
+        return drone.lens if drone.zooms and drone.autopilot in self.zooms else None
 
 
 def emit_files(plan: VerifiedIR, form: Format) -> Emission:
@@ -116,7 +122,7 @@ class _Job:
         assert mission.origin is not None
         drone = mission.drone(flight.drone)
         track, obstacles = track_of(mission, flight), bounds(mission, drone)
-        chooser = chooser_of(track, drone, obstacles, form.shapes, halts=form.halts)
+        chooser = chooser_of(track, drone, obstacles, form.shapes, halts=form.halts, lens=form.lens(drone))
         return _Job(mission, flight, drone, form, tie(mission.origin, drone.home), track, chooser, obstacles)
 
     def written(self) -> _Written:
@@ -134,12 +140,13 @@ class _Job:
 
     def emission(self, written: _Written) -> Emission:
         """Return the files, unless they come too near to something, and what is to be told of them."""
-        faults = self._broken(written)
+        not_carried = report.lens(self.mission, self.flight) if self.chooser.lens is None else []
+        faults = [*self._broken(written), *(d for d in not_carried if d.code == report.PROMISED)]
         if faults:
             return Emission((), tuple(faults))
         error = self._error(written.route)
         told = [
-            *report.lens(self.mission, self.flight),
+            *not_carried,
             *report.beyond(self.mission, self.flight, self.track, error),
             *report.drifts(self.mission, self.flight, self.track, error),
         ]
@@ -155,7 +162,7 @@ class _Job:
         """Return the worst that a file adds under any flight model."""
         errors: list[Error] = []
         for shape, turning in product(self.form.shapes, TURNINGS):
-            flown = fly(route, legs_of(route, shape), turning)
+            flown = fly(route, legs_of(route, shape), turning, self.chooser.lens)
             errors.append(compare(self.mission, self.flight, flown, RATE_MOST))
         shots = tuple(_worst_shot([e.shots[i] for e in errors]) for i in range(len(errors[0].shots)))
         worst = max(errors, key=lambda e: e.screen)
@@ -192,6 +199,7 @@ def _worst_shot(errors: list[ShotError]) -> ShotError:
         mean=max(e.mean for e in errors),
         lag=max(e.lag for e in errors),
         drift=max(e.drift for e in errors),
+        edge=max(e.edge for e in errors),
     )
 
 

@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints import paths
 from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.lens import shown_by
 from shotc.emit.waypoints.route import Route
+from shotc.ir.drone import LensRange
 
 Array = NDArray[np.float64]
 
@@ -118,29 +120,34 @@ def turned(route: Route, legs: Legs, times: Array, turning: Turning) -> Array:
     return np.asarray(times / np.maximum(times[:, -1:], paths.SHORT))
 
 
-def fly(route: Route, legs: Legs, turning: Turning) -> Flown:
-    """Return the flight over the legs, stays included; camera and body have one yaw, no gimbal pans here."""
+def fly(route: Route, legs: Legs, turning: Turning, lens: LensRange | None = None) -> Flown:
+    """Return the flight over the legs, stays included; camera and body have one yaw, no gimbal pans here.
+
+    lens : what zooms are of, at once; None where there are none
+    """
     times = times_of(route, legs, turning.ramp)
     share = turned(route, legs, times, turning)
     rows: list[Array] = []
-    part, way, now = 0.0, 0.0, 0.0
+    part, way, now, hfov = 0.0, 0.0, 0.0, np.nan
     for i in range(len(route.position)):
         for action in route.actions[i]:
             if action.kind == "stay":
                 stay = _stay(route, legs, i, action.seconds)
-                rows.append(_stamped(stay, part, way, now))
+                rows.append(_stamped(stay, part, way, now, hfov))
                 way, now = way + action.seconds * STAY_PACE, now + action.seconds
+            elif action.kind == "zoom":
+                hfov = hfov if lens is None else shown_by(lens, action)
             else:
                 part += 1
         if i < len(legs.way):
             yaw = route.yaw[i] + share[i] * (route.yaw[i + 1] - route.yaw[i])
             pitch = route.pitch[i] + share[i] * (route.pitch[i + 1] - route.pitch[i])
             leg = np.column_stack([legs.position[i], yaw, pitch, legs.way[i], times[i]])
-            rows.append(_stamped(leg, part, way, now))
+            rows.append(_stamped(leg, part, way, now, hfov))
             way, now = way + float(legs.way[i, -1]), now + float(times[i, -1])
     table = np.concatenate(rows)
-    yaw, pitch, progress, elapsed, film = table[:, 3:].T
-    return Flown(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed)
+    yaw, pitch, progress, elapsed, film, shown = table[:, 3:].T
+    return Flown(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, shown)
 
 
 def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
@@ -153,9 +160,9 @@ def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
     )
 
 
-def _stamped(rows: Array, part: float, way: float, now: float) -> Array:
-    """Return rows with progress and time counted on, and the part of the film that they belong to."""
+def _stamped(rows: Array, part: float, way: float, now: float, hfov: float) -> Array:
+    """Return rows with progress and time counted on, the part of the film, and the field of view."""
     counted = rows.copy()
     counted[:, 5] += way
     counted[:, 6] += now
-    return np.column_stack([counted, np.full(len(rows), part)])
+    return np.column_stack([counted, np.full(len(rows), part), np.full(len(rows), hfov)])

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from math import degrees, tan
+from math import degrees
 
 import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.emit.waypoints.choose import MEAN, WORST
 from shotc.emit.waypoints.compare import Error, ShotError
+from shotc.emit.waypoints.lens import edge
 from shotc.emit.waypoints.stations import LEG_LEAST
 from shotc.emit.waypoints.timing import Meeting, too_near
 from shotc.emit.waypoints.track import Track
 from shotc.ir.drone import Drone
 from shotc.ir.fleet import FleetTrajectory
-from shotc.ir.mission import MissionIR
+from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import Owner
 from shotc.ir.path import HFOV
 from shotc.ir.source import TAKES, Autopilot
@@ -23,6 +24,12 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least
 
 ZOOM_LEAST = np.radians(0.1)
+PROMISED = "E122"  # of a zoom that is not carried where framing is promised
+COMMANDED = ("px4", "ardupilot", "pilot-2")  # machines whose files zoom a lens that is known to
+UNKNOWN_LENS = (
+    "say what the camera carries, as `camera: {zoom: [24 mm, 70 mm]}`, zoom by hand, or film the shot with"
+    " one field of view"
+)
 TURN_LEAST = np.radians(1.0)  # of a camera on a drone that stands
 FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
 """What the files of an emitter are called."""
@@ -99,29 +106,12 @@ def without_waypoints(mission: MissionIR, flights: tuple[DroneTrajectory, ...]) 
     )
 
 
-def zooms(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
-    """Say which shots zoom: lenses are too different for a mission file to say it."""
-    out: list[Diagnostic] = []
-    for phase in flight.phases:
-        hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
-        if phase.shot is None or np.ptp(hfov) < ZOOM_LEAST:
-            continue
-        shot = mission.shot(phase.shot)
-        low, high = degrees(hfov.min()), degrees(hfov.max())
-        out.append(
-            Diagnostic(
-                "E105",
-                f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}",
-                (mission.origins.key(shot.path),),
-                (f"the field of view goes from {low:.1f} deg to {high:.1f} deg",),
-                "zoom by hand, or give the shot one hfov",
-            )
-        )
-    return out
-
-
 def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
-    """Say which shots are not filmed with the lens as it stands: these files change no field of view."""
+    """Say which shots are not filmed with the lens as it stands, for files that change no field of view.
+
+    It is an error, and no file is to be written, where the shot promises its framing and the edge of the
+    picture is off by more than files may add.
+    """
     drone = mission.drone(flight.drone)
     out: list[Diagnostic] = []
     for phase in (p for p in flight.phases if p.shot is not None):
@@ -129,37 +119,51 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
         if np.abs(hfov - drone.hfov).max() < ZOOM_LEAST:
             continue
         shot = mission.shot(phase.shot or "")
-        edge = float(np.abs(np.tan(hfov / 2) / tan(drone.hfov / 2) - 1).max())
+        off = float(edge(hfov, drone.hfov).max())
         low, high = degrees(hfov.min()), degrees(hfov.max())
         wanted = f"from {low:.1f} deg to {high:.1f} deg" if high - low > 0.1 else f"{high:.1f} deg"
+        unknown = drone.lens is None and drone.autopilot in COMMANDED
+        code, words = "E105", f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}"
+        promised = off > WORST and _promises(shot)
+        if promised:
+            code = PROMISED
+            words = f"no file is written for {flight.drone}: it would not carry the zoom of shot {shot.id}"
         out.append(
             Diagnostic(
-                "E105",
-                f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}",
+                code,
+                words,
                 (mission.origins.key(shot.path),),
                 (
                     f"the field of view is {wanted}, the lens has {degrees(drone.hfov):.1f} deg: the edge of"
-                    f" the picture is up to {at_least(edge, 3)} half frames off",
+                    f" the picture is up to {at_least(off, 3)} half frames off",
+                    *(["the shot promises its framing with `require`"] if promised else []),
                 ),
-                "zoom by hand, or film the shot with the field of view of the lens",
+                UNKNOWN_LENS
+                if unknown
+                else "zoom by hand, or film the shot with the field of view of the lens",
             )
         )
     return out
+
+
+def _promises(shot: Shot) -> bool:
+    promise = shot.promise
+    return any(each is not None for each in (promise.in_frame, promise.screen_error, promise.size))
 
 
 def beyond(mission: MissionIR, flight: DroneTrajectory, track: Track, error: Error) -> list[Diagnostic]:
     """Say which shots a file shows otherwise than the plan, and why."""
     out: list[Diagnostic] = []
     for each in error.shots:
-        if each.worst <= WORST and each.mean <= MEAN:
+        if max(each.worst, each.edge) <= WORST and each.mean <= MEAN:
             continue
         shot = mission.shot(each.shot)
         reason, help_ = _why(track, each)
         out.append(
             Diagnostic(
                 "E117",
-                f"the file of {flight.drone} shows shot {shot.id} up to {at_least(each.worst, 3)} half frames"
-                " beside the plan",
+                f"the file of {flight.drone} shows shot {shot.id} up to"
+                f" {at_least(max(each.worst, each.edge), 3)} half frames beside the plan",
                 (mission.origins.key(shot.path),),
                 (
                     f"worst at t = {each.time:.1f} s, {at_least(each.mean, 3)} on average; meant are at most"
@@ -261,5 +265,10 @@ def notes(drone: Drone, files: list[str], count: int, error: Error, models: int)
     return [
         f"{text}, adds at most {at_least(error.screen, 3)} of the screen (shot {error.shot}, t ="
         f" {error.time:.1f} s) and {at_least(mean, 3)} on average under all of {models} flight models; films"
-        f" {error.filmed:.0f} s at most where the plan films {error.planned:.0f} s"
+        f" {error.filmed:.0f} s at most where the plan films {error.planned:.0f} s{zoomed_to(error)}"
     ]
+
+
+def zoomed_to(error: Error) -> str:
+    """Return what the steps of a zoom do to the picture, nothing where there are none."""
+    return f"; the edge of the picture zooms to within {at_least(error.edge, 3)}" if error.edge > 0 else ""

@@ -15,10 +15,14 @@ Array = NDArray[np.float64]
 
 
 class Action(NamedTuple):
-    """What is done at a point: recording starts or stops, or the drone stays for some seconds."""
+    """What is done at a point: recording starts or stops, the drone stays some seconds, or the lens zooms.
 
-    kind: Literal["start", "stop", "stay"]
+    focal : focal length to zoom to, mm, as the lens counts them
+    """
+
+    kind: Literal["start", "stop", "stay", "zoom"]
     seconds: float = 0.0
+    focal: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

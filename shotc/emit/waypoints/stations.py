@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,10 +43,12 @@ class Gap:
     shot: str | None
 
 
-def stations_of(track: Track, way: Array) -> tuple[list[Station], list[Gap]]:
+def stations_of(
+    track: Track, way: Array, stay: Callable[[Stretch], list[Action]] | None = None
+) -> tuple[list[Station], list[Gap]]:
     """Return the stations that a track needs, and the gap after each but the last.
 
-    way : (n,), metres flown before each sample
+    way : (n,), metres flown before each sample; stay : what is done in a filmed one, if more than to stay
     A stretch too short for two points is a stay at the first of them.
     """
     groups, gaps = _grouped(track, way)
@@ -61,7 +63,8 @@ def stations_of(track: Track, way: Array) -> tuple[list[Station], list[Gap]]:
             shot = stretch.shot
             seconds = float(track.time[stretch.last] - track.time[stretch.first])
             seconds = round(seconds if shot else min(seconds, SETTLE), 1)
-            actions += [Action("stay", seconds)] if seconds >= STAY_LEAST else []
+            if seconds >= STAY_LEAST:
+                actions += stay(stretch) if stay and shot else [Action("stay", seconds)]
         actions += _changed(shot, after.shot if after else None)
         shot = after.shot if after else None
         first, last = _ends(track, group, before, after)

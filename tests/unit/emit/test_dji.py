@@ -23,6 +23,7 @@ from shotc.geom.track import Track
 from shotc.ir.mission import Zone
 from shotc.ir.path import HFOV
 from shotc.ir.phases import Phase
+from shotc.ir.promise import Promise
 from shotc.ir.trajectory import DroneTrajectory
 from tests.support.film_plans import TOWER, orbit_mission, orbit_plan
 from tests.support.mavlink_flights import flight, plan, retold, straight
@@ -234,7 +235,9 @@ def test_a_zoom_is_told_with_what_it_does_to_the_edge_of_the_picture():
     ctrl = trajectory.curve.ctrl.copy()
     ctrl[1, :, HFOV] = np.radians(np.linspace(70, 50, 6))
     zooming = replace(trajectory, curve=Piecewise(trajectory.curve.breaks, ctrl))
-    (told,) = EMITTER.emit(plan(zooming, autopilot="dji-fly")).diagnostics
+    mission = orbit_mission()
+    mission = replace(mission, shots=(replace(mission.shots[0], promise=Promise()),))
+    (told,) = EMITTER.emit(plan(zooming, mission=mission, autopilot="dji-fly")).diagnostics
     assert told.code == "E105"
     # 1 - tan 25 / tan 35 is 0.334; the last instant of the shot belongs to the way back.
     off = float(told.notes[0].split("is up to ")[1].split()[0])

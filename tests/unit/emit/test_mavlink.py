@@ -12,11 +12,10 @@ from shotc.emit.mavlink.items import Item
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.emit.waypoints.geo import tie
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.path import HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
 from tests.support.film_plans import orbit_mission, orbit_plan
-from tests.support.mavlink_flights import flight, plan, retold, straight
+from tests.support.mavlink_flights import flight, plan, retold
 from tests.support.records import replace
 
 
@@ -91,17 +90,6 @@ def test_a_low_take_off_is_raised_for_px4_alone() -> None:
     assert "3.0 m instead of 2.5 m" in emission.diagnostics[0].message
     assert json.loads(emission.artifacts[0].data)["mission"]["items"][0]["params"][6] == 3
     assert EMITTER.emit(plan(trajectory, autopilot="ardupilot")).diagnostics == ()
-
-
-def test_a_zoom_is_not_carried_and_the_warning_says_from_what_to_what() -> None:
-    trajectory = straight()
-    ctrl = trajectory.curve.ctrl.copy()
-    ctrl[1, :, HFOV] = np.radians(np.linspace(70, 50, 6))
-    ctrl[2, :, HFOV] = np.radians(np.linspace(50, 70, 6))
-    zooming = replace(trajectory, curve=Piecewise(trajectory.curve.breaks, ctrl))
-    emission = EMITTER.emit(plan(zooming))
-    assert [d.code for d in emission.diagnostics] == ["E105"]
-    assert "50.0 deg to 70.0 deg" in emission.diagnostics[0].notes[0]
 
 
 @pytest.mark.slow

@@ -41,14 +41,18 @@ def test_actions_use_the_mission_frame_and_places_the_relative_one() -> None:
 
 def test_a_camera_left_of_the_body_has_a_negative_gimbal_yaw_on_ardupilot() -> None:
     # Body looks East, camera 30 degrees further to the North, which is to the left.
-    command = Command(body_yaw=0.0, pan=radians(30), cam_yaw=radians(30), cam_pitch=radians(-10))
+    command = Command(
+        body_yaw=0.0, pan=radians(30), cam_yaw=radians(30), cam_pitch=radians(-10), hfov=radians(70)
+    )
     item = ArduPilot().gimbal(command, PANS)
     assert item.command == 205
     assert item.params == (-10.0, 0.0, -30.0, 0.0, 0.0, 0.0, 2.0)
 
 
 def test_px4_tells_a_panning_gimbal_the_direction_on_earth() -> None:
-    command = Command(body_yaw=0.0, pan=radians(30), cam_yaw=radians(30), cam_pitch=radians(-10))
+    command = Command(
+        body_yaw=0.0, pan=radians(30), cam_yaw=radians(30), cam_pitch=radians(-10), hfov=radians(70)
+    )
     item = Px4().gimbal(command, PANS)
     assert item.command == 1000
     assert item.params == (-10.0, 60.0, None, None, 28.0, 0.0, 0.0)

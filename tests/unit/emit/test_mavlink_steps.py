@@ -85,7 +85,7 @@ def test_a_still_shot_is_a_waypoint_held_for_its_length() -> None:
 
 
 def test_whole_seconds_hand_on_what_they_lose() -> None:
-    leg, command = Leg(0, 1, "half", rest=True), Command(0.0, 0.0, 0.0, 0.0)
+    leg, command = Leg(0, 1, "half", rest=True), Command(0.0, 0.0, 0.0, 0.0, 1.2)
     steps = [Step(leg, command, None, 0.0, 0.0, 0.0, hold, 0.5) for hold in (1.4, 1.4, 1.4, 0.0, 0.8)]
     assert [s.hold for s in whole_seconds(steps)] == [1, 2, 1, 0, 1]
 
