@@ -20,6 +20,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
+from shotc.passes.verify.ahead import unjudged
 from shotc.passes.verify.energy import ENERGY, J_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
@@ -102,7 +103,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts = [("limits", ", ".join(text.replace(" ", GLUE) for text in _used(plan.certificate)))]
     facts += [("closest", text) for text in _closest(plan.certificate)]
     facts += [("transits", text) for text in _passed(plan.certificate)]
-    facts += [("nose", text) for text in _ahead(plan.certificate)]
+    facts += [("nose", text) for text in _ahead(plan)]
     facts += [("energy", text) for text in _energy(plan)]
     facts += [("drones", text) for text in (*_together(plan), *nearest(plan), *_on_pads(plan))]
     hard = [c for c in plan.certificate if c.hard]
@@ -230,15 +231,24 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
     return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m asked"]
 
 
-def _ahead(claims: Sequence[Claim]) -> list[str]:
-    """Tell how far a nose is off its course between shots, and where that is not judged."""
-    off = [claim for claim in claims if claim.constraint == LOOK_AHEAD]
-    if not off:
+def _ahead(plan: VerifiedIR) -> list[str]:
+    """Tell how far a nose is off its course, in which shots that is judged, and why not in others."""
+    off = [claim for claim in plan.certificate if claim.constraint == LOOK_AHEAD]
+    ir = plan.trajectory
+    if ir.keyframes.mission.rules.look_ahead is None:
         return []
-    most = max(off, key=lambda claim: claim.worst)
-    who = f" ({most.subject})" if len(off) > 1 else ""
-    angles = f"{_used_up(degrees(most.worst))} of {degrees(most.limit):.3g} deg"
-    return [f"up to {angles} off the course between shots{who}; in shots the camera says where a drone heads"]
+    texts = []
+    if off:
+        most = max(off, key=lambda claim: claim.worst)
+        who = f" ({most.subject})" if len({claim.subject for claim in off}) > 1 else ""
+        angles = f"{_used_up(degrees(most.worst))} of {degrees(most.limit):.3g} deg"
+        where = ["between shots"] * any(claim.shot is None for claim in off)
+        where += [f"in `{claim.shot}`" for claim in off if claim.shot is not None]
+        texts.append(f"up to {angles} off the course{who}: {', '.join(where)}")
+    reasons: dict[str, list[str]] = {}
+    for bound in unjudged(ir.keyframes.mission, ir.drones):
+        reasons.setdefault(bound.why, []).append(f"`{bound.shot}`")
+    return [*texts, *(f"not judged in {', '.join(shots)}: {why}" for why, shots in reasons.items())]
 
 
 def _together(plan: VerifiedIR) -> list[str]:

@@ -27,7 +27,8 @@ class Rules(NamedTuple):
         the frame itself
     transits : kept on ways between shots
     obstacle_clearance : from a drone's body to scenes and buildings
-    look_ahead : half-angle about a body's heading in which its course is on ways between shots, rad, or None
+    look_ahead : half-angle about a body's heading in which its course is on ways between shots and in shots
+        that leave the heading free (``ir.ahead``), rad, or None
     max_height : of a drone's centre above the ground; infinite for none, None where the mission is silent
     """
 

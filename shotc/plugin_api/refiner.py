@@ -58,6 +58,7 @@ from shotc.planning.clock.surroundings import Surroundings, surroundings
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import NO_HALF_SPACES, FreeSpace, HalfSpaces, beside, corridor, kept, shortfall
 from shotc.planning.obstacles import flight_space
+from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.rejoin import rejoined
 from shotc.planning.path.turns import steady
 from shotc.planning.path.with_camera import NoTransit, with_camera
@@ -114,6 +115,7 @@ __all__ = [
     "TimedPath",
     "UnitVector",
     "View",
+    "ahead_in",
     "aim_at",
     "aims_at",
     "beside",

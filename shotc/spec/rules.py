@@ -72,8 +72,8 @@ class RulesSpec(Model):
     )
     look_ahead: Annotated[float, _LOOK_AHEAD] | None = Field(
         default=None,
-        description="largest angle between a drone's nose and the way it flies, between shots; not judged if "
-        "silent",
+        description="largest angle between a drone's nose and the way it flies, between shots and in shots "
+        "that leave the heading free; not judged if silent",
     )
     transit_clearance: TransitClearanceSpec | None = Field(
         default=None,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import (
+    ahead_in,
     lateness,
     rough_times,
     shortfall,
@@ -38,7 +39,8 @@ def hopeless(subject: Subject) -> bool:
 
 def _late(subject: Subject, camera: Piecewise) -> float:
     """Return by which share of a time asked for the fastest flight of this camera misses it."""
-    drone, leg = subject.drone, with_camera(subject.drone, subject.leg, camera)
+    drone, ahead = subject.drone, ahead_in(subject.mission, subject.placed.shot)
+    leg = with_camera(drone, subject.leg, camera, ahead)
     asked = due(leg)
     if not asked or asked.lateness(*rough_times(drone, leg, 1.0)) < AMPLE_SHARE - 1.0:
         return 0.0

@@ -186,9 +186,10 @@ _SPACE = (
         (
             "a drone does not look where it flies",
             "`rules.look_ahead` is the largest angle between a drone's nose and its course over ground, wherever it is "
-            "faster than 0.5 m/s on a way between shots. It is proved at every instant. Not judged are shots, where the "
-            "camera says where a drone heads, and the seconds in which it comes into the motion of a film of what "
-            "moves and out of it.",
+            "faster than 0.5 m/s: on ways between shots, in a `follow-path` shot that looks along its path, and in shots "
+            "of what stands under whose camera the body can turn. It is proved at every instant. Not judged are other "
+            "shots, where the camera says where a drone heads, and the seconds in which it comes into the motion of a "
+            "film of what moves and out of it.",
         ),
     ),
     verified(

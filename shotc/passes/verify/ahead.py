@@ -2,36 +2,115 @@
 
 Judged are ways between shots, from where the drone rests after a shot to where it rests before the next one.
 Beside a shot of what moves that leaves out the seconds in which the drone comes into the film's motion and
-out of it: there, as in shots, the camera says where it heads. A drone that hardly moves has no course.
+out of it. Judged are, too, shots on a path in which the heading is free: of a camera that looks along its
+path, and of a body under a camera whose gimbal pans so far that the body could look ahead at every moment. In
+other shots the camera says where it heads. A drone that hardly moves has no course.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from math import degrees
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.heading import sup_off_course
 from shotc.geom.pieces import Pieces, cut
-from shotc.ir.path import BODY_YAW, X, Y, Z
+from shotc.ir.ahead import least_off_course, looks_along
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import BODY_YAW, CAM_YAW, X, Y, Z
+from shotc.ir.phases import Phase
 from shotc.ir.rules import SLOW_M_S
-from shotc.ir.trajectory import Claim
+from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.ir.transits import Way, ways
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+from shotc.rounding import at_least
 
 CONSTRAINT = "look ahead"
 AT_REST_M_S = 1e-6
+SAMPLES = 400
+"""Moments of a shot at which it is asked whether its framing leaves its body room."""
+
+ROOM_SHARE = 0.9
+"""Of the half-angle, within which a body that is free can be: planning needs a little of it."""
+
+
+class Bound(NamedTuple):
+    """A shot whose heading is not judged, and why, as an end of a sentence."""
+
+    shot: str
+    why: str
 
 
 def ahead(flight: Flight) -> Iterator[Claim]:
-    """Claim the largest angle between the body's heading and its course, where the mission limits it."""
+    """Claim the largest angle between the body's heading and its course, where the mission limits it.
+
+    One claim is for all ways, and one for each shot that is judged.
+    """
     half_angle = flight.mission.rules.look_ahead
     if half_angle is None:
         return
+    between = [span for way in ways(flight.track.phases) if (span := judged(flight, way))]
+    yield from _claimed(flight, half_angle, between, None)
+    for phase in _filmed(flight.track):
+        if why_not(flight.mission, flight.track, phase) is None:
+            yield from _claimed(flight, half_angle, [(phase.start, phase.end)], phase.shot)
+
+
+def unjudged(mission: MissionIR, tracks: Sequence[DroneTrajectory]) -> Iterator[Bound]:
+    """Yield the shots in which a drone moves and its heading is not judged."""
+    for track in tracks:
+        for phase in _filmed(track):
+            why = why_not(mission, track, phase)
+            if why is not None and phase.shot is not None:
+                yield Bound(phase.shot, why)
+
+
+def why_not(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> str | None:
+    """Return why the heading of a shot is bound by what it films; None where it is free."""
+    shot, drone, half_angle = mission.shot(phase.shot), mission.drone(track.drone), mission.rules.look_ahead
+    assert half_angle is not None
+    if looks_along(shot):
+        return None
+    if shot.ideal is not None:
+        return "its place follows what it films"
+    if drone.body == "follow-camera":
+        return "its body turns with its camera"
+    least = _least_off(drone, track, phase)
+    if least <= ROOM_SHARE * half_angle:
+        return None
+    most = at_least(degrees(least), 0)
+    return f"its camera looks so far aside that its gimbal leaves the nose {most} deg off the course"
+
+
+def _least_off(drone: Drone, track: DroneTrajectory, phase: Phase) -> float:
+    """Return how far off its course a body is at least, by where its camera looks, rad; 0 where it stands."""
+    t = np.linspace(phase.start, phase.end, SAMPLES)
+    rate = track.curve.channels(X, Y).derivative()(t)
+    moves = np.linalg.norm(rate, axis=1) > SLOW_M_S
+    aside = track.curve(t)[:, CAM_YAW] - np.arctan2(rate[:, 1], rate[:, 0])
+    return float(np.where(moves, least_off_course(drone, aside), 0.0).max())
+
+
+def _filmed(track: DroneTrajectory) -> list[Phase]:
+    """Return the shots in which a drone is ever fast enough to have a course."""
+    speed = track.curve.channels(X, Y).derivative()
+    return [
+        phase
+        for phase in track.phases
+        if phase.shot is not None
+        and np.linalg.norm(speed(np.linspace(phase.start, phase.end, SAMPLES)), axis=1).max() > SLOW_M_S
+    ]
+
+
+def _claimed(
+    flight: Flight, half_angle: float, spans: Sequence[tuple[float, float]], shot: str | None
+) -> Iterator[Claim]:
+    """Claim the largest angle in spans of mission time, seconds, if the drone has a course there."""
     curve = flight.track.curve.channels(X, Y, BODY_YAW)
-    parts = [cut(curve, *span) for way in ways(flight.track.phases) if (span := judged(flight, way))]
-    parts = [part for part in parts if len(part)]
-    limit = Limit(CONSTRAINT, half_angle, "rad", ("rules", "look_ahead"))
+    parts = [part for span in spans if len(part := cut(curve, *span))]
     if not parts:
         return
     every = Pieces(
@@ -39,7 +118,7 @@ def ahead(flight: Flight) -> Iterator[Claim]:
     )
     found = sup_off_course(every, SLOW_M_S, gap(half_angle))
     if found.proven > -np.inf:
-        yield bounded(flight, limit, found)
+        yield bounded(flight, Limit(CONSTRAINT, half_angle, "rad", ("rules", "look_ahead"), shot=shot), found)
 
 
 def judged(flight: Flight, way: Way) -> tuple[float, float] | None:

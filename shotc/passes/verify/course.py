@@ -18,6 +18,7 @@ from shotc.geom.pieces import cut
 from shotc.geom.proof import norm, sup_convex
 from shotc.geom.solids import distance, signed_distance
 from shotc.geom.vec import wrapped
+from shotc.ir.ahead import looks_along
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -53,6 +54,9 @@ LENS_RAD = 1e-3
 
 TURNED_RAD = 0.2
 """Radians by which a camera that frames nothing may look elsewhere at a keyframe."""
+
+BESIDE_S = 0.5
+"""Seconds before and after a keyframe between which the drone's course there is taken."""
 
 AROUND_RAD = pi / 2
 """Radians by which a turn may differ from the one asked for: a whole one more or less is another shot."""
@@ -215,12 +219,31 @@ def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     yield _largest(flight, ("lens off its keyframes", LENS_RAD, "rad"), shot, (lens, t))
     unframed = np.array([k.reference is None for k in keyframes])
     yaw = wrapped(pose[:, CAM_YAW] - [k.yaw for k in keyframes])
+    if flight.mission.rules.look_ahead is not None and looks_along(shot):
+        yaw = _off_course(flight, (yaw, t), flight.mission.rules.look_ahead, (t[0], t[-1]))
     pitch = pose[:, CAM_PITCH] - [k.pitch for k in keyframes]
     aside = np.where(unframed, np.hypot(yaw * np.cos(pose[:, CAM_PITCH]), pitch), 0.0)
     yield _largest(flight, ("direction off its keyframes", TURNED_RAD, "rad"), shot, (aside, t))
     wanted = np.array([np.nan if k.turn is None else k.turn for k in keyframes])
     turned = np.abs(np.diff(pose[:, CAM_YAW], prepend=pose[0, CAM_YAW]) - wanted)
     yield _largest(flight, ("turn off its keyframes", AROUND_RAD, "rad"), shot, (np.nan_to_num(turned), t))
+
+
+def _off_course(
+    flight: Flight, at: tuple[Array, Array], half_angle: float, span: tuple[float, float]
+) -> Array:
+    """Return how far a camera that looks along its path is out of the cone about its course, rad.
+
+    at : how far it is off the headings of its keyframes, and their times; span : of the shot, seconds
+    At a keyframe the course is that from a little before it to a little after it: the drone may rest there.
+    """
+    off, t = at
+    curve = flight.track.curve
+    before, after = (np.clip(t + d, *span) for d in (-BESIDE_S, BESIDE_S))
+    way = curve(after)[:, :2] - curve(before)[:, :2]
+    aside = wrapped(curve(t)[:, CAM_YAW] - np.arctan2(way[:, 1], way[:, 0]))
+    least = np.minimum(np.abs(off), np.abs(aside))
+    return np.asarray(np.maximum(least - half_angle, 0.0))
 
 
 def _largest(flight: Flight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]) -> Claim:

@@ -3,11 +3,12 @@
 The body's yaw over s is a spline near the course, all of it in the cone about the course. It begins and ends
 as near as the cone lets it to the headings that the shots before and after have; the drone turns by the rest
 before it moves, and after it has come to rest. A camera that its gimbal pans turns with the body, and evenly
-from where it is against the body at the one end to where it is at the other.
+from where it is against the body at the one end to where it is at the other. ``filmed_ahead`` is for shots.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
 from typing import NamedTuple
 
@@ -23,6 +24,7 @@ from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 
 FINER = (4, 8, 16, 32)  # pieces for each one of the way
+HALVINGS = 12  # of the pieces on which the course turns by much of the cone
 SAMPLES_PER_PIECE = 4
 KEPT_SHARE = 0.97  # of the half-angle that is used: the course is sampled
 ANY_RAD = 1e3  # rad: bounds of a yaw where there is no course
@@ -57,21 +59,43 @@ class Course(NamedTuple):
 def course_of(drone: Drone, position: Piecewise, half_angle: float) -> Course | None:
     """Return the course of a way, x, y, z over s; None where it goes straight up or down, or has corners."""
     for finer in FINER:
-        breaks = subdivide(position.breaks, finer)
-        share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
-        at = breaks[:-1, None] + np.diff(breaks)[:, None] * share
-        rate = position.derivative()(at.ravel())
-        moves = _moves(drone, rate)
-        if not moves.any():
-            return None
-        known = np.flatnonzero(moves)
-        yaw = np.interp(np.arange(len(rate)), known, np.unwrap(np.arctan2(rate[known, 1], rate[known, 0])))
-        each, there = yaw.reshape(at.shape), moves.reshape(at.shape).any(axis=1)
-        low = np.where(there, each.max(axis=1) - KEPT_SHARE * half_angle, -ANY_RAD)
-        high = np.where(there, each.min(axis=1) + KEPT_SHARE * half_angle, ANY_RAD)
-        if (low < high).all():
-            return Course(breaks, at.ravel(), yaw, moves, low, high)
+        course = _sampled(drone, position, half_angle, subdivide(position.breaks, finer))
+        if course is None or (course.low < course.high).all():
+            return course
     return None
+
+
+def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: float) -> Course | None:
+    """Return the same with pieces so short that bounds are at least ``room`` apart, rad; None as there.
+
+    A way that turns back goes round in little of its length.
+    """
+    breaks = subdivide(position.breaks, FINER[0])
+    for _ in range(HALVINGS):
+        course = _sampled(drone, position, half_angle, breaks)
+        if course is None:
+            return None
+        tight = course.high - course.low < room
+        if not tight.any():
+            return course
+        breaks = np.union1d(breaks, 0.5 * (breaks[:-1] + breaks[1:])[tight])
+    return None
+
+
+def _sampled(drone: Drone, position: Piecewise, half_angle: float, breaks: Array) -> Course | None:
+    """Return the course on pieces, whose bounds may leave nothing between them; None where there is none."""
+    share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
+    at = breaks[:-1, None] + np.diff(breaks)[:, None] * share
+    rate = position.derivative()(at.ravel())
+    moves = _moves(drone, rate)
+    if not moves.any():
+        return None
+    known = np.flatnonzero(moves)
+    yaw = np.interp(np.arange(len(rate)), known, np.unwrap(np.arctan2(rate[known, 1], rate[known, 0])))
+    each, there = yaw.reshape(at.shape), moves.reshape(at.shape).any(axis=1)
+    low = np.where(there, each.max(axis=1) - KEPT_SHARE * half_angle, -ANY_RAD)
+    high = np.where(there, each.min(axis=1) + KEPT_SHARE * half_angle, ANY_RAD)
+    return Course(breaks, at.ravel(), yaw, moves, low, high)
 
 
 def _moves(drone: Drone, rate: Array) -> Array:
@@ -93,27 +117,12 @@ def headed(
         keeps its angle against it
     """
     start, goal = ends
-    breaks, points = course.breaks, (len(course.breaks) - 1, 6)
+    breaks = course.breaks
     anchors = [(breaks[0], start[BODY_YAW])] + ([] if goal is None else [(breaks[-1], goal[BODY_YAW])])
-    long = float(breaks[-1] - breaks[0])
-    length = min(max(0.5 * drone.limits.speed / drone.limits.yaw_rate, 1e-3), long)
-    weight = (np.where(course.moves, 1.0, 0.0) + FAINT_WEIGHT) * long / len(course.at)
-    status, coef = fit(
-        Fit(
-            breaks,
-            course.at,
-            course.yaw,
-            weight,
-            np.array([s for s, _ in anchors]),
-            np.array([yaw for _, yaw in anchors]),
-            (FAINT_WEIGHT * length**2, length**6),
-            np.broadcast_to(course.low[:, None], points),
-            np.broadcast_to(course.high[:, None], points),
-        )
-    )
-    if status not in {Status.SOLVED, Status.INACCURATE}:
-        return status
-    body = spline(breaks, coef[:, None]).ctrl[:, :, 0]
+    line = near_course(drone, course, course.yaw, anchors)
+    if isinstance(line, Status):
+        return line
+    body = line.ctrl[:, :, 0]
     last = start if goal is None else goal
     x = np.linspace(0.0, 1.0, 6)
     step = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
@@ -138,6 +147,34 @@ def headed(
     if goal is not None:
         ctrl[-1, -1] = goal
     return Piecewise(breaks, ctrl)
+
+
+def near_course(
+    drone: Drone, course: Course, wish: Array, anchors: Sequence[tuple[float, float]]
+) -> Piecewise | Status:
+    """Return a yaw in the cone about a course, one channel on its breaks, or the solver's word.
+
+    wish : what it is to be near, at the course's samples; anchors : (s, yaw) that it passes
+    """
+    breaks, points = course.breaks, (len(course.breaks) - 1, 6)
+    long = float(breaks[-1] - breaks[0])
+    length = min(max(0.5 * drone.limits.speed / drone.limits.yaw_rate, 1e-3), long)
+    weight = (np.where(course.moves, 1.0, 0.0) + FAINT_WEIGHT) * long / len(course.at)
+    bound = np.array(anchors, dtype=np.float64).reshape(-1, 2)
+    status, coef = fit(
+        Fit(
+            breaks,
+            course.at,
+            wish,
+            weight,
+            bound[:, 0],
+            bound[:, 1],
+            (FAINT_WEIGHT * length**2, length**6),
+            np.broadcast_to(course.low[:, None], points),
+            np.broadcast_to(course.high[:, None], points),
+        )
+    )
+    return spline(breaks, coef[:, None]) if status in {Status.SOLVED, Status.INACCURATE} else status
 
 
 def nearest_ends(

@@ -29,6 +29,7 @@ class BodyTask:
     """One leg: p_WC and camera yaw over s, on the same breaks, and the ends where they are given.
 
     speed : m/s at which the leg is flown, for how sharply the body may turn
+    cone : the least and the greatest yaw of the body on each piece, (P,), rad, or None where all are good
     """
 
     position: Piecewise
@@ -36,6 +37,7 @@ class BodyTask:
     start: float | None
     end: float | None
     speed: float
+    cone: tuple[Array, Array] | None = None
 
 
 def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
@@ -58,6 +60,9 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
     ends = [(float(s), y) for s, y in ((breaks[0], task.start), (breaks[-1], task.end)) if y is not None]
     anchors = np.array(ends, dtype=np.float64).reshape(-1, 2)
     points = task.cam_yaw.ctrl[:, :, 0]
+    least, most = points - high, points - low
+    if task.cone is not None:
+        least, most = np.maximum(least, task.cone[0][:, None]), np.minimum(most, task.cone[1][:, None])
     status, coef = fit(
         Fit(
             breaks,
@@ -67,12 +72,12 @@ def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
             anchors[:, 0],
             anchors[:, 1],
             stiff,
-            points - high - 1e-9,
-            points - low + 1e-9,
+            least - 1e-9,
+            most + 1e-9,
         )
     )
     curve = spline(breaks, coef[:, None])
-    ctrl = within(curve.ctrl[:, :, 0], points - high, points - low)
+    ctrl = within(curve.ctrl[:, :, 0], least, most)
     return status, Piecewise(breaks, ctrl[:, :, None])
 
 

@@ -17,6 +17,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import MovingLeg, Pose, TimedPath
+from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.legs import end_of, turned_way
 from shotc.planning.path.shots import AngleFailure
 from shotc.planning.path.with_camera import SAME_END, NoTransit, with_camera
@@ -33,7 +34,8 @@ def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewis
     drone, legs = mission.drone(flown.drone), list(flown.legs)
     for k, leg in enumerate(legs):
         if isinstance(leg, MovingLeg) and leg.shot in cameras:
-            legs[k] = lasting(drone, leg, with_camera(drone, leg, cameras[leg.shot or ""]))
+            ahead = ahead_in(mission, mission.shot(leg.shot))
+            legs[k] = lasting(drone, leg, with_camera(drone, leg, cameras[leg.shot or ""], ahead))
     for k, leg in enumerate(legs):
         if isinstance(leg, MovingLeg) and leg.phase in {"transit", "return"}:
             start = end_of(legs[: k or 1])

@@ -13,6 +13,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.ir.drone import Drone
 from shotc.ir.path import DronePath, HoldLeg, PathIR, PathLeg
 from shotc.planning.obstacles import free_spaces_of, pad_space
+from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.in_time import in_time
 from shotc.planning.path.legs import Blocked, Flight, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
@@ -39,9 +40,12 @@ def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
 def _drone(path: PathIR, flown: DronePath, cameras: Mapping[str, Piecewise]) -> DronePath:
     if not any(leg.shot in cameras for leg in flown.legs):
         return flown
-    drone = path.keyframes.mission.drone(flown.drone)
+    mission = path.keyframes.mission
+    drone = mission.drone(flown.drone)
     legs = [
-        leg if leg.shot not in cameras else with_camera(drone, leg, cameras[leg.shot or ""])
+        leg
+        if leg.shot not in cameras
+        else with_camera(drone, leg, cameras[leg.shot or ""], ahead_in(mission, mission.shot(leg.shot)))
         for leg in flown.legs
     ]
     if all(_same_ends(a, b) for a, b in zip(flown.legs, legs, strict=True)):

@@ -18,6 +18,7 @@ from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
+from shotc.planning.path.filmed_ahead import Faced, ahead_in, faced
 from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, line_beside, shot_line
 from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, Solved, Stretch, solve_stretch
 from shotc.planning.path.seeing import ROUNDS, FilmedCurve, is_led, watched_at, watched_at_keyframes
@@ -108,13 +109,17 @@ def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) ->
     if camera.status not in {Status.SOLVED, Status.INACCURATE}:
         return AngleFailure("camera", camera.status)
     refined = restrict(curve, camera.angles.breaks)
-    speed = placed.shot.pace * drone.limits.speed
-    cam_yaw = camera.angles.channels(0)
-    body_status, body = body_line(drone, BodyTask(refined, cam_yaw, None, None, speed))
-    if body_status not in {Status.SOLVED, Status.INACCURATE}:
-        return AngleFailure("body", body_status)
-    whole = stack(refined, camera.angles.channels(0, 1), body, camera.angles.channels(2))
     shot = placed.shot
+    task = BodyTask(refined, camera.angles.channels(0), None, None, shot.pace * drone.limits.speed)
+    ahead = ahead_in(mission, shot)
+    turned = None if ahead is None else faced(drone, ahead, task, camera.angles)
+    if turned is None:
+        body_status, body = body_line(drone, task)
+        if body_status not in {Status.SOLVED, Status.INACCURATE}:
+            return AngleFailure("body", body_status)
+        turned = Faced(refined, camera.angles, body)
+    angles = turned.camera
+    whole = stack(turned.position, angles.channels(0, 1), turned.body, angles.channels(2))
     leg = MovingLeg(
         phase="shot",
         shot=shot.id,

@@ -12,6 +12,7 @@ from shotc.geom.bspline import restrict
 from shotc.ir.drone import Drone
 from shotc.ir.path import BODY_YAW, HFOV, HoldLeg, MovingLeg, PathLeg
 from shotc.planning.path.body import BodyTask, body_line
+from shotc.planning.path.filmed_ahead import Ahead, Faced, faced
 from shotc.planning.path.shots import stack
 from shotc.solvers.conic import Status
 
@@ -30,9 +31,11 @@ class NoTransit(Exception):
 
 
 @lru_cache(maxsize=64)
-def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise) -> MovingLeg:
+def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | None = None) -> MovingLeg:
     """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it.
 
+    ahead : how the shot is to look ahead (``ahead_in``). A camera that looks along its path looks along the
+        new one; its pitch is kept.
     The same leg for the same camera: a refiner looks at it before it is put back, and what was found of it
     then (its times above all) holds for it afterwards.
     """
@@ -42,6 +45,11 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise) -> MovingLeg:
     if abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
     kept = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
+    if ahead is not None and (turned := _facing(drone, leg, camera, ahead)) is not None:
+        whole = stack(
+            turned.position, turned.camera, turned.body, restrict(old.channels(HFOV), turned.position.breaks)
+        )
+        return replace(leg, curve=whole)
     body = _body(drone, leg, camera, old) if kept else None
     kept = body is not None
     body = body or _body(drone, leg, camera, None)
@@ -54,6 +62,12 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise) -> MovingLeg:
         ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
         curve = Piecewise(curve.breaks, ctrl)
     return replace(leg, curve=curve)
+
+
+def _facing(drone: Drone, leg: MovingLeg, camera: Piecewise, ahead: Ahead) -> Faced | None:
+    speed = leg.pace * drone.limits.speed
+    task = BodyTask(camera.channels(0, 1, 2), camera.channels(3), None, None, speed)
+    return faced(drone, ahead, task, camera.channels(3, 4))
 
 
 def _body(drone: Drone, leg: MovingLeg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:

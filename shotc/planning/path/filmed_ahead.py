@@ -1,0 +1,105 @@
+"""Shots on a path whose nose is kept near the course, where ``rules.look_ahead`` asks for it and may.
+
+A camera that looks along its path (``ir.ahead.looks_along``) is led into the cone about the course, the body
+with it. A camera that films something stays as it is, and the body that turns under it is kept in the cone,
+where the gimbal leaves it room there all along the shot. Elsewhere nothing is planned, and nothing judged.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict
+from shotc.geom.vec import wrapped
+from shotc.ir.ahead import looks_along
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR, Shot
+from shotc.planning.path.ahead import KEPT_SHARE, Course, finer_course, near_course
+from shotc.planning.path.body import BodyTask, body_line
+from shotc.solvers.conic import Status
+
+YAW = 0
+ROOM_SHARES = (0.3, 0.6, 0.8)
+"""Of the cone's opening, that are left to a yaw on each piece: more where no way is found with less."""
+
+
+class Ahead(NamedTuple):
+    """What a shot is asked.
+
+    half_angle : of the cone about the course, rad; along : whether its camera looks along its path
+    """
+
+    half_angle: float
+    along: bool
+
+
+class Faced(NamedTuple):
+    """A shot's camera, channels yaw, pitch and more, and the body's yaw, on the breaks of its position."""
+
+    position: Piecewise
+    camera: Piecewise
+    body: Piecewise
+
+
+def ahead_in(mission: MissionIR, shot: Shot) -> Ahead | None:
+    """Return what a shot is asked; None where the mission does not limit where noses look."""
+    half_angle = mission.rules.look_ahead
+    return None if half_angle is None else Ahead(half_angle, looks_along(shot))
+
+
+def faced(drone: Drone, ahead: Ahead, task: BodyTask, camera: Piecewise) -> Faced | None:
+    """Return a shot whose body looks ahead all along it; None where its framing leaves no room for that.
+
+    camera : yaw, pitch and what else, on the task's breaks; its yaw is the task's
+    """
+    if drone.body == "follow-camera" and not ahead.along:
+        return None
+    for share in ROOM_SHARES:
+        course = finer_course(drone, task.position, ahead.half_angle, 2 * share * ahead.half_angle)
+        if course is None:
+            return None
+        course = course.wound(float(task.cam_yaw.ctrl[0, 0, 0]))
+        position, same = restrict(task.position, course.breaks), restrict(camera, course.breaks)
+        turned = _along(drone, ahead, course, same) if ahead.along else same
+        cone = None if turned is None else _cone(drone, course, turned)
+        if turned is None or cone is None:
+            continue
+        within = BodyTask(position, turned.channels(YAW), task.start, task.end, task.speed, cone)
+        status, body = body_line(drone, within)
+        if status in {Status.SOLVED, Status.INACCURATE}:
+            return Faced(position, turned, body)
+    return None
+
+
+def _along(drone: Drone, ahead: Ahead, course: Course, camera: Piecewise) -> Piecewise | None:
+    """Return the camera led into the cone about its course, unless it is there; None without a way."""
+    yaw = camera.ctrl[:, :, YAW]
+    if (yaw >= course.low[:, None]).all() and (yaw <= course.high[:, None]).all():
+        return camera
+    off = wrapped(camera(course.at)[:, YAW] - course.yaw)
+    most = KEPT_SHARE * ahead.half_angle
+    line = near_course(drone, course, course.yaw + np.clip(off, -most, most), ())
+    if isinstance(line, Status):
+        return None
+    return Piecewise(course.breaks, np.concatenate([line.ctrl, camera.ctrl[:, :, 1:]], axis=2))
+
+
+def _cone(drone: Drone, course: Course, camera: Piecewise) -> tuple[Array, Array] | None:
+    """Return the bounds of the body's yaw on each piece, rad; None where the gimbal leaves no room."""
+    yaw = camera.ctrl[:, :, YAW]
+    if drone.body == "follow-camera":
+        low, high = yaw.max(axis=1), yaw.min(axis=1)
+        inside = (low <= course.high).all() and (high >= course.low).all()
+        return (course.low, course.high) if inside else None
+    least, most = drone.gimbal.yaw
+    aside = np.median(
+        0.5 * (yaw.min(axis=1) + yaw.max(axis=1)) - course.yaw.reshape(len(yaw), -1).mean(axis=1)
+    )
+    turns = 2 * pi * round((aside - 0.5 * (least + most)) / (2 * pi))
+    low = np.maximum(course.low + turns, yaw.max(axis=1) - most)
+    high = np.minimum(course.high + turns, yaw.min(axis=1) - least)
+    return (course.low + turns, course.high + turns) if (low < high).all() else None
