@@ -12,14 +12,17 @@ from itertools import pairwise
 from math import cos, dist, sin
 from typing import NamedTuple
 
+from shotc.geom.ease import parts_of
 from shotc.geom.same import Same
 from shotc.geom.vec import Vec3
+from shotc.ir.drone import LensRange
 from shotc.ir.mission import Ideal, Keyframe, MissionIR, Shot
 
 ROUNDS = 5  # in which times and the lengths of ways that depend on them are settled
 LEAST = 0.1  # of the mean way between keyframes: a shorter one, where the camera turns, counts as long
 SAME_PLACE_M = 1e-3
 NEVER = 1e-9  # seconds of a stretch that has no time
+NEARLY = 1.0 - 1e-6  # of a rate: what is left is rounding
 
 
 class Weight(NamedTuple):
@@ -96,6 +99,20 @@ def arrivals(shot: Shot) -> tuple[float, ...]:
     """Return when each keyframe is reached, seconds from the shot's start."""
     assert shot.ideal is not None
     return tuple(share * (shot.timing.duration or 0.0) for share, _ in shot.ideal.points)
+
+
+def zoom_parts(shot: Shot, lens: LensRange | None) -> tuple[int | None, ...]:
+    """Return the parts of ``geom.ease`` in which a lens zooms from each keyframe to the next in its rate.
+
+    None where it is too slow for the time between; a lens of which nothing is known is never that.
+    """
+    arrive, parts = arrivals(shot), list[int | None]()
+    for i, (a, b) in enumerate(pairwise(shot.keyframes)):
+        way = abs(b.hfov - a.hfov)
+        seconds = max(arrive[i + 1] - arrive[i] - a.hold, NEVER)
+        free = lens is None or not lens.zooms or way == 0.0
+        parts.append(1 if free or lens is None else parts_of(NEARLY * lens.rate * seconds / way))
+    return tuple(parts)
 
 
 def way_at(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:

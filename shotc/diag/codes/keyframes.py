@@ -227,6 +227,19 @@ CODES: tuple[CodeInfo, ...] = (
         ("from: target, offset", "from: tower, offset"),
     ),
     _beside(
+        20,
+        "zoom-out-of-time",
+        "the lens is too slow for a zoom from one keyframe to the next, in a shot that follows the mission clock",
+        "The keyframes of a shot of what moves are reached at their times, so a zoom between them has no longer than that. A "
+        "lens takes a zoom no faster than `zoom_rate`, and speeds up and slows down. Zoom less, give it more time, or film with "
+        "a faster lens. In a shot of what stands the drone flies as slowly as the lens needs.",
+        (
+            "{model: x500, home: [0, -30, 0]}",
+            "{model: x500, home: [0, -30, 0], camera: {zoom: [24 mm, 70 mm], zoom_rate: 2 deg/s}}",
+        ),
+        ("offset: [0, -8, 3]}, look_at: runner}\n", "offset: [0, -8, 3]}, look_at: runner, hfov: 34 deg}\n"),
+    ),
+    _beside(
         19,
         "zoom-of-what-moves",
         "a dolly zoom films a target that moves",

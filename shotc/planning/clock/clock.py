@@ -9,8 +9,10 @@ from math import ceil
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.ease import MOST_PARTS
 from shotc.geom.pieces import Mask
-from shotc.ir.keyed import arrivals, is_keyed
+from shotc.ir.drone import LensRange
+from shotc.ir.keyed import arrivals, is_keyed, zoom_parts
 from shotc.ir.mission import Shot
 from shotc.planning.clock.run_up import RunUp
 
@@ -40,8 +42,11 @@ class Clock:
         return np.asarray((middle > self.start) & (middle < self.end))
 
 
-def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp]) -> Clock:
-    """Return the knots of a shot whose first frame is at ``start``, with the ways into and out of it."""
+def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp], lens: LensRange | None) -> Clock:
+    """Return the knots of a shot whose first frame is at ``start``, with the ways into and out of it.
+
+    lens : of its camera
+    """
     duration = shot.timing.duration or 0.0
     end = start + duration
     pieces = int(min(MOST_PIECES, max(FEWEST_PIECES, ceil(duration / PIECE_S))))
@@ -50,7 +55,7 @@ def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp]) -> Clock:
     breaks = np.concatenate(
         [
             np.linspace(start - before, start, first + 1)[:-1],
-            _filmed(shot, start, duration / pieces)
+            _filmed(shot, start, duration / pieces, lens)
             if is_keyed(shot)
             else np.linspace(start, end, pieces + 1),
             np.linspace(end, end + after, last + 1)[1:],
@@ -59,8 +64,10 @@ def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp]) -> Clock:
     return Clock(breaks, start, end)
 
 
-def _filmed(shot: Shot, start: float, step: float) -> Array:
+def _filmed(shot: Shot, start: float, step: float, lens: LensRange | None) -> Array:
     """Return the knots of a film told by keyframes: each is reached and left at one of them.
+
+    So are the ends of the parts in which the lens zooms.
 
     step : seconds of a piece where there is no reason for a shorter one
     """
@@ -69,8 +76,10 @@ def _filmed(shot: Shot, start: float, step: float) -> Array:
     ends = sorted({0.0, duration, *(min(t, duration) for stop in stops for t in stop)})
     kept = ends[:1] + [b for a, b in pairwise(ends) if b - a > ROUNDING_S]
     kept[-1] = duration
-    knots = [
-        start + np.linspace(a, b, max(PIECES_PER_KEYFRAME, ceil((b - a) / step)), endpoint=False)
-        for a, b in pairwise(kept)
-    ]
+    zooms = list(zip((leave for _, leave in stops), zoom_parts(shot, lens), strict=False))
+    knots = []
+    for a, b in pairwise(kept):
+        parts = next((n or MOST_PARTS for leave, n in zooms if abs(leave - a) <= ROUNDING_S), 1)
+        count = parts * ceil(max(PIECES_PER_KEYFRAME, ceil((b - a) / step)) / parts)
+        knots.append(start + np.linspace(a, b, count, endpoint=False))
     return np.append(np.concatenate(knots), start + duration)

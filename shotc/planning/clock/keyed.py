@@ -13,14 +13,14 @@ from itertools import pairwise
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array, Piecewise, concatenate
 from shotc.geom.bspline import IntArray, restrict
 from shotc.geom.camera import View, aim_at
-from shotc.geom.ease import minimum_jerk
+from shotc.geom.ease import MOST_PARTS, control, minimum_jerk
 from shotc.geom.track_array import places as track_places
 from shotc.geom.vec import wrapped
-from shotc.ir.drone import Drone
-from shotc.ir.keyed import arrivals, is_keyed
+from shotc.ir.drone import Drone, LensRange
+from shotc.ir.keyed import arrivals, is_keyed, zoom_parts
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import KeyframeTime, Reference
@@ -35,12 +35,16 @@ SAME_S = 1e-9  # seconds
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
-    """The way from a keyframe to the next one, or a hold, where both are the same; mission time, s."""
+    """The way from a keyframe to the next one, or a hold, where both are the same; mission time, s.
+
+    parts : of ``geom.ease``, in which the lens zooms
+    """
 
     start: float
     end: float
     a: PlacedKeyframe
     b: PlacedKeyframe
+    parts: int
 
     @property
     def follows(self) -> bool:
@@ -52,6 +56,14 @@ class Stretch:
         """Return how much of the way is done at times (M,)."""
         x = np.clip((times - self.start) / (self.end - self.start), 0.0, 1.0)
         return minimum_jerk(x)
+
+    @property
+    def lens(self) -> Piecewise:
+        """The field of view, rad, over mission time."""
+        steps = control(self.parts)
+        knots = [self.start + x * (self.end - self.start) for x, _, _ in steps]
+        ctrl = [[self.a.hfov + y * (self.b.hfov - self.a.hfov) for y in way] for _, _, way in steps]
+        return Piecewise(np.array([*knots, self.end]), np.array(ctrl)[:, :, None])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,17 +79,20 @@ class Keyed:
 
     def hfov(self, times: Array) -> Array:
         """Return the field of view at times (M,), rad."""
-        ends = np.array([[s.a.hfov, s.b.hfov] for s in self.stretches])
-        share, of = self._shares(times)
-        return np.asarray(ends[of, 0] + share * (ends[of, 1] - ends[of, 0]))
+        film = self._lens
+        return np.asarray(film(np.clip(times, film.start, film.end))[:, 0])
 
     def lens(self, breaks: Array) -> Piecewise:
         """Return the field of view as a curve on breaks that hold all knots, constant beyond the film."""
-        every = self.stretches
-        knots = [breaks[0], *(s.start for s in every), every[-1].end, breaks[-1]]
-        ends = [(every[0].a, every[0].a), *((s.a, s.b) for s in every), (every[-1].b, every[-1].b)]
-        ctrl = np.array([[a.hfov] * 3 + [b.hfov] * 3 for a, b in ends])[:, :, None]
-        return restrict(Piecewise(np.array(knots), ctrl), breaks)
+        film = self._lens
+        knots = np.concatenate([breaks[:1], film.breaks, breaks[-1:]])
+        first, last = (np.full((1, 6, 1), k.hfov) for k in (self.stretches[0].a, self.stretches[-1].b))
+        return restrict(Piecewise(knots, np.concatenate([first, film.ctrl, last])), breaks)
+
+    @property
+    def _lens(self) -> Piecewise:
+        """The field of view, rad, over the film."""
+        return concatenate([stretch.lens for stretch in self.stretches])
 
     def aims(self, times: Array, places: Array) -> Array:
         """Return the yaw and the pitch from places (M, 3) at times (M,), shape (M, 2), rad."""
@@ -148,7 +163,7 @@ def keyed_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float)
     """Return a shot placed for its start as what its camera does, or None where no keyframes tell it."""
     if not is_keyed(placed.shot):
         return None
-    return Keyed(mission, drone, tuple(_stretches(placed, start)))
+    return Keyed(mission, drone, tuple(_stretches(placed, start, drone.lens)))
 
 
 def keyframe_times(placed: PlacedShot, start: float) -> tuple[KeyframeTime, ...]:
@@ -158,19 +173,20 @@ def keyframe_times(placed: PlacedShot, start: float) -> tuple[KeyframeTime, ...]
     return tuple(KeyframeTime(placed.shot.id, i, start + t) for i, t in enumerate(arrivals(placed.shot)))
 
 
-def _stretches(placed: PlacedShot, start: float) -> Iterator[Stretch]:
+def _stretches(placed: PlacedShot, start: float, lens: LensRange | None) -> Iterator[Stretch]:
     keyframes, duration = placed.keyframes, placed.shot.timing.duration or 0.0
     arrive = arrivals(placed.shot)
-    stops = [(0.0, arrive[0], keyframes[0], keyframes[0])]
+    parts = zoom_parts(placed.shot, lens)
+    stops = [(0.0, arrive[0], keyframes[0], keyframes[0], 1)]
     for i, (a, b) in enumerate(pairwise(keyframes)):
         leave = arrive[i] + a.hold
-        stops += [(arrive[i], leave, a, a), (leave, arrive[i + 1], a, b)]
-    stops += [(arrive[-1], duration, keyframes[-1], keyframes[-1])]
+        stops += [(arrive[i], leave, a, a, 1), (leave, arrive[i + 1], a, b, parts[i] or MOST_PARTS)]
+    stops += [(arrive[-1], duration, keyframes[-1], keyframes[-1], 1)]
     long = [stop for stop in stops if stop[1] - stop[0] > SAME_S]
     ends = [*(stop[0] for stop in long[1:]), duration]
     begin = 0.0
-    for (_, _, a, b), end in zip(long, ends, strict=True):
-        yield Stretch(start + begin, start + end, a, b)
+    for (_, _, a, b, n), end in zip(long, ends, strict=True):
+        yield Stretch(start + begin, start + end, a, b, n)
         begin = end
 
 

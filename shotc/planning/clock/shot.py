@@ -249,7 +249,7 @@ def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask
     spaces, others = around
     near = (*standing(spaces), *others.moving)
     ways = _ways(camera_task, shot, start, ask, (near, spaces.flight))
-    clock = clock_of(shot, start, ways)
+    clock = clock_of(shot, start, ways, camera_task.drone.lens)
     motions = tuple(linearised(m, clock.breaks) for m in near)
     passing = standing_by(near, clock.breaks, ask.stand)
     bound = bounds_of(camera_task.mission, shot, start)

@@ -7,11 +7,13 @@ judged here where the mission says when the shot begins, and in planning where i
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, sin
+from itertools import pairwise
+from math import ceil, cos, degrees, floor, sin
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.ease import MOST_PARTS
 from shotc.ir.begins import first_start
-from shotc.ir.keyed import arrivals, in_order
+from shotc.ir.keyed import arrivals, in_order, zoom_parts
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
@@ -19,12 +21,17 @@ from shotc.ir.target import Target
 from shotc.passes.resolve.checks.places import blocked, too_low
 from shotc.planning.clearances import clearances_of, free_place, move
 from shotc.planning.framing.moments import moments
+from shotc.rounding import at_least
+
+ROOM = 1.0 - 1.0 / MOST_PARTS - 1e-5
+"""Share of its rate that a lens has on average in a zoom at most: it speeds up and slows down."""
 
 
 def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
     """Yield the faults of where keyframes are, with their lines; each as it is when the camera is there."""
     if not in_order(shot):
         return
+    yield from _zooms(mission, shot)
     drone, start = mission.drone(shot.drone), first_start(mission, shot)
     times = (start + t for t in arrivals(shot))
     for keyframe, then, t in zip(shot.keyframes, moments(mission, shot, start), times, strict=True):
@@ -44,6 +51,33 @@ def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Dia
                 help_ = _by_offset(mission, keyframe, place, t) if apart and place is not None else fault.help
                 diagnostics.append(fault._replace(help=help_))
         yield from ((keyframe.path, fault) for fault in diagnostics)
+
+
+def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
+    """Yield the zooms for which the lens is too slow."""
+    lens, arrive = mission.drone(shot.drone).lens, arrivals(shot)
+    for i, (a, b) in enumerate(pairwise(shot.keyframes)):
+        seconds = arrive[i + 1] - arrive[i] - a.hold
+        if lens is None or zoom_parts(shot, lens)[i] is not None or seconds <= 0.0:
+            continue
+        way, reach = abs(b.hfov - a.hfov), ROOM * lens.rate * seconds
+        inside = degrees(a.hfov + (reach if b.hfov > a.hfov else -reach))
+        nearer = f"{(floor if b.hfov > a.hfov else ceil)(10 * inside) / 10:g}"
+        label = mission.origins.value((*b.path, "hfov"))
+        yield (
+            b.path,
+            Diagnostic(
+                "K020",
+                f"the lens of `{shot.drone}` is too slow for a zoom from {degrees(a.hfov):.4g} to"
+                f" {degrees(b.hfov):.4g} deg in {seconds:.3g} s",
+                (label,),
+                (
+                    f"it has {degrees(lens.rate):.4g} deg/s (`zoom_rate`), and speeds up and slows down:"
+                    f" the zoom takes {at_least(way / (ROOM * lens.rate))} s",
+                ),
+                f"write `hfov: {nearer} deg`, or give it more time",
+            ),
+        )
 
 
 def _level(target: Target) -> bool:

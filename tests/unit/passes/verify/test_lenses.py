@@ -73,16 +73,17 @@ def test_a_plan_that_zooms_too_fast_or_beyond_its_lens_is_refused() -> None:
 
 
 def test_focal_lengths_count_on_the_sensor_or_on_a_frame_of_36_mm() -> None:
-    for camera, widest, longest in (
-        ("zoom: [24 mm, 70 mm]", WIDEST, 2 * atan(18 / 70)),
-        ("sensor: 13.2 mm, focal_length: 8.8 mm, zoom: [8.8 mm, 26.4 mm]", 2 * atan(0.75), 2 * atan(0.25)),
+    sensor = "sensor: 13.2 mm, focal_length: 8.8 mm, zoom: [8.8 mm, 26.4 mm]"
+    for camera, widest, longest, frame in (
+        ("zoom: [24 mm, 70 mm]", WIDEST, 2 * atan(18 / 70), 0.036),
+        (sensor, 2 * atan(0.75), 2 * atan(0.25), 0.0132),
     ):
         text = ZOOM.replace("zoom: [24 mm, 70 mm], zoom_rate: RATE", camera).replace("hfov: 30", "hfov: 32")
         mission, found = resolved(text)
         assert found == []
         assert mission is not None
         drone = mission.drone("cam")
-        assert drone.lens == pytest.approx(LensRange(longest, widest, pi / 18))
+        assert drone.lens == pytest.approx(LensRange(longest, widest, pi / 18, frame))
         assert drone.hfov == pytest.approx(widest)
 
 

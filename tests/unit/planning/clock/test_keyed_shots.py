@@ -292,3 +292,46 @@ shots:
         assert fault.labels[-1].span.line == 6
         assert "move keyframe 1 by so much" in fault.help
         assert "`limits`" not in fault.help
+
+
+ZOOMED = """kind: keyframes
+    target: walker
+    allow: [fast-pan]
+    keyframes:
+      - {at: {from: walker, offset: [0, -12, 5]}, look_at: walker, hfov: 60 deg, time: 0 s, hold: 4}
+      - {at: {from: walker, offset: [2, -12, 5]}, look_at: walker, hfov: 30 deg, time: 14 s, hold: 4}
+"""
+
+
+def zooming(rate: str) -> str:
+    lens = f"home: [10, -25, 0], camera: {{zoom: [24 mm, 70 mm], zoom_rate: {rate}}}"
+    return mission(ZOOMED).replace("home: [10, -25, 0]", lens)
+
+
+@pytest.mark.parametrize("rate", [3.2, 4.5, 20.0])
+def test_a_zoom_by_the_mission_clock_keeps_the_rate_of_the_lens(rate: float) -> None:
+    # 30 deg in 10 s: the step of least jerk would take 5.6 deg/s.
+    plan = compiled_text(zooming(f"{rate} deg/s")).plan
+    assert plan is not None
+    claim = next(c for c in plan.certificate if c.constraint == "zoom rate")
+    assert (claim.method, claim.holds) == ("bounded", True)
+    assert np.degrees(claim.worst) <= min(rate, 5.625) + 1e-3
+    assert np.degrees(claim.worst) > 3.0
+    flight = plan.trajectory.drones[0]
+    (phase,) = (p for p in flight.phases if p.shot == "s")
+    for time, hfov in ((0.0, 60.0), (4.0, 60.0), (14.0, 30.0), (20.0, 30.0)):
+        assert np.degrees(flight.curve(phase.start + time)[HFOV]) == pytest.approx(hfov, abs=1e-6)
+    # The aim goes with the lens: the walker stays in its place while the picture narrows.
+    t = np.linspace(phase.start + 4.0, phase.start + 14.0, 101)
+    frames = seen(plan.trajectory.keyframes.mission, flight, "walker", t)
+    wanted = references(flight, "s", "walker", t)
+    assert np.hypot(frames.u - wanted[:, 0], frames.v - wanted[:, 1]).max() < 0.02
+
+
+def test_a_lens_too_slow_for_its_time_is_told_with_what_it_reaches() -> None:
+    _, (told,) = resolved(zooming("2 deg/s"))
+    assert told.code == "K020"
+    assert "from 60 to 30 deg in 10 s" in told.message
+    assert told.help == "write `hfov: 40.6 deg`, or give it more time"
+    found = compiled_text(zooming("2 deg/s").replace("30 deg", "40.6 deg"))
+    assert found.plan is not None
