@@ -24,6 +24,7 @@ from shotc.passes.verify.ahead import unjudged
 from shotc.passes.verify.energy import ENERGY, J_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
+from shotc.planning.path.shots import TURNS
 from shotc.rounding import at_least, at_most, away
 
 WIDTH = 100
@@ -118,6 +119,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     mission, flown = plan.trajectory.keyframes.mission, plan.trajectory
     facts += [("bent", text) for text in _bent(from_what_was_asked(mission, flown.deviations))]
     facts += [("refined", text) for text in _refined(plan)]
+    facts += [("turns", text) for text in _turns(plan)]
     facts += [("lens", text) for text in _unknown_lenses(mission)]
     facts += [("smoothed", text) for text in _smoothed(mission)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
@@ -164,6 +166,11 @@ def _refined(plan: VerifiedIR) -> list[str]:
     reasons = [(k.removesuffix(REFINED), v) for k, v in plan.trajectory.stats if k.endswith(REFINED)]
     left = [f"not `{shot}`: {why}" for shot, why in reasons if why != DONE]
     return ["; ".join([f"{len(reasons) - len(left)} of {len(reasons)} shots", *left])] if left else []
+
+
+def _turns(plan: VerifiedIR) -> list[str]:
+    """Tell of the shots whose turns are flown by the curve of a method, or why they are not."""
+    return [f"`{k.removesuffix(TURNS)}` {v}" for k, v in plan.trajectory.stats if k.endswith(TURNS)]
 
 
 def _bent(deviations: Iterable[Deviation]) -> list[str]:

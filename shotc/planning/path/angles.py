@@ -12,18 +12,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict, spline, subdivide
 from shotc.geom.camera import aim_at
 from shotc.geom.ease import minimum_jerk
+from shotc.geom.pieces import Mask
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import FramingSpan
+from shotc.planning.path.lens import lens_line
 from shotc.planning.path.lines import SAME_PLACE_M
 from shotc.planning.path.turns import steady
-from shotc.planning.path.unwrapping import Known, shifts, turning
+from shotc.planning.path.unwrapping import Known, PlannedTurn, Turned, turned, turning
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 from shotc.solvers.spline_fit import Fit, fit, within
@@ -73,6 +75,7 @@ class CameraLine:
     """Camera yaw, pitch and field of view over s: ``angles`` has those three channels.
 
     error : rad by which the fit misses the wanted direction at worst, at path parameter ``worst``
+    unsolved : stretches whose yaw the method of headings did not plan: the camera turns steadily there
     """
 
     angles: Piecewise
@@ -80,6 +83,7 @@ class CameraLine:
     error: float
     worst: float
     cuts: tuple[Cut, ...]
+    unsolved: int = 0
 
 
 class _Known(NamedTuple):
@@ -94,7 +98,10 @@ class _Known(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Samples:
-    """Wanted angles in tracked stretches, s, yaw, pitch of shape (M,); binding ones at keyframes, (A,)."""
+    """Wanted angles in tracked stretches, s, yaw, pitch of shape (M,); binding ones at keyframes, (A,).
+
+    planned, unsolved : as in ``unwrapping.Turned``
+    """
 
     s: Array
     yaw: Array
@@ -103,6 +110,17 @@ class _Samples:
     anchor_yaw: Array
     anchor_pitch: Array
     cuts: tuple[Cut, ...]
+    planned: tuple[PlannedTurn, ...] = ()
+    unsolved: int = 0
+
+    def planned_at(self, s: Array) -> tuple[Mask, Array]:
+        """Return where a yaw is planned, and that yaw; 0 elsewhere, of the shape of s."""
+        where, yaw = np.zeros(len(s), dtype=bool), np.zeros(len(s))
+        for turn in self.planned:
+            here = turn.covers(s) & ~where
+            yaw[here] = turn.at(s[here])
+            where |= here
+        return where, yaw
 
     def steady(self, limits: tuple[float, float]) -> Piecewise:
         """Return the turn through the binding angles alone: yaw and pitch."""
@@ -118,11 +136,11 @@ def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLin
     keyframe.
     """
     base = _grid(keyed)
-    hfov = _hfov(keyed)
+    hfov = lens_line(keyed.keyframes, keyed.s)
     samples = _sample(mission, drone, keyed, base, hfov)
     turn = samples.steady(drone.gimbal.pitch)
     best = _line(restrict(turn, base), samples, hfov, Status.SOLVED)
-    if not len(samples.s):
+    if not len(samples.s) and not samples.planned:
         return best
     fitted: CameraLine | None = None
     for finer in FINER:
@@ -132,7 +150,7 @@ def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLin
         if status not in {Status.SOLVED, Status.INACCURATE}:
             continue
         fitted = _line(curve, samples, hfov, status)
-        if fitted.error < CLOSE_RAD:
+        if max(fitted.error, _off_plan(curve, samples)) < CLOSE_RAD:
             break
     return best if fitted is None or best.error < fitted.error else fitted
 
@@ -144,7 +162,15 @@ def _line(curve: Piecewise, samples: _Samples, hfov: Piecewise, status: Status) 
         at = curve(samples.s)
         miss = np.hypot(_across(samples.pitch) * (at[:, 0] - samples.yaw), at[:, 1] - samples.pitch)
         error, worst = float(miss.max()), float(samples.s[int(miss.argmax())])
-    return CameraLine(Piecewise(curve.breaks, ctrl), status, error, worst, samples.cuts)
+    return CameraLine(Piecewise(curve.breaks, ctrl), status, error, worst, samples.cuts, samples.unsolved)
+
+
+def _off_plan(curve: Piecewise, samples: _Samples) -> float:
+    """Return by how much a fit misses the yaw that is planned where nothing is followed, rad at most."""
+    loose = _untracked(samples.s, curve.breaks)
+    where, yaw = samples.planned_at(loose)
+    at = curve(loose)
+    return float(np.where(where, np.abs(at[:, 0] - yaw) * _across(at[:, 1]), 0.0).max(initial=0.0))
 
 
 def _across(pitch: Array) -> Array:
@@ -208,28 +234,6 @@ def _grid(keyed: KeyedPath) -> Array:
     return subdivide(breaks, parts) if parts > 1 else breaks
 
 
-def _hfov(keyed: KeyedPath) -> Piecewise:
-    """Return the field of view over s: monotone between keyframes, and at rest at those the user placed.
-
-    Generated ones that go on zooming are passed at the slope of the parabola through them and their
-    neighbours, at the ends of the one through the last three, but at 5/4 of the lesser slope beside them at
-    most: then the control points of the quintics stay in order.
-    """
-    keys = [i for i in range(len(keyed.s)) if i == 0 or keyed.s[i] > keyed.s[i - 1]]
-    s, wide = keyed.s[keys], np.array([keyed.keyframes[i].hfov for i in keys])
-    slope = np.zeros(len(keys))
-    if len(keys) > 2:
-        placed = np.array([keyed.keyframes[i].placed for i in keys])
-        secant = np.diff(wide) / np.diff(s)
-        before, after = np.concatenate([secant[:1], secant]), np.concatenate([secant, secant[-1:]])
-        goes_on = ~placed & (before * after > 0.0)
-        wished = np.gradient(wide, s, edge_order=2)
-        most = 1.25 * np.minimum(np.abs(before), np.abs(after))
-        slope = np.where(goes_on, np.sign(before) * np.clip(np.sign(before) * wished, 0.0, most), 0.0)
-    still = np.zeros((len(keys), 1))
-    return quintic_hermite(s, wide[:, None], slope[:, None], still)
-
-
 def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
     """Return yaw and pitch near the samples, and where there are none near the steady turn."""
     spacing = float(breaks[-1] - breaks[0]) / max(len(turn.breaks) - 1, 1)
@@ -238,12 +242,16 @@ def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> 
     loose = _untracked(samples.s, breaks)
     at = np.concatenate([samples.s, loose])
     yaw, pitch = (np.concatenate(p) for p in zip((samples.yaw, samples.pitch), turn(loose).T, strict=True))
-    weight = density * np.where(np.arange(len(at)) < len(samples.s), 1.0, FAINT_WEIGHT)
+    tracked = np.arange(len(at)) < len(samples.s)
+    weight = density * np.where(tracked, 1.0, FAINT_WEIGHT)
+    where, planned = samples.planned_at(at)
+    where &= ~tracked
+    yaw, heavy = np.where(where, planned, yaw), np.where(where, density, weight)
     low, high = drone.gimbal.pitch
     shape = (len(breaks) - 1, 6)
     bounds = np.full(shape, low), np.full(shape, high)
     ends = samples.anchor_s, np.clip(samples.anchor_pitch, low, high)
-    yaw_fit = Fit(breaks, at, yaw, weight * _across(pitch) ** 2, samples.anchor_s, samples.anchor_yaw, stiff)
+    yaw_fit = Fit(breaks, at, yaw, heavy * _across(pitch) ** 2, samples.anchor_s, samples.anchor_yaw, stiff)
     yaw_status, yaw_coef = fit(yaw_fit)
     pitch_status, pitch_coef = fit(Fit(breaks, at, pitch, weight, *ends, stiff, *bounds))
     curve = spline(breaks, np.column_stack([yaw_coef, pitch_coef]))
@@ -282,15 +290,15 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
         if anchor is not None and not (anchors and keyed.s[i] <= anchors[-1].s):
             last_yaw = _near(anchor[0], last_yaw)
             anchors.append(_Known(float(keyed.s[i]), last_yaw, anchor[1], group, i))
+    turns = Turned([0.0], (), 0)
     if group:
-        shift = shifts(_places(keyed, samples, anchors), turning(drone, keyed.pace, keyed.headings))
+        turns = turned(_places(keyed, samples, anchors), turning(drone, keyed.pace, keyed.headings))
         samples, anchors = (
-            [k._replace(yaw=k.yaw + shift[k.group]) for k in part] for part in (samples, anchors)
+            [k._replace(yaw=k.yaw + turns.shifts[k.group]) for k in part] for part in (samples, anchors)
         )
     wanted, fixed = (np.array([k[:3] for k in part]).reshape(-1, 3) for part in (samples, anchors))
-    return _Samples(
-        wanted[:, 0], wanted[:, 1], wanted[:, 2], fixed[:, 0], fixed[:, 1], fixed[:, 2], tuple(cuts)
-    )
+    columns = wanted[:, 0], wanted[:, 1], wanted[:, 2], fixed[:, 0], fixed[:, 1], fixed[:, 2]
+    return _Samples(*columns, tuple(cuts), turns.planned, turns.unsolved)
 
 
 def _places(keyed: KeyedPath, samples: list[_Known], anchors: list[_Known]) -> list[Known]:

@@ -1,9 +1,10 @@
 """Which way round the camera turns where it follows nothing: the turns of a whole stretch together.
 
 Following a target fixes the turn between two keyframes, a heading of 360 deg or more states it; all others
-are chosen by a method of ``solvers.headings``, over the time that the stretch takes about. Only the choice
-is taken from there. The curve is the steady turn through the angles chosen (``turns.steady``): it is monotone
-from keyframe to keyframe, where a curve of least acceleration swings back before it turns.
+are chosen by a method of ``solvers.headings``, over the time that the stretch takes about. Of most methods
+only the choice is taken: the curve is the steady turn through the angles chosen (``turns.steady``), monotone
+from keyframe to keyframe, where a curve of least acceleration swings back before it turns. Of those in
+``solvers.headings.FLOWN`` the curve is flown, too.
 """
 
 from __future__ import annotations
@@ -11,17 +12,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.pieces import Mask
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
-from shotc.solvers.headings import DEFAULT
+from shotc.planning.path.turns import steady
+from shotc.solvers.headings import DEFAULT, FLOWN
 from shotc.solvers.headings.solve import solve_headings
-from shotc.solvers.headings.task import HeadingTask, nearest_turns
+from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns
 
 EASE_RATIO = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
+SLOWER = (1.0, 1.5, 2.0, 3.0)  # times that time, where a curve that is to be flown needs more
 LONGEST_KEYFRAMES = 24  # keyframes that are decided together
 
 
@@ -37,6 +42,38 @@ class Turning:
     speed: float
     rate: float
     acceleration: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlannedTurn:
+    """A yaw that a method has planned from one rest to the next.
+
+    clock : about when a path parameter is passed, seconds, over s; yaw : over these seconds, rad
+    """
+
+    clock: Piecewise
+    yaw: Piecewise
+
+    def covers(self, s: Array) -> Mask:
+        """Tell which path parameters it is planned for."""
+        return np.asarray((s >= self.clock.start) & (s <= self.clock.end))
+
+    def at(self, s: Array) -> Array:
+        """Return the yaw at path parameters (M,), rad."""
+        low, high = self.yaw.start, self.yaw.end
+        return np.asarray(self.yaw(np.clip(self.clock(s)[:, 0], low, high))[:, 0])
+
+
+class Turned(NamedTuple):
+    """How a shot's camera turns.
+
+    shifts : by how many rad each group is to be turned, whole turns all
+    planned : turns whose curves are to be flown; unsolved : stretches whose curve the method did not find
+    """
+
+    shifts: list[float]
+    planned: tuple[PlannedTurn, ...]
+    unsolved: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,30 +102,43 @@ def turning(drone: Drone, pace: float, method: str = DEFAULT) -> Turning:
     return Turning(method, pace * limits.speed, pace * rate, pace * acceleration)
 
 
-def shifts(known: list[Known], how: Turning) -> list[float]:
-    """Return by how many rad each group is to be turned, whole turns all; groups count from 0."""
+def turned(known: list[Known], how: Turning) -> Turned:
+    """Return how the camera turns through what is known; groups count from 0."""
     found = [0.0] * (known[-1].group + 1)
+    planned, unsolved = list[PlannedTurn](), 0
     angle, start = known[0].yaw, 0
     for i in range(1, len(known)):
         if not (known[i].rest or i == len(known) - 1 or i - start == LONGEST_KEYFRAMES):
             continue
-        turns = np.diff(_chosen(known[start : i + 1], how))
-        for one, turn in zip(known[start + 1 : i + 1], turns, strict=True):
+        stretch = known[start : i + 1]
+        at, chosen = _chosen(stretch, how)
+        if how.method in FLOWN and chosen.curve is None:
+            unsolved += 1
+        elif how.method in FLOWN and chosen.curve is not None:
+            clock = steady(np.array([k.s for k in stretch]), at)
+            yaw = Piecewise(chosen.curve.breaks, chosen.curve.ctrl + (angle - float(chosen.angles[0])))
+            planned.append(PlannedTurn(clock, yaw))
+        for one, turn in zip(stretch[1:], np.diff(chosen.angles), strict=True):
             angle += float(turn)
             found[one.group] = 2 * pi * round((angle - one.yaw) / (2 * pi))
         start = i
-    return found
+    return Turned(found, tuple(planned), unsolved)
 
 
-def _chosen(known: list[Known], how: Turning) -> Array:
+def _chosen(known: list[Known], how: Turning) -> tuple[Array, Headings]:
+    """Return about when each is passed, seconds, and the turns."""
     yaw = np.array([k.yaw for k in known])
     stated = tuple(_fixed(a, b) for a, b in pairwise(known))
     turns = np.abs([n if t is None else t for t, n in zip(stated, nearest_turns(yaw), strict=True)])
     flown = np.diff([k.s for k in known]) / how.speed
     at = np.concatenate([[0.0], np.cumsum(np.maximum(flown, EASE_RATIO * _shortest(turns, how)))])
-    task = HeadingTask(at, yaw, stated, rate=how.rate, acceleration=how.acceleration)
+    for longer in SLOWER if how.method in FLOWN else SLOWER[:1]:
+        task = HeadingTask(longer * at, yaw, stated, rate=how.rate, acceleration=how.acceleration)
+        found = solve_headings(task, how.method)
+        if found.curve is not None:
+            break
     # Without a solution the first choice is as good: the time pass gives the turn the time that it needs.
-    return solve_headings(task, how.method).angles
+    return task.at, found
 
 
 def _fixed(a: Known, b: Known) -> float | None:

@@ -9,6 +9,8 @@ METHODS: dict[str, str] = {
     "winding": "choose the turns together: least effort, a little for the rate, within the limits",
     "nearest": "turn the shorter way from each keyframe to the next",
     "bounded": "keep the yaw of every keyframe between -180 and 180 deg",
-    "virtual": "plan a point whose direction is the heading (half-planes keep it off the origin)",
+    "virtual": "plan a point whose direction is the heading, kept off the origin, and fly its curve",
 }
+FLOWN = frozenset({"virtual"})
+"""Those whose curves are flown. Of the others the turns are taken, and a steady curve through them."""
 DEFAULT = "winding"

@@ -8,8 +8,17 @@ import numpy as np
 import pytest
 
 from shotc.api import PlanOptions, compile_source
-from shotc.ir.path import CAM_YAW
+from shotc.cli.summary import summary
+from shotc.geom.vec import wrapped
+from shotc.ir.drone import Drone
+from shotc.ir.path import CAM_YAW, MovingLeg, leg_of
+from shotc.ir.trajectory import VerifiedIR
+from shotc.planning.path import unwrapping
+from shotc.planning.path.unwrapping import Known, turned, turning
+from shotc.solvers.conic import Status
 from shotc.solvers.headings import METHODS
+from shotc.solvers.headings.task import Headings, HeadingTask
+from shotc.solvers.headings.virtual import by_virtual
 from tests.support.front_passes import placed
 
 pytestmark = pytest.mark.slow
@@ -50,6 +59,29 @@ def flown(text: str, method: str | None = None):
     return 90.0 - np.degrees(yaw), 90.0 - np.degrees(done.plan.trajectory.drones[0].curve(t)[:, CAM_YAW])
 
 
+def planned_leg(text: str, method: str) -> tuple[MovingLeg, VerifiedIR]:
+    """Return the leg of the one shot, and its plan."""
+    done = compile_source(text.encode(), "mission.yaml", Path(), PlanOptions(refiner="none", headings=method))
+    assert done.plan is not None, [d.message for d in done.diagnostics]
+    path = next(r.output for r in done.reports if r.name == "refine-path")
+    return leg_of(path, "look"), done.plan
+
+
+def who(plan: VerifiedIR) -> tuple[Drone, float]:
+    """Return the drone of a plan, and the pace of its shot."""
+    made = plan.trajectory.keyframes.mission
+    return made.drones[0], made.shots[0].pace
+
+
+def knowns(leg: MovingLeg, headings: tuple[str, ...]) -> list[Known]:
+    """Return what the mission says of the camera's yaw, at the places of its keyframes."""
+    yaw = [float(wrapped(np.pi / 2 - np.radians(float(h)))) for h in headings]
+    last = len(yaw) - 1
+    return [
+        Known(mark.s, y, i, None, i == last) for i, (mark, y) in enumerate(zip(leg.marks, yaw, strict=True))
+    ]
+
+
 def turns(text: str, method: str | None = None) -> list[float]:
     return [round(float(x), 6) for x in np.diff(flown(text, method)[0])]
 
@@ -68,6 +100,28 @@ class TestMethods:
     def test_bounded_stays_within_half_a_turn_of_east(self) -> None:
         # Yaws 100, 80, -110, 150 deg from East.
         assert turns(mission("350", "10", "200", "300"), "bounded") == [20.0, 190.0, -260.0]
+
+    @pytest.mark.parametrize("headings", [("350", "10", "200", "300"), ("0", "178", "357", "170", "10")])
+    def test_the_curve_of_virtual_is_flown_and_that_of_others_is_not(self, headings: tuple[str, ...]) -> None:
+        leg, plan = planned_leg(mission(*headings), "virtual")
+        found = turned(knowns(leg, headings), turning(*who(plan), "virtual"))
+        (turn,) = found.planned
+        s = np.linspace(0.0, leg.curve.end, 1501)
+        assert np.abs(leg.curve(s)[:, CAM_YAW] - turn.at(s)).max() < 1.5e-3
+        # Its turns are those of `nearest`, but on the way it is elsewhere.
+        plain, _ = planned_leg(mission(*headings), "nearest")
+        assert np.degrees(np.abs(plain.curve(s)[:, CAM_YAW] - turn.at(s)).max()) > 20.0
+        told = " ".join(summary(plan, [Path("out/plan.json")], []).split())
+        assert "turns `look` as `virtual` plans them" in told
+
+    def test_where_virtual_finds_no_curve_that_is_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        def none(task: HeadingTask, method: str) -> Headings:
+            return Headings(Status.INFEASIBLE, by_virtual(task).angles, None)
+
+        monkeypatch.setattr(unwrapping, "solve_headings", none)
+        _, plan = planned_leg(mission("0", "90", "120"), "virtual")
+        told = " ".join(summary(plan, [Path("out/plan.json")], []).split())
+        assert "`look` turns steadily in 1 stretches: `virtual` finds no curve" in told
 
     @pytest.mark.parametrize("method", METHODS)
     def test_the_camera_meets_every_heading(self, method: str) -> None:
