@@ -25,8 +25,14 @@ def prove(place: Path, against: MissionFile | None = None) -> PlanReport:
     against : as of ``api.verify_plan``
     """
     path = place / "plan.json" if place.is_dir() else place
+    return verify_plan(bytes_of(path), path.as_posix(), against)
+
+
+def bytes_of(path: Path, most: int = -1) -> bytes:
+    """Return the bytes of a file, ``most`` at most; where it cannot be read, say so and exit."""
     try:
-        data = path.read_bytes()
+        with path.open("rb") as stream:
+            return stream.read(most)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         fault = Diagnostic(
@@ -37,7 +43,6 @@ def prove(place: Path, against: MissionFile | None = None) -> PlanReport:
         )
         console.report([fault], {})
         raise typer.Exit(console.EXIT_REJECTED) from None
-    return verify_plan(data, path.as_posix(), against)
 
 
 def proved(place: Path) -> VerifiedIR:

@@ -1,18 +1,24 @@
-"""``shotc verify``: prove a plan again from its file alone."""
+"""``shotc verify``: prove a plan again from its file alone, or a flight that any tool may have written."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from enum import StrEnum
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from shotc.api import MissionFile, PlanReport
 from shotc.cli import console
 from shotc.cli.inputs import read_mission
-from shotc.cli.plans import PlanPath, prove
+from shotc.cli.plans import bytes_of, prove
 from shotc.diag.render.json import render
+from shotc.importers.flights.read import LARGEST_BYTES, SUFFIXES, is_flight
+
+if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.flightfiles.verify import FlightsReport
 
 
 class Format(StrEnum):
@@ -22,29 +28,104 @@ class Format(StrEnum):
     JSON = "json"
 
 
+FilesArgument = Annotated[
+    list[Path],
+    typer.Argument(metavar="FILE", help="A plan.json or its folder; or files of flights, one a drone."),
+]
 FormatOption = Annotated[Format, typer.Option("--format", help="How to print the certificate.")]
-
-
 AgainstOption = Annotated[
-    str | None, typer.Option("--against", metavar="MISSION", help="Hold the plan to this mission file, too.")
+    str | None,
+    typer.Option("--against", metavar="MISSION", help="Hold the plan, or the flights, to this mission file."),
+]
+DroneOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--drone", metavar="NAME", help="Whose flight a file is; once for every file, in their order."
+    ),
 ]
 
 
-def verify(plan: PlanPath, format: FormatOption = Format.TEXT, against: AgainstOption = None) -> None:
-    """Prove a plan again, trusting nothing but its trajectory and the text of its mission.
+def verify(
+    files: FilesArgument,
+    format: FormatOption = Format.TEXT,
+    against: AgainstOption = None,
+    drone: DroneOption = None,
+) -> None:
+    """Prove a plan again, or prove a flight that any tool may have written.
+
+    Of a plan.json nothing is trusted but its trajectory and the text of its mission. The exit status is 1 if
+    a claim is broken, if the plan says something else than its mission or its proof, or with --against if it
+    is not the plan of that file.
+
+    Other files are held against a mission: its ground, zones, buildings, limits and drones. These are read:
+    .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz (DJI WPML) and .csv (Litchi). Each flight is
+    rebuilt as its machine flies it, on every curve that the machine may take, and proved between its
+    waypoints. What a file cannot tell, for want of a clock, is named and not judged. A file is of the drone
+    that it is named after (`cam1.kmz`; `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or of the one
+    that --drone says.
 
     Prints the certificate: for every claim what was asked, the worst that happens, when, and how that is
-    known. The exit status is 1 if a claim is broken, if the plan says something else than its mission or its
-    proof, or with --against if it is not the plan of that file.
+    known. Of a plan, and of a flight from elsewhere:
 
-    Example: shotc verify out/tower/plan.json --against tower.yaml
+        shotc verify out/tower/plan.json --against tower.yaml
+
+        shotc verify flight.kmz --against tower.yaml --drone cam1
     """
-    report = prove(plan, None if against is None else MissionFile(*read_mission(against)))
+    mission = None if against is None else MissionFile(*read_mission(against))
+    if any(is_flight(file.name) for file in files):
+        _verify_flights(files, mission, drone or (), format)
+    if len(files) > 1 or drone:
+        endings = ", ".join(SUFFIXES)
+        raise typer.BadParameter(f"several files, or --drone, are for flights ({endings})", param_hint="FILE")
+    report = prove(files[0], mission)
     if format is Format.JSON:
         console.out(_document(report))
     else:
         _print(report)
     raise typer.Exit(console.exit_code(report.diagnostics))
+
+
+def _verify_flights(
+    files: Sequence[Path], mission: MissionFile | None, drones: Sequence[str], format: Format
+) -> None:
+    """Prove flights, print what was found, and exit."""
+    other = next((file for file in files if not is_flight(file.name)), None)
+    if other is not None:
+        raise typer.BadParameter(
+            f"`{other}` is no file of a flight; give plans by themselves", param_hint="FILE"
+        )
+    if mission is None:
+        raise typer.BadParameter("flights are held against a mission: give its file", param_hint="--against")
+    from shotc.flightfiles.verify import FlightFile, verify_flights
+
+    read = [FlightFile(bytes_of(file, LARGEST_BYTES + 1), file.as_posix()) for file in files]
+    report = verify_flights(read, mission, drones)
+    if format is Format.JSON:
+        console.out(_flights_document(report))
+    else:
+        _print_flights(report)
+    raise typer.Exit(console.EXIT_CLEAN if report.holds else console.EXIT_REJECTED)
+
+
+def _print_flights(report: FlightsReport) -> None:
+    from shotc.cli.summary import certificate_text
+
+    if report.certificate:
+        console.out(certificate_text(report.certificate))
+    console.report(report.diagnostics, report.sources)
+    for note in report.notes:
+        console.note(note)
+    if report.holds:
+        hard = sum(claim.hard for claim in report.certificate)
+        console.note(f"what is judged holds: {hard} requirements proved")
+
+
+def _flights_document(report: FlightsReport) -> str:
+    from shotc.planfile.codec import encode
+
+    document = json.loads(render(report.diagnostics, report.sources))
+    found = {"holds": report.holds, "certificate": encode(report.certificate), "notes": list(report.notes)}
+    return json.dumps(found | document, indent=2)
 
 
 def _print(report: PlanReport) -> None:

@@ -65,4 +65,57 @@ CODES: tuple[CodeInfo, ...] = (
         "Some heights count from sea level, others from the ground or from a home, and nothing in the file says how "
         "high that is. `--ground` gives its altitude, so that all of them count from it.",
     ),
+    _code(
+        8,
+        "flight-unreadable",
+        "the file of a flight cannot be read",
+        "`shotc verify FILE --against MISSION` reads files of waypoints of at most 4 MB and 2000 points. XML has no "
+        "document type, so no entities; of a `.kmz` the `wpmz/waylines.wpml` is read, no further than 4 MB. The message "
+        "says what the file is instead, or where it breaks off. Export it again.",
+    ),
+    _code(
+        9,
+        "flight-foreign",
+        "the file of a flight is of another sort or version",
+        "A `.plan` is JSON with `mission` and `items` for PX4 or ArduPilot, a `.waypoints` begins with `QGC WPL 110`, a "
+        "`.kmz` holds one wayline of WPML 1.0.0 to 1.0.6, and a table of Litchi names its columns in its first line. "
+        "This file can be read, but is none of these.",
+    ),
+    _code(
+        10,
+        "flight-broken",
+        "an element of a flight is broken, or moves the machine in a way that is not known",
+        "Where a waypoint has no place, a number is none, or an item is a jump or a circle, nobody can say where the "
+        "machine goes, and nothing is assumed. The label is on the element. Mend it, or fly that part by another file.",
+    ),
+    _code(
+        11,
+        "flight-heights",
+        "heights of a flight do not count from one known level",
+        "Heights that count from the take-off differ from those that count from sea level or from the ground by what is "
+        "known at take-off only. Heights over the ellipsoid, or over terrain that the machine follows by its own map, "
+        "cannot be tied to the mission's ground. Let all waypoints count from the take-off.",
+    ),
+    _code(
+        12,
+        "flight-far",
+        "a waypoint is far from the mission",
+        "A waypoint more than 20 km from the drone's pad belongs to another mission, or its latitude and longitude are "
+        "exchanged, or zero. Look at the file, and at `world.origin` of the mission.",
+    ),
+    _code(
+        13,
+        "flight-of-nobody",
+        "it is not known whose flight a file is",
+        "A file is of the drone that it is named after, `cam1.kmz` of `cam1`; the parts of one flight are `cam1-1.kmz`, "
+        "`cam1-2.kmz`. Where the mission has one drone, every file is of that one. `--drone NAME`, once for every file, "
+        "says it otherwise. Two files cannot be the same part of one flight.",
+    ),
+    _code(
+        14,
+        "flight-without-origin",
+        "a flight has latitudes, and the mission has no place on earth",
+        "Waypoints stand at latitudes and longitudes. `world: {origin: {lat: ..., lon: ..., alt: ...}}` ties the "
+        "mission's metres to the globe.",
+    ),
 )

@@ -50,14 +50,17 @@ def _rounded(route: Route, count: int) -> Array:
     return paths.rounded(route.position, route.curve, count)
 
 
-_SPLINES = (
-    *(paths.catmull_rom(alpha) for alpha in (0.5, 0.0, 1.0)),
-    paths.natural,
-    *(paths.handles(share) for share in (0.2, 0.4, 0.6)),
-)
+SPLINES: dict[str, paths.Tangents] = {
+    "a centripetal Catmull-Rom spline": paths.catmull_rom(0.5),
+    "a uniform Catmull-Rom spline": paths.catmull_rom(0.0),
+    "a chordal Catmull-Rom spline": paths.catmull_rom(1.0),
+    "a natural cubic spline": paths.natural,
+    **{f"Bezier curves with handles of {share:g} legs": paths.handles(share) for share in (0.2, 0.4, 0.6)},
+}
+"""Curves that machines of DJI may fly through points, in words."""
 _STRAIGHT: Shape = partial(_cubic, tangents=paths.straight, cut=True)
 CURVED: tuple[Shape, ...] = (
-    *(partial(_cubic, tangents=t, cut=cut) for t, cut in product(_SPLINES, (True, False))),
+    *(partial(_cubic, tangents=t, cut=cut) for t, cut in product(SPLINES.values(), (True, False))),
     _STRAIGHT,
 )
 """Curves through the points, as DJI's machines may fly them."""

@@ -12,6 +12,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from shotc.geom.bernstein import bernstein_basis
+
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -26,11 +28,22 @@ def through(points: Array, stops: Mask, tangents: Tangents, count: int, *, cut: 
 
     stops : (m,), where the machine stands still; cut : whether the curve begins anew there
     """
-    if not cut:
-        return _cubics(points, *tangents(points), count)
-    ends = [0, *(int(i) for i in np.flatnonzero(stops) if 0 < i < len(points) - 1), len(points) - 1]
-    runs = [points[a : b + 1] for a, b in pairwise(ends)]
-    return np.concatenate([_cubics(run, *tangents(run), count) for run in runs])
+    ctrl = cubics(points, stops, tangents, cut=cut)
+    basis = bernstein_basis(3, np.linspace(0.0, 1.0, count + 1))
+    return np.asarray(np.einsum("tk,mkd->mtd", basis, ctrl))
+
+
+def cubics(points: Array, stops: Mask, tangents: Tangents, *, cut: bool) -> Array:
+    """Return the Bernstein control points (m - 1, 4, 3) of the legs of ``through``."""
+    ends = [0, len(points) - 1]
+    if cut:
+        ends[1:1] = (int(i) for i in np.flatnonzero(stops) if 0 < i < len(points) - 1)
+    legs = []
+    for first, last in pairwise(ends):
+        run = points[first : last + 1]
+        leave, reach = tangents(run)
+        legs.append(np.stack([run[:-1], run[:-1] + leave, run[1:] - reach, run[1:]], axis=1))
+    return np.concatenate(legs)
 
 
 def straight(points: Array) -> tuple[Array, Array]:
@@ -93,28 +106,30 @@ def rounded(points: Array, sizes: Array, count: int) -> Array:
     sizes : (m,), metres from an inner point to where its curve begins and ends; a leg begins and ends at the
         middle of a curve, so none goes through its inner points
     """
+    ctrl, bend = corners(points, sizes), count // 8
+    bent = bernstein_basis(3, np.linspace(0.0, 1.0, bend + 1))
+    straight = bernstein_basis(3, np.linspace(0.0, 1.0, count - 2 * bend + 1)[1:-1])
+    parts = [np.einsum("tk,mkd->mtd", basis, ctrl[:, i]) for i, basis in enumerate((bent, straight, bent))]
+    return np.concatenate(parts, axis=1)
+
+
+def corners(points: Array, sizes: Array) -> Array:
+    """Return the Bernstein control points (m - 1, 3, 4, 3) of the legs of ``rounded``: curve, line, curve."""
     way = np.diff(points, axis=0)
     unit = way / np.maximum(np.linalg.norm(way, axis=1), SHORT)[:, None]
-    sizes = sizes.copy()
-    sizes[0] = sizes[-1] = 0.0
-    bend = count // 8
-    half = np.linspace(0.5, 1.0, bend + 1)[:, None, None]
-    leave = _corner(points[:-1], np.concatenate([unit[:1], unit[:-1]]), unit, sizes[:-1], half)
-    reach = _corner(points[1:], unit, np.concatenate([unit[1:], unit[-1:]]), sizes[1:], half - 0.5)
-    share = np.linspace(0.0, 1.0, count - 2 * bend + 1)[1:-1, None, None]
-    between = leave[-1] + share * (reach[0] - leave[-1])
-    return np.asarray(np.concatenate([leave, between, reach]).swapaxes(0, 1))
-
-
-def _corner(points: Array, before: Array, after: Array, sizes: Array, t: Array) -> Array:
-    """Return places (k, m, 3) on the curves round corners, at shares ``t`` (k, 1, 1)."""
-    size = sizes[:, None]
+    size = sizes.copy()[:, None]
+    size[0] = size[-1] = 0.0
+    before, after = np.concatenate([unit[:1], unit]), np.concatenate([unit, unit[-1:]])
     start, end = points - size * before, points + size * after
-    return np.asarray((1 - t) ** 2 * start + 2 * t * (1 - t) * points + t**2 * end)
+    middle = 0.25 * start + 0.5 * points + 0.25 * end
+    leave = np.stack([middle, 0.5 * (points + end), end], axis=1)[:-1]
+    reach = np.stack([start, 0.5 * (start + points), middle], axis=1)[1:]
+    thirds = np.linspace(0.0, 1.0, 4)[None, :, None]
+    line = leave[:, 2:] + thirds * (reach[:, :1] - leave[:, 2:])
+    return np.stack([_raised(leave), line, _raised(reach)], axis=1)
 
 
-def _cubics(points: Array, leave: Array, reach: Array, count: int) -> Array:
-    t = np.linspace(0.0, 1.0, count + 1)[None, :, None]
-    a, d = points[:-1, None], points[1:, None]
-    b, c = a + leave[:, None], d - reach[:, None]
-    return np.asarray((1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t**2 * (1 - t) * c + t**3 * d)
+def _raised(quadratic: Array) -> Array:
+    """Return the control points (m, 4, 3) of quadratics (m, 3, 3) as cubics."""
+    a, b, c = quadratic[:, 0], quadratic[:, 1], quadratic[:, 2]
+    return np.stack([a, (a + 2 * b) / 3, (2 * b + c) / 3, c], axis=1)

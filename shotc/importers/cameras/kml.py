@@ -6,16 +6,13 @@ prefixes. A ``LookAt`` is the camera ``range`` behind the place that it looks at
 
 from __future__ import annotations
 
-import struct
-import zlib
 from collections.abc import Iterator
-from io import BytesIO
 from math import cos, radians, sin
 from statistics import median
 from typing import NamedTuple
-from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 from shotc.geom.vec import Vec3
+from shotc.importers.archive import MAGIC, member
 from shotc.importers.cameras.places import (
     is_place,
     level,
@@ -59,22 +56,10 @@ class View(NamedTuple):
 
 def unpacked(data: bytes) -> bytes | XmlFault:
     """Return the KML in a file: of a KMZ its first document, of anything else the bytes themselves."""
-    if not data.startswith(b"PK"):
+    if not data.startswith(MAGIC):
         return data
-    if len(data) > LARGEST:
-        return XmlFault(f"the file is larger than {LARGEST / 1e6:.0f} MB")
-    try:
-        with ZipFile(BytesIO(data)) as archive:
-            found = next((i for i in archive.infolist() if i.filename.lower().endswith(".kml")), None)
-            if found is None:
-                return XmlFault("it is an archive without a KML document")
-            # Others may ask for any amount of memory; and no more is unpacked than is read.
-            if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-                return XmlFault("its document is packed in a way that KMZ files are not")
-            with archive.open(found) as stream:
-                return stream.read(LARGEST + 1)
-    except (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, struct.error) as fault:
-        return XmlFault(f"it is a broken archive: {fault}")
+    found = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST)
+    return XmlFault(found) if isinstance(found, str) else found
 
 
 def footage(root: Node, asked: Asked, notes: Notes) -> Footage | Refused:

@@ -50,7 +50,7 @@ def footage(text: str, asked: Asked, notes: Notes) -> Footage | Refused:
         notes.assume(table.node, message, "the camera passes through all of them")
     unheard = Notes()
     cameras = list(_cameras(rows, origin, notes, feet=feet))
-    kinds = [{kind for kind, _ in _actions(row, unheard)} for row in rows]
+    kinds = [{kind for kind, _ in actions_of(row, unheard)} for row in rows]
     if any(row.number("speed(m/s)", unheard) or row.number("speed(ft/s)", unheard) for row in rows):
         notes.assume(table.node, "speeds of waypoints are not read", "the drone goes at its own pace")
     takes = recorded(
@@ -77,14 +77,14 @@ def _cameras(rows: list[Row], origin: GeoOrigin, notes: Notes, *, feet: bool) ->
         place = (row.number("latitude", notes) or 0.0, row.number("longitude", notes) or 0.0)
         at = world(origin, *place, unit * (height or 0.0), absolute=False)
         mode, told = row.number("gimbalmode", notes), row.number("gimbalpitchangle", notes)
-        tilted = [value for kind, value in _actions(row, notes) if kind == TILT]
+        tilted = [value for kind, value in actions_of(row, notes) if kind == TILT]
         if mode is not None and mode > 0 and told is not None:
             pitch = told
         pitch = tilted[-1] if tilted else pitch
         heading = row.number("heading(deg)", notes)
         if heading is None:
             notes.assume(row.node, "a waypoint without a heading", "0 deg, North")
-        hold = sum(value for kind, value in _actions(row, notes) if kind == STAY) / 1000.0
+        hold = sum(value for kind, value in actions_of(row, notes) if kind == STAY) / 1000.0
         focus = _focus(row, origin, notes, feet=feet)
         if focus is None or mode != FOCUS:
             reach = reached(row.cells.get("gimbalpitchangle", row.node), pitch, notes)
@@ -104,7 +104,8 @@ def _focus(row: Row, origin: GeoOrigin, notes: Notes, *, feet: bool) -> tuple[fl
     return world(origin, lat, lon, height * (FOOT_M if feet else 1.0), absolute=False)
 
 
-def _actions(row: Row, notes: Notes) -> Iterator[tuple[int, float]]:
+def actions_of(row: Row, notes: Notes) -> Iterator[tuple[int, float]]:
+    """Yield what is done at a waypoint: the numbers of actions and their parameters."""
     for i in ACTIONS:
         kind = row.number(f"actiontype{i}", notes)
         if kind is not None and kind >= 0:

@@ -66,8 +66,17 @@ class _Aim:
     locked: bool = False
 
 
-def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Refused:
-    """Return the takes of a plan: what is recorded, or all waypoints where nothing is."""
+class Opened(NamedTuple):
+    """A plan: its document, the part `mission`, the items in that, and where the whole stands."""
+
+    document: Document
+    mission: dict[str, Any]
+    items: list[Any]
+    whole: Node
+
+
+def opened(data: bytes, name: str) -> Opened | Refused:
+    """Return the parts of a plan; codes I001 where it is no JSON, I002 where it is no plan."""
     document = parse(data.replace(b"\t", b" "), name)  # tabs between values are JSON, and no YAML
     if document.faults:
         fault = document.faults[0]
@@ -77,9 +86,18 @@ def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Ref
     whole = _node(document.values.get((), Span(1, 1, 1, 2)))
     if not isinstance(mission, dict) or not isinstance(listed, list):
         return Refused("I002", "it is no plan of QGroundControl: it has no `mission` with `items`", whole)
+    return Opened(document, mission, listed, whole)
+
+
+def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Refused:
+    """Return the takes of a plan: what is recorded, or all waypoints where nothing is."""
+    plan = opened(data, name)
+    if isinstance(plan, Refused):
+        return plan
+    document, mission, listed, whole = plan
     if len(listed) > MOST_CAMERAS:
         message = f"it has {len(listed)} items; at most {MOST_CAMERAS} are read"
-        return Refused("I001", message, _at(document, "mission", "items", MOST_CAMERAS))
+        return Refused("I001", message, node_at(document, "mission", "items", MOST_CAMERAS))
     items = list(_items(document, listed, notes))
     ways = [item for item in items if item.command in (WAYPOINT, SPLINE)]
     if not ways:
@@ -101,7 +119,7 @@ def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Ref
     for part in ("geoFence", "rallyPoints"):
         found = document.root.get(part)
         if isinstance(found, dict) and any(isinstance(v, list) and v for v in found.values()):
-            notes.assume(_at(document, part), f"`{part}` is not imported", "zones of your own, or none")
+            notes.assume(node_at(document, part), f"`{part}` is not imported", "zones of your own, or none")
     if (fast := next((item for item in items if item.command == SPEED), None)) is not None:
         notes.assume(fast.node, "speeds between waypoints are not read", "the drone goes at its own pace")
     takes = _takes(whole, items, origin, notes)
@@ -110,7 +128,7 @@ def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Ref
 
 def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[Item]:
     for i, item in enumerate(listed):
-        node = _at(document, "mission", "items", i)
+        node = node_at(document, "mission", "items", i)
         command = item.get("command") if isinstance(item, dict) else None
         params = item.get("params") if isinstance(item, dict) else None
         if not isinstance(command, int) or not isinstance(params, list):
@@ -118,7 +136,7 @@ def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[
             what = f"a `{plain(kind, 30)}`" if isinstance(kind, str) else "no simple item"
             notes.assume(node, f"item {i + 1} is {what}", "it is left out")
             continue
-        numbers = [_number(value) for value in params[:PARAMETERS]]
+        numbers = [number_of(value) for value in params[:PARAMETERS]]
         numbers += [None] * (PARAMETERS - len(numbers))
         frame = item.get("frame")
         made = Item(node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers))
@@ -140,10 +158,10 @@ def _origin(
 ) -> GeoOrigin | Refused:
     home = mission.get("plannedHomePosition")
     if home is not None:
-        place = [_number(value) for value in home] if isinstance(home, list) else []
+        place = [number_of(value) for value in home] if isinstance(home, list) else []
         lat, lon, alt = place if len(place) == 3 else (None, None, None)
         if lat is None or lon is None or not is_place(lat, lon):
-            node = _at(document, "mission", "plannedHomePosition")
+            node = node_at(document, "mission", "plannedHomePosition")
             return Refused("I002", "its `plannedHomePosition` is no latitude, longitude and altitude", node)
         return origin_at(lat, lon, asked.ground if asked.ground is not None else (alt or 0.0))
     if asked.ground is None:
@@ -222,13 +240,15 @@ def _camera(item: Item, at: Vec3, heading: float, looks: _Aim, notes: Notes) -> 
     return Camera(item.node, at, bearing % 360.0, reached(item.node, looks.pitch or 0.0, notes))
 
 
-def _number(value: Any) -> float | None:
+def number_of(value: Any) -> float | None:
+    """Return a number of JSON, None for anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     return float(value) if abs(value) < LARGEST_NUMBER else None
 
 
-def _at(document: Document, *path: str | int) -> Node:
+def node_at(document: Document, *path: str | int) -> Node:
+    """Return the place of a value."""
     return _node(document.values.get(path, Span(1, 1, 1, 2)))
 
 

@@ -177,23 +177,26 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
             notes += hidden_by(ir, claim, target_of(claim, rule.code))
         help_ = promise_help(claim, rule.code, shot, certificate)
     else:
-        message = f"{_who(claim)}: {_state(claim, rule.code)}"
+        message = f"{_who(claim)}: {state_of(claim, rule.code)}"
         told = [wind_note(mission, claim), energy_note(claim, certificate)]
         notes += filter(None, [*told, *nearest_part(mission, claim)])
         help_ = advice(mission, claim, rule, phase)
-    limit = f"{_side(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
+    limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     labels = (*_labels(mission, claim, phase, limit), *file_labels(mission, claim))
     return Diagnostic(rule.code, message, labels, tuple(notes), help_)
 
 
-def _state(claim: Claim, code: str) -> str:
+def state_of(claim: Claim, code: str) -> str:
     """Return the worst value beside its limit, with the digits that tell them apart."""
     reached, limit = told_apart(claim.worst, claim.limit, claim.unit)
     state = f"is {reached}" if isfinite(claim.worst) else UNKNOWN.get(code, "has no bound")
-    return f"{_name(claim, code)} {state}, {_side(claim)} {limit} is {'allowed' if claim.upper else 'needed'}"
+    return (
+        f"{_name(claim, code)} {state}, {side_of(claim)} {limit} is {'allowed' if claim.upper else 'needed'}"
+    )
 
 
-def _side(claim: Claim) -> str:
+def side_of(claim: Claim) -> str:
+    """Return the words before a limit."""
     return "at most" if claim.upper else "at least"
 
 
@@ -246,13 +249,18 @@ def _lost(ir: TrajectoryIR, claim: Claim, code: str) -> Diagnostic:
 
 
 def _labels(mission: MissionIR, claim: Claim, phase: Phase | None, limit: str) -> tuple[Label, ...]:
-    find = mission.origins.key if _is_element(mission, claim.path) else mission.origins.value
-    first = find(claim.path, limit)
+    first = limit_label(mission, claim, limit)
     shot = _shot(mission, claim.shot or (phase.shot if phase else None))
     if shot is None:
         return (first,)
     second = mission.origins.key(shot.path, "broken in this shot")
     return (first,) if second.span == first.span else (first, second)
+
+
+def limit_label(mission: MissionIR, claim: Claim, text: str) -> Label:
+    """Return the place of the limit of a claim in the mission."""
+    find = mission.origins.key if _is_element(mission, claim.path) else mission.origins.value
+    return find(claim.path, text)
 
 
 def _is_element(mission: MissionIR, path: KeyPath) -> bool:

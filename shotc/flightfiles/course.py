@@ -1,0 +1,285 @@
+"""Flights by files of waypoints, which have no clock: all ways that a machine may take through the points.
+
+Before the points a machine climbs upright from its pad and goes straight to the first of them; behind them it
+lands upright where its file says so. Times count at the speeds of the file and tell only where on the way a
+thing is: when it is there nobody knows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import hypot, isfinite
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
+from shotc.emit.waypoints import paths
+from shotc.emit.waypoints.geo import Geo, Place, tie
+from shotc.emit.waypoints.models import SPLINES
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.importers.cameras.takes import Refused
+from shotc.importers.flights.points import FAR, Pace, Point, Waypoints
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
+from shotc.ir.phases import Phase, PhaseName
+
+FAR_M = 20_000.0
+"""Metres from the pad beyond which a waypoint belongs to no flight of it."""
+SAME_M = 1e-3
+"""Metres within which two points are one."""
+AT_HOME_M = 1.0
+"""Metres from its pad within which a machine lands at home."""
+BRIEFEST_S = 1e-3
+"""Seconds of the shortest leg."""
+CURVE_SHARE = 0.1
+"""Share of a leg's time in which one of its rounded corners is flown."""
+
+
+class Leg(NamedTuple):
+    """One part of a course.
+
+    start, end : seconds at the file's speeds; to : the point that it leads to; file : that has it
+    speed : along the way, m/s, None where the file says none
+    within : whether it leads from one waypoint to the next
+    """
+
+    start: float
+    end: float
+    to: Point
+    file: str
+    speed: float | None
+    phase: PhaseName
+    within: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """A flight by a file without a clock.
+
+    ways : the curves x, y, z that it may be flown on, cubic, and what each of them is, in words
+    legs : its parts in order, the same of every way
+    landing : metres from the pad to where it lands, None where it stays in the air
+    """
+
+    drone: Drone
+    files: tuple[str, ...]
+    plan: Waypoints
+    ways: tuple[tuple[str, Piecewise], ...]
+    legs: tuple[Leg, ...]
+    landing: float | None
+
+    @property
+    def phases(self) -> tuple[Phase, ...]:
+        """Take-off, the way, and the landing."""
+        spans: dict[PhaseName, Phase] = {}
+        for leg in self.legs:
+            before = spans.get(leg.phase)
+            start = leg.start if before is None else before.start
+            spans[leg.phase] = Phase(leg.phase, None, start, leg.end)
+        return tuple(spans.values())
+
+    def leg_at(self, time: float) -> Leg:
+        """Return the part that is flown at a time."""
+        return next((leg for leg in self.legs if time < leg.end), self.legs[-1])
+
+
+class _Part(NamedTuple):
+    """A leg before it has a time: control points (k, 4, 3) of each way."""
+
+    ctrl: tuple[Array, ...]
+    to: tuple[Point, str]
+    seconds: float
+    speed: float | None
+    phase: PhaseName = "transit"
+    within: bool = False
+
+
+def course_of(
+    mission: MissionIR, drone: Drone, plan: Waypoints, files: Sequence[str]
+) -> Course | tuple[str, Refused]:
+    """Return the course of a drone by the points of its files, or which file is refused; there is an origin.
+
+    files : the name of each point's file
+    """
+    assert mission.origin is not None
+    geo = tie(mission.origin, drone.home)
+    placed: list[tuple[Point, str, Array]] = []
+    for point, file in zip(plan.points, files, strict=True):
+        at = _place(mission, geo, point, drone)
+        if isinstance(at, Refused):
+            return file, at
+        placed.append((point, file, at))
+    landing = None if plan.landing is None else _place(mission, geo, plan.landing, drone)
+    if isinstance(landing, Refused):
+        return files[-1], landing
+    kept = [placed[0]]
+    for point, file, at in placed[1:]:
+        if float(np.linalg.norm(at - kept[-1][2])) < SAME_M:
+            stays = kept.pop()[0].stay + point.stay
+            kept.append((point._replace(stay=stays, stops=True), file, at))
+        else:
+            kept.append((point, file, at))
+    points = np.array([at for _, _, at in kept])
+    models = _models([point for point, _, _ in kept], points, plan)
+    parts = [
+        *_approach(drone, plan, kept[0][:2], (points[0], len(models))),
+        *_legs(drone, plan, kept, [legs for _, legs in models]),
+    ]
+    away = None
+    if landing is not None and plan.landing is not None:
+        away = float(np.linalg.norm(landing[:2] - np.array(drone.home[:2])))
+        to = (plan.landing, kept[-1][1])
+        parts += _landing(drone, (points[-1], landing), to, (len(models), away))
+    ways, legs = _timed(parts)
+    names = [name for name, _ in models]
+    return Course(drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, ways, strict=True)), legs, away)
+
+
+def _landing(
+    drone: Drone, ends: tuple[Array, Array], to: tuple[Point, str], of: tuple[int, float]
+) -> Iterator[_Part]:
+    """Yield the way to above where it lands, and down from there."""
+    (last, place), (count, away) = ends, of
+    above = np.array([place[0], place[1], last[2]])
+    if np.linalg.norm(above - last) > SAME_M:
+        yield _straight((last, above), to, (drone, None), count)
+    foot = np.array(drone.home) if away <= AT_HOME_M else np.array([place[0], place[1], drone.home[2]])
+    yield _straight((above, foot), to, (drone, None), count)._replace(phase="land")
+
+
+def _place(mission: MissionIR, geo: Geo, point: Point, drone: Drone) -> Array | Refused:
+    """Return a point in W; refuse one that is far from the pad."""
+    height = point.height - (geo.home_alt if point.level == "sea" else 0.0)
+    place = geo.point(Place(point.lat, point.lon, height))
+    away = float(np.linalg.norm(place - np.array(drone.home)))
+    if away > FAR_M:
+        turned = geo.point(Place(max(min(point.lon, 89.0), -89.0), point.lat, height))
+        near = float(np.linalg.norm(turned - np.array(drone.home))) < FAR_M
+        message = f"{point.name} is {away / 1000:.0f} km from the pad of `{drone.name}`"
+        help_ = "its latitude and longitude are exchanged" if near else "see world.origin of the mission"
+        return Refused(FAR, message, point.node, help_)
+    if point.level == "ground":
+        place[2] = mission.ground(float(place[0]), float(place[1])) + point.height
+    return place
+
+
+def _models(points: Sequence[Point], places: Array, plan: Waypoints) -> list[tuple[str, list[Array]]]:
+    """Return the ways through the points, in words, each as the control points (k, 4, 3) of its legs."""
+    stops = np.array([point.stops for point in points])
+    if len(points) == 1:
+        return [("straight legs", [])]
+    found = [("straight legs", _each(paths.cubics(places, stops, paths.straight, cut=True)))]
+    bends = plan.family == "dji" and not all(point.straight for point in points)
+    bends |= plan.family == "mavlink" and not all(point.straight for point in points[1:])
+    if bends:
+        for cut in (True, False):
+            ends = "" if not stops[1:-1].any() else ", anew at stops" if cut else ", on through stops"
+            if cut or ends:
+                for name, tangents in SPLINES.items():
+                    found.append((f"{name}{ends}", _each(paths.cubics(places, stops, tangents, cut=cut))))
+    sizes = _sizes(points, places)
+    if sizes.any():
+        found.append(("straight legs with rounded corners", list(paths.corners(places, sizes))))
+    return found
+
+
+def _each(ctrl: Array) -> list[Array]:
+    return list(ctrl[:, None])
+
+
+def _sizes(points: Sequence[Point], places: Array) -> Array:
+    """Return how far from its point each corner is rounded, m; none where the machine stands still."""
+    length = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    shorter = np.minimum(np.append(length, np.inf), np.insert(length, 0, np.inf))
+    asked = np.array([0.0 if point.stops else point.curve for point in points])
+    asked[0] = asked[-1] = 0.0
+    return np.asarray(np.minimum(asked, 0.5 * shorter))
+
+
+def _approach(
+    drone: Drone, plan: Waypoints, to: tuple[Point, str], goal: tuple[Array, int]
+) -> Iterator[_Part]:
+    """Yield the climb from the pad, and the ways to the first point."""
+    first, count = goal
+    home = np.array(drone.home)
+    top = max(float(first[2]), home[2] + plan.climb, home[2] + SAME_M)
+    above = np.array([home[0], home[1], top])
+    yield _straight((home, above), to, (drone, None), count)._replace(phase="takeoff")
+    beside = np.array([first[0], first[1], top])
+    for a, b in ((above, beside), (beside, first)):
+        if np.linalg.norm(b - a) > SAME_M:
+            yield _straight((a, b), to, (drone, None), count)
+
+
+def _legs(
+    drone: Drone, plan: Waypoints, kept: Sequence[tuple[Point, str, Array]], models: Sequence[list[Array]]
+) -> Iterator[_Part]:
+    """Yield the legs from point to point, and the stays at points."""
+    count = len(models)
+    for i, (point, file, at) in enumerate(kept):
+        if point.stay > 0.0:
+            stay = _straight((at, at), (point, file), (drone, None), count)
+            yield stay._replace(seconds=max(point.stay, BRIEFEST_S), speed=0.0)
+        if i + 1 < len(kept):
+            to, name, end = kept[i + 1]
+            lasts, speed = _lasts(end - at, _in_force(drone, plan, point.pace))
+            told = None if point.pace is None else speed
+            yield _Part(tuple(legs[i] for legs in models), (to, name), lasts, told, within=True)
+
+
+def _straight(
+    ends: tuple[Array, Array], to: tuple[Point, str], by: tuple[Drone, Pace | None], count: int
+) -> _Part:
+    a, b = ends
+    share = np.linspace(0.0, 1.0, 4)[:, None]
+    ctrl = (a + share * (b - a))[None]
+    lasts, _ = _lasts(b - a, _in_force(by[0], None, by[1]))
+    return _Part((ctrl,) * count, to, lasts, None)
+
+
+def _in_force(drone: Drone, plan: Waypoints | None, pace: Pace | None) -> Pace:
+    """Return the speeds of a leg: its own, those that the autopilot begins with, or the drone's limits."""
+    own = drone.limits
+    usual = Speeds(own.speed, own.climb, own.descent)
+    if plan is not None and plan.family == "mavlink":
+        usual = DEFAULTS[plan.autopilot]
+    if pace is None:
+        return Pace(usual.ground, usual.climb, usual.descent)
+    if isfinite(pace.along):
+        return pace
+    told = zip(pace[:3], (usual.ground, usual.climb, usual.descent), strict=True)
+    ground, climb, descent = (a if isfinite(a) else b for a, b in told)
+    return Pace(ground, climb, descent)
+
+
+def _lasts(way: Array, pace: Pace) -> tuple[float, float]:
+    """Return how long a straight leg takes, and how fast it is along its way, m/s."""
+    length = float(np.linalg.norm(way))
+    if isfinite(pace.along):
+        lasts = length / pace.along
+    else:
+        lasts = seconds(Speeds(*pace[:3]), hypot(way[0], way[1]), float(way[2]))
+    lasts = max(lasts, BRIEFEST_S)
+    return lasts, length / lasts
+
+
+def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[Leg, ...]]:
+    """Return the ways over the times of their parts, and the legs."""
+    ends = np.cumsum([0.0, *(part.seconds for part in parts)])
+    spans = list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
+    legs = tuple(
+        Leg(start, end, part.to[0], part.to[1], part.speed, part.phase, part.within)
+        for (start, end), part in zip(spans, parts, strict=True)
+    )
+    ways = []
+    for k in range(len(parts[0].ctrl)):
+        breaks: list[NDArray[np.float64]] = [ends[:1]]
+        for (start, end), part in zip(spans, parts, strict=True):
+            inner = [CURVE_SHARE, 1.0 - CURVE_SHARE, 1.0] if len(part.ctrl[k]) == 3 else [1.0]
+            breaks.append(start + (end - start) * np.array(inner))
+            breaks[-1][-1] = end
+        ways.append(Piecewise(np.concatenate(breaks), np.concatenate([part.ctrl[k] for part in parts])))
+    return ways, legs

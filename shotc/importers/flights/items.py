@@ -1,0 +1,226 @@
+"""Mission items of MAVLink: ``.plan`` of QGroundControl, and ``.waypoints`` (QGC WPL 110).
+
+Commands: mavlink.io, common.xml. What moves the machine in a way that is not known here is refused; what does
+not move it is passed over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, NamedTuple
+
+from shotc.importers.cameras.places import number
+from shotc.importers.cameras.qgc import Opened, node_at, number_of, opened
+from shotc.importers.cameras.takes import Refused
+from shotc.importers.flights.points import (
+    BROKEN,
+    FOREIGN,
+    HEIGHTS,
+    UNREADABLE,
+    Level,
+    Pace,
+    Point,
+    Unread,
+    Waypoints,
+    checked,
+    placed,
+    refuse,
+)
+from shotc.importers.notes import plain
+from shotc.importers.xml_tree import Node
+
+WAYPOINT, RETURN, LAND, TAKEOFF, LOITER_TIME, SPLINE, DELAY = 16, 20, 21, 22, 19, 82, 93
+SPEED, GIMBAL, MOUNT = 178, 1000, 205
+LAST_NAV = 95
+"""Commands up to here move the machine."""
+ASTRAY = {
+    17: "circles without end",
+    18: "turns round a place",
+    177: "a jump to another item",
+    179: "a new home",
+}
+LEVELS: dict[int, Level] = {0: "sea", 5: "sea", 3: "home", 6: "home"}
+PX4, ARDUPILOT = 12, 3
+HEADER = "QGC WPL 110"
+PARAMETERS = 7
+CLIMB, DESCENT = 2, 3
+
+
+class Item(NamedTuple):
+    """One command. params : seven numbers, None where there is none."""
+
+    node: Node
+    name: str
+    command: int
+    frame: int
+    params: tuple[float | None, ...]
+
+
+@dataclass(slots=True)
+class _Run:
+    """What has been read so far, and what is in force."""
+
+    pace: Pace = field(default_factory=Pace)
+    points: list[Point] = field(default_factory=list)
+    climb: float = 0.0
+    landing: Point | None = None
+    ending: str = ""
+    stay: float = 0.0
+    pitches: tuple[float, ...] = ()
+
+
+def plan(data: bytes, name: str) -> Waypoints:
+    """Return the points of a ``.plan``."""
+    found = opened(data, name)
+    if isinstance(found, Refused):
+        raise Unread(found._replace(code=FOREIGN if found.code == "I002" else UNREADABLE))
+    firmware = found.mission.get("firmwareType")
+    if firmware not in (PX4, ARDUPILOT):
+        message = f"its `firmwareType` is {plain(str(firmware), 20)}; PX4 is {PX4}, ArduPilot {ARDUPILOT}"
+        refuse(FOREIGN, message, node_at(found.document, "mission", "firmwareType"))
+    return _flown(found.whole, list(_of_plan(found)), "px4" if firmware == PX4 else "ardupilot")
+
+
+def table(text: str) -> Waypoints:
+    """Return the points of a ``.waypoints``; its first row is the home, which a vehicle sets anew."""
+    lines = text.splitlines()
+    start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
+    if not lines or lines[0].strip() != HEADER:
+        refuse(FOREIGN, f"it does not begin with the line `{HEADER}`", start)
+    items = [_row(line, i) for i, line in enumerate(lines[1:], 2) if line.strip()]
+    return _flown(start, items[1:], "ardupilot")
+
+
+def _row(line: str, index: int) -> Item:
+    cells = line.split("\t") if "\t" in line else line.split()
+    node = Node("", index, 1, wide=max(1, len(line)))
+    if len(cells) != 12:
+        refuse(BROKEN, f"it has {len(cells)} columns; a row has 12", node)
+    numbers = [number(cell.strip()) for cell in cells]
+    wrong = next((k for k, value in enumerate(numbers) if value is None), None)
+    if wrong is not None:
+        refuse(BROKEN, f"`{plain(cells[wrong], 20)}` is no number", node)
+    known = [0.0 if value is None else value for value in numbers]
+    return Item(node, f"item {known[0]:.0f}", int(known[3]), int(known[2]), tuple(known[4:11]))
+
+
+def _of_plan(found: Opened) -> Iterator[Item]:
+    for i, item in enumerate(found.items):
+        node = node_at(found.document, "mission", "items", i)
+        inner = item.get("TransectStyleComplexItem") if isinstance(item, dict) else None
+        listed = inner.get("Items") if isinstance(inner, dict) else None
+        if isinstance(listed, list):  # a survey holds the items that it stands for
+            for k, part in enumerate(listed):
+                yield _simple(part, f"item {i + 1}.{k + 1}", node)
+        else:
+            yield _simple(item, f"item {i + 1}", node)
+
+
+def _simple(item: Any, name: str, node: Node) -> Item:
+    command = item.get("command") if isinstance(item, dict) else None
+    params = item.get("params") if isinstance(item, dict) else None
+    frame = item.get("frame") if isinstance(item, dict) else None
+    if not isinstance(command, int) or not isinstance(params, list) or not isinstance(frame, int):
+        kind = item.get("complexItemType") if isinstance(item, dict) else None
+        what = f"a `{plain(kind, 30)}`" if isinstance(kind, str) else "no simple item"
+        message = f"{name} is {what}: it has no `command`, `frame` and `params`"
+        refuse(BROKEN, message, node, "save the plan with its items laid out")
+    numbers = [number_of(value) for value in params[:PARAMETERS]]
+    return Item(node, name, command, frame, (*numbers, *[None] * (PARAMETERS - len(numbers))))
+
+
+def _flown(whole: Node, items: Sequence[Item], autopilot: Literal["px4", "ardupilot"]) -> Waypoints:
+    run = _Run()
+    for item in items:
+        if run.landing is not None or run.ending:
+            break
+        _take(run, item)
+    if not run.landing and not run.ending:
+        run.ending = "it stays in the air there"
+    words = {"px4": "PX4", "ardupilot": "ArduPilot"}[autopilot]
+    points = tuple(run.points)
+    if points:  # what was told behind the last point
+        points = (*points[:-1], _stayed(points[-1], run))
+    return checked(Waypoints(whole, "mavlink", points, words, autopilot, run.climb, run.landing, run.ending))
+
+
+def _take(run: _Run, item: Item) -> None:
+    """Take one item into account."""
+    command, p = item.command, item.params
+    if command in (WAYPOINT, SPLINE, LOITER_TIME):
+        _pass(run, _point(item, straight=command != SPLINE))
+        run.stay = max(p[0] or 0.0, 0.0) if command != SPLINE else 0.0
+    elif command == TAKEOFF:
+        _level(item)
+        run.climb = max(run.climb, p[6] or 0.0)
+    elif command == LAND:
+        run.landing = _landing(run, item)
+    elif command == RETURN:
+        run.ending = "it returns home at a height of its own settings"
+    elif command == DELAY:
+        run.stay += max(p[0] or 0.0, 0.0)
+    else:
+        _do(run, item)
+
+
+def _do(run: _Run, item: Item) -> None:
+    """Take an item that is no place to fly to."""
+    command, p = item.command, item.params
+    if command in ASTRAY or command <= LAST_NAV:
+        what = ASTRAY.get(command, "a way that no model here has")
+        refuse(BROKEN, f"{item.name} is command {command}, {what}, which is not judged", item.node)
+    if command == SPEED:
+        _speed(run, item)
+    elif command in (GIMBAL, MOUNT) and p[0] is not None:
+        run.pitches = (*run.pitches, p[0])
+
+
+def _landing(run: _Run, item: Item) -> Point | None:
+    """Return where it lands: at a place of its own, or where it is."""
+    p = item.params
+    if p[4] is None or p[5] is None or (p[4], p[5]) == (0.0, 0.0):
+        return run.points[-1] if run.points else None
+    return _point(item._replace(params=(*p[:6], p[6] or 0.0)), straight=True)
+
+
+def _pass(run: _Run, point: Point) -> None:
+    """Go to a point at the speeds in force, which belong to the one before it."""
+    if run.points:
+        told = run.pace if run.pace != Pace() else None
+        run.points[-1] = _stayed(run.points[-1], run)._replace(pace=told)
+        run.pitches = ()
+    run.points.append(point)
+
+
+def _stayed(point: Point, run: _Run) -> Point:
+    return point._replace(stay=run.stay, stops=run.stay > 0.0, pitches=run.pitches)
+
+
+def _speed(run: _Run, item: Item) -> None:
+    kind, value = item.params[0] or 0.0, item.params[1]
+    if value is None or value <= 0.0:
+        return
+    if kind == CLIMB:
+        run.pace = run.pace._replace(climb=value)
+    elif kind == DESCENT:
+        run.pace = run.pace._replace(descent=value)
+    else:
+        run.pace = run.pace._replace(ground=value)
+
+
+def _level(item: Item) -> Level:
+    if item.frame not in LEVELS:
+        message = (
+            f"{item.name} counts its height in frame {item.frame}, which nothing here ties to the ground"
+        )
+        refuse(HEIGHTS, message, item.node, "count heights from home (frame 3) or from sea level (frame 0)")
+    return LEVELS[item.frame]
+
+
+def _point(item: Item, *, straight: bool) -> Point:
+    lat, lon, height = item.params[4:7]
+    if lat is None or lon is None or height is None:
+        refuse(BROKEN, f"{item.name} has no latitude, longitude and altitude", item.node)
+    placed(lat, lon, item.name, item.node)
+    return Point(item.node, item.name, lat, lon, height, _level(item), straight=straight)
