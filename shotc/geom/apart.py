@@ -3,11 +3,14 @@
 Heights are stretched so that what two drones keep free between them is a ball, or lies in one. Between two
 formations matched by least squared stretched distance, straight synchronous moves keep
 |(1-s) r0 + s r1|^2 >= ((1-s)^2 + s^2) d^2 >= d^2 / 2, for r0.r1 >= 0: goals that are sqrt(2) balls apart
-stay one ball apart all the way.
+stay one ball apart all the way. On elliptic arcs (``show.geom.arcs``) goals may be as near as the separation.
 """
 
 from math import sqrt
 from typing import Protocol
+
+ROOMIER = 1.001
+"""Goals are farther apart than the separation by this factor, so that moves have something to round."""
 
 
 class Distances(Protocol):
@@ -43,5 +46,10 @@ def ball(apart: Distances) -> float:
 
 
 def spacing(apart: Distances) -> float:
-    """Return the least stretched distance of two goals of one formation, metres."""
+    """Return the least distance of two goals of one formation, in the fleet's own sense, metres."""
+    return ROOMIER * apart.across
+
+
+def straight_spacing(apart: Distances) -> float:
+    """Return the stretched distance of two goals at which straight moves between formations need no proof."""
     return sqrt(2.0) * ball(apart)

@@ -238,17 +238,18 @@ def _middle(ctrl: Array) -> Array:
 
 def box_gap(ctrl: Array, part: Solid) -> Array:
     """Return how far the boxes round control points (M, n + 1, 3) are from the box round a solid, (M,)."""
-    low, high = _box(part)
+    low, high = bounds(part)
     apart = np.maximum(np.maximum(ctrl.min(axis=1) - high, low - ctrl.max(axis=1)), 0.0)
     return norm(apart)
 
 
 def _box_overlap(ctrl: Array, solid: Solid) -> Mask:
-    low, high = _box(solid)
+    low, high = bounds(solid)
     return np.asarray(((ctrl.min(axis=1) <= high) & (ctrl.max(axis=1) >= low)).all(axis=1))
 
 
-def _box(solid: Solid) -> tuple[Array, Array]:
+def bounds(solid: Solid) -> tuple[Array, Array]:
+    """Return the lowest and the highest corner of the box round a solid, shape (3,) each."""
     if isinstance(solid, Cylinder):
         corners = np.array(solid.centre) + np.array([[-solid.radius], [solid.radius]])
     else:

@@ -142,6 +142,8 @@ class Picture(NamedTuple):
     color : of every light; None where the file says, white where it does not
     transition : seconds to it from the picture before it, None for as fast as the pace allows
     hold : seconds that its last frame stands
+    transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
+    proved
     """
 
     source: Source
@@ -150,6 +152,7 @@ class Picture(NamedTuple):
     transition: float | None
     hold: float
     path: KeyPath
+    transition_path: Literal["auto", "straight", "arc"] = "auto"
 
 
 class Display(NamedTuple):

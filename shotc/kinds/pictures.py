@@ -19,7 +19,9 @@ from shotc.spec.fields import (
 )
 from shotc.spec.fieldtypes import FieldType, Text
 from shotc.spec.model import Model, OneOf
-from shotc.units import describe
+from shotc.spec.quantities import Quantity
+from shotc.spec.shorthand import QuantityModel
+from shotc.units import SMALLEST, describe
 
 MOST_PICTURES = 500
 
@@ -101,6 +103,21 @@ class FilesSpec(Model):
     heading: Angle = Field(default=0.0, description="compass bearing to which all are turned")
 
 
+class TransitionSpec(QuantityModel):
+    """How a fleet comes to a picture from the one before, or from its pads."""
+
+    SHORT: ClassVar = ("duration", Quantity("Duration", "duration", SMALLEST["duration"]))
+
+    duration: Duration | None = Field(
+        default=None, description="how long it takes; as fast as the pace allows if silent"
+    )
+    path: Literal["auto", "straight", "arc"] = Field(
+        default="auto",
+        description="straight lines, or arcs on which pictures may be as dense as the separation allows; "
+        "straight where that is proved if silent",
+    )
+
+
 class PictureSpec(Model):
     """One picture of a display."""
 
@@ -122,8 +139,8 @@ class PictureSpec(Model):
     color: LightColor | None = Field(
         default=None, description="of all lights; the file's, or white, if silent"
     )
-    transition: Duration | None = Field(
-        default=None, description="time to it from the picture before; as fast as the pace allows if silent"
+    transition: TransitionSpec | None = Field(
+        default=None, description="how drones come to it from the picture before: a time, or more of it"
     )
     hold: NonNegativeDuration = Field(default=0.0, description="how long its last frame stands")
 

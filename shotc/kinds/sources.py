@@ -6,7 +6,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
 from shotc.kinds.base import Scene
-from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec
+from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec, TransitionSpec
 
 MESHES = (".ply", ".obj", ".stl", ".glb")
 METRES = (".glb",)
@@ -35,7 +35,8 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
         help_ = "write `fill: surface`, or remove it"
         return Diagnostic("D009", "this picture has no outline", (label,), (note,), help_)
     fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
-    return Picture(source, fill, spec.color, spec.transition, spec.hold, path)
+    change = spec.transition or TransitionSpec()
+    return Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path)
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

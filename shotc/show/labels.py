@@ -24,6 +24,13 @@ def word_of(picture: Picture) -> str:
     return KEYS[type(picture.source)]
 
 
+def transition_label(mission: MissionIR, picture: Picture) -> Label:
+    """Return a label on how long the way to a picture takes, or on what says how it is gone."""
+    path = (*picture.path, "transition")
+    longer = (*path, "duration")
+    return mission.origins.value(longer if longer in mission.origins.values else path)
+
+
 def centre_label(mission: MissionIR, picture: Picture, text: str = "") -> Label:
     """Return a label on the centre of a picture."""
     return mission.origins.value((*key_of(picture), "center"), text)

@@ -238,8 +238,7 @@ CODES: tuple[CodeInfo, ...] = (
         "D018",
         "too-many-drones",
         "a fleet does not fit into a picture",
-        "In a picture the drones stand 1.41 times their separation apart (for a cylinder twice), so that straight moves "
-        "from one picture to the next keep it all the way. Balls of that size fill no more than 78 % of the room that "
+        "In a picture the drones stand at least their separation apart. Balls of that size fill no more than 78 % of the room that "
         "they are given (Rogers, 1958), which bounds how many a shape can hold; on a surface, the densest covering "
         "does. Drones for which there is no room stay dark, which `plan` tells (D062); here more than 95 % would. "
         "Make the shape larger, take fewer drones, or a smaller separation.",

@@ -29,6 +29,22 @@ fleets:
 shots:
   - {id: ball, kind: display, fleet: swarm, frames: [{sphere: {center: [0, 0, 40], radius: 10}, hold: 4}]}
 """
+_SWELLING = """\
+shotc: 1
+mission: swell
+world:
+  zones:
+    wall: {keep: out, box: {center: [90, 0, 75], size: [1, 600, 150]}}
+fleets:
+  swarm: {count: 40, layout: {grid: {spacing: 2, origin: [0, 0, 0]}}, model: show-drone, separation: 1.5}
+shots:
+  - id: ball
+    kind: display
+    fleet: swarm
+    frames:
+      - {sphere: {center: [0, 0, 40], radius: 3}, hold: 4}
+      - {sphere: {center: [40, 0, 40], radius: 3}, hold: 4}
+"""
 _TWO = """\
 shotc: 1
 mission: two
@@ -115,9 +131,9 @@ CODES: tuple[CodeInfo, ...] = (
         "Drones that would come too near are pushed apart, all at once and as little as does, until the separation "
         "is proved for every instant. That can fail where there is no time to go round each other. The stretch is "
         "then planned anew with more time, and the least `period` or `transition` found to be enough is what the "
-        "message asks for: written into the mission it gives that very flight. Straight moves between pictures, "
-        "and from pads, never fail where the places are sqrt(2) times the separation apart, so wider pads help, "
-        "too. The message also says what separation the best flight keeps that was found in the time asked for.",
+        "message asks for: written into the mission it gives that very flight. Moves on arcs never need it, nor "
+        "do straight moves between places that are sqrt(2) times the separation apart, so wider pads help, too. The "
+        "message also says what separation the best flight keeps that was found in the time asked for.",
     ),
     _planned(
         "D087",
@@ -140,5 +156,17 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "",
         "other",
+    ),
+    _planned(
+        "D089",
+        "swell-has-no-room",
+        "a fleet has no room to swell on its way from one picture to the next",
+        "Where drones stand nearer than root two times the separation, before or after a move, they fly on arcs about a "
+        "common point, on which any two keep the separation. Half-way the fleet is up to root two times as wide as "
+        "its pictures. That is held to the ground, to `rules.max_height`, to zones and to targets that stand; where "
+        "it is short of room the fleet is led higher, lower or aside. Where nothing helps, give it room, or write "
+        "`transition: {path: straight}` where the drones stand far enough apart.",
+        _SWELLING,
+        ("center: [90, 0, 75]", "center: [21, 0, 75]"),
     ),
 )

@@ -100,9 +100,9 @@ CODES: tuple[CodeInfo, ...] = (
         "more-drones-than-fit",
         Severity.ERROR,
         "more drones than fit into a picture",
-        "So that a fleet can go from picture to picture on straight lines, goals stand sqrt(2) times the separation "
-        "apart. Here more than 95 % of the fleet find no place in the shape and would stay dark. The numbers of "
-        "the help are found by trying: how many drones would fit, how large the picture would have to be, and at which "
+        "Goals stand at least as far apart as the separation asks for, sqrt(2) times as far in animations and where a "
+        "transition is to be straight. Here more than 95 % of the fleet find no place in the shape and would stay dark. "
+        "The numbers of the help are how many drones would fit, how large the picture would have to be, and at which "
         "separation all of them would fit.",
         _PASSING.replace("height: 20}", "height: 0.2}, fill: outline"),
         _PASSING,
@@ -173,12 +173,12 @@ CODES: tuple[CodeInfo, ...] = (
         "D062",
         "dark-drones",
         Severity.WARNING,
-        "a flat picture has no room for all drones, and some stay dark",
+        "a picture has no room for all drones, and some stay dark",
         "The lights of a text or a drawing stand on its strokes, or in its fills: one beside them would be read as part "
-        "of it. Where the strokes hold fewer drones than the fleet has, at the spacing that goals need to pass each "
-        "other, the others stand behind the picture with their lights off, at most half of the fleet (D056 refuses "
-        "more). The numbers of the help have been tried: with each of them all lights shine.",
-        _PASSING.replace("height: 20}", "height: 9}, fill: outline"),
+        "of it. Where a picture holds fewer drones than the fleet has, as near to each other as their separation "
+        "allows, the others stand behind it with their lights off (D056 refuses it where more than 95 % would). The "
+        "numbers of the help are reckoned from how many it holds, and one picture of that size has been laid out.",
+        _PASSING.replace("height: 20}", "height: 5}, fill: outline"),
         _PASSING,
         "plan",
     ),
@@ -187,12 +187,12 @@ CODES: tuple[CodeInfo, ...] = (
         "small-letters",
         Severity.WARNING,
         "letters too small for the distance of the lights",
-        "The smallest letters that are read have five lights in their height, and lights stand as far apart as drones "
-        "need to pass each other between pictures, one above the other usually farther than side by side. In smaller "
+        "The smallest letters that are read have five lights in their height, and lights stand as far apart as the "
+        "separation asks for, one above the other usually farther than side by side. In smaller "
         "letters the lights of one stroke are as near to those of the next as to each other. Small letters are taken to "
         "be seven tenths of a capital.",
         _PASSING.replace("text: GO,", "text: G,")
-        .replace("height: 20}", "height: 5}")
+        .replace("height: 20}", "height: 3.6}")
         .replace("count: 60", "count: 12"),
         _PASSING,
         "plan",

@@ -1,10 +1,10 @@
 """assign-goals: GoalIR to ShowIR.
 
 Takes the goal sets of every fleet. Gives each fleet a flight on one clock: which drone goes to which goal,
-from frame to frame, and when; straight up from the pads, straight from picture to picture, back over the
-pads, straight down. Every move keeps every limit by its own control points and takes the time that is asked
-for, or what the pace of the limits allows. The frames of an animation are the control points of a spline of
-their period (*display*, Sec. IV), which may break limits yet: ``bound-splines`` mends that.
+from frame to frame, and when; straight up from the pads, straight or on arcs from picture to picture, back
+over the pads, straight down. Every move keeps every limit by its own control points and takes the time that
+is asked for, or what the pace of the limits allows. The frames of an animation are the control points of a
+spline of their period (*display*, Sec. IV), which may break limits yet: ``bound-splines`` mends that.
 """
 
 from __future__ import annotations
@@ -54,5 +54,6 @@ def _stats(cast: Cast, director: Director) -> list[tuple[str, float | str]]:
         (f"fleet {name} drones", float(len(flight.coef))),
         (f"fleet {name} control points", float(flight.coef.shape[1])),
         (f"fleet {name} least product", cast.least),
+        (f"fleet {name} arcs", float(director.arcs)),
         (f"fleet {name} time", float(flight.breaks[-1])),
     ]

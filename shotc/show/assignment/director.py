@@ -10,13 +10,13 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
-from shotc.ir.phases import PhaseName
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
 from shotc.show.assignment.lights import lights
+from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import Cast, Scene
-from shotc.show.assignment.score import Score
-from shotc.show.solvers.move import Move, fastest
+from shotc.show.assignment.score import Motion, Score
+from shotc.show.solvers.move import fastest
 
 TINY_S = 1e-6
 """A time missed by less is met, seconds."""
@@ -28,6 +28,7 @@ class Director:
     def __init__(self, mission: MissionIR, fleet: Fleet, cast: Cast) -> None:
         self.mission, self.fleet, self.cast = mission, fleet, cast
         self.score = Score(cast.pads)
+        self.mover = Mover(mission, fleet)
         self.waited = 0.0
         self._found: list[Diagnostic] = []
         self._displays = [
@@ -54,14 +55,19 @@ class Director:
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
         limits = self.fleet.limits
-        ways: tuple[tuple[PhaseName, Array], ...] = (("return", self.cast.over), ("land", self.cast.ends))
-        for name, places in ways:
-            move = fastest(places - self.score.places, limits, 1.0)
-            self.score.move(places, move.s, move.duration)
-            self.score.phase(name)
+        cast, score = self.cast, self.score
+        score.move(cast.over, self.mover.move(score.places, cast.over, 1.0, None))
+        score.phase("return")
+        score.move(cast.ends, fastest(cast.ends - score.places, limits, 1.0))
+        score.phase("land")
         if not self._found and self.score.clock - self.waited > self.fleet.endurance:
             self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
-        return self._found
+        return [*self._found, *self.mover.faults]
+
+    @property
+    def arcs(self) -> int:
+        """Return how many moves are on arcs."""
+        return self.score.arcs
 
     def trajectory(self) -> FleetTrajectory:
         """Return the flight."""
@@ -78,15 +84,15 @@ class Director:
         here = score.places if self._done else self.cast.above
         rise = fastest(here - score.places, self.fleet.limits, 1.0)
         lead = 0.0 if self._done else rise.duration
-        move = fastest(scenes[0].places - here, self.fleet.limits, display.pace)
+        move = self.mover.move(here, scenes[0].places, display.pace, first)
         duration = self._duration(first, here, scenes[0].places, move)
         wait = self._wait(display, score.clock + lead + duration, ready)
         score.stand(wait)
         if not self._done:
             self.waited = wait
-            score.move(here, rise.s, rise.duration)
+            score.move(here, rise)
             score.phase("takeoff")
-        score.move(scenes[0].places, move.s, duration)
+        score.move(scenes[0].places, move, duration)
         score.phase("transit")
         self._pictures(display, scenes)
         score.phase("shot", display.id)
@@ -104,9 +110,9 @@ class Director:
         for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
             picture, frames = display.pictures[number], tuple(group)
             if frames[0] is not scenes[0]:
-                move = fastest(frames[0].places - self.score.places, self.fleet.limits, display.pace)
+                move = self.mover.move(self.score.places, frames[0].places, display.pace, picture)
                 duration = self._duration(picture, self.score.places, frames[0].places, move)
-                self.score.move(frames[0].places, move.s, duration)
+                self.score.move(frames[0].places, move, duration)
             self._show(display, picture, frames)
         if self.score.clock <= before:
             self._found.append(faults.no_time(self.mission, display))
@@ -121,11 +127,11 @@ class Director:
         for scene, start, end in zip(frames, times, ends, strict=True):
             score.shown.append(Shown(display.id, scene.frame.picture, scene.frame.index, start, end))
 
-    def _duration(self, picture: Picture, here: Array, there: Array, move: Move) -> float:
+    def _duration(self, picture: Picture, here: Array, there: Array, move: Motion) -> float:
         """Return how long a move takes: as long as is asked for, if that can be."""
         if picture.transition is None:
             return move.duration
-        full = fastest(there - here, self.fleet.limits, 1.0)
+        full = self.mover.move(here, there, 1.0, picture)
         if picture.transition >= full.duration - TINY_S:
             return max(picture.transition, full.duration)
         way = float(np.linalg.norm((there - here)[full.drone]))

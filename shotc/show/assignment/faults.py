@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.apart import spacing, straight_spacing, stretch
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display, Fleet, Picture, drone_names
 from shotc.rounding import at_least, plain
-from shotc.show.solvers.move import Move
+from shotc.show.assignment.score import Motion
+from shotc.show.assignment.swell import Lack
+from shotc.show.labels import transition_label
 
 UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
 
 
-def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Move, way: float) -> Diagnostic:
+def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, way: float) -> Diagnostic:
     """Return D080: a transition is asked to be shorter than the limits allow; way : of whom it binds, m."""
     origins, name = mission.origins, drone_names(fleet)[least.drone]
     limit = getattr(fleet.limits, least.limit)
@@ -24,7 +27,7 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Move, wa
         f"the transition is given {plain(picture.transition or 0.0)} s, but {shortest} s is the shortest "
         "possible",
         (
-            origins.value((*picture.path, "transition")),
+            transition_label(mission, picture),
             origins.value((*fleet.path, "limits", least.limit), "what binds"),
         ),
         (
@@ -81,4 +84,29 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
         ),
         ("it has one picture, which is not held",),
         "write `hold: 5` in the picture, or how long it is to stand",
+    )
+
+
+def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Lack) -> Diagnostic:
+    """Return D089: the fleet swells on its arcs into the ground, above its height, or into what stands."""
+    origins, metres = mission.origins, at_least(lack.metres)
+    if lack.of is None:
+        what, beside = "the ground or its greatest height", origins.key(("rules",), "the rules")
+    else:
+        what, beside = lack.of.owner.words, origins.key(lack.of.owner.path, "the obstacle")
+    where = origins.key(fleet.path if picture is None else picture.path)
+    to = "on its way home" if picture is None else "on its way to this picture"
+    far = straight_spacing(fleet.apart)
+    return Diagnostic(
+        "D089",
+        f"fleet `{fleet.name}` swells into {what} {to}: {metres} m are missing",
+        (where, beside),
+        (
+            "on arcs a fleet is up to 1.42 times as wide half-way as its wider picture; it was led over and "
+            "past what stands there, in vain",
+            f"straight ways need no such room: goals and pads {at_least(far)} m apart on a level, "
+            f"{at_least(far / stretch(fleet.apart))} m upright, before and after, allow them",
+        ),
+        f"place its pictures {metres} m farther away from there, make them "
+        f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones",
     )

@@ -15,6 +15,10 @@ from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory, Lights, Shown
 from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import DIGITS
+from shotc.show.solvers.arc_move import ArcMove
+from shotc.show.solvers.move import Move
+
+Motion = Move | ArcMove
 
 
 class Score:
@@ -24,6 +28,7 @@ class Score:
         self.places = places
         self.phases: list[Phase] = []
         self.shown: list[Shown] = []
+        self.arcs = 0
         self._points = [places, places, places]
         self._breaks = [0.0]
 
@@ -37,12 +42,12 @@ class Score:
         if seconds > 0.0:
             self._add([self.places], seconds)
 
-    def move(self, places: Array, s: Array, duration: float) -> None:
-        """Go straight, from stop to stop; s : of a ``fleet_move.Move``, shape (P + 3,)."""
-        way = places - self.places
-        between = [np.round(self.places + share * way, DIGITS) for share in s[3:-3]]
-        self._add([*between, places, places, places], duration / (len(s) - 3))
+    def move(self, places: Array, move: Motion, duration: float | None = None) -> None:
+        """Go from stop to stop, in so many seconds if they are given."""
+        between = [np.round(points, DIGITS) for points in move.between(self.places, places)]
+        self._add([*between, places, places, places], (duration or move.duration) / move.pieces)
         self.places = places
+        self.arcs += isinstance(move, ArcMove)
 
     def animate(self, frames: Sequence[Array], period: float) -> list[float]:
         """Show frames one after another, the last one at a stop; return the time of each.

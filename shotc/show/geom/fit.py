@@ -1,8 +1,8 @@
 """How many drones a shape can hold at most: an upper bound, so that nobody is refused who might fit.
 
-Goals of a picture are spaced by the square root of two times the separation, so that straight moves from
-picture to picture keep it (for a cylinder the square root of two more), in space stretched along z by the
-horizontal over the vertical distance. Balls of that diameter about them do not overlap.
+Goals of a picture are at least the separation apart, in space stretched along z by the horizontal over the
+vertical distance. Balls of that diameter about them do not overlap, whether the drones keep those free or
+cylinders.
 """
 
 from __future__ import annotations

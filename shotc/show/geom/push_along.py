@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
-from shotc.show.geom.push_apart import Hold, Leash, Numbers, grain, leashed, settled
+from shotc.show.geom.push_apart import Hold, Leash, Numbers, close_pairs, grain, leashed, settled
 
 FELL = 0.5
 """Goals that go at a time, for each least distance that all pairs lack together; the rest may part then."""
@@ -16,25 +16,31 @@ ASUNDER = 4.0
 """How far apart those are, in least distances: what they leave is shared by all around."""
 
 
-def push_along(goals: Array, shape: Array, least: float, slack: float, hold: Hold) -> Array | None:
+def push_along(
+    goals: Array, shape: Array, least: float, slack: float, hold: Hold, *, upright: bool = False
+) -> Array | None:
     """Return goals on a shape, none nearer than ``least`` to another, or None where they find no room.
 
     goals : shape (n, D); shape : points (M, D) that are to be shown, in the metric of the fleet, both
+    upright : whether distances are those of ``push_apart.Close``
     slack : metres that a goal may be off the shape, to which the gaps between its points are added. Goals
     are drawn that near first, wherever they come from: a centroid of two strokes lies between them.
     """
     leash = _leash(cKDTree(shape), slack, len(goals))
-    goals, apart = settled(leashed(goals, leash.shape, leash.lengths), leash, least, hold)
+    goals, apart = settled(leashed(goals, leash.shape, leash.lengths), leash, least, hold, upright=upright)
     return goals if apart else None
 
 
-def thinned(goals: Array, shape: Array, least: float, slack: float, hold: Hold) -> Array:
+def thinned(
+    goals: Array, shape: Array, least: float, slack: float, hold: Hold, *, upright: bool = False
+) -> Array:
     """Return as many of the goals as find room, (m, D), pushed as by ``push_along``, the worst taken out."""
     leash = _leash(cKDTree(shape), slack, len(goals))
     goals = leashed(goals, leash.shape, leash.lengths)
     while True:
-        goals, _ = settled(goals, replace(leash, lengths=leash.lengths[: len(goals)]), least, hold)
-        felled = _in_the_way(goals, least)
+        shorter = replace(leash, lengths=leash.lengths[: len(goals)])
+        goals, _ = settled(goals, shorter, least, hold, upright=upright)
+        felled = _in_the_way(goals, least, upright)
         if not len(felled):
             return goals
         goals = np.delete(goals, felled, axis=0)
@@ -44,11 +50,11 @@ def _leash(tree: cKDTree, slack: float, number: int) -> Leash:
     return Leash(tree, np.full(number, slack + grain(tree)))
 
 
-def _in_the_way(goals: Array, least: float) -> Numbers:
+def _in_the_way(goals: Array, least: float, upright: bool) -> Numbers:
     """Return a few goals that are too near to others, far from each other, the worst first."""
-    pairs = cKDTree(goals).query_pairs(least * (1.0 - 1e-12), output_type="ndarray")
-    lack = least - np.linalg.norm(goals[pairs[:, 0]] - goals[pairs[:, 1]], axis=1)
-    lacks = np.bincount(pairs.T.ravel(), np.tile(lack, 2), len(goals))
+    close = close_pairs(goals, least, upright)
+    lack = least - close.distance
+    lacks = np.bincount(np.concatenate([close.first, close.second]), np.tile(lack, 2), len(goals))
     most = int(np.ceil(FELL * float(lack.sum()) / least))
     found: list[int] = []
     for k in np.argsort(-lacks, kind="stable")[: int((lacks > 0).sum())]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,18 +28,20 @@ Hold = Callable[[Array, Array], Array]
 """From goals (n, 3) and where a push takes them, to where they may go."""
 
 
-def push_apart(goals: Array, shape: Array, least: float, hold: Hold) -> Array | None:
+def push_apart(
+    goals: Array, shape: Array, least: float, hold: Hold, *, upright: bool = False
+) -> Array | None:
     """Return goals of which no two are nearer than ``least``, or None where so many do not fit.
 
     goals : shape (n, 3); shape : points (M, 3) that are to be shown, as dense as k-means had them; in the
-    metric of the fleet, both. Every pair that is too near parts along its own line, all pairs at once,
-    each goal by half of what is missing; none goes farther than ``SLACK`` from the shape, or where ``hold``
-    does not let it.
+    metric of the fleet, both; upright : whether distances are those of ``Close``. Every pair that is too
+    near parts along its own line, all pairs at once, each goal by half of what is missing; none goes farther
+    than ``SLACK`` from the shape, or where ``hold`` does not let it.
     """
     tree = cKDTree(shape)
     # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
     leash = np.maximum(SLACK * least + grain(tree), tree.query(goals)[0])
-    goals, apart = settled(goals, Leash(tree, leash, LOOSER), least, hold)
+    goals, apart = settled(goals, Leash(tree, leash, LOOSER), least, hold, upright=upright)
     return goals if apart else None
 
 
@@ -59,11 +62,13 @@ class Leash:
         return leashed(goals, self.shape, self.lengths[which] * (1.0 + self.looser * done / ROUNDS))
 
 
-def settled(goals: Array, leash: Leash, least: float, hold: Hold) -> tuple[Array, bool]:
+def settled(
+    goals: Array, leash: Leash, least: float, hold: Hold, *, upright: bool = False
+) -> tuple[Array, bool]:
     """Push goals apart until they are, or until that leads no further; return them, and whether they are."""
     missing = float("inf")
     for done in range(ROUNDS):
-        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20))
+        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20), upright)
         if not lacking:
             return goals, True
         if done % PATIENCE == 0:
@@ -74,7 +79,7 @@ def settled(goals: Array, leash: Leash, least: float, hold: Hold) -> tuple[Array
         wanted = leash.drawn(goals[moving] + push[moving], moving, done)
         goals = goals.copy()
         goals[moving] = hold(goals[moving], wanted)
-    return goals, not _pushes(goals, least, BEYOND)[1]
+    return goals, not _pushes(goals, least, BEYOND, upright)[1]
 
 
 def nearest_pair(goals: Array) -> float:
@@ -84,17 +89,45 @@ def nearest_pair(goals: Array) -> float:
     return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
 
 
-def _pushes(goals: Array, least: float, beyond: float) -> tuple[Array, float]:
+class Close(NamedTuple):
+    """Pairs of goals that are too near.
+
+    first, second : their numbers, (P,); apart : from the second to the first, (P, D), of drones that keep
+    upright cylinders free the part of it that keeps them more apart, level or upright; distance : its
+    length, (P,)
+    """
+
+    first: Numbers
+    second: Numbers
+    apart: Array
+    distance: Array
+
+
+def close_pairs(goals: Array, least: float, upright: bool) -> Close:
+    """Return the pairs of goals nearer than a distance; upright : whether that is of cylinders."""
+    least *= 1.0 - 1e-12
+    pairs = cKDTree(goals).query_pairs(least * (np.sqrt(2.0) if upright else 1.0), output_type="ndarray")
+    first, second = pairs[np.lexsort(pairs.T[::-1])].T
+    apart = goals[first] - goals[second]
+    if upright:
+        level = np.sqrt(np.einsum("pd,pd->p", apart[:, :-1], apart[:, :-1])) >= np.abs(apart[:, -1])
+        apart[level, -1] = 0.0
+        apart[~level, :-1] = 0.0
+    distance = np.sqrt(np.einsum("pd,pd->p", apart, apart))
+    if upright:
+        near = distance < least
+        return Close(first[near], second[near], apart[near], distance[near])
+    return Close(first, second, apart, distance)
+
+
+def _pushes(goals: Array, least: float, beyond: float, upright: bool) -> tuple[Array, float]:
     """Return by how much each goal is pushed, (n, D), and how much distance all pairs lack together.
 
     beyond : share of the least distance that a push aims beyond it
     """
-    pairs = cKDTree(goals).query_pairs(least * (1.0 - 1e-12), output_type="ndarray")
-    if not len(pairs):
+    first, second, apart, distance = close_pairs(goals, least, upright)
+    if not len(first):
         return np.zeros_like(goals), 0.0
-    first, second = pairs[np.lexsort(pairs.T[::-1])].T
-    apart = goals[first] - goals[second]
-    distance = np.sqrt(np.einsum("pd,pd->p", apart, apart))
     apart[distance < 1e-9] = np.eye(goals.shape[1])[0]  # at one place: any way will do
     share = (least * (1.0 + beyond) - distance) / 2.0 / np.maximum(distance, 1e-9)
     share[distance < 1e-9] = least / 2.0

@@ -2,8 +2,9 @@
 
 Takes the pictures of a mission's displays and gives a goal set for every frame: points of the shape, their
 centroids, adjusted for the audience (*display* Section III), then moved apart. It guarantees that no two
-goals of a frame are nearer than straight moves between pictures need, and that all are clear of what stands
-and of the ground. Frames of one picture follow each other: each begins with the goals of the one before.
+goals of a frame are nearer than the separation allows, and no nearer than straight moves between pictures
+need where that has room; and that all are clear of what stands and of the ground. Frames of one picture
+follow each other: each begins with the goals of the one before.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from shotc.diag.registry import has_errors
-from shotc.geom.apart import spacing, stretch
+from shotc.geom.apart import spacing, straight_spacing, stretch
 from shotc.ir.fleet import FleetGoals, GoalIR
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
@@ -52,6 +53,8 @@ def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContex
         number=len(fleet.pads),
         least=spacing(fleet.apart),
         stretch=stretch(fleet.apart),
+        upright=fleet.apart.shape == "cylinder",
+        straight=straight_spacing(fleet.apart),
         viewpoint=None if display.viewpoint is None else np.array(display.viewpoint),
         weight=display.weight,
         room=room_of(mission, fleet),

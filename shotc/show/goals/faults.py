@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.apart import spacing, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
@@ -16,6 +15,7 @@ from shotc.rounding import at_least, at_most
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.remedies import Remedies
 from shotc.show.goals.room import Room, lack_of, least_shift
+from shotc.show.goals.spaced import Setting
 
 KEYS = {
     Sphere: "sphere",
@@ -82,31 +82,35 @@ def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> 
     )
 
 
-def too_many(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies) -> Diagnostic:
+def too_many(
+    mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, setting: Setting
+) -> Diagnostic:
     """Say that a fleet does not fit into a picture, how many would, and what else would do."""
     message = f"{len(fleet.pads)} drones do not fit into the picture"
     if ways.number is not None:
         message += f"; about {ways.number} would"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
-    return Diagnostic("D056", message, labels, (passing(fleet),), _ways(fleet, ways, "show another picture"))
+    return Diagnostic("D056", message, labels, (apart(setting),), _ways(fleet, ways, "show another picture"))
 
 
-def too_dark(mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, number: int) -> Diagnostic:
+def too_dark(
+    mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, number: int, setting: Setting
+) -> Diagnostic:
     """Warn of drones for which a picture has no room, and whose lights are off."""
     dark, full = len(fleet.pads) - number, len(fleet.pads)
     message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
     help_ = _ways(fleet, ways, "make it larger")
-    return Diagnostic("D062", message, labels, (passing(fleet),), help_)
+    return Diagnostic("D062", message, labels, (apart(setting),), help_)
 
 
-def passing(fleet: Fleet) -> str:
+def apart(setting: Setting) -> str:
     """Say how far apart goals are, and why."""
-    apart = fleet.apart
-    return (
-        f"so that drones can pass each other between pictures, goals are {spacing(apart):.2f} m apart on a "
-        f"level and {spacing(apart) / stretch(apart):.2f} m one above the other"
-    )
+    upright = setting.least / setting.stretch
+    far = f"{setting.least:.2f} m apart on a level and {upright:.2f} m one above the other"
+    if setting.least < setting.straight:
+        return f"goals are as near as the separation allows, {far}"
+    return f"so that drones can pass each other on straight ways, goals are {far}"
 
 
 def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import ceil
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import spacing, stretch
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet, Lettering, Picture
 from shotc.rounding import at_most
 from shotc.show.geom.sizes import enlarged, size_words
 from shotc.show.goals.body import Fill
-from shotc.show.goals.faults import passing, place_of
+from shotc.show.goals.faults import apart, place_of
 from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.spaced import Setting
 
 DOTS = 5
 """Lights in the height of a letter, fewer of which make none: the smallest fonts have five."""
@@ -53,16 +53,16 @@ def too_few_lights(
     return Diagnostic("D057", message, (place_of(mission, picture),), (note,), help_)
 
 
-def too_small(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
+def too_small(mission: MissionIR, fleet: Fleet, picture: Picture, setting: Setting) -> Diagnostic | None:
     """Warn of letters so low that lights of a stroke are as near to the next one as to each other."""
     source = picture.source
     if not isinstance(source, Lettering):
         return None
     share = SMALL if any(letter.islower() for letter in source.text) else 1.0
-    needed = (DOTS - 1) * spacing(fleet.apart) / stretch(fleet.apart) / share
+    needed = (DOTS - 1) * setting.least / setting.stretch / share
     if source.height >= needed * (1.0 - 1e-9):
         return None
-    notes = (passing(fleet), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")
+    notes = (apart(setting), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")
     larger = enlarged(picture, needed / source.height, mission.rules.over_ground(fleet.radius))
     message = f"letters {source.height:.4g} m high are too small to be read"
     help_ = f"make them larger (`{size_words(source, larger.source)}`)"

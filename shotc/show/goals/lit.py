@@ -3,38 +3,55 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil, sqrt
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.fit import MOST_DARK_SHARE
+from shotc.show.geom.lattice import Mould, laid
 from shotc.show.geom.push_along import push_along, thinned
+from shotc.show.geom.push_apart import grain
 from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.edges import along_edges
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.spaced import Placed, Setting
+from shotc.show.goals.spaced import Draw, Placed, Setting, evenly
 
+LEAST_FLAT = 10_000
+"""Points of any flat picture, where a light beside a stroke is seen."""
 SLACK_SHARES = (0.1, 0.2)
 """Shares of the spacing by which a light may be off its stroke. The second, at which letters look uneven,
 is for where it gives all lights room."""
-ONE_IN = 50
-"""One in so many lights more is not looked for."""
+SPARE = 1.1
+"""Lights with which thinning begins, for each that strokes of their area and length could hold at most."""
+ONE_IN = 20
+"""One in so many lights more has a lattice to hold to be taken: it looks regular, and strokes do not."""
+DENSE = 20
+"""Points a light of what is drawn to find how many lights strokes hold."""
 
 
 class Lit(NamedTuple):
-    """Goals of a flat picture, shape (n, 3): the first ``number`` show it, the others are dark, behind it."""
+    """Goals of a frame, shape (n, 3): the first ``number`` show it, the others are dark, behind it.
+
+    lattice : whether those are in a lattice
+    """
 
     points: Array
     number: int
+    lattice: bool = False
 
 
 def on_strokes(body: FlatBody, fill: Fill, goals: Placed, setting: Setting) -> Placed:
     """Return the goals of a flat picture's centroids, or of its edges, in its plane."""
-    strokes = Strokes(body, fill, goals, setting)
-    flat = strokes.even(setting.number, np.ones(2)) if fill == "outline" else body.flat(goals.shown)
+    if fill == "outline":
+        edges = [shape.edges for shape in body.shapes]
+        flat = along_edges(edges, setting.number, setting.least, np.array([1.0, setting.stretch]))
+    else:
+        flat = body.flat(goals.shown)
     return goals._replace(shown=body.standing(flat))
 
 
@@ -45,30 +62,37 @@ def all_lit(strokes: Strokes) -> Lit | None:
     return None if found is None else Lit(strokes.placed(found), len(found))
 
 
-def lit(strokes: Strokes) -> Lit | None:
+def lit(strokes: Strokes) -> Lit:
     """Return goals apart on the picture's strokes, as many as find room there, the others behind it.
 
-    None : for more than ``MOST_DARK_SHARE`` of them there is none, or none behind either
+    Those are left out where more than ``MOST_DARK_SHARE`` have no room, or have none behind either.
     """
     found = all_lit(strokes)
     if found is not None:
         return found
-    shown = strokes.placed(strokes.most())
+    flat, dense = strokes.most()
+    shown = strokes.placed(flat)
     spare = strokes.setting.number - len(shown)
-    if spare > MOST_DARK_SHARE * strokes.setting.number:
-        return None
-    dark = dark_places(shown, spare, strokes.setting, strokes.body.axes[1])
-    return None if dark is None else Lit(np.concatenate([shown, dark]), len(shown))
+    few = spare > MOST_DARK_SHARE * strokes.setting.number
+    dark = shown[:0] if spare == 0 else None
+    if spare and not few:
+        dark = dark_places(shown, spare, strokes.setting, strokes.body.axes[1])
+    points = shown if dark is None else np.concatenate([shown, dark])
+    return Lit(points, len(shown), dense)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strokes:
-    """Where the lights of a flat picture may be. In its plane, heights in the metric of the fleet."""
+    """Where the lights of a flat picture may be. In its plane, heights in the metric of the fleet.
+
+    draw : gives points of it
+    """
 
     body: FlatBody
     fill: Fill
     goals: Placed
     setting: Setting
+    draw: Draw
 
     @property
     def scale(self) -> Array:
@@ -91,23 +115,49 @@ class Strokes:
         found = self._pushed(self._plain(number), slack)
         return self._pushed(self._stretched(number), slack) if found is None else found
 
-    def most(self) -> Array:
-        """Return as many goals as are found to fit: the worst placed taken out, then placed anew."""
-        number = self.setting.number
+    def most(self) -> tuple[Array, bool]:
+        """Return as many goals as are found to fit, and whether they are in a lattice.
+
+        Either the worst placed are taken out, from as many as strokes of this area and length could hold, or
+        they are the places of a lattice within the strokes. Both know of no number of drones.
+        """
         slack = SLACK_SHARES[0] * self.setting.least
-        best = max(
-            (
-                thinned(start, self._shape, self.setting.least, slack, self._held)
-                for start in (self._plain(number), self._stretched(number))
-            ),
-            key=len,
-        )
-        low, high = len(best), number
-        while high - low > max(1, number // ONE_IN):
-            middle = (low + high) // 2
-            found = self.all_of(middle, SLACK_SHARES[0])
-            low, high, best = (low, middle, best) if found is None else (middle, high, found)
-        return best
+        first = self.draw(LEAST_FLAT)
+        start = self._started(first, self._held_at_most())
+        points = self.body.flat(self.draw(max(LEAST_FLAT, DENSE * len(start)))) * self.scale
+        found = thinned(start, points, self.setting.least, slack, self._held, upright=self.setting.upright)
+        tree = cKDTree(points)
+        places = laid(Mould(tree, slack + grain(tree), self.setting.upright), self.setting.least)
+        places = places[self.setting.room.lack(self.placed(places)) <= 0.0] if len(places) else places
+        dense = len(places) > len(found) * (1.0 + 1.0 / ONE_IN)
+        return evenly(places if dense else found, self.setting.number), dense
+
+    def _started(self, points: Array, number: int) -> Array:
+        if self.fill == "outline":
+            edges = [shape.edges * self.scale for shape in self.body.shapes]
+            return along_edges(edges, number, self.setting.least, np.ones(2))
+        return centroids(self.body.flat(points) * self.scale, min(number, len(points))).goals
+
+    def _held_at_most(self) -> int:
+        """Return a number of goals that strokes can hardly hold: by their area and their edges (Oler
+        1961).
+        """
+        return ceil(SPARE * sum(self._by_area_and_edges())) + 1
+
+    @property
+    def edges_share(self) -> float:
+        """Return the share of the goals that are held by edges, of those that strokes can hold at most."""
+        area, edges = self._by_area_and_edges()
+        return edges / (area + edges)
+
+    def _by_area_and_edges(self) -> tuple[float, float]:
+        least, stretch = self.setting.least, self.setting.stretch
+        length = self.body.outlines * max(1.0, stretch)
+        if self.fill == "outline":
+            return 0.0, length / least
+        area = 0.5 * self.body.outlines * self.body.stroke * stretch
+        square = 1.0 if self.setting.upright else sqrt(3.0) / 2.0
+        return area / (square * least**2), 0.5 * length / least
 
     def _stretched(self, number: int) -> Array:
         return self.even(number, self.scale) * self.scale
@@ -118,7 +168,14 @@ class Strokes:
         return self.even(number, np.ones(2)) * self.scale
 
     def _pushed(self, start: Array, slack: float) -> Array | None:
-        return push_along(start, self._shape, self.setting.least, slack * self.setting.least, self._held)
+        return push_along(
+            start,
+            self._shape,
+            self.setting.least,
+            slack * self.setting.least,
+            self._held,
+            upright=self.setting.upright,
+        )
 
     @property
     def _shape(self) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -14,11 +15,11 @@ from shotc.ir.show import Lettering, Picture
 from shotc.show.goals.body import Body, SourceFault
 from shotc.show.goals.faults import in_the_way, of_source, too_dark, too_few, too_many
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.layout import Layout, Task, laid_out
+from shotc.show.goals.layout import Layout, Task, growth, laid_out
 from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
-from shotc.show.goals.remedies import Fits, Remedies, remedies
+from shotc.show.goals.remedies import Remedies, remedies
 from shotc.show.goals.sources import bodies_of
-from shotc.show.goals.spaced import Placed, Setting, what_fits
+from shotc.show.goals.spaced import Setting
 
 WHITE = (255, 255, 255)
 
@@ -36,31 +37,32 @@ def draw_picture(task: Task, setting: Setting) -> Drawn:
     bodies = bodies_of(task.picture, task.files)
     if isinstance(bodies, SourceFault):
         return Drawn((), (of_source(task.mission, task.picture, bodies),))
-    layout = laid_out(task, setting, bodies, dark=True)
+    layout = laid_out(task, setting, bodies)
     if isinstance(layout, Diagnostic):
         return Drawn((), (layout,))
     shown = [goals.shown for goals in layout.placed]
     faults = in_the_way(task.mission, task.fleet, task.picture, shown, setting.room)
     if faults:
         return Drawn((), tuple(faults))
-    if None in layout.spaced:
-        tight = layout.placed[layout.spaced.index(None)]
-        found = _remedies(task, setting, tight)
-        return Drawn((), (too_many(task.mission, task.fleet, task.picture, found),))
+    if not layout.flown:
+        found = _remedies(task, setting, bodies, layout)
+        return Drawn((), (too_many(task.mission, task.fleet, task.picture, found, layout.setting),))
     frames = tuple(_frame(task, k, body, layout) for k, body in enumerate(bodies))
-    return Drawn(frames, tuple(_warnings(task, setting, bodies[0], layout)), _stats(task, layout))
+    return Drawn(frames, tuple(_warnings(task, setting, bodies, layout)), _stats(task, layout))
 
 
-def _warnings(task: Task, setting: Setting, body: Body, layout: Layout) -> list[Diagnostic]:
+def _warnings(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layout) -> list[Diagnostic]:
     """Return what is to be said of a picture that can be flown."""
     diagnostics = []
     if layout.bright < setting.number:
-        ways = _remedies(task, setting, layout.placed[0], layout.bright)
-        diagnostics.append(too_dark(task.mission, task.fleet, task.picture, ways, layout.bright))
-    small = too_small(task.mission, task.fleet, task.picture)
+        ways = _remedies(task, setting, bodies, layout)
+        diagnostics.append(
+            too_dark(task.mission, task.fleet, task.picture, ways, layout.bright, layout.setting)
+        )
+    small = too_small(task.mission, task.fleet, task.picture, setting)
     if small is not None:
         diagnostics.append(small)
-    few = None if diagnostics else _few(task, setting, body, layout)
+    few = None if diagnostics else _few(task, setting, bodies[0], layout)
     return diagnostics if few is None else [few]
 
 
@@ -71,35 +73,32 @@ def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic
     needed = lights_needed(source, body, layout.fill)
     if setting.number >= needed:
         return None
-    enough = needed if _trying(task, setting)(task.picture, needed, 1.0) else None
+    enough = needed if _shows_all(task, replace(setting, number=needed), task.picture) else None
     numbers = (setting.number, enough)
     return too_few_lights(task.mission, task.picture, (body, layout.fill), numbers)
 
 
-def _remedies(task: Task, setting: Setting, tight: Placed, bright: int | None = None) -> Remedies:
-    """Find what would do; bright : how many lights the picture has, if it can be flown."""
-    fit = what_fits(setting, tight)
-    if bright is not None:
-        fit = fit._replace(number=bright)
+def _remedies(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layout) -> Remedies:
+    """Find what would do."""
     apart = task.fleet.apart
     touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
-    about = (fit, touching, float(np.ptp(tight.points[:, 2])))
-    return remedies(_trying(task, setting), task.picture, setting, about)
+    tall = float(np.ptp(layout.placed[0].points[:, 2]))
+    held = (layout.held, growth(task, bodies, layout))
+
+    def fits(picture: Picture) -> bool:
+        return _shows_all(task, setting, picture)
+
+    return remedies(fits, task.picture, held, setting.room.lowest, touching, tall)
 
 
-def _trying(task: Task, setting: Setting) -> Fits:
-    """Return how a remedy is tried: by drawing the picture as it would be written."""
-
-    def fits(picture: Picture, number: int, share: float) -> bool:
-        pictures = list(task.display.pictures)
-        pictures[task.index] = picture
-        changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))
-        asked = replace(setting, number=number, least=setting.least * share)
-        bodies = bodies_of(picture, task.files)
-        layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, asked, bodies, dark=False)
-        return isinstance(layout, Layout) and layout.bright == number
-
-    return fits
+def _shows_all(task: Task, setting: Setting, picture: Picture) -> bool:
+    """Tell whether a picture written otherwise shows as many drones as there are: it is laid out."""
+    pictures = list(task.display.pictures)
+    pictures[task.index] = picture
+    changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))
+    bodies = bodies_of(picture, task.files)
+    layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, setting, bodies)
+    return isinstance(layout, Layout) and layout.bright == setting.number
 
 
 def _frame(task: Task, index: int, body: Body, layout: Layout) -> Frame:
@@ -121,6 +120,8 @@ def _stats(task: Task, layout: Layout) -> tuple[tuple[str, float | str], ...]:
     name = f"goals {task.display.id}/{task.index + 1}"
     flown = [frame for frame in layout.spaced if frame is not None]
     frames = (f"{name} frames", float(len(flown)))
+    if layout.lattice:
+        return (frames, (f"{name} lattice", float(layout.bright)))
     if layout.bright < len(flown[0].points):
         return (frames, (f"{name} dark", float(len(flown[0].points) - layout.bright)))
     shifts = np.concatenate(

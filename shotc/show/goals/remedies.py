@@ -1,26 +1,28 @@
-"""What would do where a picture has no room for a fleet: found about, then tried as it would be written."""
+"""What would do where a picture has no room for a fleet: in closed form, and tried once as it would be
+written.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import sqrt
 from typing import NamedTuple
 
 from shotc.ir.show import Picture
 from shotc.show.geom.sizes import enlarged, size_words
-from shotc.show.goals.spaced import Fit, Setting
 
-STEP, TRIES = 1.06, 10
-"""Factor from one try to the next, and after how many a remedy is not told."""
+SPARE, MORE = 1.03, 1.08
+"""Factor beyond the growth that is reckoned, and what is added where a try with it does not do."""
 
-Fits = Callable[[Picture, int, float], bool]
-"""Whether a picture shows so many drones, all of them, at a share of the spacing."""
+Fits = Callable[[Picture], bool]
+"""Whether a picture shows all drones."""
 
 
 class Remedies(NamedTuple):
-    """What does, each alone; None where nothing was found.
+    """What does, each alone; None where nothing does.
 
     number : of drones; size : what to write of the picture, and how many times as large it is then
-    share : of the spacing
+    share : of the separation
     """
 
     number: int | None
@@ -28,19 +30,41 @@ class Remedies(NamedTuple):
     share: float | None
 
 
-def remedies(fits: Fits, picture: Picture, setting: Setting, about: tuple[Fit, float, float]) -> Remedies:
+class Held(NamedTuple):
+    """How many goals a shape holds as it is: ``number``. Of these ``edges`` grow with its size, the others
+    with its size to a ``power``; edges : a share of them.
+    """
+
+    number: int
+    power: int
+    edges: float = 0.0
+
+    def growth(self, number: int) -> float:
+        """Return how many times as large the shape holds another number."""
+        ratio = number / max(1, self.number)
+        if self.power != 2:
+            return float(ratio ** (1.0 / self.power))
+        inside = 1.0 - self.edges
+        return (sqrt(self.edges**2 + 4.0 * inside * ratio) - self.edges) / (2.0 * inside)
+
+
+def remedies(
+    fits: Fits, picture: Picture, held: tuple[int, float], lowest: float, touching: float, tall: float
+) -> Remedies:
     """Return what does.
 
-    about : what about would; the share of the spacing at which bodies touch, below which none is looked
-    for; the height of a model as it is, metres
+    held : how many drones it shows as it is, and how many times as large all of them should be shown
+    lowest : z that its drones may have; touching : share of the separation at which bodies touch
+    tall : height of a model as it is, metres
     """
-    fit, touching, tall = about
-    full = setting.number
-    numbers = dict.fromkeys(max(1, int(fit.number / STEP**k)) for k in range(TRIES))
-    number = next((n for n in numbers if fits(picture, n, 1.0)), None)
-    shares = (fit.share / STEP**k for k in range(TRIES))
-    share = next((s for s in shares if s > touching and fits(picture, full, s)), None)
-    factors = [STEP**k / fit.share for k in range(TRIES)]
-    sizes = ((enlarged(picture, f, setting.room.lowest, tall), f) for f in factors)
-    size = next(((size_words(picture.source, p.source), f) for p, f in sizes if fits(p, full, 1.0)), None)
-    return Remedies(number, size, share)
+    number, growth = held
+    factor = SPARE * growth
+    if not fits(enlarged(picture, factor, lowest, tall)):
+        factor *= MORE
+    larger = enlarged(picture, factor, lowest, tall)
+    share = 1.0 / factor
+    return Remedies(
+        number or None,
+        (size_words(picture.source, larger.source), factor),
+        share if share > touching else None,
+    )

@@ -1,9 +1,10 @@
-"""Goals of one frame: centroids, adjusted for the audience, then apart; and how many of them would fit."""
+"""Goals of one frame: centroids, adjusted for the audience, then apart; where it must be dense, a lattice."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -11,17 +12,25 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 from shotc.show.geom.centroids import centroids, viewpoint_centroids
-from shotc.show.geom.push_apart import push_apart
+from shotc.show.geom.lattice import Mould, laid, widest
+from shotc.show.geom.push_along import thinned
+from shotc.show.geom.push_apart import SLACK, Hold, grain, push_apart
 from shotc.show.goals.room import Room
 
 NEIGHBOURS = 12
 """Points that tell how a surface lies near a goal."""
-LOWEST_SHARE = 0.02
-"""Share of the spacing below which no fit is looked for."""
-ENOUGH = 12
-"""Points a goal with which the searches do."""
-CLOSE_RATIO = 1.04
-"""Factor between what fits and what does not at which the searches end."""
+CROWDED_SHARE = 0.9
+"""Mean distance of centroids, in the distance to be kept, below which pushing them apart is not tried."""
+TRIED = 300
+"""Drones up to which it is tried all the same: some fit where the shape is small."""
+SPARE = 1.15
+"""Goals with which thinning begins, for each that a shape should hold."""
+FEW_GOALS, FEW_POINTS, POINTS_EACH = 48, 4000, 20
+"""Centroids by which it is told how many a shape should hold, points of it for these, and for each it
+holds."""
+
+Draw = Callable[[int], Array]
+"""From a number to about so many points of a shape, shape (M, 3)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,15 +38,29 @@ class Setting:
     """What the frames of one display have in common.
 
     number : of drones; least : stretched distance of two goals, metres; stretch : factor for heights
+    upright : whether that is the distance of upright cylinders, the larger of the level and the upright one
+    straight : stretched distance at which straight moves need no proof, metres
     viewpoint : (3,) or None; weight : the paper's c-bar; room : where goals may be
     """
 
     number: int
     least: float
     stretch: float
+    upright: bool
+    straight: float
     viewpoint: Array | None
     weight: float
     room: Room
+
+    @property
+    def roomy(self) -> Setting:
+        """Return the same with goals so far apart that all moves between them are straight."""
+        return replace(self, least=self.straight, upright=False)
+
+    @property
+    def scale(self) -> Array:
+        """Return the factors of the axes in the metric of the fleet, shape (3,)."""
+        return np.array([1.0, 1.0, self.stretch])
 
 
 class Placed(NamedTuple):
@@ -50,13 +73,6 @@ class Placed(NamedTuple):
     centroids: Array
     shown: Array
     points: Array
-
-
-class Fit(NamedTuple):
-    """What would fit: the number of drones, and the share of the spacing at which all of them do."""
-
-    number: int
-    share: float
 
 
 def placed(setting: Setting, points: Array, before: Placed | None, on_surface: bool) -> Placed:
@@ -79,50 +95,97 @@ def spaced(setting: Setting, goals: Placed) -> Array | None:
 
     Where room is short the cells of the tessellation are made as flat or tall as the drones need, too.
     """
-    scale = np.array([1.0, 1.0, setting.stretch])
+    scale = setting.scale
     shape = goals.points * scale
-
-    def hold(before: Array, after: Array) -> Array:
-        return np.asarray(setting.room.hold(before / scale, after / scale) * scale)
-
     start = goals.shown * scale
-    apart = push_apart(start, shape, setting.least, hold)
+    if len(start) > TRIED and _mean_gap(goals.centroids * scale) < CROWDED_SHARE * setting.least:
+        return None
+    hold = _held(setting)
+    apart = push_apart(start, shape, setting.least, hold, upright=setting.upright)
     if apart is start:
         return goals.shown
     if apart is None:
-        apart = push_apart(centroids(shape, len(start), start).goals, shape, setting.least, hold)
+        even = centroids(shape, len(start), start).goals
+        apart = push_apart(even, shape, setting.least, hold, upright=setting.upright)
     return None if apart is None else apart / scale
 
 
-def what_fits(setting: Setting, goals: Placed) -> Fit:
-    """Return how many drones fit, and at what share of the spacing all of them do, found by trying."""
-    shape = goals.points * np.array([1.0, 1.0, setting.stretch])
-    full = setting.number
-    even = centroids(shape, full).goals
+def in_lattice(setting: Setting, draw: Draw) -> Array:
+    """Return goals of the widest lattice that has one a drone in a volume, shape (n, 3).
 
-    def fits(number: int, share: float) -> bool:
-        few = shape[:: max(1, len(shape) // (ENOUGH * number))]
-        start = even if number == full else centroids(few, number).goals
-        return push_apart(start, shape, setting.least * share, _anywhere) is not None
-
-    share = _most(lambda s: fits(full, s), LOWEST_SHARE, 1.0)
-    # In a volume the number goes with the third power of the share, along a line with the first.
-    low = max(1.0, 0.7 * full * share**3)
-    while low > 1.0 and not fits(round(low), 1.0):
-        low /= 2.0
-    return Fit(round(_most(lambda n: fits(round(n), 1.0), low, float(full))), share)
+    Where there is no such lattice, all places of the densest one. draw : gives points of the volume
+    """
+    mould = _mould(setting, drawn(setting, draw, 3))
+    found = widest(mould, setting.number, setting.least)
+    found = laid(mould, setting.least) if found is None else found
+    goals = found / setting.scale
+    return np.asarray(goals[setting.room.lack(goals) <= 0.0]) if len(goals) else goals
 
 
-def _anywhere(_: Array, after: Array) -> Array:
-    return after
+def thinned_out(setting: Setting, draw: Draw, power: int) -> Array:
+    """Return as many goals as find room on a surface or along edges, the worst placed taken out, shape (n,
+    3).
+
+    draw : gives points of it; power : 2 for surfaces, 1 for edges
+    """
+    scale = setting.scale
+    shape = drawn(setting, draw, power) * scale
+    start = centroids(shape, min(_held_about(setting, shape, power), len(shape))).goals
+    slack = SLACK * setting.least
+    found = thinned(start, shape, setting.least, slack, _held(setting), upright=setting.upright)
+    return evenly(found, setting.number) / scale
 
 
-def _most(fits: Callable[[float], bool], low: float, high: float) -> float:
-    """Return about the most that fits, between ``low``, which does, and ``high``, which does not."""
-    while high > CLOSE_RATIO * low:
-        middle = (low * high) ** 0.5
-        low, high = (middle, high) if fits(middle) else (low, middle)
-    return low
+def evenly(goals: Array, number: int) -> Array:
+    """Return so many of goals in an order of places, or all where there are no more."""
+    if len(goals) <= number:
+        return goals
+    return np.asarray(goals[np.linspace(0, len(goals) - 1, number).round().astype(np.intp)])
+
+
+def drawn(setting: Setting, draw: Draw, power: int) -> Array:
+    """Return points of a shape as dense as its goals can be, however many drones there are, shape (M, 3)."""
+    few = draw(FEW_POINTS)
+    return draw(max(FEW_POINTS, POINTS_EACH * _held_about(setting, few * setting.scale, power)))
+
+
+def places_held(setting: Setting, points: Array, factor: float) -> int:
+    """Return how many places the densest lattice has in a volume made a number of times as large."""
+    mould = _mould(setting, points)
+    rough = grain(mould.shape)
+    return len(laid(mould._replace(slack=(mould.slack - rough) / factor + rough), setting.least / factor))
+
+
+def held_of(setting: Setting, goals: Placed, power: int) -> int:
+    """Return about how many goals a shape holds, by how far apart these are that are not spaced yet."""
+    gap = _mean_gap(goals.centroids * setting.scale) if len(goals.centroids) > 1 else setting.least
+    return ceil(len(goals.centroids) * (gap / setting.least) ** power)
+
+
+def _held_about(setting: Setting, shape: Array, power: int) -> int:
+    """Return about how many goals a shape holds, and some more, by how far apart a few centroids of it
+    are.
+    """
+    gap = _mean_gap(centroids(shape, FEW_GOALS).goals)
+    return ceil(SPARE * FEW_GOALS * (gap / setting.least) ** power) + 1
+
+
+def _mould(setting: Setting, points: Array) -> Mould:
+    tree = cKDTree(points * setting.scale)
+    return Mould(tree, SLACK * setting.least + grain(tree), setting.upright)
+
+
+def _held(setting: Setting) -> Hold:
+    scale, room = setting.scale, setting.room
+
+    def hold(before: Array, after: Array) -> Array:
+        return np.asarray(room.hold(before / scale, after / scale) * scale)
+
+    return hold
+
+
+def _mean_gap(goals: Array) -> float:
+    return float(cKDTree(goals).query(goals, k=2)[0][:, 1].mean())
 
 
 def _onto(points: Array, goals: Array) -> Array:

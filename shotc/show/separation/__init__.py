@@ -13,7 +13,7 @@ from itertools import combinations
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import spacing
+from shotc.geom.apart import straight_spacing
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
@@ -49,7 +49,7 @@ class KeepApart:
             stats += keeper.stats()
             off = farthest(fleets[-1], wanted)
             stats += off.stats(flight.fleet)
-            if off.distance > MUCH_SHARE * spacing(keeper.fleet.apart):
+            if off.distance > MUCH_SHARE * straight_spacing(keeper.fleet.apart):
                 warnings.append(bent(mission, keeper.fleet, off))
         for one, other in combinations(fleets, 2):
             diagnostics += _meeting(mission, one, other)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.geom.apart import spacing
+from shotc.geom.apart import spacing, straight_spacing
 from shotc.geom.separation import Nearest
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
@@ -80,7 +80,7 @@ def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) 
     if tried.seconds is not None:
         yield f"give it `{stretch.key}: {tried.seconds:.2f}`, with which they can be kept apart"
     if stretch.from_pads or stretch.shown is None:
-        yield wider(mission, fleet, spacing(fleet.apart))
+        yield wider(mission, fleet, straight_spacing(fleet.apart))
     elif tried.seconds is None:
         yield "make the figure larger, use fewer drones, or ask for no more than what was found"
 
@@ -127,7 +127,7 @@ def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
         f"{off.shown.index + 1} of display `{off.shown.display}`",
         (mission.origins.key(_path(mission, off.shown)),),
         (
-            f"goals may be {spacing(fleet.apart):.2f} m apart, so this is seen",
+            f"its goals are at least {straight_spacing(fleet.apart):.2f} m apart, so this is seen",
             f"{why} bends its way, {off.smooth:.2f} m of it by smoothness alone",
         ),
         "give the animation a longer `period`"

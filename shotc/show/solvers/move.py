@@ -51,7 +51,17 @@ class Move:
     @property
     def duration(self) -> float:
         """Return seconds from rest to rest."""
-        return self.piece * (len(self.s) - 3)
+        return self.piece * self.pieces
+
+    @property
+    def pieces(self) -> int:
+        """Return the number of pieces."""
+        return len(self.s) - 3
+
+    def between(self, starts: Array, goals: Array) -> list[Array]:
+        """Return the control points between the two formations, shape (n, 3) each."""
+        ways = goals - starts
+        return [starts + share * ways for share in self.s[3:-3]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +99,7 @@ def fastest(ways: Array, limits: Limits, pace: float) -> Move:
     ceilings = _Ceilings.of(ways, limits, pace)
     best: tuple[float, Array] | None = None
     for pieces in PIECES:
-        shapes, steps = _family(pieces)
+        shapes, steps = family(pieces)
         least = np.maximum(_least_pieces(steps, ceilings), LEAST_PIECE_S)
         # Of those that are as fast, the smoothest.
         k = int(np.where(least <= 1.001 * least.min(), steps[:, 2], inf).argmin())
@@ -104,14 +114,14 @@ def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
     if pieces < 4:
         return inf if np.abs(ways).max(initial=0.0) > 0.0 else 0.0
     ceilings = _Ceilings.of(ways, limits, 1.0)
-    return float(_least_pieces(_family(pieces)[1], ceilings).min())
+    return float(_least_pieces(family(pieces)[1], ceilings).min())
 
 
 def least_pieces(pieces: int, ways: Array, limits: Limits) -> Array:
     """Return for every drone alone what ``least_piece`` is for all of them together, shape (n,)."""
     if pieces < 4:
         return np.where(np.abs(ways).max(axis=1) > 0.0, inf, 0.0)
-    ceilings, steps = _Ceilings.of(ways, limits, 1.0), _family(pieces)[1]
+    ceilings, steps = _Ceilings.of(ways, limits, 1.0), family(pieces)[1]
     with np.errstate(divide="ignore"):
         first = steps[:, :1] / ceilings.first
         second = np.sqrt(steps[:, 1:2] / ceilings.second)
@@ -142,7 +152,7 @@ def _steps(shapes: Array) -> Array:
 
 
 @cache
-def _family(pieces: int) -> tuple[Array, Array]:
+def family(pieces: int) -> tuple[Array, Array]:
     """Return shapes of control points, shape (M, pieces + 3), and their largest differences, (M, 3)."""
     # The profile begins one piece late and ends one early, and rests outside: three equal points at each end.
     at = np.clip((np.arange(pieces + 3) - 2.0) / (pieces - 2.0), 0.0, 1.0)

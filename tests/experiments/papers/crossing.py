@@ -12,7 +12,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from shotc.geom.apart import spacing, stretch
+from shotc.geom.apart import straight_spacing, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Apart
@@ -120,7 +120,7 @@ def move(n: int, case: Case) -> tuple[Array, Array]:
     """Return breaks and control points (n, P + 3, 3) from the ball to the cube and back."""
     height = np.array([1.0, 1.0, stretch(NEEDED)])
     wide = NEEDED.horizontal + case.margin
-    least = spacing(Apart("ellipsoid", wide, wide / stretch(NEEDED), 0.0))
+    least = straight_spacing(Apart("ellipsoid", wide, wide / stretch(NEEDED), 0.0))
     one, other = (least * _goals(name, n) for name in ("sphere", "cube"))
     order = matched(one, other) if case.assignment != "random" else np.random.default_rng(n).permutation(n)
     starts, ways = one / height, (other[order] - one) / height

@@ -1,4 +1,5 @@
-"""The metric of a fleet: the stretched ball holds what is kept free, and goals are sqrt(2) balls apart."""
+"""The metric of a fleet: the stretched ball holds what is kept free, and straight moves need sqrt(2)
+balls."""
 
 from __future__ import annotations
 
@@ -7,7 +8,7 @@ from math import hypot, sqrt
 import numpy as np
 import pytest
 
-from shotc.geom.apart import ball, spacing, stretch
+from shotc.geom.apart import ball, spacing, straight_spacing, stretch
 from shotc.ir.show import Apart
 
 ELLIPSOID = Apart("ellipsoid", 1.0, 2.0, 0.15)
@@ -17,13 +18,15 @@ CYLINDER = Apart("cylinder", 1.0, 2.0, 0.15)
 def test_an_ellipsoid_is_a_ball_once_stretched() -> None:
     assert stretch(ELLIPSOID) == pytest.approx(1.15 / 2.15)
     assert ball(ELLIPSOID) == pytest.approx(1.15)
-    assert spacing(ELLIPSOID) == pytest.approx(sqrt(2) * 1.15)
+    assert spacing(ELLIPSOID) == pytest.approx(1.001 * 1.15)
+    assert straight_spacing(ELLIPSOID) == pytest.approx(sqrt(2) * 1.15)
 
 
 def test_the_ball_of_a_cylinder_holds_its_rim() -> None:
     rim = hypot(1.15, 2.15 * stretch(CYLINDER))
     assert ball(CYLINDER) == pytest.approx(rim)
-    assert spacing(CYLINDER) == pytest.approx(2 * 1.15)
+    assert spacing(CYLINDER) == pytest.approx(1.001 * 1.15)
+    assert straight_spacing(CYLINDER) == pytest.approx(2 * 1.15)
 
 
 @pytest.mark.parametrize("apart", [ELLIPSOID, CYLINDER])
@@ -41,7 +44,7 @@ def test_whoever_is_a_ball_apart_is_clear(apart: Apart) -> None:
 def test_straight_moves_between_spaced_formations_stay_a_ball_apart() -> None:
     rng = np.random.default_rng(1)
     r0, r1 = rng.normal(size=(2, 2000, 3))
-    r0, r1 = (spacing(ELLIPSOID) * r / np.linalg.norm(r, axis=1)[:, None] for r in (r0, r1))
+    r0, r1 = (straight_spacing(ELLIPSOID) * r / np.linalg.norm(r, axis=1)[:, None] for r in (r0, r1))
     kept = np.einsum("nd,nd->n", r0, r1) >= 0
     s = np.linspace(0, 1, 51)[:, None, None]
     between = (1 - s) * r0[kept] + s * r1[kept]

@@ -231,8 +231,7 @@ def test_crowded_pads_are_named_with_what_would_do() -> None:
     assert (d.code, marked(d, text)) == ("D001", "4")
     assert "are 4.00 m apart" in d.notes[0]
     assert "4.15 m side by side, its margin of 0.15 m included" in d.notes[0]
-    # Root two times the separation: so straight ways to the pictures keep it, too (D086).
-    assert d.help == "give the grid a spacing of 5.87 m or more"
+    assert d.help == "give the grid a spacing of 4.16 m or more"
     assert faults(text.replace("spacing: 4,", "spacing: 4.15,")) == []
 
 
@@ -240,7 +239,7 @@ def test_a_crowded_circle_is_told_its_radius() -> None:
     text = show(fleet="swarm: {count: 40, layout: {circle: {radius: 10}}, separation: 2}")
     d = only(text)
     radius = float(d.help.split("radius of ")[1].split(" ")[0])
-    assert radius == pytest.approx(2**0.5 / sin(pi / 40), abs=0.01)
+    assert radius == pytest.approx(1.001 / sin(pi / 40), abs=0.01)
     assert faults(text.replace("radius: 10", f"radius: {radius}")) == []
 
 

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.distance import pdist
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import spacing, stretch
+from shotc.geom.apart import spacing, straight_spacing, stretch
 from shotc.geom.solids import box
 from shotc.ir.fleet import Frame
 from shotc.ir.keyframes import KeyframeIR
@@ -88,7 +88,7 @@ CASES = [
     (text("LOVE", 18.0), "outline", 74),
     pytest.param(text("LOVE", 22.2), "volume", 200, marks=pytest.mark.fuzz),
     (text("GO", 22.0), "outline", 60),
-    (heart(33.6), "outline", 60),
+    (heart(23.7), "outline", 60),
     (heart(40.0), "volume", 150),
 ]
 
@@ -98,7 +98,7 @@ def test_no_light_is_beside_a_stroke(source: Source, fill: str, count: int) -> N
     frame, _ = placed(mission(source, fill, count))
     assert len(frame.points) == count
     least = spacing(APART)
-    assert off_strokes(source, fill, lights(frame)).max() < 0.25 * least
+    assert off_strokes(source, fill, lights(frame)).max() < 0.25 * straight_spacing(APART)
     assert pdist(frame.points * (1.0, 1.0, stretch(APART))).min() >= least * (1 - 1e-9)
 
 
@@ -111,7 +111,7 @@ def test_few_lights_write_along_the_strokes_and_many_along_the_outline() -> None
 
 
 def test_spare_drones_are_dark_behind_the_picture() -> None:
-    frame, (warning,) = placed(mission(heart(33.6), "outline", 60))
+    frame, (warning,) = placed(mission(heart(23.7), "outline", 60))
     dark = ~frame.colors.any(axis=1)
     assert warning.code == "D062"
     assert int(warning.message.split()[0]) == dark.sum() > 0
@@ -120,21 +120,21 @@ def test_spare_drones_are_dark_behind_the_picture() -> None:
 
 
 def test_spare_drones_stand_in_front_where_there_is_no_room_behind() -> None:
-    wall = Zone("wall", "out", box((0.0, 25.0, 40.0), (300.0, 6.0, 80.0), 0.0), ("world", "zones", "wall"))
-    frame, _ = placed(mission(heart(33.6), "outline", 60, (wall,)))
+    wall = Zone("wall", "out", box((0.0, 24.0, 40.0), (300.0, 6.0, 80.0), 0.0), ("world", "zones", "wall"))
+    frame, _ = placed(mission(heart(23.7), "outline", 60, (wall,)))
     dark = ~frame.colors.any(axis=1)
     assert (frame.points[dark][:, 1] < 20.0).all()
 
 
 def test_what_the_help_of_dark_drones_says_lights_all() -> None:
-    ir = mission(heart(33.6), "outline", 60)
+    ir = mission(heart(23.7), "outline", 60)
     (warning,) = PlaceGoals().run(ir, PassContext()).diagnostics
     assert warning.code == "D062"
     number, height, level, upright = numbers(warning)
-    assert not codes(mission(heart(33.6), "outline", int(number)))
+    assert not codes(mission(heart(23.7), "outline", int(number)))
     assert not codes(mission(heart(height), "outline", 60))
     less = Apart("ellipsoid", level, upright, APART.margin)
-    assert not codes(mission(heart(33.6), "outline", 60, apart=less))
+    assert not codes(mission(heart(23.7), "outline", 60, apart=less))
 
 
 def numbers(found: Diagnostic) -> list[float]:
@@ -149,14 +149,14 @@ def numbers(found: Diagnostic) -> list[float]:
 
 
 def test_a_fleet_that_is_mostly_dark_is_told_where_to_put_a_larger_picture() -> None:
-    (fault,) = PlaceGoals().run(mission(heart(33.6), "outline", 200), PassContext()).diagnostics
+    (fault,) = PlaceGoals().run(mission(heart(23.7), "outline", 200), PassContext()).diagnostics
     assert fault.code == "D062"
     words = re.search(r"use (\d+) drones .*`height: ([\d.]+), center: \[0, 20, ([\d.]+)\]`", fault.help)
     assert words is not None, fault.help
     number, height, z = int(words[1]), float(words[2]), float(words[3])
     assert fault.message.startswith(f"{200 - number} of 200 drones")
     assert z - height / 2 >= 2.3 - 1e-6  # over the ground by the clearance and a body
-    assert not codes(mission(heart(33.6), "outline", number))
+    assert not codes(mission(heart(23.7), "outline", number))
     assert not codes(mission(heart(height, z), "outline", 200))
 
 
@@ -176,9 +176,9 @@ def test_an_outline_with_too_few_lights_is_better_left_out() -> None:
 
 
 def test_letters_too_small_for_the_spacing() -> None:
-    small = text("go", 14.0)
+    small = text("go", 9.0)
     (warning,) = PlaceGoals().run(mission(small, "legible", 30), PassContext()).diagnostics
     height = float(warning.help.split("height: ")[1].split("`")[0])
     assert warning.code == "D063"
     assert "D063" not in codes(mission(text("go", height), "legible", 30))
-    assert "D063" not in codes(mission(text("GO", 14.0), "legible", 30))
+    assert "D063" not in codes(mission(text("GO", 9.0), "legible", 30))

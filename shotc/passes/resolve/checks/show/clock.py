@@ -15,7 +15,7 @@ from shotc.passes.resolve.checks.motion import least_travel
 from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST
 from shotc.rounding import at_least
 from shotc.show.geom.shape import bounds
-from shotc.show.labels import key_of, word_of
+from shotc.show.labels import key_of, transition_label, word_of
 
 SLACK = 1e-6  # seconds of rounding
 
@@ -42,7 +42,7 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
         if after.transition is None or after.transition >= least - SLACK:
             continue
         labels = (
-            mission.origins.value((*after.path, "transition")),
+            transition_label(mission, after),
             mission.origins.key(key_of(before), "the picture before"),
         )
         limits, shortest = fleet.limits, at_least(least, 1)

@@ -46,7 +46,6 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     one, other = fleet.pads[nearest.one], fleet.pads[nearest.other]
     away = dist(one, other)
     which = f"pads {nearest.one + 1} and {nearest.other + 1} are {away:.2f} m apart"
-    # The separation alone would do on the pads, but not on straight ways between them and the pictures.
     help_ = wider(mission, fleet, max(spacing(fleet.apart), 2 * fleet.radius))
     if away < 2 * fleet.radius:
         note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"

@@ -70,7 +70,7 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
     where = "on" if picture.fill == "surface" else "in"
     word = word_of(picture)
     notes = (
-        f"goals are {spacing(fleet.apart):.2f} m apart, so that moves between pictures keep the separation",
+        f"goals are {spacing(fleet.apart):.2f} m apart at least, as the separation asks for",
         f"no more than {floor(most)} fit {where} this {word}, and fleet `{fleet.name}` has {count}",
     )
     factor = growth(picture, fleet.apart, count)

@@ -1,0 +1,19 @@
+"""What a summary tells of a show beside its times: how its fleets move, and which pictures are dense."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+
+def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
+    """Yield how many moves of each fleet are on arcs, and which pictures are lattices; stats : of passes."""
+    for name, value in stats:
+        arcs = re.fullmatch(r"fleet (.+) arcs", name)
+        lattice = re.fullmatch(r"goals (.+)/(\d+) lattice", name)
+        if arcs and value:
+            moves = "move" if value == 1 else "moves"
+            yield f"{value:.0f} {moves} of {arcs[1]} on arcs: it stands too near for straight ones"
+        if lattice:
+            where = f"picture {lattice[2]} of {lattice[1]}"
+            yield f"{where} is a lattice of {value:.0f} lights: spread evenly, they have no room"

@@ -1,0 +1,182 @@
+"""Where a fleet that moves on arcs swells: held to the ground, to heights, and to what stands; led past it.
+
+On arcs about a point c a formation is wider half-way than before and after. With n.c + a u0 + b u1 as the
+support of the drones along n, where u0 and u1 are how far either formation reaches beyond c, control points
+of (a, b) bound where anybody is, along every n: on a full arc by the root of u0^2 + u1^2. The point c may be
+any: lower, and all pass higher. Above the lowest of both formations it takes nobody below that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_pieces import FleetPieces
+from shotc.geom.fleet_spline import pieces
+from shotc.geom.proof import bounds, box_gap, inf_distance, sup_outside
+from shotc.planning.clearances import ROUNDING_M, Clearance
+from shotc.show.goals.room import Room
+from shotc.show.solvers.arc_move import ArcMove
+
+GAP_M = 1e-3
+"""How sharp the bounds are that tell whether somebody comes too near, metres."""
+BEYOND_M = 0.05
+"""By how much more than is missing the fleet is led aside, metres."""
+WIDEST = 0.41
+"""Share of a shift of c by which the fleet passes farther half-way, the other way: root two less one."""
+SAFE = 0.95
+"""Share of the way from the height of c that is safe to the one that just does."""
+FARTHEST_M = 1000.0
+"""Metres beyond which c is not taken: arcs that are so wide take longer than any show."""
+
+Ends = tuple[Array, Array]
+"""Places of all drones before and after a move, shape (n, 3) each."""
+
+
+class Lack(NamedTuple):
+    """What the swell lacks most: metres; of : what stands there, or None for the ground and the height."""
+
+    metres: float
+    of: Clearance | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Heights:
+    """z between which the centres of all drones are to stay, metres."""
+
+    low: float
+    high: float
+
+    def lack(self, ends: Ends, ctrl: Array, pivot: Array) -> float:
+        """Return by how much the closed bound leaves them; what the formations themselves lack is not
+        counted.
+        """
+        low, high = self._of(ends)
+        before, after = (e[:, 2] - pivot[2] for e in ends)
+        down = float((ctrl @ [before.min(), after.min()]).min()) + pivot[2]
+        up = float((ctrl @ [before.max(), after.max()]).max()) + pivot[2]
+        return float(max(low - down, up - high, 0.0))
+
+    def pivot(self, ends: Ends, ctrl: Array, wanted: float) -> float:
+        """Return the height of c that is nearest to the wanted one and keeps both, or the least of them."""
+        low, high = self._of(ends)
+        swell = 1.0 - ctrl.sum(axis=1)
+        out = swell < -1e-6
+        (l0, l1), (h0, h1) = ((e[:, 2].min() for e in ends), (e[:, 2].max() for e in ends))
+        most = float(((low - ctrl @ [l0, l1])[out] / swell[out]).min(initial=np.inf))
+        least = float(((high - ctrl @ [h0, h1])[out] / swell[out]).max(initial=-np.inf))
+        # Nearer to what is safe whatever the control points, for those of another c are others.
+        most = most if most == np.inf else SAFE * most + (1.0 - SAFE) * min(l0, l1)
+        least = least if least == -np.inf else SAFE * least + (1.0 - SAFE) * max(h0, h1)
+        return min(max(wanted, least), most)
+
+    def _of(self, ends: Ends) -> tuple[float, float]:
+        lowest = min(float(e[:, 2].min()) for e in ends)
+        highest = max(float(e[:, 2].max()) for e in ends)
+        return min(self.low, lowest), max(self.high, highest)
+
+
+def led(
+    ends: Ends, heights: Heights, room: Room, fastest: Callable[[Array], ArcMove]
+) -> tuple[ArcMove, Lack]:
+    """Return a move that is clear of everything, or that which lacks least, and what it lacks.
+
+    fastest : from the point c, shape (3,), to the fastest move about it
+    """
+    best: tuple[ArcMove, Lack] | None = None
+    for move in _tries(ends, heights, room, fastest):
+        lack = _lack(ends, heights, room, move)
+        if lack.metres <= ROUNDING_M:
+            return move, lack
+        if best is None or lack.metres < best[1].metres:
+            best = move, lack
+    assert best is not None
+    return best
+
+
+def _tries(
+    ends: Ends, heights: Heights, room: Room, fastest: Callable[[Array], ArcMove]
+) -> Iterator[ArcMove]:
+    """Yield the move about the middle, at a height that has room; if that is not clear, those led aside."""
+    middle = 0.25 * sum((e.min(axis=0) + e.max(axis=0) for e in ends), np.zeros(3))
+    first = _level(ends, heights, fastest, middle)
+    yield first
+    lack = _lack(ends, heights, room, first)
+    if lack.of is not None:
+        for shift in sorted(_shifts(ends, first, lack), key=lambda shift: float(np.linalg.norm(shift))):
+            yield _level(ends, heights, fastest, first.pivot - shift)
+
+
+def _shifts(ends: Ends, move: ArcMove, lack: Lack) -> Iterator[Array]:
+    """Yield how far c would go, each to the other side, for the fleet to pass an obstacle on one of six."""
+    assert lack.of is not None
+    boxes = _boxes(ends, move)
+    swell = np.lib.stride_tricks.sliding_window_view(move.ctrl.sum(axis=1) - 1.0, 4).min(axis=1)
+    low, high = bounds(lack.of.solid)
+    room = lack.of.metres + BEYOND_M
+    for axis, side in product(range(3), (1.0, -1.0)):
+        if lack.of.inside:
+            far = (lack.metres + BEYOND_M) / WIDEST
+        else:
+            near = (boxes[:, 0] < high + room).all(axis=1) & (boxes[:, 1] > low - room).all(axis=1)
+            reach = high[axis] - boxes[near, 0, axis] if side > 0 else boxes[near, 1, axis] - low[axis]
+            far = float(((reach + room) / np.maximum(swell[near], 1e-9)).max(initial=0.0))
+        if far < FARTHEST_M:
+            yield side * far * np.eye(3)[axis]
+
+
+def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pivot: Array) -> ArcMove:
+    move = fastest(pivot)
+    if heights.lack(ends, move.ctrl, pivot) <= ROUNDING_M:
+        return move
+    return fastest(np.array([pivot[0], pivot[1], heights.pivot(ends, move.ctrl, float(pivot[2]))]))
+
+
+def _lack(ends: Ends, heights: Heights, room: Room, move: ArcMove) -> Lack:
+    worst = Lack(heights.lack(ends, move.ctrl, move.pivot), None)
+    boxes = _boxes(ends, move)
+    flown: FleetPieces | None = None
+    for obstacle in room.obstacles:
+        if not obstacle.inside and (box_gap(boxes, obstacle.solid) >= obstacle.metres).all():
+            continue
+        flown = _flown(ends, move) if flown is None else flown
+        lack = _beside(obstacle, flown)
+        worst = Lack(lack, obstacle) if lack > worst.metres else worst
+    return worst
+
+
+def _boxes(ends: Ends, move: ArcMove) -> Array:
+    """Return two corners of a box for each control point in which everybody has his, shape (K, 2, 3)."""
+    reach = [(e.min(axis=0) - move.pivot, e.max(axis=0) - move.pivot) for e in ends]
+    boxes = [np.einsum("k,cd->kcd", move.ctrl[:, k], np.array(reach[k])) for k in range(2)]
+    corners = boxes[0] + boxes[1] + move.pivot
+    # A piece lies in the hull of four control points in a row, and so in the box round their boxes.
+    windows = np.lib.stride_tricks.sliding_window_view(corners, 4, axis=0)
+    return np.stack([windows[:, 0].min(axis=-1), windows[:, 1].max(axis=-1)], axis=1)
+
+
+def _flown(ends: Ends, move: ArcMove) -> FleetPieces:
+    before, after = ([e] * 3 for e in ends)
+    coef = np.stack([*before, *move.between(*ends), *after], axis=1)
+    breaks = np.arange(coef.shape[1] - 2, dtype=np.float64)
+    return FleetPieces(breaks[:-1], breaks[1:], pieces(breaks, coef))
+
+
+def _beside(obstacle: Clearance, flown: FleetPieces) -> float:
+    """Return by how much anybody comes too near to what stands, at most 0 where nobody does."""
+    bag = flown.bag()
+    if obstacle.inside:
+        return sup_outside(bag, obstacle.solid, _gap).proven + obstacle.metres
+    near = box_gap(bag.ctrl, obstacle.solid) < obstacle.metres
+    if not near.any():
+        return 0.0
+    return obstacle.metres - inf_distance(bag.pick(near), obstacle.solid, _gap).proven
+
+
+def _gap(_: float) -> float:
+    return GAP_M

@@ -1,0 +1,190 @@
+"""Moves of a fleet on elliptic arcs (``geom.arcs``) on one clock: where on them when, and how fast that can
+be.
+
+Everybody is at c + a(t) (x_i - c) + b(t) (g_i - c). (a, b) is a cubic B-spline of even pieces whose control
+points lie on the way of ``geom.arcs``, pushed out. How far along it they are is a profile of ``solvers.move``
+over a time of its own, which runs by what the busiest drone needs there: the root of the sum of the squares
+of its share of the speeds and of the time that its acceleration takes. Velocity, acceleration and jerk of
+every drone are linear in (a, b), so differences of control points bound them at every instant, as of
+straight moves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.limits import Limits
+from shotc.show.geom.arcs import Gaps, angles, least_share, pushed_out, way
+from shotc.show.solvers.move import LEAST_PIECE_S, LIMIT_SHARE, TICK_S, WORTH_RATIO, family
+
+PIECES = (12, 16, 20, 24, 32, 40)
+"""Numbers of pieces that a move may have."""
+EVERY = 3
+"""Profiles of the family that are tried, one in so many."""
+ASKED_SHARE = 1.5
+"""Acceleration that a place on the way is given, in shares of the limit: the profile has the rest."""
+SMOOTHED_SHARE = 0.04
+"""Share of the way over which what is needed is smoothed, so that corners of it are not met in jerks."""
+DIRECTIONS = 16
+"""Directions of (a, b) by which the busiest drones are told from the others."""
+CORNERS = (0.03, 0.06, 0.12, 0.25, 0.5)
+"""Shares by which tighter formations grow beyond the distance before they turn: the first that does is
+taken."""
+
+BINDS = ("speed", "climb", "descent", "acceleration", "jerk")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArcMove:
+    """A common move on arcs.
+
+    ctrl : control points of (a, b), shape (P + 3, 2), the first three (1, 0) and the last three (0, 1)
+    pivot : the point c, shape (3,), metres; piece : seconds that each of the P pieces takes
+    limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
+    """
+
+    ctrl: Array
+    pivot: Array
+    piece: float
+    limit: str
+    drone: int
+
+    @property
+    def duration(self) -> float:
+        """Return seconds from rest to rest."""
+        return self.piece * self.pieces
+
+    @property
+    def pieces(self) -> int:
+        """Return the number of pieces."""
+        return len(self.ctrl) - 3
+
+    def between(self, starts: Array, goals: Array) -> list[Array]:
+        """Return the control points between the two formations, shape (n, 3) each."""
+        away, there = starts - self.pivot, goals - self.pivot
+        return [self.pivot + a * away + b * there for a, b in self.ctrl[3:-3]]
+
+
+def fastest_arc(ends: tuple[Array, Array], pivot: Array, gaps: Gaps, limits: Limits, pace: float) -> ArcMove:
+    """Return the shortest move found, every limit times ``pace`` kept by all drones.
+
+    ends : places before and after, shape (n, 3) each; pivot : the point c, shape (3,)
+    gaps : least distances before and after, in the metric of the fleet
+    """
+    drones = _Drones.of(ends, pivot, limits, pace)
+    busy = drones.busiest()
+    found: Array | None = None
+    for corner in CORNERS:
+        found = _shortest(busy, gaps, corner)
+        if min(gaps) >= 1.0 or least_share(found, gaps) >= 1.0 - 1e-9:
+            break
+    assert found is not None
+    least = least_share(found, gaps)
+    if least < 1.0 and min(gaps) >= 1.0:
+        found = np.concatenate([found[:3], found[3:-3] / least, found[-3:]])
+    pieces, drone, limit = drones.binding(found)
+    return ArcMove(found, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
+
+
+def _shortest(busy: _Drones, gaps: Gaps, corner: float) -> Array:
+    """Return the control points of (a, b), shape (K, 2), with which the drones are there first."""
+    line = way(gaps, corner)
+    at = _when(busy, line)
+    share = np.linspace(0.0, 1.0, len(line))
+    best, found = inf, np.zeros((0, 2))
+    for pieces in PIECES:
+        shapes = family(pieces)[0][::EVERY]
+        along = np.interp(shapes, at, share)
+        ctrl = np.stack([np.interp(along, share, line[:, k]) for k in range(2)], axis=-1)
+        ctrl = pushed_out(ctrl, gaps)
+        least = busy.least_pieces(ctrl)
+        k = int(least.argmin())
+        if pieces * least[k] * WORTH_RATIO < best:
+            best, found = float(pieces * least[k]), ctrl[k]
+    return found
+
+
+def _when(busy: _Drones, line: Array) -> Array:
+    """Return the share of the time that the busiest drone needs up to each point of a way (N, 2)."""
+    step = 1.0 / (len(line) - 1)
+    rate = np.gradient(line, step, axis=0)
+    bend = np.gradient(rate, step, axis=0)
+    speeds = busy.shares(rate, 1)
+    needs = np.hypot(speeds, np.sqrt(busy.shares(bend, 2) / ASKED_SHARE))
+    wide = max(1, round(SMOOTHED_SHARE * len(line)))
+    padded = np.pad(needs, wide, mode="edge")
+    kernel = np.ones(2 * wide + 1) / (2 * wide + 1)
+    smooth = np.convolve(padded, kernel, mode="valid")
+    smooth = np.maximum(smooth, 1e-9 + 1e-6 * float(smooth.max()))
+    passed = np.concatenate([[0.0], np.cumsum(0.5 * (smooth[1:] + smooth[:-1]))])
+    return np.asarray(passed / passed[-1])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Drones:
+    """Drones by where they begin and end about the pivot, shape (n, 3) each, and what they may."""
+
+    away: Array
+    there: Array
+    ceilings: tuple[float, float, float, float, float]
+
+    @staticmethod
+    def of(ends: tuple[Array, Array], pivot: Array, limits: Limits, pace: float) -> _Drones:
+        scale = LIMIT_SHARE * pace
+        most = (limits.speed, limits.climb, limits.descent, limits.usable_acceleration, limits.jerk)
+        speed, climb, descent, acceleration, jerk = (scale * m for m in most)
+        return _Drones(ends[0] - pivot, ends[1] - pivot, (speed, climb, descent, acceleration, jerk))
+
+    def busiest(self) -> _Drones:
+        """Return those of whom one has the most to do, whatever the way: the others bind nothing."""
+        kept: set[int] = set()
+        for a, b in angles(DIRECTIONS):
+            rates = a * self.away + b * self.there
+            level = np.einsum("nd,nd->n", rates[:, :2], rates[:, :2])
+            whole = level + rates[:, 2] ** 2
+            kept |= {int(level.argmax()), int(whole.argmax())}
+            kept |= {int(rates[:, 2].argmax()), int(rates[:, 2].argmin())}
+        rows = sorted(kept)
+        return _Drones(self.away[rows], self.there[rows], self.ceilings)
+
+    def shares(self, rates: Array, order: int) -> Array:
+        """Return the largest share of a limit that a derivative of (a, b), shape (..., 2), asks of
+        anybody.
+        """
+        return np.asarray(self._shares(rates, order).max(axis=(-2, -1)))
+
+    def least_pieces(self, ctrl: Array) -> Array:
+        """Return the least length of a piece for control points (..., K, 2), seconds."""
+        least = np.full(ctrl.shape[:-2], LEAST_PIECE_S)
+        for order in (1, 2, 3):
+            rates = np.diff(ctrl, order, axis=-2)
+            most = self.shares(rates, order).max(axis=-1)
+            least = np.maximum(least, most ** (1.0 / order))
+        return np.asarray(least)
+
+    def binding(self, ctrl: Array) -> tuple[float, int, str]:
+        """Return the least length of a piece for control points (K, 2), whom it binds, and by what."""
+        best = (LEAST_PIECE_S, 0, BINDS[0])
+        for order in (1, 2, 3):
+            for rate in np.diff(ctrl, order, axis=0):
+                shares = self._shares(rate, order)
+                drone, which = (int(k) for k in np.unravel_index(int(shares.argmax()), shares.shape))
+                seconds = float(shares[drone, which]) ** (1.0 / order)
+                if seconds > best[0]:
+                    best = (seconds, drone, BINDS[which] if order == 1 else BINDS[order + 1])
+        return best
+
+    def _shares(self, rates: Array, order: int) -> Array:
+        """Return shares of limits, shape (..., n, 3) of speeds and (..., n, 1) of what comes after them."""
+        moved = rates[..., None, :1] * self.away + rates[..., None, 1:] * self.there
+        if order == 1:
+            across = np.sqrt(moved[..., 0] ** 2 + moved[..., 1] ** 2)
+            up = moved[..., 2]
+            speed, climb, descent = self.ceilings[:3]
+            return np.stack([across / speed, up / climb, -up / descent], axis=-1)
+        most = self.ceilings[order + 1]
+        return np.asarray(np.sqrt(np.einsum("...d,...d->...", moved, moved))[..., None] / most)

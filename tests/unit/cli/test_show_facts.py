@@ -1,0 +1,18 @@
+"""What the summary of a show says of arcs and lattices."""
+
+from __future__ import annotations
+
+from shotc.cli.show_facts import dense
+
+
+def test_arcs_and_lattices_are_told_and_nothing_else() -> None:
+    stats = [
+        ("fleet left arcs", 1.0),
+        ("fleet right arcs", 0.0),
+        ("fleet right drones", 9.0),
+        ("goals shapes/2 lattice", 104.0),
+        ("goals shapes/1 frames", 1.0),
+    ]
+    arcs, lattice = dense(stats)
+    assert arcs.startswith("1 move of left on arcs")
+    assert lattice.startswith("picture 2 of shapes is a lattice of 104 lights")
