@@ -1,9 +1,6 @@
 """The ways into the motion of a shot and out of it: straight, between rest and the speed of the film's ends.
 
-The least time from rest to a speed v, with acceleration a and jerk j bounded, is v / a + a / j where the
-acceleration reaches its bound, and 2 sqrt(v / j) where it does not: it is a trapezoid or a triangle
-(Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, Sec. 3.4). The place
-of rest is free, so nothing else counts.
+The place of rest is free, so that such a way takes the least time from rest to its speed.
 """
 
 from __future__ import annotations
@@ -11,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import hypot, sqrt
+from math import hypot, inf
 
 import numpy as np
 
@@ -21,6 +18,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
 from shotc.ir.mission import MissionIR, Shot
+from shotc.planning.timing.straight import Bounds
 
 STEP_S = 0.5  # seconds over which the speed at the ends of a shot is measured
 SPLINE_RATIO = 1.05  # of the least time, that a spline takes: its control points keep the limits
@@ -60,8 +58,8 @@ class RunUp:
         """Return the way that ends so far aside, and takes the time for that."""
         level, rise = float(np.hypot(aside[0], aside[1])), abs(float(aside[2]))
         needed = max(
-            rest_to_rest(level, _either_way(limits, aside), limits.usable_acceleration, limits.jerk),
-            rest_to_rest(rise, min(limits.climb, limits.descent), limits.usable_acceleration, limits.jerk),
+            _bounds(limits, _either_way(limits, aside)).rest_to_rest(level),
+            _bounds(limits, min(limits.climb, limits.descent)).rest_to_rest(rise),
         )
         least = max(self.seconds, SPLINE_RATIO * needed / ACROSS + SETTLE_S)
         return replace(self, seconds=least / (1.0 - GOES_ON) if aside.any() else self.seconds, aside=aside)
@@ -101,43 +99,23 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
     fastest = limits.speed_along(float(velocity[0]), float(velocity[1]))
     share = max(level / fastest, up / limits.climb, -up / limits.descent, 1.0)
     velocity = velocity / share
-    least = least_time(float(np.linalg.norm(velocity)), limits.usable_acceleration, limits.jerk)
+    least = _bounds(limits).least_time(float(np.linalg.norm(velocity)))
     return RunUp(max(SHORTEST_S, SPLINE_RATIO * least + SETTLE_S), here, velocity)
 
 
 def way_time(limits: Limits, way: Array) -> float:
     """Return the seconds of a straight way from rest to rest, shape (3,), metres; its two parts at once."""
-    push = limits.usable_acceleration
     fastest = limits.speed_along(float(way[0]), float(way[1]))
-    level = rest_to_rest(float(np.linalg.norm(way[:2])), fastest, push, limits.jerk)
+    level = _bounds(limits, fastest).rest_to_rest(float(np.linalg.norm(way[:2])))
     speed = limits.climb if way[2] > 0.0 else limits.descent
-    return max(level, rest_to_rest(abs(float(way[2])), speed, push, limits.jerk))
+    return max(level, _bounds(limits, speed).rest_to_rest(abs(float(way[2]))))
+
+
+def _bounds(limits: Limits, speed: float = inf) -> Bounds:
+    return Bounds(speed, limits.usable_acceleration, limits.jerk)
 
 
 def _either_way(limits: Limits, way: Array) -> float:
     """Return the speed over ground that can be had there and back, m/s."""
     east, north = float(way[0]), float(way[1])
     return min(limits.speed_along(east, north), limits.speed_along(-east, -north))
-
-
-def rest_to_rest(distance: float, speed: float, acceleration: float, jerk: float) -> float:
-    """Return the least seconds over a distance from rest to rest; SI.
-
-    Half the way to a speed and half the way from it are flown at half of it on average.
-    """
-    if distance <= 0.0:
-        return 0.0
-    ease = acceleration / jerk
-    peak = 0.5 * acceleration * (sqrt(ease**2 + 4.0 * distance / acceleration) - ease)
-    if peak < acceleration * ease:
-        peak = (0.5 * distance * sqrt(jerk)) ** (2 / 3)
-    peak = min(peak, speed)
-    turn = least_time(peak, acceleration, jerk)
-    return 2.0 * turn + max(0.0, distance - peak * turn) / peak
-
-
-def least_time(speed: float, acceleration: float, jerk: float) -> float:
-    """Return the least seconds from rest to an even speed; SI."""
-    if speed >= acceleration**2 / jerk:
-        return speed / acceleration + acceleration / jerk
-    return 2.0 * sqrt(speed / jerk)

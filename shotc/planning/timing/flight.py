@@ -16,6 +16,10 @@ from shotc.planning.timing.profile import Profile
 
 Array = NDArray[np.float64]
 
+# A reference over time gets more knots where it would be this far from the one over the path, half frames.
+OFF = 2e-5
+SPLITS = 8
+
 
 @dataclass(slots=True)
 class Flight:
@@ -105,11 +109,22 @@ def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, cl
 
 
 def _over_time(reference: Piecewise, profile: Profile, start: float, end: float) -> Piecewise:
-    """Return reference(s(t)) as quintics between two times, by the chain rule at the knots."""
+    """Return reference(s(t)) as quintics between two times, by the chain rule at the knots and others."""
     inside = (profile.t > start + TINY) & (profile.t < end - TINY)
     t = np.concatenate([[start], profile.t[inside], [end]])
     motion = profile.curve()
-    s, sd, sdd = (motion.derivative(k)(t)[:, :1] if k else motion(t)[:, :1] for k in (0, 1, 2))
-    s = np.clip(s[:, 0], reference.start, reference.end)
-    d1, d2 = reference.derivative(1)(s), reference.derivative(2)(s)
-    return quintic_hermite(t, reference(s), d1 * sd, d2 * sd**2 + d1 * sdd)
+
+    def place(times: Array) -> Array:
+        return np.clip(motion(times)[:, 0], reference.start, reference.end)
+
+    for _ in range(SPLITS):
+        s = place(t)
+        sd, sdd = (motion.derivative(k)(t)[:, :1] for k in (1, 2))
+        d1, d2 = reference.derivative(1)(s), reference.derivative(2)(s)
+        found = quintic_hermite(t, reference(s), d1 * sd, d2 * sd**2 + d1 * sdd)
+        between = (t[:-1, None] + np.diff(t)[:, None] * np.array([0.25, 0.5, 0.75])).ravel()
+        off = np.abs(found(between) - reference(place(between))).max(axis=1).reshape(-1, 3).max(axis=1)
+        if (off <= OFF).all():
+            break
+        t = np.sort(np.concatenate([t, 0.5 * (t[1:] + t[:-1])[off > OFF]]))
+    return found

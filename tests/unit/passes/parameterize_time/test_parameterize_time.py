@@ -115,6 +115,7 @@ class TestRough:
     def test_where_the_solver_gives_up_the_flight_is_slower_and_says_so(
         self, monkeypatch: pytest.MonkeyPatch
     ) -> None:
+        monkeypatch.setattr(move_module, "rate_of_line", lambda _path, _span: None)
         monkeypatch.setattr(move_module, "retime", lambda _problem, around: (Status.FAILED, around))
         outcome = ParameterizeTime().run(flight(mission(), straight()), PassContext())
         assert outcome.value is not None

@@ -27,7 +27,6 @@ from shotc.passes.verify.advice import Rule, advice
 from shotc.planning.clock.aims import CameraTask
 from shotc.planning.clock.departure import When, choose
 from shotc.planning.clock.moving import Moving
-from shotc.planning.clock.run_up import least_time, rest_to_rest
 from shotc.planning.clock.shot import OtherVehicles, TimedShot, timed_shot
 from shotc.planning.clock.starts import CLOSE_S, SPARE_S, ClockFailure, Reached, put_off
 from shotc.planning.clock.sweeps import with_sweeps
@@ -36,6 +35,7 @@ from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import FreeSpaces, free_spaces_of
 from shotc.planning.path.legs import Flight, Pose, way_to
 from shotc.planning.timing.estimate import leg_time
+from shotc.planning.timing.straight import Bounds
 from tests.support.few import few
 from tests.support.front_passes import placed
 from tests.support.owners import owner
@@ -170,21 +170,10 @@ def test_a_shot_begins_as_its_target_comes_by_and_the_run_up_is_no_longer_than_i
     times = np.arange(0.0, float(earliest[1]), 0.01)
     speed = np.linalg.norm(curve.derivative()(times)[:, :2], axis=1)
     rest = times[speed < 1e-3][-1]
-    assert float(earliest[1]) - rest < 1.15 * least_time(14.0, 3.0, 8.0)
+    least = Bounds(20.0, 3.0, 8.0).least_time(14.0)
+    assert float(earliest[1]) - rest < 1.15 * least
     assert float(np.trapezoid(speed[times >= rest], times[times >= rest])) < 1.15 * 35.3
-    assert least_time(14.0, 3.0, 8.0) == pytest.approx(5.04, abs=0.01)
-
-
-@pytest.mark.parametrize("distance", [0.01, 1.0, 10.0, 200.0])
-def test_a_way_from_rest_to_rest_is_flown_at_the_speed_that_its_length_allows(distance: float) -> None:
-    """What is flown in the time reckoned is the distance, by the trapezoid's own sums."""
-    speed, acceleration, jerk = 8.0, 3.0, 8.0
-    seconds = rest_to_rest(distance, speed, acceleration, jerk)
-    peaks = np.linspace(1e-3, speed, 4000)
-    turns = np.array([least_time(float(v), acceleration, jerk) for v in peaks])
-    flown = peaks * turns
-    best = np.where(flown <= distance, 2 * turns + (distance - flown) / peaks, np.inf)
-    assert seconds == pytest.approx(float(best.min()), rel=0.02)
+    assert least == pytest.approx(5.04, abs=0.01)
 
 
 class Chaser:
