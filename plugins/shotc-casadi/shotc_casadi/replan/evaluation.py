@@ -102,13 +102,13 @@ def horizon(stage: Stage, stages: int, prices: Prices) -> Horizon:
     counts = tuple(each.numel() for each in s.rows)
     pattern = Pattern(*places, laid_last, counts, s.firm.numel(), s.ends.numel())
     laid = layout(pattern, n, s.u.numel(), s.x.numel())
-    count, many = n * s.x.numel(), n * sum(counts) + s.ends.numel()
-    slack = ca.DM.zeros(len(prices.lacking), n)
+    count, slack = n * s.x.numel(), ca.DM.zeros(len(prices.lacking), n)
+    unit = _unit(prices, lack, late)
     step = [
         _taken(laid.cost.order, [hessian]),
-        _with_slack(gradient, s, ca.repmat(price, 1, n)),
+        _with_slack(gradient, s, ca.repmat(price, 1, n) * unit),
         _taken(laid.motion.order, [driven, -ca.DM.ones(count), onward[:, 1:]]),
-        _taken(laid.bound.order, [kept, slopes_last, ca.DM.ones(many)]),
+        _taken(laid.bound.order, [kept, slopes_last, _each(unit, counts, s.ends.numel())]),
         -ca.vertcat(ca.vec(rows), last),
         _with_slack(low, s, slack),
         _with_slack(high, s, slack + ca.inf),
@@ -232,6 +232,22 @@ def _ended(s: Stage, end: Any, g: Any) -> tuple[Any, Any, Any, Places]:
 def _with_slack(of: Any, s: Stage, slack: Any) -> Any:
     """Return rows of inputs and states with those of the slacks between them, stage by stage."""
     return ca.vec(ca.vertcat(of[: s.u.numel(), :], slack, of[s.u.numel() :, :]))
+
+
+def _unit(prices: Prices, lack: Any, late: Any) -> Any:
+    """Return the units of slacks, groups by stages: what is lacking there, and at least so much that costs 1.
+
+    An interior point method begins with a dual residual of the price of a unit, and with slacks of some
+    units. So it takes half the iterations of metres where nothing is lacking, and no more where much is.
+    """
+    least = ca.repmat(1.0 / ca.DM(prices.lacking), 1, lack.size2())
+    return ca.fmax(ca.vertcat(ca.horzcat(lack[0, :-1], ca.fmax(lack[0, -1], late)), lack[1:, :]), least)
+
+
+def _each(unit: Any, counts: Sequence[int], ends: int) -> Any:
+    """Return the units of all rows that have a slack, stage by stage, and of those at the end."""
+    rows = ca.vertcat(*(ca.repmat(unit[group, :], many, 1) for group, many in enumerate(counts)))
+    return ca.vertcat(ca.vec(rows), ca.repmat(unit[0, -1], ends, 1))
 
 
 def _taken(order: Index, parts: list[Any]) -> Any:

@@ -54,7 +54,7 @@ class Layout(NamedTuple):
     """The matrices of a programme over a horizon.
 
     cost : of the stages' Hessians; motion : of their ``driven``, then -1 for every state, then ``onward`` but
-    the first; bound : of ``kept``, then ``ends``, then 1 for every row with a slack
+    the first; bound : of ``kept``, then ``ends``, then the unit of its slack for every row with one
     """
 
     cost: Sparse

@@ -16,7 +16,7 @@ from shotc_casadi.replan.evaluation import Evaluation, Horizon, Motion
 
 SHORTER = 0.4
 TRIES = 5
-TOLERANCE, GAP = 1e-4, 1e-3
+TOLERANCE, GAP = 1e-4, 1e-4
 """Of PIQP: of what is to hold, and of the cost, relative and absolute."""
 ITERATIONS = 50
 """Of PIQP: about 10 are usual, and a programme without a solution takes all of them."""
