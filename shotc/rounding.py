@@ -48,3 +48,8 @@ def _steps(value: float, digits: int) -> float:
 
 def _decimal(steps: int, digits: int) -> float:
     return steps / 10**digits if digits >= 0 else float(steps * 10**-digits)
+
+
+def exposure(seconds: float) -> str:
+    """Write a time of exposure as photographers do, with at most four digits."""
+    return f"1/{1 / seconds:.4g} s" if seconds < 0.5 else f"{seconds:g} s"

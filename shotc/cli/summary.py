@@ -9,6 +9,7 @@ from textwrap import wrap
 
 from shotc.cli.centred import centred
 from shotc.cli.console import clock, table
+from shotc.cli.exposed import exposed
 from shotc.cli.show_facts import dense
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
@@ -122,6 +123,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("refined", text) for text in _refined(plan)]
     facts += [("turns", text) for text in _turns(plan)]
     facts += [("lens", text) for text in _unknown_lenses(mission)]
+    facts += exposed(plan)
     facts += [("smoothed", text) for text in _smoothed(mission)]
     facts += [("shows", text) for text in dense(plan.trajectory.stats)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]

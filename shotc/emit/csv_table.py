@@ -20,6 +20,7 @@ from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
+from shotc.ir.sharpness import sharpness
 from shotc.ir.thrust import drawn, lean, thrust_to_weight
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
 
@@ -31,6 +32,7 @@ GEODETIC = ",lat_deg,lon_deg,alt_m"
 LIGHT = ",red,green,blue"
 EFFORT = ",tilt_rad,thrust_to_weight,airspeed_m_s,power_w"
 FRAMING = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered"
+SHARPNESS = ",focus_m,near_m,far_m,motion_blur_px,background_blur_px"
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +58,11 @@ class CsvTable:
             for track in tracks
             for row in _framing(plan, track, others_of(everyone, track.drone))
         ]
+        title = FRAMING + (SHARPNESS if _exposes(mission) else "")
         return Emission(
             (
                 Artifact("trajectory.csv", _table(header, _blocks(plan.trajectory))),
-                Artifact("framing.csv", _table(FRAMING, framing)),
+                Artifact("framing.csv", _table(title, framing)),
             )
         )
 
@@ -157,12 +160,29 @@ def _block(
         eyes = track.curve(t[missing])[:, :3]
         covered[missing] = coverage(mission, others, target, eyes, t[missing]).share
     name = f"{track.drone},{shot},{target}"
+    sharp = _sharp(mission, track, of, t)
     return [
-        f"{NUMBER % time},{name},{_cells(row)},{flag[0]},{flag[1]},{NUMBER % share}"
-        for time, row, flag, share in zip(
-            t.tolist(), numbers.tolist(), flags.tolist(), covered.tolist(), strict=True
+        f"{NUMBER % time},{name},{_cells(row)},{flag[0]},{flag[1]},{NUMBER % share}{last}"
+        for time, row, flag, share, last in zip(
+            t.tolist(), numbers.tolist(), flags.tolist(), covered.tolist(), sharp, strict=True
         )
     ]
+
+
+def _exposes(mission: MissionIR) -> bool:
+    """Tell whether the mission says of a camera with what it exposes."""
+    return any(drone.optics is not None for drone in mission.drones)
+
+
+def _sharp(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: Array) -> list[str]:
+    """Return the cells of the depth of field and of motion blur at times (M,), with a comma before each."""
+    if not _exposes(mission):
+        return [""] * len(t)
+    if mission.drone(track.drone).optics is None:
+        return [",,,,,"] * len(t)
+    found = sharpness(mission, track, *of, t)
+    columns = [found.focus, found.near, found.far, found.motion, found.background]
+    return [f",{_cells(row)}" for row in np.column_stack(columns).tolist()]
 
 
 def _judged(plan: VerifiedIR, of: tuple[str, str, str], t: Array) -> Array:

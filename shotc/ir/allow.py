@@ -4,6 +4,8 @@ from shotc.ir.mission import Shot
 
 HIDDEN = "hidden-subject"
 FAST_PAN = "fast-pan"
+SOFT = "soft-subject"
+BLURRED = "motion-blur"
 
 
 def hidden_on_purpose(shot: Shot) -> bool:

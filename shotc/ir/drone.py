@@ -56,6 +56,28 @@ class LensRange(NamedTuple):
         return focal_length(hfov, self.frame)
 
 
+class Optics(NamedTuple):
+    """What a camera exposes with, where the mission says it.
+
+    sensor : width of the area that takes the picture, m; None where nobody says: a full frame is taken then
+    aperture : f-number, None where the mission is silent: no depth of field is told then
+    circle : diameter of the disc on the sensor up to which a point counts as sharp, m
+    shutter : time of exposure, s, None where the mission is silent: no motion blur is told then
+    pixels : of the picture's width
+    """
+
+    sensor: float | None
+    aperture: float | None
+    circle: float
+    shutter: float | None
+    pixels: int
+
+    @property
+    def width(self) -> float:
+        """Width of the sensor, or of the full frame that is taken for it, m."""
+        return self.sensor or FULL_FRAME_M
+
+
 class Drone(NamedTuple):
     """A drone with its presets filled in.
 
@@ -64,6 +86,7 @@ class Drone(NamedTuple):
     radius : of the body sphere, m; endurance : s, of a drone whose battery is known what that hovers
     power : its battery and rotors, None where nobody knows them
     lens : None where nobody says what the camera carries
+    optics : None where the mission says neither aperture nor shutter
     """
 
     name: str
@@ -81,6 +104,7 @@ class Drone(NamedTuple):
     path: KeyPath
     power: Power | None = None
     lens: LensRange | None = None
+    optics: Optics | None = None
 
     @property
     def zooms(self) -> bool:

@@ -198,6 +198,7 @@ class Shot(NamedTuple):
     allow : what of ``spec.allow`` it may do untold, by name, by its own word or by that of the rules
     above : what the altitude of its camera counts from; None where it has none
     smoothing : seconds; see ``ir.smoothing``
+    focus : name of the target that the lens is focused on, None for the one that is framed
     """
 
     id: str
@@ -216,6 +217,7 @@ class Shot(NamedTuple):
     allow: tuple[str, ...] = ()
     above: Above | None = None
     smoothing: float = NORMAL_S
+    focus: str | None = None
 
     @property
     def smoother(self) -> float:

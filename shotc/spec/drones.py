@@ -9,6 +9,7 @@ from pydantic_core import InitErrorDetails
 
 from shotc.geom.focal import FULL_FRAME_M, field_of_view
 from shotc.ir.drone import LensRange
+from shotc.spec.exposure import ApertureType, Millimetres, ShutterType
 from shotc.spec.faults import fault, fault_at, together
 from shotc.spec.fields import (
     Acceleration,
@@ -41,6 +42,7 @@ Tilt = Annotated[float, Quantity("Tilt", "angle", radians(1.0), radians(80.0), n
 ThrustToWeight = Annotated[float, Quantity("ThrustToWeight", "ratio", 1.02, 20.0, noun="ratio")]
 
 Mass = Annotated[float, Quantity("Mass", "mass", SMALLEST["mass"])]
+Circle = Annotated[float, Millimetres("Circle", "length", 1e-6, 1e-3, noun="circle of confusion")]
 Energy = Annotated[float, WattHours("Energy", "energy", 360.0)]
 Reserve = Annotated[float, Percentage("Reserve", "ratio", 0.0, 0.9, noun="reserve")]
 SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
@@ -107,6 +109,20 @@ class CameraSpec(Model):
     zoom_rate: AngularRate | None = Field(
         default=None, description="how fast the field of view changes at most; 10 deg/s if silent"
     )
+    aperture: Annotated[float, ApertureType()] | None = Field(
+        default=None, description="f-number of the lens, such as f/2.8: with it the depth of field is told"
+    )
+    circle_of_confusion: Circle | None = Field(
+        default=None,
+        description="diameter on the sensor up to which a point counts as sharp; 0.03 mm of a sensor 36 mm "
+        "wide, and as much less as the sensor is narrower, if silent",
+    )
+    shutter: Annotated[float, ShutterType()] | None = Field(
+        default=None, description="time of exposure, such as 1/50 s: with it the motion blur is told"
+    )
+    pixels: Annotated[int, Integer("Pixels", 100, 20_000)] | None = Field(
+        default=None, description="width of the picture that motion blur is counted in; 3840 if silent"
+    )
     aspect: Aspect | None = Field(default=None, description='frame width over height, such as "16:9"')
 
     @property
@@ -151,6 +167,7 @@ class CameraSpec(Model):
             )
         self._agree()
         self._zooms()
+        self._exposes()
         return self
 
     def _zooms(self) -> None:
@@ -171,6 +188,20 @@ class CameraSpec(Model):
                 f"a field of view of {degrees(hfov):.4g} deg is none of the zoom's",
                 f"it goes from {degrees(lens.longest):.4g} to {degrees(lens.widest):.4g} deg",
             )
+
+    def _exposes(self) -> None:
+        """Raise a fault where a number is given for something that nothing else tells."""
+        for key, value, needs, example in (
+            ("circle_of_confusion", self.circle_of_confusion, "aperture", "f/2.8"),
+            ("pixels", self.pixels, "shutter", "1/50 s"),
+        ):
+            if value is not None and getattr(self, needs) is None:
+                raise fault_at(
+                    (key,),
+                    "conflicting-fields",
+                    f"`{key}` is said of a camera without `{needs}`",
+                    f"write `{needs}: {example}` beside it, or take it out",
+                )
 
     def _agree(self) -> None:
         """Raise a fault where the frame's shape is given twice, and not the same."""

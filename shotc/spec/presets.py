@@ -25,6 +25,9 @@ TRANSIT_FILMED = 5.0
 TRANSIT_OTHER = 3.0
 TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racing cars do
 PACE = 0.75
+CIRCLE_SHARE = 0.03 / 36.0
+"""Of a sensor's width, the disc up to which a point counts as sharp: the usual 0.03 mm of a full frame."""
+PIXELS = 3840  # of a picture's width: UHD
 ZOOM_RATE = radians(10.0)  # of the field of view, a second: a slow zoom of a film camera
 SMOOTHING = NORMAL_S
 RATE = 50.0
@@ -44,6 +47,7 @@ class Preset(NamedTuple):
     endurance : s, what its power hovers where that is known
     power : its battery and rotors, None where their figures are not known
     fixed_lens : whether its camera is built in and has no other field of view
+    sensor : width of the area that takes the picture, m, None where that is not known
     """
 
     summary: str
@@ -58,6 +62,7 @@ class Preset(NamedTuple):
     source: str
     power: Power | None = None
     fixed_lens: bool = False
+    sensor: float | None = None
 
 
 def _limits(linear: tuple[float, float, float, float, float], yaw: tuple[float, float]) -> Limits:
@@ -117,7 +122,7 @@ _MAVIC = (11.0, 4.5, 4.0, 4.0, 10.0)
 
 _PX4 = "speeds and accelerations below PX4's default MPC_* limits; "
 
-PRESETS: dict[str, Preset] = {
+_MODELS: dict[str, Preset] = {
     "x500": Preset(
         summary="500 mm PX4 development quadrotor with a three-axis gimbal",
         limits=_limits((8.0, 3.0, 1.5, 3.0, 8.0), (60.0, 90.0)),
@@ -285,3 +290,13 @@ PRESETS: dict[str, Preset] = {
         source="common light-show quadrotors of about 300 mm; camera figures are placeholders of the class",
     ),
 }
+
+_INCH_1_3, _INCH, _FOUR_THIRDS = 9.8e-3, 13.2e-3, 17.3e-3
+"""Widths of sensors of the types 1/1.3 inch (4:3, 12.3 mm across), 1 inch and 4/3 inch, m."""
+_SENSORS = {
+    **dict.fromkeys(("mini", "mini-3", "mini-3-pro", "mini-4-pro", "air-3"), _INCH_1_3),
+    **dict.fromkeys(("mini-5-pro", "air-3s"), _INCH),
+    **dict.fromkeys(("pro", "mavic-3-classic", "mavic-3-pro", "mavic-4-pro", "mavic-3e"), _FOUR_THIRDS),
+    "alta-x": 24.9e-3,
+}
+PRESETS = {name: model._replace(sensor=_SENSORS.get(name)) for name, model in _MODELS.items()}

@@ -91,7 +91,9 @@ class RulesSpec(Model):
         "smoothed away",
     )
     allow: Allowed = Field(
-        default=(), description="warnings of film grammar that are not told, by name, or hidden-subject"
+        default=(),
+        description="warnings of film grammar that are not told, by name, or hidden-subject, "
+        "soft-subject, motion-blur",
     )
 
 

@@ -138,6 +138,11 @@ class ShotBase(Model):
     drone: Name = Field(description="name of the drone that films it, or auto")
     target: Name | None = Field(default=None, description="name of the target in the picture")
     timing: TimingSpec = section("auto, or any of start, after, duration")
+    focus: Name | None = Field(
+        default=None,
+        description="name of the target that the lens is focused on, for cameras with an aperture; the one "
+        "that is framed if silent",
+    )
     composition: CompositionSet | None = Field(
         default=None,
         description="where on screen the target may be: a set, a named point or [[u, v], ...]; the rules' "
@@ -158,7 +163,8 @@ class ShotBase(Model):
     refine: RefineSpec | None = Field(default=None, description="how refinement is used")
     allow: Allowed = Field(
         default=(),
-        description="warnings of film grammar that are not told of this shot, by name, or hidden-subject",
+        description="warnings of film grammar that are not told of this shot, by name, or hidden-subject, "
+        "soft-subject, motion-blur",
     )
 
 

@@ -29,6 +29,31 @@ shots:
       - {at: [4, -50, 15], heading: 20 deg, pitch: 0 deg}
 """
 
+_LENS = """\
+shotc: 1
+mission: portrait
+targets: {mast: {at: [0, 0, 6], radius: 1, height: 2}}
+drones: {cam: {model: x500, home: [0, -30, 0], camera: {sensor: 36 mm, focal_length: 85 mm, aperture: STOP}}}
+shots:
+  - {id: look, kind: static, drone: cam, at: [0, -12, 6], look_at: mast, timing: {duration: 6}}
+"""
+
+_RUNNER = """\
+shotc: 1
+mission: passing
+targets: {runner: {track: {start: [-30, 0, 0.9], velocity: [3, 0, 0]}, radius: 0.4, height: 1.8}}
+drones: {cam: {model: x500, home: [0, -30, 0], camera: {hfov: 60 deg, shutter: TIME}}}
+shots:
+  - id: pass
+    kind: static
+    drone: cam
+    target: runner
+    at: [0, -20, 3]
+    heading: 0 deg
+    pitch: -4 deg
+    timing: {start: 9, duration: 2}
+"""
+
 _REVEAL = """\
 shotc: 1
 mission: reveal
@@ -115,6 +140,33 @@ SHOWN: tuple[CodeInfo, ...] = (
         "the shot, or under `rules` for the whole mission.",
         _PAN.replace("TIMING", "pace: brisk"),
         _PAN.replace("TIMING", "timing: {duration: 20}"),
+        "plan",
+    ),
+    CodeInfo(
+        "V061",
+        "soft-subject",
+        Severity.WARNING,
+        "a subject is not sharp from its nearest to its farthest point",
+        "With `camera: {aperture: f/2.8}` the depth of field is told: the lens is focused on the centre of the target that is "
+        "framed, or on the shot's `focus`, and a thin lens shows points nearer and farther as discs. Up to "
+        "`circle_of_confusion` a disc counts as sharp; it is 0.03 mm on a sensor 36 mm wide, and as much less as the sensor is "
+        "narrower. The notes tell how much it is and from where to where all is sharp. Stop the lens down, film from farther "
+        "away, or write `allow: [soft-subject]` in the shot.",
+        _LENS.replace("STOP", "f/1.4"),
+        _LENS.replace("STOP", "f/4"),
+        "plan",
+    ),
+    CodeInfo(
+        "V062",
+        "motion-blur",
+        Severity.WARNING,
+        "a subject moves too far on the picture while the shutter is open",
+        "With `camera: {shutter: 1/50 s}` motion blur is told: how far the centre of a target moves on the picture during one "
+        "exposure, by the camera's way, its turning, its zoom and the target's own motion. A 384th of the picture's width, 10 "
+        "pixels of 3840, is not told. What is behind the subject may be blurred: `background_blur_px` in framing.csv tells how "
+        "much. Take a shorter time, fly more slowly, or write `allow: [motion-blur]` in the shot.",
+        _RUNNER.replace("TIME", "1/24 s"),
+        _RUNNER.replace("TIME", "1/100 s"),
         "plan",
     ),
 )

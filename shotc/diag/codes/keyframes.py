@@ -226,6 +226,17 @@ CODES: tuple[CodeInfo, ...] = (
         "that stands goes nowhere: leave `turn` out, and the offset is east, north and up.",
         ("from: target, offset", "from: tower, offset"),
     ),
+    _code(
+        21,
+        "focus-without-aperture",
+        "a shot focuses on a target with a camera whose aperture is not known",
+        "`focus` says which target the lens is focused on; what is sharp before it and behind it follows from the aperture, and "
+        "the drone's `camera` says none. Write `camera: {aperture: f/2.8}`, or take `focus` out.",
+        (
+            "    timing: {start: 20, duration: 40}\n",
+            "    timing: {start: 20, duration: 40}\n    focus: tower\n",
+        ),
+    ),
     _beside(
         20,
         "zoom-out-of-time",

@@ -18,6 +18,7 @@ from shotc.emit.base import Artifact, Emission
 from shotc.emit.mavlink.build import Builder
 from shotc.emit.mavlink.dialect import DIALECTS, Dialect
 from shotc.emit.mavlink.fence import fence_of
+from shotc.emit.mavlink.focus import Focus, focus_of
 from shotc.emit.mavlink.items import CHANGE_SPEED, Item
 from shotc.emit.mavlink.plan_file import read_plan, write_plan
 from shotc.emit.mavlink.refly import refly
@@ -97,21 +98,23 @@ class _Job:
     track: Track
     style: Style
     obstacles: tuple[Obstacle, ...]
+    focus: Focus | None
 
     @staticmethod
     def of(mission: MissionIR, flight: DroneTrajectory) -> _Job:
         assert mission.origin is not None
         drone = mission.drone(flight.drone)
-        track = track_of(mission, flight)
+        track, dialect = track_of(mission, flight), DIALECTS[drone.autopilot]
         return _Job(
             mission,
             flight,
             drone,
-            DIALECTS[drone.autopilot],
+            dialect,
             tie(mission.origin, drone.home),
             track,
             style_of(mission, flight, track),
             keep_outs(mission, drone),
+            focus_of(mission, drone, flight, track) if dialect.focuses else None,
         )
 
     def emit(self) -> Emission:
@@ -157,7 +160,7 @@ class _Job:
         return [d for d in warnings if d is not None] + clockless(self.mission, self.flight)
 
     def _fit(self) -> _Flight:
-        thinner = thinner_of(self.track, self.drone, self.style, self.obstacles)
+        thinner = thinner_of(self.track, self.drone, self.style, self.obstacles, self.focus)
         intended = Tolerance()
         flight = self._write(thinner.legs(intended), coarser=False)
         if len(flight.items) <= self.dialect.most_items:
@@ -172,7 +175,8 @@ class _Job:
     def _write(self, legs: list[Leg], *, coarser: bool) -> _Flight:
         asked = steps_of(self.track, self.style, legs)
         steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
-        builder = Builder(self.drone, self.style, self.dialect, self.geo, DEFAULTS[self.drone.autopilot])
+        speeds = DEFAULTS[self.drone.autopilot]
+        builder = Builder(self.drone, self.style, self.dialect, self.geo, speeds, focus=self.focus)
         return _Flight(builder.build(self.track, steps), asked, steps, coarser)
 
 

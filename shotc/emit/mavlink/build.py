@@ -12,9 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.mavlink.dialect import Dialect
+from shotc.emit.mavlink.focus import Focus
 from shotc.emit.mavlink.items import (
+    CAMERA_FOCUS,
     CHANGE_SPEED,
     CONDITION_YAW,
+    FOCUS_METERS,
     ROI_LOCATION,
     ROI_NONE,
     SPEED_CLIMB,
@@ -50,6 +53,7 @@ class Builder:
     yaw : body yaw commanded last, rad; aimed : gimbal angles commanded last, None after following
     region : point of W that the gimbal looks at, or None
     hfov : field of view commanded last, rad
+    focus : where the lens is to be focused, None where the file does not say; focused : the last depth, m
     """
 
     drone: Drone
@@ -62,6 +66,8 @@ class Builder:
     aimed: Command | None = None
     region: Vec3 | None = None
     hfov: float | None = None
+    focus: Focus | None = None
+    focused: float | None = None
 
     def build(self, track: Track, steps: list[Step]) -> list[Item]:
         """Return the whole flight: take-off, the steps, landing."""
@@ -97,6 +103,7 @@ class Builder:
         else:
             self._look(step.region, end.position[0])
         self._zoom(step.command)
+        self._sharpen(step)
         if entered is not None:
             self.items.append(action(VIDEO_START))
         if self.dialect.turns_by_item and not (step.region and turns_body(self.drone)):
@@ -134,6 +141,16 @@ class Builder:
         if self.hfov is None or edge(command.hfov, self.hfov) > SAME_LENS:
             self.items.append(self.dialect.zoom(lens, command.hfov))
             self.hfov = command.hfov
+
+    def _sharpen(self, step: Step) -> None:
+        part = slice(step.leg.first, step.leg.last + 1)
+        if self.focus is None or step.leg.shot is None:
+            return
+        if self.focused is None or not self.focus.serves(part, self.focused):
+            middle = self.focus.middle(part)
+            if middle is not None and middle != self.focused:
+                self.items.append(action(CAMERA_FOCUS, float(FOCUS_METERS), middle))
+                self.focused = middle
 
     def _look(self, region: Vec3, position: Array) -> None:
         if self.region is not None and _parted(region, self.region, position) < SAME:

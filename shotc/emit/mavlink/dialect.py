@@ -51,6 +51,7 @@ class Px4:
     vertical_speeds = False
     turns_by_item = False
     earth_pan = True
+    focuses = True
 
     def takeoff(self, place: Place, yaw: float) -> list[Item]:
         """Return the take-off, after which the mission claims the gimbal."""
@@ -90,6 +91,7 @@ class ArduPilot:
     vertical_speeds = True
     turns_by_item = True
     earth_pan = False
+    focuses = False  # but by itself, or in percent of what nobody knows
 
     def takeoff(self, place: Place, yaw: float) -> list[Item]:
         """Return the take-off; it keeps its heading."""

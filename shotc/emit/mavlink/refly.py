@@ -198,6 +198,7 @@ _RUN: dict[int, Callable[[_Pilot, tuple[float | None, ...]], None]] = {
     mav.GIMBAL_PITCHYAW: _pitch_yaw,
     mav.MOUNT_CONTROL: _mount,
     mav.CAMERA_ZOOM: _zoom,
+    mav.CAMERA_FOCUS: _nothing,
     mav.ROI_LOCATION: _look_at,
     mav.ROI_NONE: _look_away,
     mav.VIDEO_START: _record,

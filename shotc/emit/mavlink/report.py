@@ -9,7 +9,7 @@ from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
 from shotc.emit.waypoints.compare import Error
-from shotc.emit.waypoints.report import zoomed_to
+from shotc.emit.waypoints.report import by_hand, zoomed_to
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -102,6 +102,10 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
 
 def sidenotes(drone: Drone, asked: list[Step], flown: list[Step]) -> list[str]:
     """Return what the pilot has to know about how this autopilot flies the file."""
+    return [*_flown(drone, asked, flown), *by_hand(drone, focuses=drone.autopilot == "px4")]
+
+
+def _flown(drone: Drone, asked: list[Step], flown: list[Step]) -> list[str]:
     if drone.autopilot == "ardupilot":
         text = (
             f"ardupilot {drone.name}: set WP_YAW_BEHAVIOR to 0, or every waypoint turns the body to the path"

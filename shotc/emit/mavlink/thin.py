@@ -12,6 +12,7 @@ from math import radians
 import numpy as np
 from numpy.typing import NDArray
 
+from shotc.emit.mavlink.focus import Focus
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, turns_body
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.lens import edge
@@ -56,6 +57,7 @@ class Thinner:
     """Cuts one drone's track into legs.
 
     planned_shortfall : by how much each sample is too near to each obstacle, metres, (n,) each
+    focus : where the lens is to be focused, None where the file does not say
     """
 
     track: Track
@@ -63,6 +65,7 @@ class Thinner:
     style: Style
     obstacles: tuple[Obstacle, ...]
     planned_shortfall: tuple[Array, ...]
+    focus: Focus | None = None
 
     def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[Leg]:
         """Return the legs of the whole track; ``even`` ones cost more time and no more legs."""
@@ -126,11 +129,16 @@ class Thinner:
         poses = self._flown(leg, planned, flown, share)
         if np.abs(wrapped(poses.body_yaw - planned.body_yaw)).max() > tolerance.heading:
             return False
-        if edge(planned.hfov, poses.hfov).max() > tolerance.screen:
+        if edge(planned.hfov, poses.hfov).max() > tolerance.screen or not self._sharp(part):
             return False
         subject = self.track.subject[part]
         shift = project(poses, subject, self.drone) - project(planned, subject, self.drone)
         return bool(np.nanmax(np.hypot(*shift.T), initial=0.0) <= tolerance.screen)
+
+    def _sharp(self, part: slice) -> bool:
+        """Tell whether one focus serves a leg."""
+        middle = None if self.focus is None else self.focus.middle(part)
+        return self.focus is None or middle is None or self.focus.serves(part, middle)
 
     def _clear(self, part: slice, flown: Array, reach: float) -> bool:
         for obstacle, planned in zip(self.obstacles, self.planned_shortfall, strict=True):
@@ -157,10 +165,16 @@ class Thinner:
         return Poses(flown, body, cam_yaw, pitch, hfov)
 
 
-def thinner_of(track: Track, drone: Drone, style: Style, obstacles: tuple[Obstacle, ...]) -> Thinner:
+def thinner_of(
+    track: Track,
+    drone: Drone,
+    style: Style,
+    obstacles: tuple[Obstacle, ...],
+    focus: Focus | None = None,
+) -> Thinner:
     """Return the thinner of one drone's track."""
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
-    return Thinner(track, drone, style, obstacles, planned)
+    return Thinner(track, drone, style, obstacles, planned, focus)
 
 
 def along(points: Array, time: Array, *, rest: bool) -> Array:

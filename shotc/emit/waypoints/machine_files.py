@@ -152,7 +152,7 @@ class _Job:
         ]
         files = [a.name for a in written.artifacts]
         notes = report.notes(self.drone, files, len(written.route.position), error, self._models)
-        return Emission(written.artifacts, tuple(told), tuple(notes))
+        return Emission(written.artifacts, tuple(told), (*notes, *report.by_hand(self.drone)))
 
     @property
     def _models(self) -> int:

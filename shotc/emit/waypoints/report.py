@@ -21,7 +21,7 @@ from shotc.ir.owners import Owner
 from shotc.ir.path import HFOV
 from shotc.ir.source import TAKES, Autopilot
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.rounding import at_least
+from shotc.rounding import at_least, exposure
 
 ZOOM_LEAST = np.radians(0.1)
 PROMISED = "E122"  # of a zoom that is not carried where framing is promised
@@ -272,3 +272,17 @@ def notes(drone: Drone, files: list[str], count: int, error: Error, models: int)
 def zoomed_to(error: Error) -> str:
     """Return what the steps of a zoom do to the picture, nothing where there are none."""
     return f"; the edge of the picture zooms to within {at_least(error.edge, 3)}" if error.edge > 0 else ""
+
+
+def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
+    """Return what of the exposure the pilot sets: no mission file says it in a way that cameras agree on.
+
+    focuses : whether the file commands the focus
+    """
+    if drone.optics is None:
+        return []
+    aperture, shutter = drone.optics.aperture, drone.optics.shutter
+    parts = [] if aperture is None else [f"aperture f/{aperture:g}"]
+    parts += [] if shutter is None else [f"shutter {exposure(shutter)}"]
+    parts += [] if focuses or aperture is None else ["focus, or its tracking"]
+    return [f"{drone.autopilot} {drone.name}: set by hand {', '.join(parts)}"]

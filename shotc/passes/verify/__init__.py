@@ -30,6 +30,7 @@ from shotc.passes.verify.pans import pans
 from shotc.passes.verify.promises import unjudged
 from shotc.passes.verify.report import report
 from shotc.passes.verify.shape import shape, structure
+from shotc.passes.verify.sharpness import sharp, unsharp
 from shotc.passes.verify.shots import shots
 from shotc.passes.verify.sight import sights
 from shotc.passes.verify.space import space
@@ -86,7 +87,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
             *course(flight, ir),
         ]
         for shot in filmed(flight, ir):
-            claims += framing(flight, shot)
+            claims += [*framing(flight, shot), *sharp(flight, shot)]
             covered += (
                 CoveredShares(flight.drone.name, view.shot.id, view.target, view.times, view.covered)
                 for view in shot.views
@@ -99,6 +100,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     ]
     certificate = tuple(claims)
     diagnostics = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
+    diagnostics += tuple(unsharp(ir, certificate))
     return Verdict(certificate, (*_grounded(ir), *diagnostics), tuple(covered))
 
 

@@ -61,6 +61,7 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
         if written.target is not None and written.target not in cast.targets:
             where = (*path, "target")
             diagnostics.append(unknown_target(cast.origins, where, written.target, cast.targets))
+        diagnostics += _focus(spec, written, cast, path)
         expansion = _expand(spec, written, cast, cast.drones.get(written.drone) or spare(), path)
         diagnostics += expansion.diagnostics
         deferred += expansion.deferred
@@ -119,7 +120,29 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         allow=tuple(dict.fromkeys((*spec.rules.allow, *shot.allow))),
         above=_above(shot),
         smoothing=shot.smoothing or spec.rules.smoothing,
+        focus=shot.focus,
     )
+
+
+def _focus(spec: MissionSpec, shot: ShotBase, cast: Cast, path: KeyPath) -> list[Diagnostic]:
+    """Return what is wrong with what a lens is to be focused on: it is not there, or there is no aperture."""
+    where = (*path, "focus")
+    if shot.focus is None:
+        return []
+    if shot.focus not in cast.targets:
+        return [unknown_target(cast.origins, where, shot.focus, cast.targets)]
+    drone = spec.drones.get(shot.drone)
+    if drone is None or drone.camera.aperture is not None:
+        return []
+    return [
+        Diagnostic(
+            "K021",
+            f"`focus` is asked of `{shot.drone}`, whose camera has no aperture",
+            (cast.origins.value(where),),
+            ("how far is sharp before and behind it follows from the aperture",),
+            f"write `camera: {{aperture: f/2.8}}` of `{shot.drone}`, or take `focus` out",
+        )
+    ]
 
 
 def _above(shot: ShotBase) -> Above | None:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.focal import FULL_FRAME_M
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
-from shotc.ir.drone import Drone, Gimbal, LensRange
+from shotc.ir.drone import Drone, Gimbal, LensRange, Optics
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Zone
 from shotc.ir.origin import KeyPath, OriginMap
@@ -22,7 +23,7 @@ from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
-from shotc.spec.presets import PRESETS, Preset
+from shotc.spec.presets import CIRCLE_SHARE, PIXELS, PRESETS, Preset
 from shotc.spec.rehearse import WindSpec
 from shotc.spec.world import ZoneSpec
 
@@ -155,6 +156,7 @@ def resolve_drone(
         gimbal=preset.gimbal if spec.gimbal is None else Gimbal(**_over(preset.gimbal, spec.gimbal)),
         hfov=camera.field_of_view or preset.hfov,
         lens=_lens(camera, preset),
+        optics=_optics(camera, preset),
         aspect=camera.aspect_ratio or preset.aspect,
         radius=spec.radius or preset.radius,
         endurance=spec.endurance or (preset.endurance if power is None else power.endurance),
@@ -186,6 +188,15 @@ def _lens(camera: CameraSpec, preset: Preset) -> LensRange | None:
     """Return the lens of a camera; None where neither mission nor model says what it is."""
     hfov = camera.field_of_view or preset.hfov
     return camera.lens or (LensRange(hfov, hfov, 0.0) if preset.fixed_lens else None)
+
+
+def _optics(camera: CameraSpec, preset: Preset) -> Optics | None:
+    """Return what a camera exposes with; None where the mission says neither aperture nor shutter."""
+    if camera.aperture is None and camera.shutter is None:
+        return None
+    sensor = preset.sensor if camera.sensor is None else camera.sensor[0]
+    circle = camera.circle_of_confusion or CIRCLE_SHARE * (sensor or FULL_FRAME_M)
+    return Optics(sensor, camera.aperture, circle, camera.shutter, camera.pixels or PIXELS)
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:

@@ -1,0 +1,147 @@
+"""Whether subjects are shown sharp: depth of field and motion blur, sampled, where missions say with what.
+
+Nothing here refuses a plan. What is soft, and what moves too far while the shutter is open, is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil, floor, inf, isfinite
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.ir.allow import BLURRED, SOFT
+from shotc.ir.drone import Optics
+from shotc.ir.mission import MissionIR
+from shotc.ir.sharpness import sharpness
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+from shotc.passes.verify.framing import Filmed, View
+from shotc.rounding import at_least, exposure
+from shotc.spec.exposure import LEAST_S, MOST_F
+
+DISC, MOTION, BACKGROUND = " blur disc", " motion blur", " background blur"
+"""How claims end that tell the largest disc of a target's points, and the longest lines of it and behind."""
+
+MOTION_SHARE = 1 / 384
+"""Of the picture's width, that a subject may move while the shutter is open: 10 pixels of 3840."""
+
+STOPS = (1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32, 45, 64)
+
+
+def most_motion(optics: Optics) -> float:
+    """Return how far a subject may move while the shutter is open, pixels."""
+    return MOTION_SHARE * optics.pixels
+
+
+def sharp(flight: Flight, shot: Filmed) -> Iterator[Claim]:
+    """Claim how sharp the targets of a shot are shown, where the mission says with what it is exposed."""
+    optics = flight.drone.optics
+    if optics is None:
+        return
+    for view in shot.views:
+        found = sharpness(flight.mission, flight.track, view.shot.id, view.target, view.times)
+        if optics.aperture is not None:
+            path = (*flight.drone.path, "camera", "aperture")
+            limit = Limit(
+                f"{view.target}{DISC}", 1e3 * optics.circle, "mm", path, hard=False, shot=view.shot.id
+            )
+            yield _claimed(flight, view, limit, 1e3 * found.disc)
+        if optics.shutter is not None:
+            path = (*flight.drone.path, "camera", "shutter")
+            for name, most, values in (
+                (MOTION, most_motion(optics), found.motion),
+                (BACKGROUND, inf, found.background),
+            ):
+                limit = Limit(f"{view.target}{name}", most, "px", path, hard=False, shot=view.shot.id)
+                yield _claimed(flight, view, limit, values)
+
+
+def _claimed(flight: Flight, view: View, limit: Limit, values: Array) -> Claim:
+    """Claim the largest of some values; what is not known at a time counts as without bound there."""
+    known = np.where(np.isnan(values), inf, values)
+    k = int(np.argmax(known))
+    return claim(flight, limit, Worst(float(known[k]), float(view.times[k]), "sampled"))
+
+
+def unsharp(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
+    """Report subjects that are soft, or blurred by motion, unless their shot may."""
+    mission = ir.keyframes.mission
+    for each in claims:
+        if each.holds:
+            continue
+        if each.constraint.endswith(DISC) and SOFT not in mission.shot(each.shot).allow:
+            yield _soft(ir, each)
+        elif each.constraint.endswith(MOTION) and BLURRED not in mission.shot(each.shot).allow:
+            yield _blurred(mission, each)
+
+
+def _soft(ir: TrajectoryIR, each: Claim) -> Diagnostic:
+    mission, target = ir.keyframes.mission, each.constraint.removesuffix(DISC)
+    drone, time = mission.drone(each.subject), each.time or 0.0
+    optics = drone.optics
+    assert optics is not None
+    assert optics.aperture is not None
+    assert each.shot is not None
+    track = next(t for t in ir.drones if t.drone == each.subject)
+    then = sharpness(mission, track, each.shot, target, np.array([time]))
+    focus, near, far = (float(a[0]) for a in (then.focus, then.near, then.far))
+    told = "behind the camera, or nothing is in focus"
+    if isfinite(each.worst):
+        told = f"shown as discs of up to {at_least(each.worst, 3)} mm, {each.limit:.3g} mm counts as sharp"
+    reach = "infinity" if far == inf else f"{far:.1f} m"
+    width = (
+        f"{1e3 * optics.width:.3g} mm wide{'' if optics.sensor else ' (taken for it; `sensor` says another)'}"
+    )
+    return Diagnostic(
+        "V061",
+        f"{target} is soft in shot `{each.shot}`",
+        (mission.origins.key(mission.shot(each.shot).path),),
+        (
+            f"worst at t = {time:.3f} s: its points are {told}",
+            f"at f/{optics.aperture:g}, focused at {focus:.1f} m, it is sharp from {near:.1f} m to {reach};"
+            f" the sensor is {width}",
+        ),
+        _stop_down(each, optics, drone.name) + f"write `allow: [{SOFT}]` in the shot",
+    )
+
+
+def _stop_down(each: Claim, optics: Optics, drone: str) -> str:
+    """Say with which aperture the discs are small enough: they go as one over the f-number."""
+    assert optics.aperture is not None
+    needed = optics.aperture * each.worst / each.limit
+    stop = next((stop for stop in STOPS if stop >= needed * (1 + 1e-9)), MOST_F)
+    if needed > MOST_F:
+        return "film it from farther away or with a shorter lens, or "
+    return f"write `camera: {{aperture: f/{stop:g}}}` of `{drone}`, or "
+
+
+def _blurred(mission: MissionIR, each: Claim) -> Diagnostic:
+    target, drone = each.constraint.removesuffix(MOTION), mission.drone(each.subject)
+    optics = drone.optics
+    assert optics is not None
+    assert optics.shutter is not None
+    needed = optics.shutter * each.limit / each.worst if isfinite(each.worst) else 0.0
+    faster = "film it from farther away, or more slowly, or "
+    if needed >= LEAST_S:
+        faster = f"write `camera: {{shutter: {_time(needed)}}}` of `{drone.name}`, or "
+    return Diagnostic(
+        "V062",
+        f"{target} is blurred by motion in shot `{each.shot}`",
+        (mission.origins.key(mission.shot(each.shot).path),),
+        (
+            f"worst at t = {each.time or 0.0:.3f} s: it moves {at_least(each.worst, 1)} px of {optics.pixels}"
+            f" while the shutter is open for {exposure(optics.shutter)}",
+            f"up to {each.limit:.3g} px are not told",
+        ),
+        f"{faster}write `allow: [{BLURRED}]` in the shot",
+    )
+
+
+def _time(seconds: float) -> str:
+    """Return a time of exposure no longer than that, a round one."""
+    rate = 1.0 / seconds
+    step = 10.0 ** max(floor(np.log10(rate)) - 1, 0)
+    return f"1/{ceil(rate / step - 1e-9) * step:.0f} s"

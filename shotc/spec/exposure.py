@@ -1,0 +1,92 @@
+"""Field types of what a camera exposes with: the f-number of its lens, the time of its shutter."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from pydantic.json_schema import JsonSchemaValue
+
+from shotc.spec.faults import fault, unit_fault
+from shotc.spec.fieldtypes import FieldType
+from shotc.spec.quantities import Quantity
+from shotc.units import NUMBER, QuantityError, clip, describe, parse_quantity
+
+LEAST_F, MOST_F = 0.7, 64.0
+LEAST_S, MOST_S = 1e-5, 1.0
+_UNSIGNED = NUMBER.removeprefix("[+-]?")
+_APERTURE = re.compile(rf"\s*(?:[fF]\s*/?\s*)?({_UNSIGNED})\s*")
+_FRACTION = re.compile(rf"\s*({_UNSIGNED})\s*/\s*({_UNSIGNED})\s*(?:s|sec)?\s*")
+
+
+class Millimetres(Quantity):
+    """A length that people write in millimetres."""
+
+    def show(self, number: float) -> str:
+        """Return a length, m, as people write it."""
+        return f"{1e3 * number:g} mm"
+
+
+class ApertureType(FieldType):
+    """An f-number, as ``f/2.8`` or the number alone."""
+
+    label = "Aperture"
+
+    def read(self, value: Any) -> float:
+        """Return the f-number."""
+        written = _APERTURE.fullmatch(value) if isinstance(value, str) else None
+        if isinstance(value, bool) or not (written or isinstance(value, int | float)):
+            raise fault("wrong-type", f"expected an aperture, got {describe(value)}", "write it as `f/2.8`")
+        number = float(written[1]) if written else float(value)
+        if not LEAST_F <= number <= MOST_F:
+            raise fault(
+                "out-of-range", f"no lens has an aperture of `{clip(str(value))}`", "give f/0.7 to f/64"
+            )
+        return number
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a number, or a text that begins with f/."""
+        return {
+            "anyOf": [
+                {"type": "number", "minimum": LEAST_F, "maximum": MOST_F},
+                {"type": "string", "pattern": f"^{_APERTURE.pattern}$"},
+            ],
+            "description": "an f-number, such as f/2.8",
+        }
+
+
+class ShutterType(FieldType):
+    """A time of exposure, as ``1/50 s`` or a duration; kept in seconds."""
+
+    label = "Shutter"
+
+    def read(self, value: Any) -> float:
+        """Return the time, s."""
+        fraction = _FRACTION.fullmatch(value) if isinstance(value, str) else None
+        try:
+            seconds = _share(fraction) if fraction else parse_quantity(value, "duration")
+        except QuantityError as error:
+            raise unit_fault(error) from None
+        if LEAST_S <= seconds <= MOST_S:
+            return seconds
+        raise fault(
+            "out-of-range",
+            f"`{clip(str(value))}` is no time of exposure of a film",
+            "give 1/100000 s to 1 s, as `1/50 s`",
+        )
+
+    def schema(self) -> JsonSchemaValue:
+        """Return a number of seconds, a duration, or a fraction of a second."""
+        return {
+            "anyOf": [
+                {"type": "number", "minimum": LEAST_S, "maximum": MOST_S},
+                {"type": "string", "pattern": rf"^\s*{_UNSIGNED}\s*(ms|s)\s*$"},
+                {"type": "string", "pattern": f"^{_FRACTION.pattern}$"},
+            ],
+            "description": "a time of exposure, such as 1/50 s",
+        }
+
+
+def _share(fraction: re.Match[str]) -> float:
+    whole = float(fraction[2])
+    return float(fraction[1]) / whole if whole > 0.0 else 0.0
