@@ -4,7 +4,8 @@ A plan holds the mission's text and the tables that it names, so that verificati
 itself what the plan is to do, and believes nothing that the plan says of it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,25 @@ def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chose
     if mission is None or has_errors(found):
         return _stopped(found, loaded.file)
     return _placed(mission, kinds.plugins, loaded.file, chosen.autopilot)
+
+
+def lower_for_flights(
+    data: bytes, name: str, folder: Path | None, filmed: Callable[[], Mapping[str, str]]
+) -> Lowered:
+    """Lower a mission that flights of other tools are held against.
+
+    filmed : tells the drones of the shots that files name, asked where the mission leaves a drone open
+    A shot of which no file tells is given to drones in turn, idle ones first; no flight is held to it.
+    """
+    kinds = plugins.shot_kinds()
+    mission = load(data, name, folder, models_of(kinds.plugins), kinds.unusable).mission
+    chosen = Chosen()
+    shots = [] if mission is None else [shot.id for shot in mission.spec.shots if shot.drone == AUTO]
+    if mission is not None and shots and mission.spec.drones:
+        busy = {shot.drone for shot in mission.spec.shots}
+        known, turn = filmed(), cycle(sorted(mission.spec.drones, key=busy.__contains__))
+        chosen = Chosen(tuple((shot, known.get(shot) or next(turn)) for shot in shots))
+    return lower(data, name, folder, chosen)
 
 
 def _placed(

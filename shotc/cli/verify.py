@@ -15,7 +15,7 @@ from shotc.cli import console
 from shotc.cli.inputs import read_mission
 from shotc.cli.plans import bytes_of, prove
 from shotc.diag.render.json import render
-from shotc.importers.flights.read import LARGEST_BYTES, SUFFIXES, is_flight
+from shotc.importers.flights.names import SUFFIXES, is_flight, largest
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.flightfiles.verify import FlightsReport
@@ -30,7 +30,7 @@ class Format(StrEnum):
 
 FilesArgument = Annotated[
     list[Path],
-    typer.Argument(metavar="FILE", help="A plan.json or its folder; or files of flights, one a drone."),
+    typer.Argument(metavar="FILE", help="A plan.json or its folder; or files of flights."),
 ]
 FormatOption = Annotated[Format, typer.Option("--format", help="How to print the certificate.")]
 AgainstOption = Annotated[
@@ -57,19 +57,23 @@ def verify(
     a claim is broken, if the plan says something else than its mission or its proof, or with --against if it
     is not the plan of that file.
 
-    Other files are held against a mission: its ground, zones, buildings, limits and drones. These are read:
-    .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz (DJI WPML) and .csv (Litchi). Each flight is
-    rebuilt as its machine flies it, on every curve that the machine may take, and proved between its
-    waypoints. What a file cannot tell, for want of a clock, is named and not judged. A file is of the drone
-    that it is named after (`cam1.kmz`; `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or of the one
-    that --drone says.
+    Other files are held against a mission: its ground, zones, buildings, limits, drones and promises. These
+    are read: .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz (DJI WPML), .csv (Litchi, or rows of
+    trajectories in the columns of our own trajectory.csv) and .skyc (Skybrush). Each flight is rebuilt as its
+    machine flies it, on every curve that the machine may take, and proved between its places. What a file
+    cannot tell, as waypoints have no clock, is named and not judged.
+
+    Tables and shows name their drones. A file of waypoints is of the drone that it is named after
+    (`cam1.kmz`; `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or of the one that --drone says.
 
     Prints the certificate: for every claim what was asked, the worst that happens, when, and how that is
     known. Of a plan, and of a flight from elsewhere:
 
         shotc verify out/tower/plan.json --against tower.yaml
 
-        shotc verify flight.kmz --against tower.yaml --drone cam1
+        shotc verify flight.kmz --against tower.yaml
+
+        shotc verify a.plan b.csv --against pair.yaml --drone cam1 --drone cam2
     """
     mission = None if against is None else MissionFile(*read_mission(against))
     if any(is_flight(file.name) for file in files):
@@ -98,7 +102,7 @@ def _verify_flights(
         raise typer.BadParameter("flights are held against a mission: give its file", param_hint="--against")
     from shotc.flightfiles.verify import FlightFile, verify_flights
 
-    read = [FlightFile(bytes_of(file, LARGEST_BYTES + 1), file.as_posix()) for file in files]
+    read = [FlightFile(bytes_of(file, largest(file.name) + 1), file.as_posix()) for file in files]
     report = verify_flights(read, mission, drones)
     if format is Format.JSON:
         console.out(_flights_document(report))

@@ -5,7 +5,7 @@ Of all ways the worst value counts. Nothing is claimed that takes a clock.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 from math import hypot, radians
@@ -13,12 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from shotc.diag.model import Label
 from shotc.flightfiles.course import AT_HOME_M, Course, Leg
 from shotc.geom.bernstein import Piecewise
-from shotc.geom.pieces import join, pieces
+from shotc.geom.pieces import Pieces, join, pieces
 from shotc.geom.proof import inf_distance
 from shotc.geom.solids import point
 from shotc.geom.ways_apart import nearest
+from shotc.importers.notes import label
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import parked
@@ -40,11 +42,26 @@ BUILT = ("drift from the vertical", "depth below home")
 
 
 class Found(NamedTuple):
-    """A claim, the way on which its worst value is met, and the leg."""
+    """A claim, where in its file the worst value is met, and what is to be said of it."""
 
     claim: Claim
-    way: str
-    leg: Leg | None
+    where: Label | None
+    notes: tuple[str, ...] = ()
+
+
+def _found(course: Course, claim: Claim, way: str = "") -> Found:
+    """Return a claim about a course; way : the one on which its worst value is met, if it matters."""
+    if claim.time is None:
+        return Found(claim, None)
+    leg = course.leg_at(claim.time)
+    where = label(leg.file, leg.to.node)._replace(text=_on(leg))
+    notes = (f"{claim.time:.1f} s from take-off at the file's speeds",)
+    return Found(claim, where, (*notes, f"on {way}, which its machine may fly") if way else notes)
+
+
+def _on(leg: Leg) -> str:
+    words = {"takeoff": "on the climb before", "land": "on the landing at"}.get(leg.phase, "on the way to")
+    return f"{words} {leg.to.name}"
 
 
 def judged(mission: MissionIR, courses: Sequence[Course], keyframes: KeyframeIR) -> list[Found]:
@@ -57,16 +74,16 @@ def judged(mission: MissionIR, courses: Sequence[Course], keyframes: KeyframeIR)
     found: list[Found] = []
     for course in courses:
         claims = [*_limits(course), *_paces(course)]
-        found += [Found(each, "", None if each.time is None else course.leg_at(each.time)) for each in claims]
+        found += [_found(course, each) for each in claims]
         found += _space(standing, course, ir_of, courses)
     found += [each for pair in combinations(courses, 2) for each in _apart(standing, pair)]
-    return [each._replace(claim=_to_tolerance(each.claim)) for each in found]
+    return [each._replace(claim=to_tolerance(each.claim, TOLERANCES)) for each in found]
 
 
-def _to_tolerance(found: Claim) -> Claim:
-    """Return a claim that holds where its value is beyond the limit by what files leave open."""
+def to_tolerance(found: Claim, tolerances: Mapping[str, float]) -> Claim:
+    """Return a claim that holds where its value is beyond the limit by what a file leaves open, by units."""
     over = found.worst - found.limit if found.upper else found.limit - found.worst
-    return replace(found, holds=found.holds or over <= TOLERANCES.get(found.unit, 0.0))
+    return replace(found, holds=found.holds or over <= tolerances.get(found.unit, 0.0))
 
 
 def _flight(mission: MissionIR, course: Course, curve: Piecewise) -> Flight:
@@ -85,22 +102,21 @@ def _space(
         flight = _flight(mission, course, curve)
         others = [_first_way(each) for each in courses if each is not course]
         ir = TrajectoryIR(keyframes, (flight.track, *others), (), ())
-        claims = [*space(flight), *_from_pads(flight, ir), *from_fleets(ir, [flight])]
+        claims = [*space(flight), *from_pads(flight, parked(ir)), *from_fleets(ir, [flight])]
         for each in claims:
             if each.constraint in BUILT:
                 continue
             before = worst.get(each.constraint)
             if before is None or _less(each, before.claim):
-                leg = None if each.time is None else course.leg_at(each.time)
-                worst[each.constraint] = Found(each, way, leg)
+                worst[each.constraint] = _found(course, each, way)
     yield from worst.values()
 
 
-def _from_pads(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
+def from_pads(flight: Flight, standing: Iterable[DroneTrajectory]) -> Iterator[Claim]:
     """Claim the separation from drones that have no file, which stand at home."""
     least = flight.mission.rules.separation
     whole = pieces(flight.track.curve.channels(0, 1, 2))
-    for track in parked(ir):
+    for track in standing:
         home = flight.mission.drone(track.drone).home
         limit = Limit(f"separation from {track.drone}", least, "m", ("rules", "separation"), upper=False)
         yield bounded(flight, limit, inf_distance(whole, point(home), gap(least)))
@@ -158,11 +174,16 @@ def _paces(course: Course) -> Iterator[Claim]:
 
 
 def _apart(mission: MissionIR, pair: tuple[Course, Course]) -> Iterator[Found]:
-    """Claim the separation of two drones at any times, for nothing says when each is where."""
     one, other = pair
+    bag = join([pieces(curve) for _, curve in other.ways])
+    yield apart_at_any_time(mission, one, other.drone.name, bag)
+
+
+def apart_at_any_time(mission: MissionIR, one: Course, name: str, other: Pieces) -> Found:
+    """Claim the separation of a flight without a clock from another one, whenever each is where it is."""
     least = mission.rules.separation
-    bags = [join([pieces(curve) for _, curve in course.ways]) for course in pair]
-    found = nearest(bags[0], bags[1], gap(least))
-    limit = Limit(f"separation from {other.drone.name}", least, "m", ("rules", "separation"), upper=False)
+    found = nearest(join([pieces(curve) for _, curve in one.ways]), other, gap(least))
+    limit = Limit(f"separation from {name}", least, "m", ("rules", "separation"), upper=False)
     flight = _flight(mission, one, one.ways[0][1])
-    yield Found(claim(flight, limit, Worst(found.proven, found.one)), "", one.leg_at(found.one))
+    kept = to_tolerance(claim(flight, limit, Worst(found.proven, found.one)), TOLERANCES)
+    return _found(one, kept)

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 from pathlib import PurePath
 from typing import NamedTuple
 
+import numpy as np
+
 from shotc.diag.model import Diagnostic, Label
+from shotc.flightfiles.clocked import Flown
 from shotc.importers.flights.points import NOBODY
 from shotc.ir.drone import Drone
+from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
+from shotc.ir.show import Fleet, drone_names
 from shotc.source.file import WHOLE_FILE
 
+MOST_NAMED = 5
+"""Drones that are named one by one."""
+ON_PAD_M = 1.0
+"""Metres from a pad within which a drone of a show stands on it."""
 PART = re.compile(r"(?P<drone>.+?)(?:-(?P<part>[1-9][0-9]?))?(?:-litchi)?", re.IGNORECASE)
 
 
@@ -91,3 +101,63 @@ def _twice(found: dict[str, list[tuple[int, int]]], names: Sequence[str]) -> lis
             help_ = "name the parts of one flight `cam1-1.kmz`, `cam1-2.kmz`, or give `--drone` for each file"
             faults.append(Diagnostic(NOBODY, text, (Label(again[-1], WHOLE_FILE),), help=help_))
     return faults
+
+
+def named(
+    mission: MissionIR, flights: Sequence[Flown], others: Collection[str]
+) -> tuple[dict[str, Flown], tuple[Diagnostic, ...]]:
+    """Return flights on the clock by the names of the mission's drones, and what does not fit.
+
+    others : the drones that have another file
+    Drones of shows that bear other names are those on whose pads they stand.
+    """
+    pads = {name: pad for f in mission.fleets for name, pad in zip(drone_names(f), f.pads, strict=True)}
+    pads |= {drone.name: drone.home for drone in mission.drones}
+    flights = _by_pads(flights, pads)
+    found: dict[str, Flown] = {}
+    faults: list[Diagnostic] = []
+    for flight in flights:
+        if flight.name not in pads:
+            label = flight.at(0.0)._replace(text="")
+            faults.append(
+                _nobody(flight.file, flight.name, list(pads)[:MOST_NAMED])._replace(labels=(label,))
+            )
+        elif flight.name in found or flight.name in others:
+            text = f"`{flight.name}` has two flights"
+            faults.append(Diagnostic(NOBODY, text, (flight.at(0.0),), help="give one flight for each drone"))
+        else:
+            found[flight.name] = flight
+    if not faults:
+        faults += [fault for fleet in mission.fleets if (fault := _incomplete(fleet, found)) is not None]
+    return found, tuple(faults[:MOST_NAMED])
+
+
+def _by_pads(flights: Sequence[Flown], pads: dict[str, Vec3]) -> list[Flown]:
+    """Return flights with the names of the pads that they begin on, where none of a file has a known name."""
+    known = {flight.file for flight in flights if flight.name in pads}
+    return [flight if flight.file in known else _on_its_pad(flight, pads) for flight in flights]
+
+
+def _on_its_pad(flight: Flown, pads: dict[str, Vec3]) -> Flown:
+    away = np.linalg.norm(np.array(list(pads.values())) - flight.curve.ctrl[0, 0], axis=1)
+    nearest = int(np.argmin(away))
+    stands = flight.rows is None and away[nearest] <= ON_PAD_M
+    return replace(flight, name=list(pads)[nearest]) if stands else flight
+
+
+def _incomplete(fleet: Fleet, found: dict[str, Flown]) -> Diagnostic | None:
+    """Report a fleet of which some drones have a flight and others have none."""
+    missing = [name for name in drone_names(fleet) if name not in found]
+    if not missing or len(missing) == len(fleet.pads):
+        return None
+    count = len(fleet.pads) - len(missing)
+    some = ", ".join(f"`{name}`" for name in missing[:MOST_NAMED])
+    more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
+    file = next(flight.file for name, flight in found.items() if name in drone_names(fleet))
+    return Diagnostic(
+        NOBODY,
+        f"the files have {count} flights of fleet `{fleet.name}`, which has {len(fleet.pads)} drones",
+        (Label(file, WHOLE_FILE),),
+        (f"without a flight: {some}{more}",),
+        "give the flights of all its drones, or `count` as many as there are",
+    )

@@ -4,65 +4,77 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from shotc.diag.model import Diagnostic
-from shotc.flightfiles.course import Course, Leg
+from shotc.flightfiles.clocked import Flown
+from shotc.flightfiles.course import Course
 from shotc.flightfiles.judge import Found
-from shotc.importers.notes import label
+from shotc.flightfiles.swarm import Swarm
+from shotc.importers.flights.rows import VELOCITY
 from shotc.ir.measures import measure, told_apart
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
+from shotc.passes.verify.promises import PROMISES, broken_promise, promise_help
 from shotc.passes.verify.report import limit_label, rule_of, side_of, state_of
 
 HELPS = {
-    "V001": "let the file fly this leg slower, by {lack} at least, or raise the limit",
+    "V002": "change speed more gently there",
+    "V003": "change speed more gently there",
+    "V004": "turn slower there",
+    "V006": "turn the camera slower there",
+    "V035": "lead the way between shots {lack} farther away",
+    "V055": "fly {lack} less",
+    "V001": "fly slower there, by {lack} at least, or raise the limit",
     "V005": "ask for an angle that the gimbal reaches",
-    "V007": "move the waypoints of this leg {lack} farther away",
-    "V008": "move the waypoints of this leg {lack} into the zone",
-    "V009": "fly this leg {lack} higher",
-    "V010": "move the waypoints of this leg {lack} farther away",
-    "V012": "let it land where the mission has its home",
+    "V007": "keep {lack} farther away there",
+    "V008": "keep {lack} farther inside there",
+    "V009": "fly {lack} higher there",
+    "V010": "keep {lack} farther away there",
+    "V012": "begin and land where the mission has the drone's home",
     "V013": "fly {lack} less, or faster",
-    "V022": "move one of the two ways by {lack}: nothing in files without a clock keeps drones apart by time",
-    "V047": "fly this leg {lack} lower",
-    "V052": "move the waypoints of this leg {lack} farther away",
+    "V022": "keep {lack} farther apart; files without a clock keep no drones apart by time",
+    "V047": "fly {lack} lower there",
+    "V052": "keep {lack} farther away there",
 }
 """What helps whoever wrote the file; lack : by how much the limit is missed."""
 
 
 def told(mission: MissionIR, found: Sequence[Found]) -> Iterator[Diagnostic]:
     """Yield an error for every broken claim."""
+    certificate = tuple(each.claim for each in found)
     for each in found:
         if not each.claim.holds and each.claim.hard:
-            yield _broken(mission, each)
+            yield _broken(mission, each, certificate)
 
 
-def _broken(mission: MissionIR, found: Found) -> Diagnostic:
+def _broken(mission: MissionIR, found: Found, certificate: tuple[Claim, ...]) -> Diagnostic:
     claim = found.claim
     code = rule_of(claim.constraint, mission).code
     limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     labels = [limit_label(mission, claim, limit)]
-    if found.leg is not None:
-        labels.insert(0, label(found.leg.file, found.leg.to.node)._replace(text=_on(found.leg)))
-    lack = measure(abs(claim.worst - claim.limit), claim.unit)
-    help_ = HELPS.get(code, "mend the file, or the mission").format(lack=lack)
-    message = f"{claim.subject}: {state_of(claim, code)}"
+    if found.where is not None:
+        labels.insert(0, found.where)
+    if code in PROMISES and claim.shot is not None:
+        message = broken_promise(claim, code)
+        help_ = promise_help(claim, code, mission.shot(claim.shot), certificate)
+    else:
+        lack = measure(abs(claim.worst - claim.limit), claim.unit)
+        message = f"{_who(claim)}: {state_of(claim, code)}"
+        help_ = HELPS.get(code, "mend the file, or the mission").format(lack=lack)
     return Diagnostic(code, message, tuple(labels), tuple(_notes(claim, found)), help_)
 
 
-def _on(leg: Leg) -> str:
-    words = {"takeoff": "on the climb before", "land": "on the landing at"}.get(leg.phase, "on the way to")
-    return f"{words} {leg.to.name}"
+def _who(claim: Claim) -> str:
+    return claim.subject if not claim.drones else f"{' and '.join(claim.drones)} of {claim.subject}"
 
 
 def _notes(claim: Claim, found: Found) -> Iterator[str]:
     if claim.position is not None:
-        where = "worst at ({:.2f}, {:.2f}, {:.2f}) m".format(*claim.position)
-        when = "" if claim.time is None else f", {claim.time:.1f} s from take-off at the file's speeds"
-        yield f"{where}{when}"
-    if found.way:
-        yield f"on {found.way}, which its machine may fly"
+        yield "worst at ({:.2f}, {:.2f}, {:.2f}) m".format(*claim.position)
+    yield from found.notes
     if claim.method == "bounded":
-        yield "proved for the whole way"
+        yield "proved between the file's places, too"
 
 
 def models(courses: Sequence[Course]) -> Iterator[str]:
@@ -86,12 +98,36 @@ def models(courses: Sequence[Course]) -> Iterator[str]:
             yield f"{name}: not judged is what comes after the last waypoint: {course.plan.ending}"
 
 
-def unjudged(mission: MissionIR) -> str:
-    """Return what a file without a clock leaves open."""
+def rebuilt(films: Sequence[Flown], swarms: Sequence[Swarm]) -> Iterator[str]:
+    """Yield how flights with a clock were rebuilt, and how well their files tell them."""
+    groups = [(flown.name, [flown]) for flown in films]
+    groups += [(swarm.fleet.name, list(swarm.flights)) for swarm in swarms]
+    for name, flights in groups:
+        files = ", ".join(f"`{file}`" for file in dict.fromkeys(flight.file for flight in flights))
+        tables = [flight.rows for flight in flights if flight.rows is not None]
+        count = f"{len(flights)} drones, " if len(flights) > 1 else ""
+        if not tables:
+            points = sum(len(flight.curve.ctrl) for flight in flights)
+            yield f"{name}: {files}, {count}{points} curves of its show, as they are in the file"
+            continue
+        step = max(float(np.diff(rows.time).max()) for rows in tables)
+        straight = any(rows.velocity is None for rows in tables)
+        how = "straight from row to row" if straight else "on cubics by the places and velocities of its rows"
+        yield f"{name}: {files}, {count}rows up to {step:.3g} s apart, flown {how}"
+        between = max(flight.leeway.between for flight in flights)
+        yield f"{name}: between its rows a flight within its limits is within {measure(between, 'm')} of that"
+        if straight:
+            yield f"{name}: not judged is the acceleration, for want of the columns {', '.join(VELOCITY)}"
+
+
+def unjudged(mission: MissionIR, courses: Sequence[Course], swarms: Sequence[Swarm]) -> Iterator[str]:
+    """Yield what files without a clock leave open, and shows."""
     moving = [f"`{target.name}`" for target in mission.targets if target.track is not None]
     words = ["acceleration, jerk and rates of turning", "framing, visibility and promises of shots"]
     if moving:
         words.append(f"the distance from what moves ({', '.join(moving)})")
-    return (
-        f"not judged: {'; '.join(words)}. These files have no clock, so nothing tells when a drone is where"
-    )
+    if courses:
+        why = "files of waypoints have no clock, so nothing tells when a drone is where"
+        yield f"not judged: {'; '.join(words)}: {why}"
+    if swarms:
+        yield "not judged: which picture a fleet shows when; files of flights do not name pictures"

@@ -2,27 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
+
+import numpy as np
 
 from shotc.api import MissionFile
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.flightfiles import tell
+from shotc.flightfiles import film, tell
+from shotc.flightfiles.aligned import Aligned, aligned
+from shotc.flightfiles.clocked import Flown, leaves, of_rows, of_show
 from shotc.flightfiles.course import Course, course_of
-from shotc.flightfiles.judge import judged
-from shotc.flightfiles.match import Owned, owners
+from shotc.flightfiles.judge import Found, apart_at_any_time
+from shotc.flightfiles.judge import judged as waypoints_judged
+from shotc.flightfiles.match import Owned, named, owners
+from shotc.flightfiles.swarm import Swarm
+from shotc.flightfiles.swarm import judged as swarm_judged
+from shotc.geom.pieces import pieces
 from shotc.importers.cameras.takes import Refused
-from shotc.importers.flights.points import BROKEN, NOWHERE, Waypoints
+from shotc.importers.flights.points import BROKEN, NOBODY, NOWHERE, Unread, Waypoints
 from shotc.importers.flights.read import Read, read
+from shotc.importers.flights.rows import SHOT, Rows
+from shotc.importers.flights.skyc import Show
+from shotc.importers.flights.wpml import WAYLINES
 from shotc.importers.notes import label
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
-from shotc.ir.source import Chosen
+from shotc.ir.show import drone_names
 from shotc.ir.trajectory import Claim
-from shotc.lowering import lower
+from shotc.lowering import lower_for_flights
 from shotc.source.file import SourceFile
 
 
@@ -53,55 +65,150 @@ def verify_flights(
     files: Sequence[FlightFile], against: MissionFile, drones: Sequence[str] = ()
 ) -> FlightsReport:
     """Prove flights that any tool may have written against a mission; the files' drones as of ``owners``."""
-    asked = lower(*against, Chosen())
+    reads = [read(file.data, Path(file.name).as_posix()) for file in files]
+    asked = lower_for_flights(*against, partial(_filmed, reads))
     sources = {against.name: asked.file}
     if asked.keyframes is None:
         return FlightsReport(False, (), asked.diagnostics, sources)
-    reads = [read(file.data, Path(file.name).as_posix()) for file in files]
     sources |= {each.file: SourceFile(each.file, each.text) for each in reads}
     faults = [_refused(each.file, each.found) for each in reads if isinstance(each.found, Refused)]
-    owned, nobody = owners(asked.keyframes.mission, [file.name for file in files], drones)
-    found = (*faults, *nobody, *_nowhere(asked.keyframes.mission))
-    if found:
-        return FlightsReport(False, (), found, sources)
-    return _proved(asked.keyframes, reads, owned, sources)
+    if drones and len(drones) != len(files):
+        text = f"{len(drones)} drones are named for {len(files)} files"
+        faults.append(Diagnostic(NOBODY, text, help="give `--drone` once for every file, in their order"))
+    if faults:
+        return FlightsReport(False, (), tuple(faults), sources)
+    return _owned(asked.keyframes, reads, drones, sources)
 
 
-def _proved(
-    keyframes: KeyframeIR, reads: Sequence[Read], owned: Sequence[Owned], sources: dict[str, SourceFile]
+def _filmed(reads: Sequence[Read]) -> dict[str, str]:
+    """Return the drone of every shot that a table names."""
+    tables = [each.found for each in reads if isinstance(each.found, tuple) and not _is_other(each)]
+    rows = [one for table in tables for one in table if isinstance(one, Rows)]
+    return {shot: one.drone for one in rows for shot in one.texts(SHOT) or () if shot}
+
+
+def _is_other(each: Read) -> bool:
+    return isinstance(each.found, Waypoints | Refused)
+
+
+def _owned(
+    keyframes: KeyframeIR, reads: Sequence[Read], drones: Sequence[str], sources: dict[str, SourceFile]
 ) -> FlightsReport:
+    """Find whose the flights are, then prove them."""
     mission = keyframes.mission
+    plain = [i for i, each in enumerate(reads) if isinstance(each.found, Waypoints)]
+    names = [reads[i].file.removesuffix(f"/{WAYLINES}") for i in plain]
+    owned, faults = owners(mission, names, [drones[i] for i in plain] if drones else ())
+    faults = (*faults, *(_nowhere(mission) if plain else ()))
     courses: list[Course] = []
-    faults: list[Diagnostic] = []
-    for own in owned:
-        made = _course(mission, own, [reads[i] for i in own.files])
+    for own in owned if not faults else ():
+        made = _course(mission, own, [reads[plain[i]] for i in own.files])
         if isinstance(made, Course):
             courses.append(made)
         else:
-            faults.append(made)
-    if faults:
-        return FlightsReport(False, (), tuple(faults), sources)
-    claims = judged(mission, courses, keyframes)
+            faults = (*faults, made)
+    flights: list[Flown] = []
+    for i, each in enumerate(reads):
+        made_of = _clocked(mission, each, drones[i] if drones else "")
+        if isinstance(made_of, Diagnostic):
+            faults = (*faults, made_of)
+        else:
+            flights += made_of
+    found, unfit = named(mission, flights, {own.drone.name for own in owned})
+    if faults or unfit:
+        return FlightsReport(False, (), (*faults, *unfit), sources)
+    return _proved(keyframes, courses, found, sources)
+
+
+def _clocked(mission: MissionIR, each: Read, told: str) -> list[Flown] | Diagnostic:
+    """Return the flights with a clock of a file; told : whose it is, if the user says so."""
+    if isinstance(each.found, Show):
+        return [of_show(flight, each.found, each.file, mission.origin) for flight in each.found.flights]
+    if not isinstance(each.found, tuple) or isinstance(each.found, Waypoints | Refused):
+        return []
+    if len(each.found) == 1 and (told or not each.found[0].drone):
+        owned, faults = owners(mission, [each.file], [told] if told else ())
+        if faults:
+            return faults[0]
+        names = [owned[0].drone.name]
+    else:
+        names = [rows.drone for rows in each.found]
+    limits = {f"{name}": fleet.limits for fleet in mission.fleets for name in drone_names(fleet)}
+    limits |= {drone.name: drone.limits for drone in mission.drones}
+    usual = next(iter(limits.values()))
+    try:
+        return [
+            of_rows(rows, name, each.file, limits.get(name, usual))
+            for rows, name in zip(each.found, names, strict=True)
+        ]
+    except Unread as stopped:
+        return _refused(each.file, stopped.refused)
+
+
+def _proved(
+    keyframes: KeyframeIR,
+    courses: Sequence[Course],
+    found: dict[str, Flown],
+    sources: dict[str, SourceFile],
+) -> FlightsReport:
+    mission = keyframes.mission
+    swarms = [
+        Swarm.of(mission, fleet, tuple(found[name] for name in drone_names(fleet)))
+        for fleet in mission.fleets
+        if drone_names(fleet)[0] in found
+    ]
+    films = [found[drone.name] for drone in mission.drones if drone.name in found]
+    try:
+        tracks = [_aligned(keyframes, flown) for flown in films]
+        claims = [*waypoints_judged(mission, courses, keyframes)]
+        away = frozenset(course.drone.name for course in courses)
+        claims += film.judged(keyframes, films, tracks, away)
+    except Unread as stopped:  # a cell of a column that only films need
+        return FlightsReport(False, (), (_refused(films[0].file, stopped.refused),), sources)
+    for swarm in swarms:
+        claims += swarm_judged(swarm)
+    claims += _between(mission, courses, films, swarms)
     diagnostics = tuple(tell.told(mission, claims))
-    notes = (*tell.models(courses), tell.unjudged(mission), *_others(mission, courses))
+    notes = (
+        *tell.models(courses),
+        *tell.rebuilt(films, swarms),
+        *tell.unjudged(mission, courses, swarms),
+        *(f"not judged: {what}" for each in tracks for what in film.unkept(keyframes, each, claims)),
+        *_others(mission, {*(course.drone.name for course in courses), *found}),
+    )
     certificate = tuple(each.claim for each in claims)
     return FlightsReport(not has_errors(diagnostics), certificate, diagnostics, sources, notes)
+
+
+def _aligned(keyframes: KeyframeIR, flown: Flown) -> Aligned:
+    drone = keyframes.mission.drone(flown.name)
+    pad = np.array(drone.home)
+    return aligned(keyframes, drone, flown, leaves(flown.curve, pad, pad[None]))
+
+
+def _between(
+    mission: MissionIR, courses: Sequence[Course], films: Sequence[Flown], swarms: Sequence[Swarm]
+) -> Iterator[Found]:
+    """Yield the separations of flights of different kinds."""
+    for course in courses:
+        for flown in films:
+            yield apart_at_any_time(mission, course, flown.name, pieces(flown.curve))
+        for swarm in swarms:
+            yield apart_at_any_time(mission, course, swarm.fleet.name, swarm.whole.pieces)
+    for swarm in swarms:
+        yield from film.beside_fleets(mission.rules.separation, films, swarm.flights)
 
 
 def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> Course | Diagnostic:
     """Return the flight of a drone by all its files, one after another."""
     plans = [each.found for each in reads if isinstance(each.found, Waypoints)]
-    of_file = [each.file for each in reads for _ in _points(each)]
+    of_file = [each.file for each, plan in zip(reads, plans, strict=True) for _ in plan.points]
     plan = plans[-1]._replace(points=tuple(p for each in plans for p in each.points), climb=plans[0].climb)
     if any(each.family != plan.family for each in plans):
         message = f"the files of `{own.drone.name}` are of different machines"
         return Diagnostic(BROKEN, message, (label(reads[-1].file, plans[-1].node),))
     made = course_of(mission, own.drone, plan, of_file)
     return made if isinstance(made, Course) else _refused(*made)
-
-
-def _points(each: Read) -> Sequence[object]:
-    return each.found.points if isinstance(each.found, Waypoints) else ()
 
 
 def _refused(file: str, why: Refused) -> Diagnostic:
@@ -118,10 +225,10 @@ def _nowhere(mission: MissionIR) -> tuple[Diagnostic, ...]:
     return (Diagnostic(NOWHERE, text, (mission.origins.value(()),), help=help_),)
 
 
-def _others(mission: MissionIR, courses: Sequence[Course]) -> tuple[str, ...]:
+def _others(mission: MissionIR, flown: Collection[str]) -> tuple[str, ...]:
     """Say who is taken to stand, for want of a file."""
-    flown = {course.drone.name for course in courses}
-    names = [f"`{d.name}`" for d in mission.drones if d.name not in flown]
+    names = [f"`{drone.name}`" for drone in mission.drones if drone.name not in flown]
+    names += [f"`{fleet.name}`" for fleet in mission.fleets if drone_names(fleet)[0] not in flown]
     if not names:
         return ()
     return (f"{', '.join(names)}: without a file, taken to stand at home all the time",)

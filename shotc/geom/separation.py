@@ -17,29 +17,18 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shotc.geom.apart import Distances, stretch
-from shotc.geom.bernstein import Array, split_half
+from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import pieces
-
-Index = NDArray[np.intp]
-
-GAP_M = 5e-7
-"""How far the proved bound may stay below a value that is attained, relative beyond one metre."""
+from shotc.geom.nearest_pair import Bag, Index, NearestPair, joined, midway, size_of
 
 REACH_SHARE = 0.4
 """Largest radius of a drone's ball in a slab, as a share of the horizontal distance that is to be kept."""
 
 SAMPLE_SLABS = 128
 """Slabs in whose middle the nearest pair is looked for first: the nearer it is, the fewer pairs count."""
-
-ROUNDS = 60
-"""Halvings before a bound is given as it is, as in ``geom.proof``."""
-
-OPEN_INTERVALS_LIMIT = 200_000
-"""Intervals halved at once; beyond it the bound stays proven but is not made tighter."""
 
 BLOCK_PAIRS = 50_000
 """Pairs looked at together, which bounds the memory."""
@@ -117,50 +106,26 @@ def _cut(low: float, high: float) -> Array:
     return np.array(rows)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Bag:
-    """Relative motions of pairs over intervals; ends : (M, 2), seconds; ctrl : (M, 4, 3), stretched."""
-
-    pairs: Index
-    ends: Array
-    ctrl: Array
-
-    def pick(self, which: NDArray[np.bool_]) -> _Bag:
-        return _Bag(self.pairs[which], self.ends[which], self.ctrl[which])
-
-    def halves(self) -> _Bag:
-        left, right = split_half(self.ctrl)
-        middle = self.ends.mean(axis=1)
-        early = np.stack([self.ends[:, 0], middle], axis=1)
-        late = np.stack([middle, self.ends[:, 1]], axis=1)
-        return _Bag(np.tile(self.pairs, (2, 1)), np.concatenate([early, late]), np.concatenate([left, right]))
-
-
-class _Search:
-    """Branch and bound over slabs and pairs.
-
-    best : the least distance found so far; rest : the least bound of what was not halved to the end
-    """
+class _Search(NearestPair):
+    """Branch and bound over slabs and pairs."""
 
     def __init__(self, one: _Fleet, other: _Fleet | None, apart: Distances) -> None:
         self.one, self.other, self.apart = one, other, apart
-        self.upright = apart.shape == "cylinder"
-        self.best = self.rest = np.inf
-        self.pair, self.time = (0, 0), 0.0
+        super().__init__(upright=apart.shape == "cylinder")
 
     def run(self) -> Nearest:
         slabs = self._slabs()
         for low, high in slabs[:: max(1, len(slabs) // SAMPLE_SLABS)]:
             self._sample(low, high)
-        bags: list[_Bag] = []
+        bags: list[Bag] = []
         for bag in (bag for slab in slabs for bag in self._open(*slab)):
             bags.append(bag)
             if sum(len(bag.ends) for bag in bags) > BLOCK_PAIRS:
-                self._close(_join(bags))
+                self.close(joined(bags))
                 bags = []
-        self._close(_join(bags))
+        self.close(joined(bags))
         # Whatever was put aside could not be nearer than this.
-        proven = min(self.rest, self.best - self._gap())
+        proven = min(self.rest, self.best - self.gap())
         return Nearest(proven, self.best, *self.pair, self.time, self._position())
 
     def _slabs(self) -> list[tuple[float, float]]:
@@ -184,7 +149,7 @@ class _Search:
 
     def _sample(self, low: float, high: float) -> None:
         """Look for the nearest pair in the middle of a slab."""
-        middle = _middle(self._ctrl(low, high))
+        middle = midway(self._ctrl(low, high))
         count = len(self.one.ctrl[0])
         if self.other is None:
             distance, at = cKDTree(middle).query(middle, k=2)
@@ -196,14 +161,10 @@ class _Search:
         if not np.isfinite(distance[first]):
             return  # There is no second drone.
         second = int(at[first])
-        apart = float(self._size((middle[first] - middle[second + skip])[None])[0])
-        self._note(apart, (first, second), 0.5 * (low + high))
+        apart = float(self.size((middle[first] - middle[second + skip])[None])[0])
+        self.note(apart, (first, second), 0.5 * (low + high))
 
-    def _note(self, apart: float, pair: tuple[int, int], time: float) -> None:
-        if apart < self.best:
-            self.best, self.pair, self.time = apart, pair, time
-
-    def _open(self, low: float, high: float) -> Iterator[_Bag]:
+    def _open(self, low: float, high: float) -> Iterator[Bag]:
         """Give the pairs of a slab that could be nearer than the nearest found so far."""
         ctrl = _steady(self._ctrl(low, high))
         centre, radius = _balls(ctrl)
@@ -214,10 +175,10 @@ class _Search:
         for at in range(0, len(candidates), BLOCK_PAIRS):
             pairs = candidates[at : at + BLOCK_PAIRS]
             first, second = pairs[:, 0], pairs[:, 1] + skip
-            near = _norm(centre[first] - centre[second]) - radius[first] - radius[second] < far
+            near = size_of(centre[first] - centre[second]) - radius[first] - radius[second] < far
             relative = ctrl[first[near]] - ctrl[second[near]]
-            bag = _Bag(pairs[near], np.broadcast_to([low, high], (len(relative), 2)), relative)
-            yield bag.pick(self._least(relative) < self.best - self._gap())
+            bag = Bag(pairs[near], np.broadcast_to([low, high], (len(relative), 2)), relative)
+            yield bag.pick(self.least(relative) < self.best - self.gap())
 
     def _candidates(self, centre: Array, reach: float) -> Index:
         """Return the pairs of rows, of the one fleet or of both, whose centres are within reach."""
@@ -230,38 +191,6 @@ class _Search:
         near = cKDTree(centre[:count]).sparse_distance_matrix(tree, reach, output_type="ndarray")
         return np.stack([near["i"], near["j"]], axis=1)
 
-    def _close(self, bag: _Bag) -> None:
-        """Halve intervals until none could be nearer than the nearest found."""
-        for _ in range(ROUNDS):
-            if not len(bag.ends):
-                return
-            sizes = self._size(_middle(bag.ctrl))
-            k = int(np.argmin(sizes))
-            pair = (int(bag.pairs[k, 0]), int(bag.pairs[k, 1]))
-            self._note(float(sizes[k]), pair, float(bag.ends[k].mean()))
-            bag = bag.pick(self._least(bag.ctrl) < self.best - self._gap())
-            if len(bag.ends) > OPEN_INTERVALS_LIMIT:
-                break
-            bag = bag.halves()
-        self.rest = min(self.rest, float(self._least(bag.ctrl).min(initial=np.inf)))
-
-    def _gap(self) -> float:
-        return GAP_M * max(1.0, self.best)
-
-    def _size(self, relative: Array) -> Array:
-        """Return how near the drones are whose stretched relative positions are given, shape (M,)."""
-        if self.upright:
-            return np.asarray(np.maximum(_norm(relative[:, :2]), np.abs(relative[:, 2])))
-        return _norm(relative)
-
-    def _least(self, ctrl: Array) -> Array:
-        """Return lower bounds of ``_size`` along cubics, from planes across their middles."""
-        middle = _middle(ctrl)
-        if not self.upright:
-            return _along(ctrl, middle)
-        upright = (ctrl[:, :, 2] * np.sign(middle[:, 2])[:, None]).min(axis=1)
-        return np.asarray(np.maximum(_along(ctrl[:, :, :2], middle[:, :2]), upright))
-
     def _position(self) -> tuple[float, float, float]:
         first, second = self.pair
         if not np.isfinite(self.best):
@@ -272,16 +201,6 @@ class _Search:
         return (float(x), float(y), float(z))
 
 
-def _join(bags: list[_Bag]) -> _Bag:
-    if not bags:
-        return _Bag(np.zeros((0, 2), dtype=np.intp), np.zeros((0, 2)), np.zeros((0, 4, 3)))
-    return _Bag(
-        np.concatenate([bag.pairs for bag in bags]),
-        np.concatenate([bag.ends for bag in bags]),
-        np.concatenate([bag.ctrl for bag in bags]),
-    )
-
-
 def _steady(ctrl: Array) -> Array:
     """Take out the motion that all drones have in common, which changes no distance."""
     return np.asarray(ctrl - ctrl.mean(axis=0)) if len(ctrl) else ctrl
@@ -290,18 +209,4 @@ def _steady(ctrl: Array) -> Array:
 def _balls(ctrl: Array) -> tuple[Array, Array]:
     """Return centres (n, 3) and radii (n,) of balls that hold the control points, and so the motion."""
     centre = 0.5 * (ctrl.min(axis=1) + ctrl.max(axis=1))
-    return centre, _norm(ctrl - centre[:, None]).max(axis=1)
-
-
-def _middle(ctrl: Array) -> Array:
-    return np.asarray((ctrl[:, 0] + ctrl[:, 3] + 3.0 * (ctrl[:, 1] + ctrl[:, 2])) / 8.0)
-
-
-def _along(ctrl: Array, towards: Array) -> Array:
-    """Return how far the control points are at least along a direction, 0 where there is none."""
-    size = _norm(towards)
-    return np.asarray(np.einsum("mkd,md->mk", ctrl, towards).min(axis=1) / np.where(size > 0.0, size, 1.0))
-
-
-def _norm(vectors: Array) -> Array:
-    return np.asarray(np.sqrt(np.einsum("...d,...d->...", vectors, vectors)))
+    return centre, size_of(ctrl - centre[:, None]).max(axis=1)

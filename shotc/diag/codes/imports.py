@@ -69,17 +69,19 @@ CODES: tuple[CodeInfo, ...] = (
         8,
         "flight-unreadable",
         "the file of a flight cannot be read",
-        "`shotc verify FILE --against MISSION` reads files of waypoints of at most 4 MB and 2000 points. XML has no "
-        "document type, so no entities; of a `.kmz` the `wpmz/waylines.wpml` is read, no further than 4 MB. The message "
-        "says what the file is instead, or where it breaks off. Export it again.",
+        "`shotc verify FILE --against MISSION` reads files of waypoints of at most 4 MB and 2000 points, and tables and "
+        "shows of at most 200 MB. XML has no document type, so no entities; of a `.kmz` the `wpmz/waylines.wpml` is "
+        "read, of a `.skyc` the `show.json`, no further than these sizes. The message says what the file is instead, "
+        "or where it breaks off. Export it again.",
     ),
     _code(
         9,
         "flight-foreign",
         "the file of a flight is of another sort or version",
         "A `.plan` is JSON with `mission` and `items` for PX4 or ArduPilot, a `.waypoints` begins with `QGC WPL 110`, a "
-        "`.kmz` holds one wayline of WPML 1.0.0 to 1.0.6, and a table of Litchi names its columns in its first line. "
-        "This file can be read, but is none of these.",
+        "`.kmz` holds one wayline of WPML 1.0.0 to 1.0.6, a `.skyc` a show of version 1, and a table of Litchi or of "
+        "trajectories names its columns in its first line: `t_s,drone,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s`, of which the "
+        "time and the place are needed. This file can be read, but is none of these.",
     ),
     _code(
         10,
@@ -109,7 +111,9 @@ CODES: tuple[CodeInfo, ...] = (
         "it is not known whose flight a file is",
         "A file is of the drone that it is named after, `cam1.kmz` of `cam1`; the parts of one flight are `cam1-1.kmz`, "
         "`cam1-2.kmz`. Where the mission has one drone, every file is of that one. `--drone NAME`, once for every file, "
-        "says it otherwise. Two files cannot be the same part of one flight.",
+        "says it otherwise. Tables and shows name their drones; a show's drones with other names are those on whose pads "
+        "they stand. Two files cannot be the same part of one flight, and a fleet flies as a whole: as many flights as "
+        "it has drones.",
     ),
     _code(
         14,

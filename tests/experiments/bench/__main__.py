@@ -23,7 +23,7 @@ from pathlib import Path
 from shotc import __version__, plugins
 from shotc.api import PlanOptions, compile_source
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
-from tests.experiments.bench import places, shows
+from tests.experiments.bench import flights, places, shows
 from tests.experiments.bench.fleets import fleets, mission
 from tests.experiments.bench.memory import check_status, peak_memory, start
 
@@ -204,6 +204,12 @@ def main() -> None:
             for name, path in shows.large(Path(folder)).items()
         }
         processes(1, "cvxpy, scipy.spatial, rerun", rows)
+        against = ["--against", str(Path(folder) / "mission.yaml")]
+        judged = {
+            f"shotc verify, 200 drones of 10 minutes, {name}": [*SHOTC, "verify", str(path), *against]
+            for name, path in flights.write(Path(folder)).items()
+        }
+        processes(3, "numpy, scipy.spatial", judged)
         for paths in (places.missions(Path(folder)), places.scenes(Path(folder))):
             both = {name: [*SHOTC, "plan", str(path), "-o", folder] for name, path in paths.items()}
             processes(3, "cvxpy, casadi, toppra, rerun", both)

@@ -139,7 +139,7 @@ BROKEN: dict[str, tuple[str, bytes, str, int, str]] = {
         "`CorridorScan`",
     ),
     "a null": ("cam1.plan", plan_file((), items=[None]), "I010", 11, "no simple item"),
-    "no columns": ("cam1.csv", b"a,b\n1,2\n", "I009", 1, "no column `latitude`"),
+    "no columns": ("cam1.csv", b"a,b\n1,2\n", "I009", 1, "no column `t_s`, `x_m`"),
     "an empty cell": ("cam1.csv", litchi_file(AROUND).replace(b"20.00", b"", 1), "I010", 2, "`altitude(m)`"),
     "a word in a cell": (
         "cam1.csv",

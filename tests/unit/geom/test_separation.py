@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import centres, places
-from shotc.geom.separation import GAP_M, closest, closest_between
+from shotc.geom.nearest_pair import GAP_M
+from shotc.geom.separation import closest, closest_between
 from shotc.ir.show import Apart
 
 BALL = Apart("ellipsoid", 0.9, 1.9, 0.1)

@@ -1,0 +1,214 @@
+"""A drone's flight on the clock as a track: its camera's angles, its phases, and what its shots are to frame.
+
+The shots stand in the table's own columns, or at the times that the mission fixes; others are not aligned,
+and nothing is claimed of them. The camera is at a shot's keyframes when it is nearest to them, in order. No
+file says where its target is wanted between two keyframes: any place between theirs will do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from shotc.flightfiles.clocked import Flown
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.importers.flights.rows import BODY, CAMERA, PHASE, SHOT, Rows
+from shotc.ir.drone import Drone
+from shotc.ir.keyed import is_keyed
+from shotc.ir.keyframes import KeyframeIR, PlacedShot
+from shotc.ir.mission import MissionIR
+from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV
+from shotc.ir.phases import UPRIGHT, KeyframeTime, Phase, PhaseName, Reference
+from shotc.ir.sampling import clock, projected
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.planning.framing.moments import placed_at
+
+NAMES: tuple[PhaseName, ...] = ("takeoff", "transit", "shot", "return", "land")
+LEAST_S = 1e-6
+"""Seconds between two times at which something is wanted, at least."""
+STEP_S = 0.1
+"""Seconds between places of a shot at which a keyframe may be met."""
+
+
+class Aligned(NamedTuple):
+    """A track, whether its phases are the table's own, and the shots of the drone that are not aligned."""
+
+    track: DroneTrajectory
+    told: bool
+    missing: tuple[str, ...]
+    looks: bool
+
+
+def aligned(keyframes: KeyframeIR, drone: Drone, flown: Flown, upright: tuple[float, float]) -> Aligned:
+    """Return the track of a drone; upright : when it leaves the vertical over its pad, and is back on it."""
+    mission, rows = keyframes.mission, flown.rows
+    curve, looks = _with_camera(drone, flown)
+    told = None if rows is None else _told(mission, rows, curve)
+    phases = _by_mission(mission, drone, curve, upright) if told is None else told
+    bare = DroneTrajectory(drone.name, curve, phases, (), ())
+    at: list[KeyframeTime] = []
+    framing: list[Reference] = []
+    for phase in phases:
+        placed = next((p for p in keyframes.shots if p.shot.id == phase.shot), None)
+        if placed is not None and looks:
+            times = _met(placed, curve, phase)
+            at += times
+            framing += _framed(mission, placed, phase, (bare, times))
+    track = DroneTrajectory(drone.name, curve, phases, tuple(at), tuple(framing))
+    filmed = {phase.shot for phase in phases}
+    own = (shot.id for shot in mission.shots if shot.drone == drone.name)
+    return Aligned(track, told is not None, tuple(shot for shot in own if shot not in filmed), looks)
+
+
+def _with_camera(drone: Drone, flown: Flown) -> tuple[Piecewise, bool]:
+    """Return the curve of all channels, angles straight between rows, and whether its camera's are known."""
+    curve, rows = flown.curve, flown.rows
+    pose = np.zeros((*curve.ctrl.shape[:2], len(CHANNELS)))
+    pose[..., :3], pose[..., HFOV] = curve.ctrl, drone.hfov
+    if rows is None:
+        return Piecewise(curve.breaks, pose), False
+    body, camera, lens = rows.values(*BODY), rows.values(*CAMERA[:2]), rows.values(CAMERA[2])
+    for channel, values in (
+        (BODY_YAW, None if body is None else np.unwrap(body[:, 0])),
+        (CAM_YAW, None if camera is None else np.unwrap(camera[:, 0])),
+        (CAM_PITCH, None if camera is None else camera[:, 1]),
+        (HFOV, None if lens is None else lens[:, 0]),
+    ):
+        if values is not None:
+            lead = np.repeat(values[:1], len(curve.breaks) - len(values))
+            pose[..., channel] = _straight(np.concatenate([lead, values]))
+    return Piecewise(curve.breaks, pose), camera is not None
+
+
+def _straight(values: Array) -> Array:
+    """Return the control points (P, 4) of straight lines through values (P + 1,)."""
+    share = np.linspace(0.0, 1.0, 4)
+    return np.asarray(values[:-1, None] + share * np.diff(values)[:, None])
+
+
+def _told(mission: MissionIR, rows: Rows, curve: Piecewise) -> tuple[Phase, ...] | None:
+    """Return the phases that the table has, None where it has none that are known here.
+
+    A shot is from its first row to its last; else what lies between two phases belongs to the later one, but
+    to the one before where that is no landing.
+    """
+    names, shots = rows.texts(PHASE), rows.texts(SHOT)
+    if names is None or shots is None or not set(names) <= set(NAMES):
+        return None
+    if not {shot for shot in shots if shot} <= {shot.id for shot in mission.shots}:
+        return None
+    each = list(zip(names, shots, strict=True))
+    if any((name == "shot") != bool(shot) for name, shot in each):
+        return None
+    firsts = [i for i in range(len(each)) if i == 0 or each[i] != each[i - 1]]
+    marks = [curve.start]
+    for i in firsts[1:]:
+        later = each[i][0] in ("shot", "land") and each[i - 1][0] not in UPRIGHT
+        marks.append(float(rows.time[i if later else i - 1]))
+    marks.append(curve.end)
+    spans = zip([each[i] for i in firsts], pairwise(marks), strict=True)
+    return tuple(
+        Phase(cast("PhaseName", name), shot or None, a, b) for (name, shot), (a, b) in spans if b > a
+    )
+
+
+def _by_mission(
+    mission: MissionIR, drone: Drone, curve: Piecewise, upright: tuple[float, float]
+) -> tuple[Phase, ...]:
+    """Return the phases of a flight with the shots whose times the mission fixes."""
+    up, down = upright
+    fixed = [
+        (shot.timing.start, shot.timing.start + shot.timing.duration, shot.id)
+        for shot in mission.shots
+        if shot.drone == drone.name and shot.timing.start is not None and shot.timing.duration is not None
+    ]
+    marks: list[Phase] = []
+    now = up
+    for start, end, name in sorted(fixed):
+        if start >= now and end <= down:
+            marks += [Phase("transit", None, now, start), Phase("shot", name, start, end)]
+            now = end
+    every = (
+        Phase("takeoff", None, curve.start, up),
+        *marks,
+        Phase("transit", None, now, down),
+        Phase("land", None, down, curve.end),
+    )
+    return tuple(phase for phase in every if phase.end > phase.start)
+
+
+def _met(placed: PlacedShot, curve: Piecewise, phase: Phase) -> list[KeyframeTime]:
+    """Return when the camera is nearest to each keyframe of a shot, in order, so that all are near."""
+    if placed.shot.ideal is not None or not placed.keyframes:
+        return []
+    count = max(2, int((phase.end - phase.start) / STEP_S) + 1)
+    times = np.linspace(phase.start, phase.end, count)
+    places = curve(times)[:, :3]
+    away = np.array([np.sum((places - np.array(k.at)) ** 2, axis=1) for k in placed.keyframes])
+    best = away[:1].copy()
+    chosen: list[Array] = []
+    for row in away[1:]:
+        least = np.minimum.accumulate(best[-1])
+        at = np.maximum.accumulate(np.where(best[-1] == least, np.arange(count), 0))
+        chosen.append(at)
+        best = np.vstack([best, row + least])
+    k = int(np.argmin(best[-1]))
+    index = [k]
+    for at in reversed(chosen):
+        index.insert(0, int(at[index[0]]))
+    return [KeyframeTime(placed.shot.id, i, float(times[k])) for i, k in enumerate(index)]
+
+
+def _framed(
+    mission: MissionIR,
+    placed: PlacedShot,
+    phase: Phase,
+    flown: tuple[DroneTrajectory, Sequence[KeyframeTime]],
+) -> Iterator[Reference]:
+    """Yield what a shot is to frame: its subjects all along, or the targets of its keyframes between them."""
+    track, met = flown
+    if placed.shot.ideal is not None:
+        if not is_keyed(placed.shot):
+            yield from _subjects(mission, placed_at(mission, placed, phase.start), phase)
+        return
+    only = placed.keyframes[0]
+    if len(placed.keyframes) == 1 and only.target is not None:
+        ends = np.array([phase.start, phase.end])
+        line = None if only.reference is None else _line(ends, np.array([only.reference] * 2))
+        yield Reference(placed.shot.id, only.target, phase.start, phase.end, line)
+    for (a, one), (b, other) in pairwise(zip(placed.keyframes, met, strict=True)):
+        if a.target is None or a.target != b.target or other.time <= one.time:
+            continue
+        line = None
+        if a.reference is not None and b.reference is not None:
+            times = _ticks(mission, one.time, other.time)
+            seen = projected(mission, track, a.target, times)
+            first, along = np.array(a.reference), np.subtract(b.reference, a.reference)
+            off = np.stack([seen.u, seen.v], axis=1) - first
+            share = np.clip(np.nan_to_num(off @ along / max(float(along @ along), 1e-12)), 0.0, 1.0)
+            line = _line(times, first + share[:, None] * along)
+        yield Reference(placed.shot.id, a.target, one.time, other.time, line)
+
+
+def _subjects(mission: MissionIR, placed: PlacedShot, phase: Phase) -> Iterator[Reference]:
+    """Yield the subjects of a shot on its own clock, each where the mission wants it at every tick."""
+    times = _ticks(mission, phase.start, phase.end)
+    for subject in placed.subjects:
+        wanted = [subject.asked(float(t) - phase.start).place for t in times]
+        known = None if subject.reference is None or any(place is None for place in wanted) else wanted
+        line = None if known is None else _line(times, np.array(known, dtype=float))
+        yield Reference(placed.shot.id, subject.target, phase.start, phase.end, line)
+
+
+def _ticks(mission: MissionIR, start: float, end: float) -> Array:
+    """Return the ticks of the output clock between two times, and both."""
+    ticks = clock(mission.rate, end)
+    inside = ticks[(ticks > start + LEAST_S) & (ticks < end - LEAST_S)]
+    return np.concatenate([[start], inside, [end]])
+
+
+def _line(times: Array, values: Array) -> Piecewise:
+    return Piecewise(times, np.stack([values[:-1], values[1:]], axis=1))

@@ -1,0 +1,155 @@
+"""Flights with a clock: rows of a table, or curves of a show, as cubics over mission time.
+
+Between two rows with velocities a flight is the cubic that has the places and velocities of both; without
+them it is straight. How far another flight through the same rows can be from it follows from the drone's
+limits. With an acceleration of at most A and a jerk of at most J the difference vanishes with its rate at
+both rows, and its second and third derivatives are at most 8 A / 3 and 2 J: the cubic's jerk is a mean of the
+flight's, its acceleration one of weights whose sizes add up to 5 / 3. So the difference is at most A h^2 / 6
+and J h^3 / 12, its rate 2 A h / 3 and J h^2 / 4, h seconds between rows. Of straight lines it is at most
+A h^2 / 8, and their speeds are means that every flight reaches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import ceil, log10
+
+import numpy as np
+
+from shotc.diag.model import Label
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.geodetic import to_world
+from shotc.geom.proof import norm
+from shotc.importers.flights.rows import PLACE, Rows
+from shotc.importers.flights.skyc import Show, ShowFlight
+from shotc.importers.notes import label
+from shotc.importers.xml_tree import Node
+from shotc.ir.limits import Limits
+from shotc.ir.mission import GeoOrigin
+
+UPRIGHT_M = 0.1
+"""Metres from the vertical over its pad within which a drone is taking off or landing."""
+PARTS = 64
+"""Of a piece on which a drone leaves the vertical, between which the end of its take-off is put."""
+SAMPLED_ROWS = 500
+"""Rows whose digits are counted."""
+MOST_M, MOST_M_S = 0.02, 0.1
+"""Of what a table leaves open between its rows, as much is granted where a limit is missed."""
+SHOW_PLACE_M = 1e-3
+"""Metres to which shows are written: a tenth of a millimetre, and our own within half a millimetre."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leeway:
+    """What a file leaves open, m and m/s, as far as it is granted.
+
+    between : how far a flight within the drone's limits can be from the rebuilt one, m
+    """
+
+    place: float
+    speed: float
+    between: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flown:
+    """One drone's flight on the clock.
+
+    name : of the drone; curve : x, y, z, cubic, from 0 s; rows : of a table, None of a show
+    at : gives the place in the file of a time
+    """
+
+    name: str
+    file: str
+    curve: Piecewise
+    rows: Rows | None
+    leeway: Leeway
+    at: Callable[[float], Label]
+
+
+def of_rows(rows: Rows, name: str, file: str, limits: Limits) -> Flown:
+    """Return the flight of a drone by its rows; limits : the drone's own."""
+    time, place = rows.time, rows.place
+    step = np.diff(time)[:, None]
+    third = place[:-1] + step / 3 * _rate(rows)[0], place[1:] - step / 3 * _rate(rows)[1]
+    breaks, ctrl = time, np.stack([place[:-1], *third, place[1:]], axis=1)
+    if time[0] > 0.0:
+        breaks, ctrl = np.append(0.0, time), np.concatenate([np.repeat(ctrl[:1, :1], 4, axis=1), ctrl])
+    h = float(step.max())
+    rounding = max(quantum([rows.texts(column) or [] for column in PLACE]), 1e-9)
+    between, faster = limits.acceleration * h * h / 8, 0.0
+    if rows.velocity is not None:
+        between = min(limits.acceleration * h * h / 6, limits.jerk * h**3 / 12)
+        faster = min(2 * limits.acceleration * h / 3, limits.jerk * h * h / 4)
+    leeway = Leeway(
+        2 * rounding + min(between, MOST_M),
+        min(3 * rounding / float(step.min()) + min(faster, MOST_M_S), MOST_M_S),
+        between,
+    )
+
+    def at(when: float) -> Label:
+        index = int(np.clip(np.searchsorted(time, when), 0, len(time) - 1))
+        return label(file, rows.node(index))._replace(text="up to this row")
+
+    return Flown(name, file, Piecewise(breaks, ctrl), rows, leeway, at)
+
+
+def _rate(rows: Rows) -> tuple[Array, Array]:
+    """Return velocities at the beginning and at the end of every interval."""
+    if rows.velocity is not None:
+        return rows.velocity[:-1], rows.velocity[1:]
+    mean = np.diff(rows.place, axis=0) / np.diff(rows.time)[:, None]
+    return mean, mean
+
+
+def quantum(columns: Sequence[Sequence[str]]) -> float:
+    """Return half a unit of the last digit that the largest numbers of columns have."""
+    texts = [text for column in columns for text in column[:: max(1, len(column) // SAMPLED_ROWS)]]
+    largest = max((abs(float(text)) for text in texts if text), default=0.0)
+    if largest == 0.0:
+        return 0.0
+    digits = max(len(text.lower().partition("e")[0].lstrip("-+0.").replace(".", "")) for text in texts)
+    return 0.5 * 10.0 ** (ceil(log10(largest) + 1e-12) - max(digits, 1))
+
+
+def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None) -> Flown:
+    """Return the flight of a drone of a show, moved to where the show's frame stands in the mission's."""
+    shift = np.zeros(3)
+    if show.origin is not None and origin is not None:
+        lat, lon, alt = show.origin
+        shift = np.array(to_world((lat, lon, origin.alt if alt is None else alt), origin))
+        shift[2] = shift[2] if alt is not None else 0.0
+    node = Node("", 1, 1, wide=1)
+    steps = np.diff(flight.breaks)
+    leeway = Leeway(SHOW_PLACE_M, min(3 * SHOW_PLACE_M / float(steps.min()), MOST_M_S), 0.0)
+
+    def at(when: float) -> Label:
+        index = int(np.searchsorted(flight.breaks, when))
+        return label(file, node)._replace(text=f"{flight.element}, up to key point {index}")
+
+    return Flown(flight.name, file, Piecewise(flight.breaks, flight.ctrl + shift), None, leeway, at)
+
+
+def leaves(curve: Piecewise, pad: Array, pads: Array) -> tuple[float, float]:
+    """Return when a drone leaves the vertical over its pad, and when it is over the one that it lands on."""
+    last = curve.ctrl[-1, -1]
+    end = pads[int(np.argmin(norm(pads - last)))]
+    up = _first_beyond(curve.breaks, curve.ctrl, pad)
+    down = curve.end - _first_beyond((curve.end - curve.breaks)[::-1], curve.ctrl[::-1, ::-1], end)
+    return up, max(up, down)
+
+
+def _first_beyond(breaks: Array, ctrl: Array, pad: Array) -> float:
+    """Return up to when a curve stays within ``UPRIGHT_M`` of a vertical; a piece too many is cut finely."""
+    beyond = norm(ctrl[:, :, :2] - pad[:2]).max(axis=1) > UPRIGHT_M
+    if not beyond.any():
+        return float(breaks[-1])
+    k = int(np.argmax(beyond))
+    share = np.linspace(0.0, 1.0, PARTS + 1)[:, None]
+    points = ctrl[k][None, :, :2]
+    while points.shape[1] > 1:
+        points = (1.0 - share[..., None]) * points[:, :-1] + share[..., None] * points[:, 1:]
+    inside = norm(points[:, 0] - pad[:2]) <= UPRIGHT_M
+    count = max(int(np.argmin(inside)) - 1, 0) if not inside.all() else PARTS
+    return float(breaks[k] + (breaks[k + 1] - breaks[k]) * count / PARTS)

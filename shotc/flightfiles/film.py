@@ -1,0 +1,141 @@
+"""What is proved of drones that film, on the clock: verification's claims, and limits by what rows prove."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from shotc.flightfiles.aligned import Aligned
+from shotc.flightfiles.clocked import Flown
+from shotc.flightfiles.judge import BUILT, Found, from_pads, to_tolerance
+from shotc.flightfiles.moves import accelerations, bag_of, speeds, turns
+from shotc.flightfiles.swarm import AT_PAD_M, moved, when
+from shotc.geom.bernstein import lift_off
+from shotc.geom.meetings import closest_of
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.occlusion import others_of
+from shotc.ir.parked import parked
+from shotc.ir.promise import Promise
+from shotc.ir.show import Apart
+from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
+from shotc.passes.verify.ahead import ahead
+from shotc.passes.verify.claims import Flight, Limit, Worst, claim, held
+from shotc.passes.verify.energy import energy
+from shotc.passes.verify.framing import filmed, framing
+from shotc.passes.verify.pair import from_fleets, separation
+from shotc.passes.verify.sight import sights
+from shotc.passes.verify.space import space
+from shotc.passes.verify.transits import transits
+
+MOST_PAIRWISE = 10
+"""Drones of which every pair has a claim of its own; of more the nearest pair has."""
+
+
+def judged(
+    keyframes: KeyframeIR, flights: Sequence[Flown], tracks: Sequence[Aligned], away: frozenset[str]
+) -> Iterator[Found]:
+    """Yield every claim about drones that film; away : the drones whose flights have no clock."""
+    mission = keyframes.mission
+    ir = TrajectoryIR(keyframes, tuple(each.track for each in tracks), (), ())
+    standing = tuple(track for track in parked(ir) if track.drone not in away)
+    everyone = (*ir.drones, *standing)
+    present = [Flight(mission, mission.drone(t.drone), t, others_of(everyone, t.drone)) for t in everyone]
+    named = {flown.name: flown for flown in flights}
+    for flown, each, flight in zip(flights, tracks, present, strict=False):
+        yield from _motion(flight, flown)
+        for own in _claims(flight, each, ir, standing):
+            yield placed(flown, own)
+    found = [each.track for each in tracks]
+    if 1 < len(found) <= MOST_PAIRWISE:
+        for own in separation(present[: len(found)], []):
+            yield placed(named[own.subject], own)
+    elif len(found) > MOST_PAIRWISE:
+        yield _nearest(mission.rules.separation, flights)
+    for own in sights(present):
+        if own.subject in named:
+            yield placed(named[own.subject], own)
+
+
+def placed(flown: Flown, found: Claim) -> Found:
+    """Return a claim with its place in the file, which holds within what that leaves open."""
+    kept = to_tolerance(found, {"m": flown.leeway.place})
+    if found.time is None:
+        return Found(kept, None)
+    return Found(kept, flown.at(found.time), when(flown, found.time))
+
+
+def _motion(flight: Flight, flown: Flown) -> Iterator[Found]:
+    drone = flight.drone
+    for move in (
+        *speeds([flown], bag_of([flown]), drone.limits, drone.path),
+        *accelerations([flown], drone.limits, drone.path),
+        *turns(flown, drone),
+    ):
+        yield moved(drone.name, [flown], move)
+
+
+def _claims(
+    flight: Flight, each: Aligned, ir: TrajectoryIR, standing: Sequence[DroneTrajectory]
+) -> Iterator[Claim]:
+    """Yield what verification claims of a flight whose curve is given, shots where they are aligned."""
+    curve, drone = flight.track.curve, flight.drone
+    away = float(np.linalg.norm(curve(curve.start)[:3] - np.array(drone.home)))
+    yield claim(
+        flight, Limit("distance from home", AT_PAD_M, "m", (*drone.path, "home")), Worst(away, 0.0, "exact")
+    )
+    endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
+    yield claim(flight, endurance, Worst(curve.end - lift_off(curve.channels(0, 1, 2)), curve.end, "exact"))
+    yield from energy(flight)
+    yield from (own for own in space(flight) if own.constraint not in BUILT)
+    if each.told:
+        yield from transits(flight)
+        yield from ahead(flight)
+    if each.looks:
+        for shot in filmed(flight, ir):
+            yield from (own for own in framing(flight, shot) if not _of_keyframes(own))
+    yield from from_pads(flight, standing)
+    yield from from_fleets(ir, [flight])
+
+
+def _of_keyframes(found: Claim) -> bool:
+    """Tell whether a claim is about references, which are made here and not the file's."""
+    return found.constraint.startswith(("frames without", "reference off", "keyframes without"))
+
+
+def _nearest(least: float, flights: Sequence[Flown], first: int | None = None) -> Found:
+    """Claim the separation of many drones: the nearest pair of all."""
+    found = closest_of([flight.curve for flight in flights], Apart("ellipsoid", least, least, 0.0), first)
+    one, other = flights[found.first], flights[found.second]
+    limit = Limit(f"separation from {other.name}", least, "m", ("rules", "separation"), upper=False)
+    return placed(one, held(one.name, limit, Worst(found.proven, found.time, "bounded", found.position)))
+
+
+def beside_fleets(least: float, films: Sequence[Flown], shown: Sequence[Flown]) -> Iterator[Found]:
+    """Claim the separation of drones that film from those of fleets."""
+    if films and shown:
+        yield _nearest(least, [*films, *shown], len(films))
+
+
+def unkept(keyframes: KeyframeIR, each: Aligned, found: Sequence[Found]) -> Iterator[str]:
+    """Yield what shots promise of which nothing was judged, and why."""
+    names = [(own.claim.shot, own.claim.constraint) for own in found]
+    ends = {"in_frame": " in frame", "screen_error": " screen error", "size": " size ", "visible": " visible"}
+    unseen = (
+        "its camera's angles are not in the file" if not each.looks else "its target has no place on screen"
+    )
+    for shot in keyframes.mission.shots:
+        if shot.drone != each.track.drone or shot.promise == Promise():
+            continue
+        if shot.id in each.missing:
+            why = "nothing tells when it is filmed; write its `timing`, or a column `shot`"
+            yield f"what shot `{shot.id}` promises: {why}"
+            continue
+        lacking = [
+            key
+            for key, end in ends.items()
+            if getattr(shot.promise, key) is not None
+            and not any(of == shot.id and end in name for of, name in names)
+        ]
+        if lacking:
+            yield f"{', '.join(lacking)} of shot `{shot.id}`: {unseen}"

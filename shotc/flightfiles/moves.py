@@ -1,0 +1,206 @@
+"""Limits of motion of flights with a clock: at every instant of the rebuilt curves, or of what rows prove.
+
+Of rows the acceleration between two of them is at least the mean that their velocities tell, and so on for
+what is derived of angles: where that mean is beyond a limit, every flight through these rows breaks it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.flightfiles.clocked import Flown, quantum
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Pieces
+from shotc.geom.proof import norm, sup_convex
+from shotc.importers.flights.rows import ACCELERATION, BODY, Rows
+from shotc.ir.drone import Drone
+from shotc.ir.limits import Limits
+from shotc.ir.origin import KeyPath
+from shotc.passes.verify.claims import Limit, Worst, gap
+
+STEEP_STEP_S = 0.02
+"""Seconds of a piece below which a show's rounding makes more acceleration than there is."""
+
+
+class Bag(NamedTuple):
+    """Pieces of many flights, and whose each is: its place among them."""
+
+    pieces: Pieces
+    owner: Array
+
+
+class Move(NamedTuple):
+    """A worst value against a limit, with what the file leaves open, and whose it is."""
+
+    limit: Limit
+    worst: Worst
+    leeway: float
+    owner: int
+
+
+def bag_of(flights: Sequence[Flown]) -> Bag:
+    """Return the pieces of all flights."""
+    curves = [flight.curve for flight in flights]
+    pieces = Pieces(
+        np.concatenate([curve.breaks[:-1] for curve in curves]),
+        np.concatenate([curve.breaks[1:] for curve in curves]),
+        np.concatenate([curve.ctrl for curve in curves]),
+    )
+    return Bag(pieces, np.repeat(np.arange(len(curves)), [len(curve.ctrl) for curve in curves]))
+
+
+def speeds(flights: Sequence[Flown], bag: Bag, limits: Limits, path: KeyPath) -> Iterator[Move]:
+    """Yield the speeds of flights with the same limits, proved for every instant."""
+    velocity = bag.pieces.derivative()
+    wind = np.array([*limits.wind, 0.0])
+    name = "airspeed" if any(limits.wind) else "speed"
+    leeway = max(flight.leeway.speed for flight in flights)
+    for what, key, most, value in (
+        (name, "speed", limits.speed, lambda v: norm((v - wind)[..., :2])),
+        ("climb", "climb", limits.climb, lambda v: np.asarray(v[..., 2])),
+        ("descent", "descent", limits.descent, lambda v: np.asarray(-v[..., 2])),
+    ):
+        bound = sup_convex(velocity, value, gap(most))
+        owner = who(Bag(velocity, bag.owner), bound.at, value, upper=True)
+        yield Move(
+            Limit(what, most, "m/s", (*path, "limits", key)), Worst(bound.proven, bound.at), leeway, owner
+        )
+
+
+def who(bag: Bag, at: float, value: object, *, upper: bool) -> int:
+    """Return whose value is the worst one at a time; value : as it was bounded."""
+    assert callable(value)
+    inside = (bag.pieces.low <= at + 1e-9) & (bag.pieces.high >= at - 1e-9)
+    some = bag.pieces.pick(inside)
+    share = np.clip((at - some.low) / np.maximum(some.high - some.low, 1e-12), 0.0, 1.0)
+    ctrl = some.ctrl
+    while ctrl.shape[1] > 1:
+        ctrl = (1.0 - share)[:, None, None] * ctrl[:, :-1] + share[:, None, None] * ctrl[:, 1:]
+    values = value(ctrl[:, 0])
+    return int(bag.owner[inside][int(np.argmax(values) if upper else np.argmin(values))])
+
+
+def accelerations(flights: Sequence[Flown], limits: Limits, path: KeyPath) -> Iterator[Move]:
+    """Yield the acceleration, and the jerk where a table has a column of acceleration."""
+    for name, most, unit, of in (
+        ("acceleration", limits.acceleration, "m/s^2", _acceleration),
+        ("jerk", limits.jerk, "m/s^3", _jerk),
+    ):
+        found = [(each, i) for i, flight in enumerate(flights) if (each := of(flight)) is not None]
+        if found:
+            (value, time, leeway), owner = max(found, key=lambda one: one[0][0] - one[0][2])
+            limit = Limit(name, most, unit, (*path, "limits", name))
+            yield Move(limit, Worst(value, time, "bounded"), leeway, owner)
+
+
+Peak = tuple[float, float, float]
+"""The largest value, less what is left open; when, s; and what is left open."""
+
+
+def _acceleration(flight: Flown) -> Peak | None:
+    rows = flight.rows
+    if rows is None:
+        pieces = Pieces(flight.curve.breaks[:-1], flight.curve.breaks[1:], flight.curve.ctrl)
+        size = norm(pieces.derivative().derivative().ctrl).max(axis=1)
+        step = np.maximum(pieces.high - pieces.low, STEEP_STEP_S)
+        return _peak(size, pieces.low, 24 * flight.leeway.place / step**2)
+    if rows.velocity is None:
+        return None
+    peak = _mean(rows.velocity, rows.time, _rounding(rows, "vx_m_s", "vy_m_s", "vz_m_s"))
+    told = rows.values(*ACCELERATION)
+    if told is not None:
+        size = norm(told)
+        own = _peak(size, rows.time, np.zeros(len(size)))
+        peak = own if peak is None or own[0] > peak[0] else peak
+    return peak
+
+
+def _jerk(flight: Flown) -> Peak | None:
+    rows = flight.rows
+    told = None if rows is None else rows.values(*ACCELERATION)
+    if rows is None or told is None:
+        return None
+    return _mean(told, rows.time, _rounding(rows, *ACCELERATION))
+
+
+def _rounding(rows: Rows, *columns: str) -> float:
+    return quantum([rows.texts(column) or [] for column in columns])
+
+
+def _mean(values: Array, time: Array, rounding: float) -> Peak | None:
+    """Return the largest rate between two rows of values (N, k)."""
+    if len(time) < 2:
+        return None
+    step = np.diff(time)
+    return _peak(norm(np.diff(values, axis=0)) / step, time[:-1], 4 * rounding / step)
+
+
+def _peak(size: Array, time: Array, leeway: Array) -> Peak:
+    k = int(np.argmax(size - leeway))
+    return float(size[k]), float(time[k]), float(leeway[k])
+
+
+def turns(flight: Flown, drone: Drone) -> Iterator[Move]:
+    """Yield angles, rates and accelerations of the body and of the gimbal, where a table has the columns."""
+    rows = flight.rows
+    if rows is None:
+        return
+    body, camera = rows.values(*BODY), rows.values("cam_yaw_rad", "cam_pitch_rad")
+    limits, gimbal = drone.limits, drone.gimbal
+    if body is not None:
+        yaw = np.unwrap(body[:, 0])
+        most = (limits.yaw_rate, limits.yaw_acceleration)
+        keys = (("limits", "yaw_rate"), ("limits", "yaw_acceleration"))
+        yield from _rates(rows, ("body yaw", yaw, BODY), most, [(*drone.path, *key) for key in keys])
+    for name, reach in (("pitch", gimbal.pitch), ("yaw", gimbal.yaw)):
+        if camera is None or (name == "yaw" and body is None):
+            continue
+        angle = camera[:, 1]
+        columns: tuple[str, ...] = ("cam_pitch_rad",)
+        if name == "yaw" and body is not None:
+            angle = np.unwrap(camera[:, 0]) - np.unwrap(body[:, 0])
+            angle -= 2 * np.pi * np.round((angle[0] - 0.5 * sum(reach)) / (2 * np.pi))
+            columns = ("cam_yaw_rad", *BODY)
+        rounding = 2 * _rounding(rows, *columns)
+        for side, value, upper in (("min", reach[0], False), ("max", reach[1], True)):
+            k = int(np.argmax(angle) if upper else np.argmin(angle))
+            limit = Limit(f"gimbal {name} {side}", value, "rad", (*drone.path, "gimbal", name), upper=upper)
+            yield Move(limit, Worst(float(angle[k]), float(rows.time[k])), rounding, 0)
+        keys = (("gimbal", "rate"), ("gimbal", "acceleration"))
+        most = (gimbal.rate, gimbal.acceleration)
+        yield from _rates(
+            rows, (f"gimbal {name}", angle, columns), most, [(*drone.path, *key) for key in keys]
+        )
+
+
+def _rates(
+    rows: Rows, of: tuple[str, Array, Sequence[str]], most: tuple[float, float], paths: Sequence[KeyPath]
+) -> Iterator[Move]:
+    """Yield how fast an angle changes at least, and how fast that does: means over one interval, and two."""
+    name, angle, columns = of
+    rounding = 2 * _rounding(rows, *columns)
+    step = np.diff(rows.time)
+    rate = np.diff(angle) / step
+    peak = _peak(np.abs(rate), rows.time[:-1], 2 * rounding / step)
+    yield Move(Limit(f"{name} rate", most[0], "rad/s", paths[0]), Worst(peak[0], peak[1]), peak[2], 0)
+    if len(rate) > 1:
+        # The rate somewhere within an interval is its mean: of two they are no farther apart than both take.
+        wide = step[:-1] + step[1:]
+        peak = _peak(
+            np.abs(np.diff(rate)) / wide,
+            rows.time[:-2],
+            4 * rounding / np.minimum(step[:-1], step[1:]) / wide,
+        )
+        yield Move(
+            Limit(f"{name} acceleration", most[1], "rad/s^2", paths[1]), Worst(peak[0], peak[1]), peak[2], 0
+        )
+
+
+def beyond(move: Move) -> bool:
+    """Tell whether a value is beyond its limit by more than the file leaves open."""
+    over = move.worst.value - move.limit.value if move.limit.upper else move.limit.value - move.worst.value
+    return over > move.leeway and move.limit.value not in (inf, -inf)

@@ -1,0 +1,229 @@
+"""What is proved of a fleet's flights on the clock, all of them at once; each has breaks of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from shotc.flightfiles.clocked import Flown, leaves
+from shotc.flightfiles.judge import Found, to_tolerance
+from shotc.flightfiles.moves import Bag, Move, accelerations, bag_of, beyond, speeds, who
+from shotc.geom.bernstein import Array
+from shotc.geom.meetings import closest_of
+from shotc.geom.pieces import Pieces, cut, join
+from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_channel, sup_outside
+from shotc.geom.solid_arrays.points import separation, signed_distance
+from shotc.geom.solids import Solid, convex_parts
+from shotc.ir.mission import MissionIR
+from shotc.ir.origin import KeyPath
+from shotc.ir.sampling import beside
+from shotc.ir.show import Fleet
+from shotc.ir.target import Target
+from shotc.ir.trajectory import Claim
+from shotc.passes.verify.claims import Limit, Worst, gap, held, less
+from shotc.passes.verify.fleets.space import nearest
+
+AT_PAD_M = 0.05
+"""Metres from their pads at which flights begin and end."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Swarm:
+    """A fleet's flights, in the order of its pads, and their pieces: free, and upright over pads.
+
+    ends : the pad that each lands on, or where it ends
+    """
+
+    mission: MissionIR
+    fleet: Fleet
+    flights: tuple[Flown, ...]
+    whole: Bag
+    free: Bag
+    upright: Bag
+    pads: Array
+
+    @staticmethod
+    def of(mission: MissionIR, fleet: Fleet, flights: tuple[Flown, ...]) -> Swarm:
+        """Return the flights of a fleet's drones."""
+        pads = np.array(fleet.pads)
+        free: list[Pieces] = []
+        upright: list[Pieces] = []
+        for flight, pad in zip(flights, pads, strict=True):
+            curve = flight.curve
+            up, down = leaves(flight.curve, pad, pads)
+            free.append(cut(curve, up, down))
+            upright.append(join([cut(curve, curve.start, up), cut(curve, down, curve.end)]))
+        return Swarm(mission, fleet, flights, bag_of(flights), _bag(free), _bag(upright), pads)
+
+
+def _bag(parts: Sequence[Pieces]) -> Bag:
+    return Bag(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
+
+
+def judged(swarm: Swarm) -> Iterator[Found]:
+    """Yield every claim about a fleet: one a constraint, with the drone that comes nearest to the limit."""
+    fleet, limits = swarm.fleet, swarm.fleet.limits
+    yield from _pads(swarm)
+    for move in (
+        *speeds(swarm.flights, swarm.whole, limits, fleet.path),
+        *accelerations(swarm.flights, limits, fleet.path),
+    ):
+        yield moved(fleet.name, swarm.flights, move, fleet=True)
+    yield from _space(swarm)
+    if len(swarm.flights) > 1:
+        yield _separation(swarm)
+
+
+def moved(subject: str, flights: Sequence[Flown], move: Move, *, fleet: bool = False) -> Found:
+    """Return a claim about motion, which holds within what its file leaves open."""
+    flight, time = flights[move.owner], move.worst.time or 0.0
+    x, y, z = flight.curve(time).tolist()
+    worst = Worst(move.worst.value, move.worst.time, move.worst.method, (x, y, z))
+    claim = held(subject, move.limit, worst, (flight.name,) if fleet else ())
+    open_ = {move.limit.unit: move.leeway} if not beyond(move) else {}
+    return Found(to_tolerance(claim, open_), flight.at(time), when(flight, time))
+
+
+def when(flight: Flown, time: float) -> tuple[str, ...]:
+    """Return the notes that say when a thing is, and where in a file without lines."""
+    element = () if flight.rows is not None else (f"in {flight.at(time).text}",)
+    return (f"at t = {time:.3f} s", *element)
+
+
+def _told(swarm: Swarm, limit: Limit, bound: Bound, owner: int) -> Found:
+    flight = swarm.flights[owner]
+    x, y, z = flight.curve(bound.at).tolist()
+    claim = held(swarm.fleet.name, limit, Worst(bound.proven, bound.at, "bounded", (x, y, z)), (flight.name,))
+    leeway = max(each.leeway.place for each in swarm.flights)
+    return Found(to_tolerance(claim, {"m": leeway}), flight.at(bound.at), when(flight, bound.at))
+
+
+def _pads(swarm: Swarm) -> Iterator[Found]:
+    """Claim that drones begin on their pads, and are not in the air for too long."""
+    fleet = swarm.fleet
+    away = np.array(
+        [norm(f.curve.ctrl[0, 0] - pad) for f, pad in zip(swarm.flights, swarm.pads, strict=True)]
+    )
+    k = int(np.argmax(away))
+    home = Limit("distance from home", AT_PAD_M, "m", (*fleet.path, "layout"))
+    yield _told(swarm, home, Bound(float(away[k]), float(away[k]), 0.0), k)
+    airborne = np.array([_airborne(flight) for flight in swarm.flights])
+    k = int(np.argmax(airborne))
+    endurance = Limit("endurance", fleet.endurance, "s", (*fleet.path, "endurance"))
+    yield _told(
+        swarm, endurance, Bound(float(airborne[k]), float(airborne[k]), swarm.flights[k].curve.end), k
+    )
+
+
+def _airborne(flight: Flown) -> float:
+    """Return how long a drone is off its first and its last place."""
+    curve = flight.curve
+    moves = (curve.ctrl != curve.ctrl[:, :1]).any(axis=(1, 2))
+    if not moves.any():
+        return 0.0
+    first, last = int(np.argmax(moves)), len(moves) - int(np.argmax(moves[::-1]))
+    return float(curve.breaks[last] - curve.breaks[first])
+
+
+def _space(swarm: Swarm) -> Iterator[Found]:
+    """Claim zones, the ground, heights and standing or moving targets."""
+    mission, radius = swarm.mission, swarm.fleet.radius
+    free, rules = swarm.free, swarm.mission.rules
+    for zone in mission.zones:
+        name = f"zone {zone.name}"
+        if zone.keep == "out":
+            yield from _keep_out(swarm, Limit(name, 0.0, "m", zone.path, upper=False), zone.solid)
+        else:
+            yield _keep_in(swarm, Limit(name, 0.0, "m", zone.path, upper=False), zone.solid)
+    if len(free.pieces):
+        limit = Limit(
+            "ground clearance", rules.ground_clearance, "m", ("rules", "ground_clearance"), upper=False
+        )
+        low = inf_channel(free.pieces, 2, gap(rules.ground_clearance + radius))
+        owner = who(free, low.at, lambda p: p[:, 2], upper=False)
+        yield _told(swarm, limit, less(low, radius), owner)
+    most = rules.max_height
+    if most is not None and isfinite(most):
+        high = sup_channel(swarm.whole.pieces, 2, gap(most))
+        owner = who(swarm.whole, high.at, lambda p: p[:, 2], upper=True)
+        yield _told(swarm, Limit("height above ground", most, "m", ("rules", "max_height")), high, owner)
+    for target in mission.targets:
+        path: KeyPath = ("rules", "target_clearance")
+        limit = Limit(f"target {target.name}", rules.target_clearance, "m", path, upper=False)
+        if target.track is None:
+            yield from _keep_out(swarm, limit, target.kept_clear)
+        else:
+            yield _keep_from(swarm, limit, target)
+
+
+def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[Found]:
+    free, radius = swarm.free, swarm.fleet.radius
+    away: Callable[[Array], Array] = lambda p: signed_distance(solid, p)  # noqa: E731
+    if len(free.pieces):
+        bound = nearest(free.pieces, solid, gap(radius + limit.value))
+        yield _told(swarm, limit, less(bound, radius), who(free, bound.at, away, upper=False))
+    upright = swarm.upright
+    if not len(upright.pieces):
+        return
+    # On the vertical over its pad a body may be as near as it stands there.
+    near = np.minimum(
+        radius, np.min([separation(part, swarm.pads)[0] for part in convex_parts(solid)], axis=0)
+    )
+    worst, owner = Bound(np.inf, np.inf, 0.0), 0
+    clear = np.isin(upright.owner, np.flatnonzero(near >= radius))
+    if clear.any():
+        some = Bag(upright.pieces.pick(clear), upright.owner[clear])
+        worst = less(nearest(some.pieces, solid, gap(radius)), radius)
+        owner = who(some, worst.at, away, upper=False)
+    for k in np.flatnonzero(near < radius):
+        bound = less(
+            inf_distance(upright.pieces.pick(upright.owner == k), solid, gap(near[k])), float(near[k])
+        )
+        if bound.proven < worst.proven:
+            worst, owner = bound, int(k)
+    own = Limit(f"{limit.constraint} at home", 0.0, "m", limit.path, upper=False)
+    yield _told(swarm, own, worst, owner)
+
+
+def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> Found:
+    worst, owner = Bound(-np.inf, -np.inf, 0.0), 0
+    for bag, floor in ((swarm.free, True), (swarm.upright, False)):
+        if len(bag.pieces):
+            bound = sup_outside(bag.pieces, solid, gap(-swarm.fleet.radius), floor=floor)
+            if bound.proven > worst.proven:
+                within = solid if floor else solid._replace(bottom=-np.inf)
+                worst = bound
+                owner = who(bag, bound.at, lambda p, s=within: -signed_distance(s, p), upper=False)
+    margin = Bound(-worst.proven, -worst.attained, worst.at)
+    return _told(swarm, limit, less(margin, swarm.fleet.radius), owner)
+
+
+def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> Found:
+    """Claim the distance from a target that moves, drone by drone."""
+    radius = swarm.fleet.radius
+    worst, owner = Bound(np.inf, np.inf, 0.0), 0
+    for k, flight in enumerate(swarm.flights):
+        up, down = leaves(flight.curve, swarm.pads[k], swarm.pads)
+        if down > up:
+            seen = beside(flight.curve, target)
+            bound = inf_distance(cut(seen, up, down), target.kept_clear, gap(radius + limit.value))
+            if bound.proven < worst.proven:
+                worst, owner = bound, k
+    return _told(swarm, limit, less(worst, radius), owner)
+
+
+def _separation(swarm: Swarm) -> Found:
+    fleet = swarm.fleet
+    found = closest_of([flight.curve for flight in swarm.flights], fleet.apart)
+    own = (*fleet.path, "separation")
+    origins = swarm.mission.origins
+    path: KeyPath = own if own in origins.keys or own in origins.values else ("rules", "separation")
+    limit = Limit("separation", fleet.apart.across, "m", path, upper=False)
+    pair = (swarm.flights[found.first], swarm.flights[found.second])
+    worst = Worst(found.proven, found.time, "bounded", found.position)
+    claim: Claim = held(fleet.name, limit, worst, (pair[0].name, pair[1].name))
+    leeway = sum(flight.leeway.place for flight in pair)
+    return Found(to_tolerance(claim, {"m": leeway}), pair[0].at(found.time), when(pair[0], found.time))

@@ -1,0 +1,183 @@
+"""How near any two of many flights of one clock come, each with breaks of its own: a bound that is proved.
+
+As ``geom.separation``, for cubics without common breaks. Time is cut into slabs; within each a drone's boxes
+are those of its control points, less the motion that all drones have in common, and a k-d tree of the balls
+about them gives every pair that could be the nearest. A flight stands before it begins and after it ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.geom.apart import Distances, stretch
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict
+from shotc.geom.nearest_pair import Bag, Index, NearestPair, size_of
+from shotc.geom.separation import Nearest
+
+SLAB_S = 0.5
+"""Seconds of a slab of flights without common breaks."""
+MOST_SLABS = 20_000
+BLOCK_PAIRS = 20_000
+"""Pairs looked at together, which bounds the memory."""
+
+
+def closest_of(flights: Sequence[Piecewise], apart: Distances, first: int | None = None) -> Nearest:
+    """Return the nearest that two flights ever come, in the sense of ``apart``.
+
+    flights : cubics x, y, z over seconds, metres, two at least
+    first : of how many of them one of two has to be, and the other one of the rest; None for any
+    """
+    search = NearestPair(upright=apart.shape == "cylinder")
+    high = stretch(apart)
+    scale = np.array([1.0, 1.0, high])
+    slabs = _slabs([Piecewise(f.breaks, f.ctrl * scale) for f in flights])
+    _sampled(search, slabs, first)
+    pairs, index = _candidates(search, slabs, first)
+    for at in range(0, len(pairs), BLOCK_PAIRS):
+        part = slice(at, at + BLOCK_PAIRS)
+        near = slabs.apart(pairs[part], index[part]) < search.best * _ball(search)
+        if near.any():
+            search.close(slabs.bag(pairs[part][near], index[part][near]))
+    proven = min(search.rest, search.best - search.gap())
+    return Nearest(proven, search.best, *search.pair, search.time, _between(flights, search))
+
+
+def _ball(search: NearestPair) -> float:
+    """Return how much larger a ball is that holds what is kept free."""
+    return float(np.sqrt(2.0)) if search.upright else 1.0
+
+
+def _between(flights: Sequence[Piecewise], search: NearestPair) -> tuple[float, float, float]:
+    if not np.isfinite(search.best):
+        return (0.0, 0.0, 0.0)
+    x, y, z = (0.5 * (flights[search.pair[0]](search.time) + flights[search.pair[1]](search.time))).tolist()
+    return (x, y, z)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Slabs:
+    """Flights cut at the ends of slabs.
+
+    ends : (S + 1,), seconds; cut : the flights on breaks that hold these ends
+    at : places at the ends, (n, S + 1, 3); centre, radius : of balls that hold each flight in each slab, less
+        what all have in common, (n, S, 3) and (n, S)
+    """
+
+    ends: Array
+    cut: tuple[Piecewise, ...]
+    at: Array
+    centre: Array
+    radius: Array
+
+    def apart(self, pairs: Index, slab: Index) -> Array:
+        """Return how far the balls of pairs are apart, (M,)."""
+        one, other = pairs[:, 0], pairs[:, 1]
+        away = size_of(self.centre[one, slab] - self.centre[other, slab])
+        return np.asarray(away - self.radius[one, slab] - self.radius[other, slab])
+
+    def bag(self, pairs: Index, slab: Index) -> Bag:
+        """Return the relative motions of pairs in slabs."""
+        parts = [self._relative(int(i), int(j), int(k)) for (i, j), k in zip(pairs, slab, strict=True)]
+        count = [len(ends) for ends, _ in parts]
+        return Bag(
+            np.repeat(pairs, count, axis=0),
+            np.concatenate([ends for ends, _ in parts]),
+            np.concatenate([ctrl for _, ctrl in parts]),
+        )
+
+    def _relative(self, one: int, other: int, slab: int) -> tuple[Array, Array]:
+        (a, x), (b, y) = self._part(one, slab), self._part(other, slab)
+        if len(a) != len(b) or (a != b).any():
+            breaks = np.union1d(a, b)
+            x, y = (restrict(Piecewise(*each), breaks).ctrl for each in ((a, x), (b, y)))
+            a = breaks
+        return np.stack([a[:-1], a[1:]], axis=1), x - y
+
+    def _part(self, drone: int, slab: int) -> tuple[Array, Array]:
+        curve = self.cut[drone]
+        low, high = np.searchsorted(curve.breaks, self.ends[slab : slab + 2])
+        return curve.breaks[low : high + 1], curve.ctrl[low:high]
+
+
+def _slabs(flights: Sequence[Piecewise]) -> _Slabs:
+    end = max(f.end for f in flights)
+    begin = min(f.start for f in flights)
+    whole = [_standing(f, begin, end) for f in flights]
+    common = whole[0].breaks
+    if len(common) > MOST_SLABS or any(not np.array_equal(f.breaks, common) for f in whole):
+        common = np.linspace(begin, end, min(max(1, ceil((end - begin) / SLAB_S)), MOST_SLABS) + 1)
+    cut = tuple(restrict(f, np.union1d(f.breaks, common)) for f in whole)
+    first = [np.searchsorted(f.breaks, common[:-1]) for f in cut]
+    at = np.stack([np.concatenate([f.ctrl[k, 0], f.ctrl[-1:, -1]]) for f, k in zip(cut, first, strict=True)])
+    shared = at.mean(axis=0)
+    low, high = [], []
+    for curve, k in zip(cut, first, strict=True):
+        thirds = np.linspace(0.0, 1.0, 4)
+        times = curve.breaks[:-1, None] + thirds * np.diff(curve.breaks)[:, None]
+        moved = np.stack([np.interp(times, common, shared[:, d]) for d in range(3)], axis=-1)
+        own = curve.ctrl - moved
+        low.append(np.minimum.reduceat(own.min(axis=1), k))
+        high.append(np.maximum.reduceat(own.max(axis=1), k))
+    least, most = np.stack(low), np.stack(high)
+    return _Slabs(common, cut, at, 0.5 * (least + most), 0.5 * size_of(most - least))
+
+
+def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
+    """Return a curve that stands before its beginning and after its end."""
+    breaks, ctrl = [curve.breaks], [curve.ctrl]
+    if curve.start > begin:
+        breaks.insert(0, np.array([begin]))
+        ctrl.insert(0, np.repeat(curve.ctrl[:1, :1], 4, axis=1))
+    if curve.end < end:
+        breaks.append(np.array([end]))
+        ctrl.append(np.repeat(curve.ctrl[-1:, -1:], 4, axis=1))
+    return Piecewise(np.concatenate(breaks), np.concatenate(ctrl))
+
+
+def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
+    """Look for the nearest pair at the ends of slabs."""
+    for k, time in enumerate(slabs.ends.tolist()):
+        places = slabs.at[:, k]
+        if first is None:
+            if len(places) < 2:
+                return
+            distance, index = cKDTree(places).query(places, k=2)
+            one = int(np.argmin(distance[:, 1]))
+            other = int(index[one, 1]) if int(index[one, 1]) != one else int(index[one, 0])
+        else:
+            distance, index = cKDTree(places[first:]).query(places[:first])
+            one = int(np.argmin(distance))
+            other = first + int(index[one])
+        search.note(float(search.size((places[one] - places[other])[None])[0]), (one, other), time)
+
+
+def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[Index, Index]:
+    """Return pairs, and slabs in which they could be nearer than the nearest found so far, nearest first."""
+    found, where = [np.zeros((0, 2), dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
+    bound = search.best * _ball(search)
+    for k in range(len(slabs.ends) - 1):
+        centre, radius = slabs.centre[:, k], slabs.radius[:, k]
+        reach = bound + 2.0 * float(radius.max())
+        if not np.isfinite(reach):
+            continue
+        if first is None:
+            pairs = cKDTree(centre).query_pairs(reach, output_type="ndarray")
+        else:
+            near = cKDTree(centre[:first]).sparse_distance_matrix(
+                cKDTree(centre[first:]), reach, output_type="ndarray"
+            )
+            pairs = np.stack([near["i"], near["j"] + first], axis=1)
+        index = np.full(len(pairs), k, dtype=np.intp)
+        # What stands at a distance that is attained already is no nearer.
+        near_enough = slabs.apart(pairs, index) < bound - search.gap()
+        found.append(pairs[near_enough])
+        where.append(index[near_enough])
+    pairs, index = np.concatenate(found), np.concatenate(where)
+    order = np.argsort(slabs.apart(pairs, index), kind="stable")
+    return pairs[order], index[order]

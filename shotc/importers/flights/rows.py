@@ -1,0 +1,157 @@
+"""Tables of trajectories: a row for each drone and time, in the columns of our own ``trajectory.csv``.
+
+Places are metres East, North and Up of the mission's origin; what the columns are called says their units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.importers.cameras.places import LARGEST_NUMBER, number
+from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
+from shotc.importers.notes import plain
+from shotc.importers.xml_tree import Node
+
+Array = NDArray[np.float64]
+
+TIME, DRONE, PHASE, SHOT = "t_s", "drone", "phase", "shot"
+PLACE = ("x_m", "y_m", "z_m")
+VELOCITY = ("vx_m_s", "vy_m_s", "vz_m_s")
+ACCELERATION = ("ax_m_s2", "ay_m_s2", "az_m_s2")
+BODY = ("body_yaw_rad",)
+CAMERA = ("cam_yaw_rad", "cam_pitch_rad", "hfov_rad")
+RATES = ("cam_yaw_rate_rad_s", "cam_pitch_rate_rad_s")
+WANTED = (TIME, DRONE, *PLACE, *VELOCITY)
+EXAMPLE = ",".join(WANTED)
+MOST_ROWS = 5_000_000
+SHORTEST_S = 1e-4
+"""Seconds between two rows of a drone, at least."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """The rows of one drone, in order of time.
+
+    drone : its name, empty where the table has no such column; first : the line of the first row, from 1
+    time : (N,), s; place : (N, 3), m; velocity : (N, 3), m/s, or None
+    columns : places of all columns in a line; lines : the rows as they are
+    digits : significant ones of its places
+    """
+
+    drone: str
+    numbers: tuple[int, ...]
+    time: Array
+    place: Array
+    velocity: Array | None
+    columns: dict[str, int]
+    lines: tuple[str, ...]
+
+    def node(self, index: int) -> Node:
+        """Return the line of a row."""
+        return Node("", self.numbers[index], 1, wide=max(1, len(self.lines[index])))
+
+    def texts(self, column: str) -> list[str] | None:
+        """Return the cells of a column, None where there is none."""
+        k = self.columns.get(column)
+        return None if k is None else [_cell(line, k) for line in self.lines]
+
+    def values(self, *names: str) -> Array | None:
+        """Return columns as numbers (N, k); None where one is absent, or empty in all rows."""
+        found = [self.texts(name) for name in names]
+        if any(column is None or not any(column) for column in found):
+            return None
+        out = np.empty((len(self.lines), len(names)))
+        for k, cells in enumerate(found):
+            for i, text in enumerate(cells or ()):
+                value = number(text)
+                if value is None:
+                    refuse(BROKEN, f"`{names[k]}` is `{plain(text, 20)}`, which is no number", self.node(i))
+                out[i, k] = value
+        return out
+
+
+def _cell(line: str, k: int) -> str:
+    parts = line.split(",", k + 1)
+    return parts[k].strip() if k < len(parts) else ""
+
+
+def rows(text: str) -> tuple[Rows, ...]:
+    """Return the rows of every drone, drones in the order in which they first stand."""
+    lines = text.splitlines()
+    start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
+    if not lines or "\0" in text[:1000]:
+        refuse(UNREADABLE, "it is no text" if lines else "it is empty", start)
+    heads = [head.strip().strip('"') for head in lines[0].split(",")]
+    columns = {head: k for k, head in reversed(list(enumerate(heads)))}
+    lacking = [name for name in (TIME, *PLACE) if name not in columns]
+    if lacking:
+        names = ", ".join(f"`{name}`" for name in lacking)
+        help_ = f"begin it with a line such as `{EXAMPLE}`; velocities and `{DRONE}` may be left out"
+        refuse(FOREIGN, f"it has no column {names} in its first line", start, help_)
+    if len(lines) > MOST_ROWS:
+        refuse(UNREADABLE, f"it has {len(lines) - 1} rows; at most {MOST_ROWS} are read", start)
+    kept = [(i, line) for i, line in enumerate(lines[1:], 2) if line.strip()]
+    numbers, body = [i for i, _ in kept], [line for _, line in kept]
+    moves = all(name in columns for name in VELOCITY)
+    values = _numbers(body, numbers, [columns[c] for c in (TIME, *PLACE, *(VELOCITY if moves else ()))])
+    drones = [_cell(line, columns[DRONE]) for line in body] if DRONE in columns else [""] * len(body)
+    found = tuple(
+        Rows(
+            name,
+            tuple(numbers[i] for i in index),
+            values[index, 0],
+            values[index, 1:4],
+            values[index, 4:7] if moves else None,
+            columns,
+            tuple(body[i] for i in index),
+        )
+        for name, index in _of_drones(drones).items()
+    )
+    for each in found:
+        _in_order(each)
+    if not found:
+        refuse(BROKEN, "it has no row", start)
+    return found
+
+
+def _of_drones(names: Sequence[str]) -> dict[str, list[int]]:
+    found: dict[str, list[int]] = {}
+    for i, name in enumerate(names):
+        found.setdefault(name, []).append(i)
+    return found
+
+
+def _numbers(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) -> Array:
+    """Return the numbers of some columns, (N, k); refuse the first cell that is none."""
+    if not body:
+        return np.zeros((0, len(columns)))
+    try:
+        values = np.loadtxt(body, delimiter=",", usecols=columns, comments=None, ndmin=2)
+    except (ValueError, IndexError):
+        values = None
+    if values is not None and (np.abs(values) < LARGEST_NUMBER).all():
+        return values
+    for line, text in zip(lines, body, strict=True):
+        for k in columns:
+            cell = _cell(text, k)
+            if number(cell) is None:
+                node = Node("", line, 1, wide=max(1, len(text)))
+                refuse(BROKEN, f"column {k + 1} is `{plain(cell, 20)}`, which is no number", node)
+    refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1))
+
+
+def _in_order(found: Rows) -> None:
+    if len(found.time) < 2:
+        refuse(BROKEN, "a drone has one row, and a flight takes two", found.node(0))
+    if found.time[0] < 0.0:
+        refuse(BROKEN, f"it begins at {found.time[0]:g} s, before the mission does", found.node(0))
+    for i, (a, b) in enumerate(pairwise(found.time.tolist())):
+        if b - a < SHORTEST_S:
+            refuse(
+                BROKEN, f"its time, {b:g} s, does not come after that before it, {a:g} s", found.node(i + 1)
+            )

@@ -1,0 +1,176 @@
+"""Shows of Skybrush (``.skyc``): a ZIP with ``show.json``, curves of every drone between key points.
+
+Places are metres in a frame of the show, X to the bearing that its location says, Y to the left of it, Z up.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from itertools import pairwise
+from math import cos, radians, sin
+from posixpath import normpath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.importers.archive import member
+from shotc.importers.cameras.places import LARGEST_NUMBER, is_place
+from shotc.importers.flights.names import LARGEST_CLOCKED
+from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
+from shotc.importers.notes import plain
+from shotc.importers.xml_tree import Node
+
+Array = NDArray[np.float64]
+
+SHOW = "show.json"
+WHOLE = Node("", 1, 1, wide=1)
+MOST_DRONES, MOST_POINTS = 5000, 20_000
+SHORTEST_S = 1e-3
+DEGREE = 3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShowFlight:
+    """The flight of one drone, in the show's frame turned to East, North and Up.
+
+    element : where it stands in the file, in words; home : (3,), where it stands before
+    breaks : (P + 1,), s; ctrl : Bernstein control points of cubics, (P, 4, 3), m
+    """
+
+    name: str
+    element: str
+    home: Array
+    breaks: Array
+    ctrl: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Show:
+    """A show; origin : latitude and longitude of its frame, deg, and altitude, m, None where it says none."""
+
+    flights: tuple[ShowFlight, ...]
+    origin: tuple[float, float, float | None] | None
+
+
+def show(data: bytes) -> Show:
+    """Return the flights of a show."""
+    content = _part(data, SHOW)
+    if not isinstance(content, dict) or content.get("version") != 1:
+        said = plain(str(content.get("version")), 20) if isinstance(content, dict) else "none"
+        refuse(FOREIGN, f"it is a show of version {said}; 1 is read", WHOLE)
+    drones = _inside(content, "swarm").get("drones")
+    if not isinstance(drones, list) or not 0 < len(drones) <= MOST_DRONES:
+        refuse(BROKEN, f"its `swarm.drones` is no list of 1 to {MOST_DRONES} drones", WHOLE)
+    location = _inside(_inside(content, "environment"), "location")
+    turn = location.get("orientation", 0.0)
+    if not _is_number(turn):
+        refuse(BROKEN, "its `environment.location.orientation` is no number", WHOLE)
+    flights = tuple(_flight(data, drone, i, radians(turn)) for i, drone in enumerate(drones))
+    return Show(flights, _origin(location.get("origin")))
+
+
+def _origin(told: Any) -> tuple[float, float, float | None] | None:
+    if told is None:
+        return None
+    if not isinstance(told, list) or len(told) < 2 or not all(map(_is_number, told[:2])):
+        refuse(BROKEN, "its `environment.location.origin` is no latitude and longitude", WHOLE)
+    lat, lon = float(told[0]), float(told[1])
+    if not is_place(lat, lon):
+        refuse(BROKEN, f"its origin is at {lat:g}, {lon:g} deg, which is no latitude and longitude", WHOLE)
+    return lat, lon, float(told[2]) if len(told) > 2 and _is_number(told[2]) else None
+
+
+def _part(data: bytes, name: str) -> Any:
+    """Return a part of the archive as JSON."""
+    found = member(data, lambda entry: normpath(entry) == name, f"`{name}`", LARGEST_CLOCKED)
+    if isinstance(found, str):
+        refuse(UNREADABLE, found, WHOLE)
+    try:
+        return json.loads(found)
+    except (ValueError, RecursionError) as fault:
+        refuse(UNREADABLE, f"`{name}` is no JSON: {plain(str(fault), 80)}", WHOLE)
+
+
+def _inside(parent: dict[str, Any], key: str) -> dict[str, Any]:
+    found = parent.get(key)
+    return found if isinstance(found, dict) else {}
+
+
+def _resolved(data: bytes, value: Any) -> Any:
+    """Return what a reference inside the archive stands for, and anything else as it is."""
+    if isinstance(value, dict) and isinstance(value.get("$ref"), str):
+        return _part(data, normpath(value["$ref"].partition("#")[0]))
+    return value
+
+
+def _flight(data: bytes, drone: Any, index: int, turn: float) -> ShowFlight:
+    settings = _resolved(data, drone.get("settings")) if isinstance(drone, dict) else None
+    element = f"swarm.drones[{index}]"
+    if not isinstance(settings, dict):
+        refuse(BROKEN, f"`{element}` has no `settings`", WHOLE)
+    name = settings.get("name")
+    name = name if isinstance(name, str) else str(index + 1)
+    path = _resolved(data, settings.get("trajectory"))
+    where = f"{element}.settings.trajectory"
+    if not isinstance(path, dict) or path.get("version") != 1:
+        refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE)
+    points, begin = path.get("points"), path.get("takeoffTime", 0.0)
+    if not isinstance(points, list) or not 0 < len(points) <= MOST_POINTS:
+        refuse(BROKEN, f"`{where}.points` is no list of 1 to {MOST_POINTS} key points", WHOLE)
+    if not _is_number(begin) or begin < 0.0:
+        refuse(BROKEN, f"`{where}.takeoffTime` is no time", WHOLE)
+    keys = [_key(point, f"{where}.points[{i}]") for i, point in enumerate(points)]
+    for i, (a, b) in enumerate(pairwise(keys)):
+        if b[0] - a[0] < SHORTEST_S:
+            message = f"the time of `{where}.points[{i + 1}]`, {b[0]:g} s, does not come after {a[0]:g} s"
+            refuse(BROKEN, message, WHOLE)
+    if keys[0][0] + begin < 0.0:
+        refuse(BROKEN, f"`{where}.points[0]` is before the show begins", WHOLE)
+    told = settings.get("home")
+    home = told if _is_place(told) else keys[0][1]
+    times = np.array([key[0] for key in keys]) + begin
+    ctrl = [_cubic([a[1], *b[2], b[1]]) for a, b in pairwise(keys)]
+    if times[0] > 0.0:  # it stands until it begins
+        times = np.append(0.0, times)
+        ctrl.insert(0, _cubic([keys[0][1], keys[0][1]]))
+    elif len(keys) == 1:
+        times = np.array([0.0, 1.0])
+        ctrl = [_cubic([keys[0][1], keys[0][1]])]
+    return ShowFlight(
+        name, element, _turned(np.array(home, dtype=float), turn), times, _turned(np.array(ctrl), turn)
+    )
+
+
+def _key(point: Any, where: str) -> tuple[float, list[float], list[list[float]]]:
+    if not isinstance(point, list) or len(point) != 3 or not _is_number(point[0]) or not _is_place(point[1]):
+        refuse(BROKEN, f"`{where}` is no time, place and control points", WHOLE)
+    time, place, control = point
+    if not isinstance(control, list) or len(control) > DEGREE - 1 or not all(map(_is_place, control)):
+        refuse(BROKEN, f"`{where}` has control points that make no line, quadratic or cubic", WHOLE)
+    return float(time), place[:3], [each[:3] for each in control]
+
+
+def _cubic(points: list[list[float]]) -> Array:
+    """Return the control points (4, 3) of a curve of the first to the third degree."""
+    ctrl = np.array(points, dtype=float)
+    while len(ctrl) <= DEGREE:
+        n = len(ctrl)
+        share = (np.arange(1, n) / n)[:, None]
+        ctrl = np.concatenate([ctrl[:1], share * ctrl[:-1] + (1.0 - share) * ctrl[1:], ctrl[-1:]])
+    return ctrl
+
+
+def _turned(points: Array, turn: float) -> Array:
+    """Return places in the show's frame as East, North and Up; turn : bearing of its X, rad."""
+    x, y, z = points[..., 0], points[..., 1], points[..., 2]
+    return np.stack([x * sin(turn) - y * cos(turn), x * cos(turn) + y * sin(turn), z], axis=-1)
+
+
+def _is_number(value: Any) -> bool:
+    return not isinstance(value, bool) and isinstance(value, int | float) and abs(value) < LARGEST_NUMBER
+
+
+def _is_place(value: Any) -> bool:
+    return isinstance(value, list) and len(value) >= 3 and all(map(_is_number, value[:3]))
