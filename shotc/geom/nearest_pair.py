@@ -117,7 +117,7 @@ def midway(ctrl: Array) -> Array:
 
 
 def least_along(ctrl: Array, towards: Array) -> Array:
-    """Return how far the control points are at least along a direction, 0 where there is none."""
+    """Return how far control points (M, 4, D) are at least along directions (M, D), 0 where there is none."""
     size = size_of(towards)
     return np.asarray(np.einsum("mkd,md->mk", ctrl, towards).min(axis=1) / np.where(size > 0.0, size, 1.0))
 
