@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 import typer
 
@@ -181,10 +181,16 @@ def simulate(
     raise typer.Exit(console.exit_code(found))
 
 
-def _plan(
-    source: str, output: Path | None, progress: Callable[[str], None]
-) -> tuple[VerifiedIR, dict[str, SourceFile], Path]:
-    """Return a proved plan, the files its diagnostics point into, and the folder for what is written.
+class _Proved(NamedTuple):
+    """A proved plan, the files its diagnostics point into, and the folder for what is written."""
+
+    plan: VerifiedIR
+    sources: dict[str, SourceFile]
+    folder: Path
+
+
+def _plan(source: str, output: Path | None, progress: Callable[[str], None]) -> _Proved:
+    """Return what is flown.
 
     A mission is planned first, as `shotc plan` does without options; without a plan, say why and exit.
     """
@@ -201,7 +207,7 @@ def _plan(
     if plan is None:
         console.report(diagnostics, sources)
         raise typer.Exit(console.EXIT_REJECTED)
-    return plan, sources, output or beside
+    return _Proved(plan, sources, output or beside)
 
 
 def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ...]:

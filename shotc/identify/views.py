@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import tan
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,18 +81,18 @@ def look(mission: MissionIR, camera: Camera, box: ScreenBox, tiles: Vec2 | tuple
     boards = _boards(camera, box, (across, up))
     ways = _laid(_ways(boards), (across, up))
     eye = np.array(camera.eye)
-    share, mesh, triangle, normal = _nearest(mission, boards, (across, up), ways)
+    first = _nearest(mission, boards, (across, up), ways)
     with np.errstate(invalid="ignore"):
-        point = eye + share[..., None] * ways
-    met = np.isfinite(share)
+        point = eye + first.depth[..., None] * ways
+    met = np.isfinite(first.depth)
     point[~met] = np.nan
-    low = met & (mesh >= 0)
+    low = met & (first.mesh >= 0)
     low[low] = point[low][:, 2] < ground_heights(mission, point[low][:, :2]) + ON_GROUND_M
-    mesh = np.where(low, GROUND, mesh)
+    mesh = np.where(low, GROUND, first.mesh)
     size = _cell(camera, box, (TILE_RAYS * across, TILE_RAYS * up))
-    length = np.linalg.norm(ways, axis=-1) * np.linalg.norm(normal, axis=-1)
-    shade = np.abs((normal * ways).sum(axis=-1)) / np.where(length > 0.0, length, 1.0)
-    return Seen(point, mesh, triangle, np.where(met, share, 0.0) * size, shade)
+    length = np.linalg.norm(ways, axis=-1) * np.linalg.norm(first.normal, axis=-1)
+    shade = np.abs((first.normal * ways).sum(axis=-1)) / np.where(length > 0.0, length, 1.0)
+    return Seen(point, mesh, first.triangle, np.where(met, first.depth, 0.0) * size, shade)
 
 
 def _cell(camera: Camera, box: ScreenBox, cells: tuple[int, int]) -> float:
@@ -136,10 +136,17 @@ def _laid(values: NDArray[_Kind], tiles: tuple[int, int]) -> NDArray[_Kind]:
     return np.asarray(shaped.transpose(order).reshape(up * n, across * n, *rest))
 
 
-def _nearest(
-    mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array
-) -> tuple[Array, IntArray, IntArray, Array]:
-    """Return depth, mesh, triangle and normal of what is met first, each (rows, columns, ...)."""
+class _Met(NamedTuple):
+    """What rays meet first: its depth, mesh and triangle, (rows, columns), and normal, (rows, columns, 3)."""
+
+    depth: Array
+    mesh: IntArray
+    triangle: IntArray
+    normal: Array
+
+
+def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array) -> _Met:
+    """Return what is met first through each cell."""
     share, normal = _ground(mission, boards, tiles, ways)
     mesh = np.where(np.isfinite(share), GROUND, SKY)
     triangle = np.full(share.shape, -1, dtype=np.intp)
@@ -151,7 +158,7 @@ def _nearest(
         mesh = np.where(closer, number, mesh)
         triangle[closer] = each.surface.source[its_triangle[closer]]
         normal[closer] = _normals(each.surface, its_triangle[closer], ways[closer])
-    return share, mesh, triangle, normal
+    return _Met(share, mesh, triangle, normal)
 
 
 def _ground(

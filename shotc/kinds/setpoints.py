@@ -1,6 +1,7 @@
 """Setpoints of a framing: how a subject is to appear later in the shot."""
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from pydantic import Field
 
@@ -87,16 +88,23 @@ def setpoint_faults(
     for k, spec in enumerate(specs):
         wrong = _out_of_time(spec.time, specs[k - 1].time if k else 0.0, duration)
         if wrong is not None:
-            message, note, help_ = wrong
-            yield scene.fault("M037", message, help_, *path, k, "time", notes=(note,))
+            yield scene.fault("M037", wrong.message, wrong.help, *path, k, "time", notes=(wrong.note,))
 
 
-def _out_of_time(time: float, before: float, duration: float | None) -> tuple[str, str, str] | None:
-    """Return what is wrong with the time of a setpoint: message, note, help; before : the last one's."""
+class _Fault(NamedTuple):
+    message: str
+    note: str
+    help: str
+
+
+def _out_of_time(time: float, before: float, duration: float | None) -> _Fault | None:
+    """Return what is wrong with the time of a setpoint; before : the last one's."""
     if time <= before:
         note = f"it is at {time:g} s, the one before it at {before:g} s"
-        return "the times of setpoints do not rise", note, f"set it later than {before:g} s"
+        return _Fault("the times of setpoints do not rise", note, f"set it later than {before:g} s")
     if duration is not None and time > duration:
         note = f"it is at {time:g} s; the shot lasts {duration:g} s"
-        return "a setpoint comes after its shot", note, f"give the shot a duration of {time:g} s or more"
+        return _Fault(
+            "a setpoint comes after its shot", note, f"give the shot a duration of {time:g} s or more"
+        )
     return None

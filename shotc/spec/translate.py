@@ -52,47 +52,55 @@ def _own_words(path: KeyPath, item: Any) -> Finding:
     describe_ = _WORDS.get(item["type"])
     if describe_ is None:
         return Finding(path, "wrong-type", clip(item["msg"], 120).rstrip(".").lower())
-    slug, message, help_ = describe_(item.get("ctx", {}), item.get("input"))
-    return Finding(path, slug, message, help_)
+    words = describe_(item.get("ctx", {}), item.get("input"))
+    return Finding(path, words.slug, words.message, words.help)
 
 
-def _choice(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+class _Words(NamedTuple):
+    slug: str
+    message: str
+    help: str = ""
+
+
+def _choice(ctx: Mapping[str, Any], value: Any) -> _Words:
     known = dict.fromkeys(re.findall(r"'([^']*)'", str(ctx.get("expected", ""))))
     if not isinstance(value, str):
-        return ("wrong-type", f"expected one of {', '.join(known)}, got {describe(value)}", "")
-    return ("unknown-value", f"unknown value `{clip(value)}`", nearest(value, known))
+        return _Words("wrong-type", f"expected one of {', '.join(known)}, got {describe(value)}")
+    return _Words("unknown-value", f"unknown value `{clip(value)}`", nearest(value, known))
 
 
-def _mapping(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
-    return (
+def _mapping(ctx: Mapping[str, Any], value: Any) -> _Words:
+    return _Words(
         "wrong-type",
         f"expected a mapping of names, got {describe(value)}",
         "write `name: {...}` lines under it",
     )
 
 
-def _list(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
-    return ("wrong-type", f"expected a list, got {describe(value)}", "write [...], or one `- ` line per item")
+def _list(ctx: Mapping[str, Any], value: Any) -> _Words:
+    return _Words(
+        "wrong-type", f"expected a list, got {describe(value)}", "write [...], or one `- ` line per item"
+    )
 
 
-def _short(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
+def _short(ctx: Mapping[str, Any], value: Any) -> _Words:
     few = f"expected at least {ctx.get('min_length')} items, got {ctx.get('actual_length')}"
-    return ("wrong-length", few, "")
+    return _Words("wrong-length", few)
 
 
-def _long(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
-    return ("wrong-length", f"expected at most {ctx.get('max_length')} items, got more", "")
+def _long(ctx: Mapping[str, Any], value: Any) -> _Words:
+    return _Words("wrong-length", f"expected at most {ctx.get('max_length')} items, got more")
 
 
-def _flag(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
-    return ("wrong-type", f"expected true or false, got {describe(value)}", "")
+def _flag(ctx: Mapping[str, Any], value: Any) -> _Words:
+    return _Words("wrong-type", f"expected true or false, got {describe(value)}")
 
 
-def _text(ctx: Mapping[str, Any], value: Any) -> tuple[str, str, str]:
-    return ("wrong-type", f"expected text, got {describe(value)}", "")
+def _text(ctx: Mapping[str, Any], value: Any) -> _Words:
+    return _Words("wrong-type", f"expected text, got {describe(value)}")
 
 
-_WORDS: dict[str, Callable[[Mapping[str, Any], Any], tuple[str, str, str]]] = {
+_WORDS: dict[str, Callable[[Mapping[str, Any], Any], _Words]] = {
     "literal_error": _choice,
     "dict_type": _mapping,
     "tuple_type": _list,

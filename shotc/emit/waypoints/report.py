@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from math import degrees
+from typing import NamedTuple
 
 import numpy as np
 
@@ -64,9 +65,17 @@ def fleetless(
     )
 
 
+class FlownHere(NamedTuple):
+    """The flights of machines that take some files; notes and diagnostics of the others."""
+
+    flights: list[DroneTrajectory]
+    notes: list[str]
+    diagnostics: list[Diagnostic]
+
+
 def flown_here(
     mission: MissionIR, flights: tuple[DroneTrajectory, ...], emitter: str, machines: tuple[Autopilot, ...]
-) -> tuple[list[DroneTrajectory], list[str], list[Diagnostic]]:
+) -> FlownHere:
     """Return the flights of machines that take these files, and what is told of the others.
 
     That is a note where some of the mission's drones take them, and a warning for each drone where none does.
@@ -75,8 +84,8 @@ def flown_here(
     others = [mission.drone(f.drone) for f in flights if mission.drone(f.drone).autopilot not in machines]
     if here:
         named = ", ".join(f"{drone.name} ({drone.autopilot})" for drone in others)
-        return here, [f"{emitter}: no file for {named}, flown otherwise"] if others else [], []
-    return [], [], [_not_flown(mission, drone, emitter, machines) for drone in others]
+        return FlownHere(here, [f"{emitter}: no file for {named}, flown otherwise"] if others else [], [])
+    return FlownHere([], [], [_not_flown(mission, drone, emitter, machines) for drone in others])
 
 
 def _not_flown(mission: MissionIR, drone: Drone, emitter: str, machines: tuple[Autopilot, ...]) -> Diagnostic:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import atan2, degrees, hypot, pi
+from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import Place, written
 from shotc.importers.multidrone.read import Role
@@ -124,17 +125,22 @@ def _course(way: list[Place], i: int) -> float:
     return atan2(y, x)
 
 
-def _stand(task: Task, *altitudes: float) -> tuple[Place, list[str], Said]:
-    """Return where a camera that goes with nobody stands: the formation's origin, but beside the target.
+class _Stand(NamedTuple):
+    """A place as East and North, as positions of our language at some altitudes, and what is assumed."""
 
-    The place comes as East and North, and as positions of our language at the altitudes.
-    """
+    place: Place
+    written: list[str]
+    said: Said
+
+
+def _stand(task: Task, *altitudes: float) -> _Stand:
+    """Return where a camera that goes with nobody stands: the formation's origin, but beside the target."""
     x, y = task.course.at(task.start)
     origin = task.action.origin
     if origin is not None:
         place = task.frame.place(origin)
         if hypot(place[0] - x, place[1] - y) >= NEAREST:
-            return place, [task.frame.written(origin, z) for z in altitudes], ()
+            return _Stand(place, [task.frame.written(origin, z) for z in altitudes], ())
     message = "the camera would stand where its target begins"
     said = task.notes.assume(
         task.action.node.first("originOfFormation") or task.action.node,
@@ -142,4 +148,4 @@ def _stand(task: Task, *altitudes: float) -> tuple[Place, list[str], Said]:
         f"{BESIDE:g} m to the East of there",
     )
     place = (x + BESIDE, y)
-    return place, [written(place, z) for z in altitudes], (said,)
+    return _Stand(place, [written(place, z) for z in altitudes], (said,))

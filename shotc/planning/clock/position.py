@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -215,7 +216,7 @@ def _points(breaks: Array, coef: Array) -> Array:
 def _lack(task: Task, points: Array) -> float:
     """Return the most metres by which the hulls of a motion do not prove that it is clear."""
     lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
-    standing = (shortfalls(motions, place).max() for motions, place, _ in _stands(task, points))
+    standing = (shortfalls(end.passing, end.place).max() for end in _stands(task, points))
     return float(max(lacking.max(), *standing))
 
 
@@ -269,8 +270,9 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
     problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
     first = len(task.walls.owners)
     half_spaces = [motion_rows(breaks, sides(task.motions, hulls), first)]
-    for motions, place, row in _stands(task, hulls):
-        half_spaces.append(_standing(breaks, sides(motions, place), first, row))
+    half_spaces += [
+        _standing(breaks, sides(end.passing, end.place), first, end.row) for end in _stands(task, hulls)
+    ]
     return replace(problem, half_spaces=(*problem.half_spaces, *(f for f in half_spaces if len(f.offset))))
 
 
@@ -290,19 +292,26 @@ def standing_by(
 def held_where_it_rests(task: Task, curve: Piecewise) -> bool:
     """Tell whether a motion rests so near to what passes there that this may move it."""
     return any(
-        shortfalls(passing, place).max(initial=-inf) > -NEAR_M
-        for passing, place, _ in _stands(task, curve.ctrl)
+        shortfalls(end.passing, end.place).max(initial=-inf) > -NEAR_M for end in _stands(task, curve.ctrl)
     )
 
 
-def _stands(task: Task, hulls: Array) -> tuple[tuple[tuple[LinearMotion, ...], Array, int], ...]:
-    """Return, for both ends, what passes while the drone stands there, where that is, and its control row.
+class _Stand(NamedTuple):
+    """An end of a motion: what passes while the drone stands there, where that is, and its control row.
 
-    The place is a piece's hull, shape (1, 2, 3).
+    place : as a piece's hull, shape (1, 2, 3)
     """
+
+    passing: tuple[LinearMotion, ...]
+    place: Array
+    row: int
+
+
+def _stands(task: Task, hulls: Array) -> tuple[_Stand, ...]:
+    """Return both ends of a motion."""
     ends = ((hulls[0, 0], 0), (hulls[-1, -1], -1))
     return tuple(
-        (passing, np.tile(place, (1, 2, 1)), row)
+        _Stand(passing, np.tile(place, (1, 2, 1)), row)
         for passing, (place, row) in zip(task.passing, ends, strict=True)
     )
 

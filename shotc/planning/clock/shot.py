@@ -169,7 +169,7 @@ def timed_shot(
     curve = _with_camera(task, flown.curve)
     if isinstance(curve, Status):
         return NoMotion(curve, (), "camera")
-    task, flown, curve = _seeing(task, flown, curve)
+    task, flown, curve = _seeing(_Motion(task, flown, curve))
     assert flown.curve is not None
     away = _away(task, flown.curve)
     keyed, keyframes = camera_task.keyed, keyframe_times(placed, start)
@@ -198,17 +198,23 @@ def _with_camera(task: Task, position: Piecewise) -> Piecewise | Status:
     return Piecewise(task.clock.breaks, np.concatenate([position.ctrl, turned.curve.ctrl, lens], axis=2))
 
 
-def _seeing(task: Task, flown: Flown, curve: Piecewise) -> tuple[Task, Flown, Piecewise]:
-    """Return the motion whose ways between keyframes are led to where their targets are seen, if that helps.
+class _Motion(NamedTuple):
+    """A motion that is found: what for, its place, and all channels of it."""
 
-    curve : all channels of the motion that is not led
-    """
+    task: Task
+    flown: Flown
+    curve: Piecewise
+
+
+def _seeing(best: _Motion) -> _Motion:
+    """Return the motion with its ways between keyframes led to where targets are seen, if that helps."""
+    task = best.task
     ways = ways_of(task)
     if not ways:
-        return task, flown, curve
-    best, least = (task, flown, curve), shown(task, ways, curve)
+        return best
+    least = shown(task, ways, best.curve)
     for _ in range(SEEING_ROUNDS):
-        aside = led_to_see(task, ways, best[2])
+        aside = led_to_see(task, ways, best.curve)
         if aside is None:
             break
         made = fly(aside)
@@ -218,7 +224,7 @@ def _seeing(task: Task, flown: Flown, curve: Piecewise) -> tuple[Task, Flown, Pi
         found = shown(aside, ways, turned)
         if not found.better(least):
             break
-        best, least = (aside, made, turned), found
+        best, least = _Motion(aside, made, turned), found
     return best
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from shotc.planning.path.route import find_route
 from shotc.rounding import down
 
 HALVINGS = 7
+OFF_M = 0.3  # metres that a gap may be off the one that a loan opens
 LACK_SHARE = 0.8  # of the body's radius that a smaller drone may lack
 
 
@@ -57,6 +59,23 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
     return down(low)
 
 
+class _Pair(NamedTuple):
+    """Two owners, the gap between them and what it should be, metres."""
+
+    owners: tuple[Owner, Owner]
+    gap: float
+    needed: float
+
+    @property
+    def lack(self) -> float:
+        """By how much the gap is too narrow."""
+        return self.needed - self.gap
+
+    def off(self, lent: float) -> float:
+        """Return how far the gap is from the one that a loan opens: it lacks the loan on either side."""
+        return abs(self.lack - 2 * lent)
+
+
 def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
     """Return the narrowest place that closes the way and what would have to change; None if nothing fits.
 
@@ -71,7 +90,7 @@ def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner,
             f"with {lent:.2f} m less clearance to everything there would be a way",
             f"use a drone with a radius {lent:.2f} m smaller, or make that much room",
         )
-    (first, second), gap, needed = pair
+    (first, second), gap, needed = pair.owners, pair.gap, pair.needed
     return Gap(
         f"the gap between {first.words} and {second.words} is {gap:.2f} m; the drone needs {needed:.2f} m",
         f"widen the gap by {needed - gap + MARGIN_M:.2f} m, "
@@ -95,39 +114,26 @@ def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
     return high
 
 
-def _closing_pair(
-    space: FreeSpace, openers: tuple[Owner, ...], lent: float
-) -> tuple[tuple[Owner, Owner], float, float] | None:
-    """Return two owners whose gap is what the loan opens, the gap and what it should be, metres."""
-    best: tuple[float, tuple[Owner, Owner], float, float] | None = None
+def _closing_pair(space: FreeSpace, openers: tuple[Owner, ...], lent: float) -> _Pair | None:
+    """Return the two owners between whom the gap is best what the loan opens."""
+    best: _Pair | None = None
     for a, b in combinations(space.obstacles, 2):
         if a.owner == b.owner or (openers and not {a.owner, b.owner} & set(openers)):
             continue
         gap = _between(a, b)
-        best = _closer(best, lent, (a.owner, b.owner), gap, a.clearance + b.clearance)
+        best = _closer(best, lent, _Pair((a.owner, b.owner), gap, a.clearance + b.clearance))
     for o in space.obstacles:
         for w in space.walls:
             gap = _to_wall(o, w)
             if o.owner != w.owner and (not openers or {o.owner, w.owner} & set(openers)):
-                best = _closer(best, lent, (o.owner, w.owner), gap, o.clearance + w.clearance)
-    return None if best is None else (best[1], best[2], best[3])
+                best = _closer(best, lent, _Pair((o.owner, w.owner), gap, o.clearance + w.clearance))
+    return best
 
 
-def _closer(
-    best: tuple[float, tuple[Owner, Owner], float, float] | None,
-    lent: float,
-    names: tuple[Owner, Owner],
-    gap: float,
-    needed: float,
-) -> tuple[float, tuple[Owner, Owner], float, float] | None:
-    # The loan opens exactly the gap that lacks twice the loan (once on either side).
-    lack = needed - gap
-    if lack <= 0.0 or gap <= 0.0:
+def _closer(best: _Pair | None, lent: float, pair: _Pair) -> _Pair | None:
+    if pair.lack <= 0.0 or pair.gap <= 0.0 or pair.off(lent) > OFF_M:
         return best
-    off = abs(lack - 2 * lent)
-    if off > 0.3 or (best is not None and best[0] <= off):
-        return best
-    return off, names, gap, needed
+    return best if best is not None and best.off(lent) <= pair.off(lent) else pair
 
 
 def _between(a: Obstacle, b: Obstacle) -> float:

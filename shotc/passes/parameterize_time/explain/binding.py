@@ -7,10 +7,13 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from math import asin, degrees, inf
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.diag.model import Label
+from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
 from shotc.ir.drone import Drone
 from shotc.ir.limits import G_M_S2
 from shotc.ir.mission import MissionIR
@@ -88,11 +91,11 @@ def binding(leg: PathLeg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
     for a, b in pairwise(marks):
         held: dict[str, float] = {}
         seconds = 0.0
-        for middle, step, binds in pieces:
-            inside = (middle > a.s) & (middle < b.s)
-            seconds += float(step[inside].sum())
-            for name, where in binds.items():
-                held[name] = held.get(name, 0.0) + float(step[inside & where].sum())
+        for each in pieces:
+            inside = (each.middle > a.s) & (each.middle < b.s)
+            seconds += float(each.seconds[inside].sum())
+            for name, where in each.held.items():
+                held[name] = held.get(name, 0.0) + float(each.seconds[inside & where].sum())
         stretches.append(Stretch(_where(marks, a, b), seconds, {n: t for n, t in held.items() if t > 0}))
     total: dict[str, float] = {}
     for stretch in stretches:
@@ -112,13 +115,21 @@ def _where(marks: Sequence[Mark], a: Mark, b: Mark) -> str:
     return f"from {low:.0%} to {high:.0%} of its way".replace("%", " %")
 
 
-def _held(move: Move, ceiling: Ceiling) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+class _Pieces(NamedTuple):
+    """Pieces of a move: the s of their middles, their seconds, (P,), and by limit which of them it binds."""
+
+    middle: Array
+    seconds: Array
+    held: dict[str, Mask]
+
+
+def _held(move: Move, ceiling: Ceiling) -> _Pieces:
     profile = move.profile
     limits = axes_of(move.path, (float(profile.s[0]), float(profile.s[-1])), ceiling)
-    held: dict[str, np.ndarray] = {}
+    held: dict[str, Mask] = {}
     for usage in usages(move.curve, limits):
         held[usage.name] = held.get(usage.name, False) | (usage.share > BINDING)
-    return 0.5 * (profile.s[1:] + profile.s[:-1]), np.diff(profile.t), held
+    return _Pieces(0.5 * (profile.s[1:] + profile.s[:-1]), np.diff(profile.t), held)
 
 
 def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str, ...]:
