@@ -1,18 +1,20 @@
-"""What the summary of a plan tells of focus and shutter, of drones that are said to expose with something."""
+"""What the summary of a plan tells of lenses, focus and shutter."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
+from math import degrees, isfinite
 
 from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.verify.sharpness import BACKGROUND, DISC, MOTION
 from shotc.rounding import at_least, exposure
 
 
 def exposed(plan: VerifiedIR) -> Iterator[tuple[str, str]]:
-    """Yield a name and a text: how sharp subjects are at worst, and where."""
+    """Yield a name and a text: lenses that nobody knows, how sharp subjects are at worst, and where."""
+    yield from (("lens", text) for text in _unknown_lenses(plan.trajectory.keyframes.mission))
     for track in plan.trajectory.drones:
         drone = plan.trajectory.keyframes.mission.drone(track.drone)
         if drone.optics is None:
@@ -54,3 +56,15 @@ def _value(claim: Claim, unit: str, digits: int, ending: str) -> str:
 
 def _worst(claims: list[Claim], ending: str) -> Claim | None:
     return max((c for c in claims if c.constraint.endswith(ending)), key=lambda c: c.worst, default=None)
+
+
+def _unknown_lenses(mission: MissionIR) -> list[str]:
+    """Tell which drones are to zoom with a camera that is not said to have a zoom."""
+    texts = []
+    for drone in mission.drones:
+        shots = (shot for shot in mission.shots if shot.drone == drone.name)
+        asked = {drone.hfov, *(keyframe.hfov for shot in shots for keyframe in shot.keyframes)}
+        if drone.lens is None and len(asked) > 1:
+            wish = f"{drone.name} is to zoom from {degrees(min(asked)):.4g} to {degrees(max(asked)):.4g} deg"
+            texts.append(f"{wish}, and nothing says that its camera can: `camera: {{zoom: [24 mm, 70 mm]}}`")
+    return texts

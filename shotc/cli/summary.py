@@ -122,7 +122,6 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("bent", text) for text in _bent(from_what_was_asked(mission, flown.deviations))]
     facts += [("refined", text) for text in _refined(plan)]
     facts += [("turns", text) for text in _turns(plan)]
-    facts += [("lens", text) for text in _unknown_lenses(mission)]
     facts += exposed(plan)
     facts += [("smoothed", text) for text in _smoothed(mission)]
     facts += [("shows", text) for text in dense(plan.trajectory.stats)]
@@ -142,18 +141,6 @@ def _energy(plan: VerifiedIR) -> Iterator[str]:
         left = f"{at_most(100 * (1 - whole.worst / full), 0)} % left at landing"
         text = f"{whole.subject} takes {at_least(whole.worst)} of {full:.4g} Wh, {left}"
         yield f"{text}, {100 * power.reserve:.0f} % kept" + (f": {', '.join(parts)}" if parts else "")
-
-
-def _unknown_lenses(mission: MissionIR) -> list[str]:
-    """Tell which drones are to zoom with a camera that is not said to have a zoom."""
-    texts = []
-    for drone in mission.drones:
-        shots = (shot for shot in mission.shots if shot.drone == drone.name)
-        asked = {drone.hfov, *(keyframe.hfov for shot in shots for keyframe in shot.keyframes)}
-        if drone.lens is None and len(asked) > 1:
-            wish = f"{drone.name} is to zoom from {degrees(min(asked)):.4g} to {degrees(max(asked)):.4g} deg"
-            texts.append(f"{wish}, and nothing says that its camera can: `camera: {{zoom: [24 mm, 70 mm]}}`")
-    return texts
 
 
 def _smoothed(mission: MissionIR) -> list[str]:

@@ -78,6 +78,20 @@ class Optics(NamedTuple):
         return self.sensor or FULL_FRAME_M
 
 
+LinkLost = Literal["return", "hover", "land", "continue"]
+
+
+class Safety(NamedTuple):
+    """What a drone does when something goes wrong, as far as the mission says it.
+
+    return_height : above its home, m; rally : places of W where it may land instead of there
+    """
+
+    link_lost: LinkLost | None
+    return_height: float | None
+    rally: tuple[Vec3, ...]
+
+
 class Drone(NamedTuple):
     """A drone with its presets filled in.
 
@@ -87,6 +101,7 @@ class Drone(NamedTuple):
     power : its battery and rotors, None where nobody knows them
     lens : None where nobody says what the camera carries
     optics : None where the mission says neither aperture nor shutter
+    safety : None where the mission is silent
     """
 
     name: str
@@ -105,6 +120,7 @@ class Drone(NamedTuple):
     power: Power | None = None
     lens: LensRange | None = None
     optics: Optics | None = None
+    safety: Safety | None = None
 
     @property
     def zooms(self) -> bool:

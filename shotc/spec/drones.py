@@ -253,6 +253,20 @@ class PowerSpec(Model):
     reserve: Reserve = Field(default=RESERVE, description="share of the battery that is left at landing")
 
 
+class SafetySpec(Model):
+    """What a drone does when something goes wrong."""
+
+    link_lost: Literal["return", "hover", "land", "continue"] | None = Field(
+        default=None, description="what it does when its link is lost; the machine's own if silent"
+    )
+    return_height: PositiveLength | None = Field(
+        default=None, description="height above home at which it returns, over all that stands there"
+    )
+    rally: tuple[Stand, ...] = Field(
+        default=(), description="places where it may land instead of at home, [[x, y], ...]"
+    )
+
+
 class DroneSpec(Model):
     """A drone of the mission."""
 
@@ -270,6 +284,9 @@ class DroneSpec(Model):
     )
     power: PowerSpec | None = Field(
         default=None, description="battery, mass and rotors, by which flights are held to their energy"
+    )
+    safety: SafetySpec | None = Field(
+        default=None, description="what it does when its link is lost, and where it may land"
     )
     priority: Priority = Field(default=1, description="drones are planned in this order, 1 first")
     body: Literal["forward", "follow-camera", "free"] | None = Field(

@@ -26,7 +26,7 @@ TOLD_IN_WORDS = {
             *("G050", "N008", "U002", "U005", "U006")),
         "only the author knows the value: the help says its form",
     ),
-    **dict.fromkeys(("G007", "G014", "G015"), "another place is the author's choice"),
+    **dict.fromkeys(("G007", "G014", "G015", "G054"), "another place is the author's choice"),
     **dict.fromkeys(("K005", "D021"), "what to drop is the author's choice"),
     **dict.fromkeys(("K009", "M003"), "how long a shot lasts is the author's choice"),
     "M036": "how a subject appears at first is the author's choice",

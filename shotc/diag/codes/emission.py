@@ -234,6 +234,22 @@ _UNAIDED_CODES = (
     ),
 )
 
+_SAFETY_CODES = (
+    CodeInfo(
+        "E123",
+        "rally-not-carried",
+        Severity.WARNING,
+        "a format has no rally points, and the mission asks for some",
+        "`safety: {rally: [[x, y]]}` of a drone are places where it may land instead of at home. QGroundControl's plans hold them; "
+        "files for DJI's apps and for Litchi, and the text form of waypoints, do not. Such a machine returns to where it took off.",
+        _MAVLINK.replace(
+            "x500, home: [0, -40, 0]", "mini, home: [0, -40, 0], safety: {rally: [[30, -40]]}"
+        ).replace("[mavlink]", "[dji]"),
+        _MAVLINK.replace("x500, home: [0, -40, 0]", "mini, home: [0, -40, 0]").replace("[mavlink]", "[dji]"),
+        "plan",
+    ),
+)
+
 _SKYC_CODES = (
     CodeInfo(
         "E111",
@@ -363,6 +379,7 @@ CODES: tuple[CodeInfo, ...] = (
     *_MAVLINK_CODES,
     *_MACHINE_CODES,
     *_UNAIDED_CODES,
+    *_SAFETY_CODES,
     *_SKYC_CODES,
     *_VIEW_CODES,
     CodeInfo(

@@ -56,7 +56,7 @@ _TWO = _PASSING.replace(
 ).replace("kind: orbit, drone: cam1", "kind: orbit, drone: cam2")
 
 
-_WARNINGS = {11, 12, 16, 18, 20, 21, 23, 24}
+_WARNINGS = {11, 12, 16, 18, 20, 21, 23, 24, 53}
 
 
 def _code(
@@ -291,6 +291,25 @@ CODES: tuple[CodeInfo, ...] = (
             "radius: 150, altitude: {above: target, height: 130}",
         ),
         base=_ROOF.replace("rules: {max_height: 60}\n", ""),
+    ),
+    _code(
+        53,
+        "return-too-low",
+        "a drone would return lower than what stands in its world",
+        "`safety: {return_height: 40 m}` is the height above home at which a drone returns when its link is lost. It flies straight home then, "
+        "a way that no plan proves, so it is to pass over every keep-out zone and target, with the body and `rules.obstacle_clearance`. "
+        "Scenes, buildings and terrain are not looked at. Raise it.",
+        ("return_height: 40", "return_height: 20"),
+        base=_PASSING.replace("home: [0, -60, 0]}", "home: [0, -60, 0], safety: {return_height: 40}}"),
+    ),
+    _code(
+        54,
+        "rally-in-zone",
+        "a rally point lies in a keep-out zone, or outside of a keep-in one",
+        "`safety: {rally: [[x, y]]}` of a drone are places where it may land instead of at home. What lies in a zone that it is to keep out "
+        "of, or outside of one that it is to stay in, is none. Move it.",
+        ("rally: [[40, -60]]", "rally: [[-30, 20]]"),
+        base=_PASSING.replace("home: [0, -60, 0]}", "home: [0, -60, 0], safety: {rally: [[40, -60]]}}"),
     ),
     CodeInfo(
         "G025",

@@ -12,7 +12,15 @@ from shotc.emit.waypoints.models import CURVED
 from shotc.ir.trajectory import VerifiedIR
 
 FORMAT = Format(
-    "dji", ("dji-fly", "pilot-2"), POINTS_MOST, ".kmz", CURVED, write_kmz, read_kmz, zooms=("pilot-2",)
+    "dji",
+    ("dji-fly", "pilot-2"),
+    POINTS_MOST,
+    ".kmz",
+    CURVED,
+    write_kmz,
+    read_kmz,
+    zooms=("pilot-2",),
+    says_link_lost=True,
 )
 """What a focal length means to the machines of DJI Fly is not known, so their files zoom not."""
 

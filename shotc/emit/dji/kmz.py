@@ -9,6 +9,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from shotc.emit.dji.profiles import profile_of
 from shotc.emit.dji.wpml import KML, PASS, Document
 from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.link import NOTHING
 from shotc.emit.waypoints.route import Action, Waypoint
 from shotc.ir.drone import Drone
 
@@ -22,7 +23,7 @@ def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
 
     It holds two files and no entries of folders: the apps find no waypoints in a file that has them.
     """
-    document = Document(points, profile_of(drone))
+    document = Document(points, profile_of(drone), drone.safety or NOTHING)
     ET.register_namespace("", KML)
     ET.register_namespace("wpml", document.profile.namespace)
     stream = BytesIO()

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from itertools import count
 
 from shotc.emit.dji.profiles import Profile
+from shotc.emit.waypoints.link import DJI_ACTIONS, return_height
 from shotc.emit.waypoints.route import Waypoint
+from shotc.ir.drone import Safety
 
 KML = "http://www.opengis.net/kml/2.2"
 CREATED_MS = 1704067200000  # 2024-01-01: the same plan gives the same bytes, whenever that is
 APPROACH = 5.0  # m/s to the first point, which is above the pad
-RETURN_OVER = 10.0  # metres above the highest point at which it returns; DJI Fly has a height of its own
 CLIMB_LEAST = 1.2  # metres, of the height to which DJI Pilot 2 climbs before it goes to the first point
 STOP = "toPointAndStopWithContinuityCurvature"
 PASS = "toPointAndPassWithContinuityCurvature"
@@ -24,6 +25,7 @@ class Document:
 
     points: list[Waypoint]
     profile: Profile
+    safety: Safety
 
     def template(self) -> bytes:
         """Return ``template.kml``."""
@@ -76,15 +78,19 @@ class Document:
         config = self._put(document, "missionConfig")
         self._put(config, "flyToWaylineMode", "safely")
         self._put(config, "finishAction", "autoLand")
-        self._put(config, "exitOnRCLost", "executeLostAction")
-        self._put(config, "executeRCLostAction", "goBack")
+        lost = self.safety.link_lost or "return"
+        self._put(config, "exitOnRCLost", "goContinue" if lost == "continue" else "executeLostAction")
+        self._put(config, "executeRCLostAction", DJI_ACTIONS[lost])
         if self.profile.full_template:
             climb = max(self.points[0].place.alt, CLIMB_LEAST)
             self._put(config, "takeOffSecurityHeight", f"{climb:.1f}")
         self._put(config, "globalTransitionalSpeed", f"{APPROACH:g}")
         if self.profile.full_template:
-            back = max(p.place.alt for p in self.points) + RETURN_OVER
-            self._put(config, "globalRTHHeight", f"{back:.0f}")
+            self._put(
+                config,
+                "globalRTHHeight",
+                f"{return_height(max(p.place.alt for p in self.points), self.safety):.0f}",
+            )
         drone = self._put(config, "droneInfo")
         self._put(drone, "droneEnumValue", self.profile.drone[0])
         self._put(drone, "droneSubEnumValue", self.profile.drone[1])

@@ -8,7 +8,7 @@ landing at home.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -39,7 +39,8 @@ from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.emit.waypoints.clearance import Obstacle, keep_outs
 from shotc.emit.waypoints.compare import Error, compare, nearest_miss
 from shotc.emit.waypoints.flown import Flown
-from shotc.emit.waypoints.geo import Geo, tie
+from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, Place, tie
+from shotc.emit.waypoints.link import link_notes
 from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
 from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
 from shotc.ir.drone import Drone
@@ -132,7 +133,7 @@ class _Job:
         hover = next((i.params[1] for i in flight.items if i.command == CHANGE_SPEED), None)
         speed = DEFAULTS[self.drone.autopilot].ground if hover is None else hover
         name = f"{self.drone.name}.plan"
-        data = write_plan(flight.items, self.geo, fence, self.dialect.firmware, speed)
+        data = write_plan(flight.items, self.geo, fence, self.dialect.firmware, speed, self._rally())
         artifacts = [Artifact(name, data)]
         flown, error = self._check(*read_plan(data))
         notes = [note(name, self.drone, len(flight.items), error)]
@@ -143,8 +144,20 @@ class _Job:
             notes.append(note(name, self.drone, len(flight.items), self._check(*read_waypoints(data))[1]))
         diagnostics = [left_out(self.mission, self.drone, left) for left in fence.left_out]
         diagnostics += [*self._warnings(flight, flown, error), *not_carried]
-        notes += sidenotes(self.drone, flight.asked, flight.steps)
+        notes += [
+            *sidenotes(self.drone, flight.asked, flight.steps),
+            *link_notes(self.drone, 0.0, written=False),
+        ]
         return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+    def _rally(self) -> list[Place]:
+        """Return the rally points, at the height at which the drone returns, or that of its highest point."""
+        safety = self.drone.safety
+        if safety is None:
+            return []
+        highest = float(self.track.poses.position[:, 2].max()) - self.drone.home[2]
+        height = round(safety.return_height or highest, METRE_DECIMALS)
+        return [replace(self.geo.place(place), alt=height) for place in safety.rally]
 
     def _check(self, items: list[Item], home: tuple[float, float, float]) -> tuple[Flown, Error]:
         flown = refly(items, Geo(self.geo.origin, *home), self.drone)

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 from shotc.emit.mavlink.fence import Fence
 from shotc.emit.mavlink.items import FRAME_RELATIVE, POSITION_COMMANDS, Item
-from shotc.emit.waypoints.geo import Geo
+from shotc.emit.waypoints.geo import Geo, Place
 
 QUADROTOR = 2
 CRUISE_SPEED = 15  # m/s; the loader wants a number, a multirotor never uses it
 RELATIVE = 1  # altitude mode: relative to home
 
 
-def write_plan(items: list[Item], geo: Geo, fence: Fence, firmware: int, hover_speed: float) -> bytes:
+def write_plan(
+    items: list[Item],
+    geo: Geo,
+    fence: Fence,
+    firmware: int,
+    hover_speed: float,
+    rally: Sequence[Place] = (),
+) -> bytes:
     """Return the plan's bytes; the same input gives the same bytes.
 
+    rally : where the vehicle may land instead of at home, with the height at which it comes there
     firmware : MAV_AUTOPILOT; hover_speed : m/s, shown by the ground station only
     """
     mission = {
@@ -35,7 +44,7 @@ def write_plan(items: list[Item], geo: Geo, fence: Fence, firmware: int, hover_s
         "groundStation": "shotc",
         "mission": mission,
         "geoFence": _fence(fence),
-        "rallyPoints": {"version": 2, "points": []},
+        "rallyPoints": {"version": 2, "points": [[p.lat, p.lon, _number(p.alt)] for p in rally]},
     }
     rows = ",\n".join("      " + json.dumps(_item(item, n)) for n, item in enumerate(items, start=1))
     text = json.dumps(document, indent=2).replace('"@items"', f"[\n{rows}\n    ]")

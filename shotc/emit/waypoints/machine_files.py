@@ -20,6 +20,7 @@ from shotc.emit.waypoints.choose import Chooser, chooser_of
 from shotc.emit.waypoints.clearance import Obstacle, bounds, owner_of, shortfall
 from shotc.emit.waypoints.compare import Error, ShotError, compare
 from shotc.emit.waypoints.geo import Geo, tie
+from shotc.emit.waypoints.link import link_notes, return_height
 from shotc.emit.waypoints.models import TURNINGS, Shape, fly, legs_of
 from shotc.emit.waypoints.route import Action, Route, Waypoint, route_of
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
@@ -46,7 +47,7 @@ class Format:
 
     emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
     shapes : the curves by which its machines may fly; halts : whether they stop where they do something
-    zooms : those of the machines whose zoom it commands
+    zooms : those of the machines whose zoom it commands; says_link_lost : whether it says what is done then
     """
 
     emitter: str
@@ -58,6 +59,7 @@ class Format:
     read: Callable[[bytes], list[Waypoint]]
     halts: bool = False
     zooms: tuple[Autopilot, ...] = ()
+    says_link_lost: bool = False
 
     def lens(self, drone: Drone) -> LensRange | None:
         """Return the lens that its files zoom, None where they do not."""
@@ -152,7 +154,12 @@ class _Job:
         ]
         files = [a.name for a in written.artifacts]
         notes = report.notes(self.drone, files, len(written.route.position), error, self._models)
-        return Emission(written.artifacts, tuple(told), (*notes, *report.by_hand(self.drone)))
+        safety = self.drone.safety
+        if safety is not None and safety.rally:
+            told.append(report.no_rally(self.mission, self.drone, self.form.emitter))
+        highest = float(written.route.position[:, 2].max()) - self.drone.home[2]
+        link = link_notes(self.drone, return_height(highest, safety), written=self.form.says_link_lost)
+        return Emission(written.artifacts, tuple(told), (*notes, *report.by_hand(self.drone), *link))
 
     @property
     def _models(self) -> int:

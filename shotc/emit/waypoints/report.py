@@ -295,3 +295,16 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     parts += [] if shutter is None else [f"shutter {exposure(shutter)}"]
     parts += [] if focuses or aperture is None else ["focus, or its tracking"]
     return [f"{drone.autopilot} {drone.name}: set by hand {', '.join(parts)}"]
+
+
+def no_rally(mission: MissionIR, drone: Drone, emitter: str) -> Diagnostic:
+    """Say that a format has no rally points."""
+    assert drone.safety is not None
+    count = len(drone.safety.rally)
+    return Diagnostic(
+        "E123",
+        f"the {FILES[emitter]} file of {drone.name} does not carry its rally points",
+        (mission.origins.key((*drone.path, "safety", "rally")),),
+        (f"{count} place{'s are' if count > 1 else ' is'} left out: it returns to where it took off",),
+        "keep them in mind, or take `rally` out",
+    )

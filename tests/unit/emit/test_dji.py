@@ -141,7 +141,7 @@ def test_what_is_read_is_what_was_written(orbit):
 def test_few_points_keep_the_orbit_under_all_models_and_the_note_says_it(orbit):
     points = read_kmz(orbit.artifacts[0].data)
     assert orbit.diagnostics == ()
-    note, copied = orbit.notes
+    note, _, copied = orbit.notes
     assert "take off from the pad" in copied
     assert note.startswith(f"dji-fly cam1.kmz: {len(points)} waypoints, position within ")
     worst = float(note.split("adds at most ")[1].split()[0])

@@ -21,6 +21,7 @@ from shotc.passes.resolve.checks.keyed import check_carried
 from shotc.passes.resolve.checks.parked import check_parked
 from shotc.passes.resolve.checks.passers import passers_of
 from shotc.passes.resolve.checks.places import check_places
+from shotc.passes.resolve.checks.safety import check_safety
 from shotc.passes.resolve.checks.shake import check_shake
 from shotc.passes.resolve.checks.show import check_show
 from shotc.passes.resolve.checks.terrain_level import check_level
@@ -70,7 +71,7 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
         return beyond
     beside = _beside_meshes(mission, filmed)
     ideals = (fault for shot, way in filmed for fault in check_ideal(mission, shot, way))
-    homes = [*check_homes(mission), *beside.homes, *ideals, *passers_of(mission)]
+    homes = [*check_homes(mission), *check_safety(mission), *beside.homes, *ideals, *passers_of(mission)]
     places = [(shot, path, d) for shot in mission.shots for path, d in _places(mission, shot)]
     places += beside.places
     wrong = [(shot, path) for shot, path, d in places if has_errors([d])]

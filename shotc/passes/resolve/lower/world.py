@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from shotc.diag.model import Diagnostic
 from shotc.geom.focal import FULL_FRAME_M
 from shotc.geom.solids import Cylinder, Prism, Solid, box, is_simple, signed_area
-from shotc.ir.drone import Drone, Gimbal, LensRange, Optics
+from shotc.ir.drone import Drone, Gimbal, LensRange, Optics, Safety
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.ir.mission import Zone
 from shotc.ir.origin import KeyPath, OriginMap
@@ -157,6 +157,7 @@ def resolve_drone(
         hfov=camera.field_of_view or preset.hfov,
         lens=_lens(camera, preset),
         optics=_optics(camera, preset),
+        safety=_safety(spec, put),
         aspect=camera.aspect_ratio or preset.aspect,
         radius=spec.radius or preset.radius,
         endurance=spec.endurance or (preset.endurance if power is None else power.endurance),
@@ -188,6 +189,14 @@ def _lens(camera: CameraSpec, preset: Preset) -> LensRange | None:
     """Return the lens of a camera; None where neither mission nor model says what it is."""
     hfov = camera.field_of_view or preset.hfov
     return camera.lens or (LensRange(hfov, hfov, 0.0) if preset.fixed_lens else None)
+
+
+def _safety(spec: DroneSpec, put: Put) -> Safety | None:
+    """Return what a drone does when something goes wrong; None where the mission is silent."""
+    written = spec.safety
+    if written is None:
+        return None
+    return Safety(written.link_lost, written.return_height, tuple(put(place) for place in written.rally))
 
 
 def _optics(camera: CameraSpec, preset: Preset) -> Optics | None:
