@@ -14,15 +14,20 @@ from shotc.geom.bernstein import Array
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import Film, Framed
 from shotc.simulation.gimbal import Attitude
-from shotc.simulation.tracker import Measurement, Motion, PictureFix, PositionFix, Tracker, projection
+from shotc.simulation.kalman import Measurement, Motion, PictureFix, PositionFix, projection
+from shotc.simulation.tracker import Tracker
 from shotc.simulation.vehicle import STEP_S
 from shotc.simulation.world import World
 
 ROUNDING_S = 1e-6
 """Seconds by which the sum of a stamp and a delay may come out late: 0.2 + 0.1 is more than 0.3."""
 
-AGILITY = 1.0
-"""q of the trackers, m^2/s^3: between a person (0.5) and a car (2)."""
+AGILITIES = (0.03, 1.0)
+"""q of the models of a tracker, m^2/s^3: one who keeps to a way, and one who leaves it.
+
+A walker whose place wanders by 0.5 m with a memory of 3 s has 0.04 (4 sigma^2 / tau^3); 0.5 is a person and 2
+a car, if all that they may do is to be expected at all times.
+"""
 
 
 @dataclass(slots=True)
@@ -76,7 +81,8 @@ def watched(world: World, film: Film, framed: Framed) -> Watched:
         if gps.arrives(float(t))
     ]
     velocity = (places[1] - places[0]) / STEP_S
-    tracker = Tracker.beginning(0.0, measured[0], velocity, Motion(AGILITY, sqrt(2.0) * gps.bias))
+    models = (Motion(agility, sqrt(2.0) * gps.bias) for agility in AGILITIES)
+    tracker = Tracker.beginning(0.0, measured[0], velocity, *models)
     pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
     out = Watched(name, places, framed.share, fixes, tracker, pictures)
     for fix in fixes[1:]:

@@ -36,7 +36,7 @@ from shotc.plugin_api.replanner import (
     Traffic,
 )
 from shotc.simulation.film import Film
-from shotc.simulation.tracker import Estimate
+from shotc.simulation.kalman import Estimate
 
 STAGE_S = 0.1
 CHASE_STAGES, FRAMING_STAGES = 30, 25

@@ -1,28 +1,18 @@
-"""Where a target is and how it moves, estimated of what sensors say: a Kalman filter for many runs at once.
+"""One target followed through a flight: measurements that come late or out of order, by models of its motion.
 
-State x = [p, v, b] in W (m, m/s, m): place, velocity, and what satellite positions are off for long.
-White noise on acceleration gives p and v F = [I dt I; 0 I] and Q = q [dt^3/3 I, dt^2/2 I; dt^2/2 I, dt I].
-b is an Ornstein-Uhlenbeck process: without it the filter takes a bias that lasts for noise that averages out,
-becomes sure of a wrong place, and turns detections away that show the right one. A measurement that arrives
-late is taken in at the moment it holds for: what came after it is taken in again.
+A measurement that arrives late is taken in at the moment it holds for: what came after it is taken in again.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
-from functools import lru_cache
-from math import exp
-from typing import Protocol
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.pieces import Mask
-from shotc.simulation.sensors import BIAS_MEMORY_S
-
-GATE = 9.21
-"""Squared distance from what is expected beyond which a detection is of something else: chi-square, 99 %."""
+from shotc.simulation.kalman import Estimate, Measurement, Motion
+from shotc.simulation.modes import Modes, begun, stepped, taken
 
 FIRST_VARIANCE = 0.5
 """Of each component of the first state, m^2 and m^2/s^2."""
@@ -31,129 +21,25 @@ KEPT_S = 2.0
 """Seconds for which the past is kept: what arrives later than that is too old to be taken in."""
 
 
-STATES = 9
-
-
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """What is believed of a target: q of the noise on its acceleration, m^2/s^3, and the receiver's bias.
-
-    bias : standard deviation of what positions are off for long, m, the drone's own place included
-    """
-
-    agility: float
-    bias: float = 0.0
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Estimate:
-    """The state at a time, seconds: mean (R, 9) and covariance (R, 9, 9)."""
-
-    time: float
-    mean: Array
-    covariance: Array
-
-    @property
-    def position(self) -> Array:
-        """Where the target is, (R, 3), metres."""
-        return self.mean[:, :3]
-
-    @property
-    def velocity(self) -> Array:
-        """How it moves, (R, 3), m/s."""
-        return self.mean[:, 3:6]
-
-
-class Measurement(Protocol):
-    """What a sensor says, stamped with the moment it holds for."""
-
-    @property
-    def time(self) -> float:
-        """That moment, seconds."""
-
-    def taken(self, estimate: Estimate) -> Estimate:
-        """Return the estimate of the same moment with the measurement taken in."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PositionFix:
-    """A satellite position: place (R, 3), metres; deviation : of its noise; used : in which runs, (R,)."""
-
-    time: float
-    place: Array
-    deviation: float
-    used: Mask
-
-    def taken(self, estimate: Estimate) -> Estimate:
-        """Take the position in."""
-        jacobian = np.zeros((len(self.place), 3, STATES))
-        jacobian[:, :, :3] = jacobian[:, :, 6:] = np.eye(3)
-        noise = self.deviation**2 * np.eye(3)
-        miss = self.place - estimate.position - estimate.mean[:, 6:]
-        return _updated(estimate, (miss, jacobian, noise), self.used)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PictureFix:
-    """A detection: (u, v) (R, 2), half frames, seen from eyes (R, 3) with axes R_WC (R, 3, 3).
-
-    half : tan of half the fields of view, (R, 2); deviation : of u and v; used : in which runs, (R,)
-    """
-
-    time: float
-    uv: Array
-    eye: Array
-    axes: Array
-    half: Array
-    deviation: float
-    used: Mask
-
-    def taken(self, estimate: Estimate) -> Estimate:
-        """Take the detection in, where it is not another thing's (the extended Kalman filter's row)."""
-        expected, jacobian = projection(estimate.position - self.eye, self.axes, self.half)
-        known = self.used & np.isfinite(expected).all(axis=1)
-        miss = np.where(known[:, None], self.uv - expected, 0.0)
-        rows = np.zeros((len(miss), 2, STATES))
-        rows[:, :, :3] = np.where(known[:, None, None], jacobian, 0.0)
-        noise = self.deviation**2 * np.eye(2)
-        spread = rows @ estimate.covariance @ np.swapaxes(rows, 1, 2) + noise
-        off = np.einsum("ri,rij,rj->r", miss, np.linalg.inv(spread), miss)
-        return _updated(estimate, (miss, rows, noise), known & (off <= GATE))
-
-
-def projection(offset: Array, axes: Array, half: Array) -> tuple[Array, Array]:
-    """Return (u, v) of points at offsets from eyes, (R, 2), and its derivative by the offset, (R, 2, 3).
-
-    offset : (R, 3), W; axes : R_WC (R, 3, 3); half : (R, 2); NaN behind the camera
-    """
-    inside = np.einsum("rij,ri->rj", axes, offset)
-    depth = np.where(inside[:, 2] > 1e-6, inside[:, 2], np.nan)
-    flat = inside[:, :2] * np.array([1.0, -1.0]) / half
-    uv = flat / depth[:, None]
-    across = np.swapaxes(axes[:, :, :2], 1, 2) * np.array([1.0, -1.0])[:, None] / half[:, :, None]
-    jacobian = (across - uv[:, :, None] * axes[:, None, :, 2]) / depth[:, None, None]
-    return uv, jacobian
-
-
 @dataclass(slots=True)
 class Tracker:
     """One target of R runs.
 
-    model : how it moves, and what its receiver is off
+    models : of how it moves, one or several, and of what its receiver is off
     """
 
-    model: Motion
-    _past: list[tuple[Estimate, Measurement | None]] = field(default_factory=list)
+    models: tuple[Motion, ...]
+    _past: list[tuple[Modes, Measurement | None]] = field(default_factory=list)
 
     @staticmethod
-    def beginning(time: float, place: Array, velocity: Array, model: Motion) -> Tracker:
+    def beginning(time: float, place: Array, velocity: Array, *models: Motion) -> Tracker:
         """Return a tracker that knows a first satellite position and a velocity, (R, 3) each, roughly."""
         mean = np.concatenate([place, velocity, np.zeros_like(place)], axis=1)
-        off = model.bias**2
+        off = models[0].bias ** 2
         # A place that a receiver tells is off by as much as the receiver, the other way.
         spread = np.array([[FIRST_VARIANCE + off, 0.0, -off], [0.0, FIRST_VARIANCE, 0.0], [-off, 0.0, off]])
         covariance = np.tile(np.kron(spread, np.eye(3)), (len(place), 1, 1))
-        return Tracker(model, [(Estimate(time, mean, covariance), None)])
+        return Tracker(models, [(begun(Estimate(time, mean, covariance), models), None)])
 
     def take(self, measurement: Measurement) -> bool:
         """Take a measurement in, in its place in time; tell whether it was not too old for that."""
@@ -163,51 +49,17 @@ class Tracker:
         again = [measurement, *(later for _, later in self._past[k:] if later is not None)]
         del self._past[k:]
         for each in again:
-            at = predicted(self._past[-1][0], each.time, self.model)
-            self._past.append((each.taken(at), each))
+            at = stepped(self._past[-1][0], each.time, self.models)
+            self._past.append((taken(at, each), each))
         self._forget()
         return True
 
     def now(self, time: float) -> Estimate:
         """Return what is known of the target at a time at or after all that was taken in."""
-        return predicted(self._past[-1][0], time, self.model)
+        return stepped(self._past[-1][0], time, self.models).whole
 
     def _forget(self) -> None:
         oldest = self._past[-1][0].time - KEPT_S
         k = bisect_right(self._past, oldest, key=lambda entry: entry[0].time)
         if k > 1:
             del self._past[: k - 1]
-
-
-def predicted(estimate: Estimate, time: float, model: Motion) -> Estimate:
-    """Return an estimate as of a later time, seconds."""
-    dt = time - estimate.time
-    if dt <= 0.0:
-        return estimate
-    forward, noise = _transition(dt, model)
-    spread = forward @ estimate.covariance @ forward.T + noise
-    return Estimate(time, estimate.mean @ forward.T, spread)
-
-
-@lru_cache(maxsize=1024)
-def _transition(dt: float, model: Motion) -> tuple[Array, Array]:
-    """Return F and Q over dt seconds, (9, 9) each."""
-    kept = exp(-dt / BIAS_MEMORY_S)
-    forward = np.array([[1.0, dt, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, kept]])
-    q, fresh = model.agility, model.bias**2 * (1.0 - kept * kept)
-    noise = np.array([[q * dt**3 / 3, q * dt**2 / 2, 0.0], [q * dt**2 / 2, q * dt, 0.0], [0.0, 0.0, fresh]])
-    return np.kron(forward, np.eye(3)), np.kron(noise, np.eye(3))
-
-
-def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) -> Estimate:
-    """Return an estimate with innovation (R, m), Jacobian (R, m, 9) and noise (m, m) taken in where used."""
-    miss, jacobian, noise = row
-    across = np.swapaxes(jacobian, 1, 2)
-    spread = jacobian @ estimate.covariance @ across + noise
-    gain = estimate.covariance @ across @ np.linalg.inv(spread)
-    gain = np.where(used[:, None, None], gain, 0.0)
-    mean = estimate.mean + np.einsum("rij,rj->ri", gain, miss)
-    # Joseph's form stays symmetric and positive.
-    left = np.eye(STATES) - gain @ jacobian
-    covariance = left @ estimate.covariance @ np.swapaxes(left, 1, 2) + gain @ noise @ np.swapaxes(gain, 1, 2)
-    return Estimate(estimate.time, mean, covariance)

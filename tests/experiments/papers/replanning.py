@@ -16,8 +16,9 @@ from shotc_casadi.replan.chase import Chase
 
 from shotc.geom.bernstein import Array
 from shotc.plugin_api.replanner import ChaseProblem, ChaseSituation, Plan
+from shotc.simulation.kalman import Motion, PositionFix
 from shotc.simulation.sensors import Gps
-from shotc.simulation.tracker import Motion, PositionFix, Tracker
+from shotc.simulation.tracker import Tracker
 from shotc.simulation.vehicle import Setpoint, State, Vehicle, moved
 from shotc.simulation.wind import Wind
 from tests.experiments.papers import reframing, two_anew, walked_by, warm

@@ -13,8 +13,8 @@ from shotc.ir.rehearsal import Loop
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.gimbal import axes_of
+from shotc.simulation.kalman import projection
 from shotc.simulation.runs import flown
-from shotc.simulation.tracker import projection
 from shotc.simulation.truth import Truth
 from shotc.simulation.world import at_times
 from tests.experiments.papers.report import Table

@@ -16,9 +16,9 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
+from shotc.simulation.kalman import Estimate
 from shotc.simulation.sensors import Gps
 from shotc.simulation.situations import STAGE_S, Moment, replanned
-from shotc.simulation.tracker import Estimate
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
 from shotc.simulation.world import World, at_times

@@ -4,7 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.simulation.gimbal import axes_of
-from shotc.simulation.tracker import GATE, Motion, PictureFix, PositionFix, Tracker, predicted, projection
+from shotc.simulation.kalman import GATE, Motion, PictureFix, PositionFix, predicted, projection
+from shotc.simulation.tracker import Tracker
 
 USED = np.array([True])
 

@@ -9,9 +9,10 @@ from shotc.ir.target import Target
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.gimbal import axes_of
+from shotc.simulation.kalman import Motion, PositionFix, projection
 from shotc.simulation.seen import Watched
 from shotc.simulation.sensors import PLAIN, Detector, Gps
-from shotc.simulation.tracker import Motion, PositionFix, Tracker, projection
+from shotc.simulation.tracker import Tracker
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind, wandering
 
