@@ -16,12 +16,13 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.geom.shapes import TargetShape, bodies_of
 from shotc.geom.silhouette import shape_contour
-from shotc.geom.solid_arrays.points import signed_distance
+from shotc.geom.solid_arrays.points import signed_distance, support
 from shotc.geom.solid_arrays.segments import blocks, within
 from shotc.geom.solids import Cylinder, Solid
 from shotc.geom.surface.boards import Billboards, billboards, cells_of
 from shotc.geom.surface.sight import stopped
 from shotc.geom.surface.tree import Pairs, Surface
+from shotc.geom.surface.triangles import cross
 from shotc.geom.vec import Vec3
 
 CELLS = 12
@@ -31,6 +32,8 @@ RIM = 12
 LEAST_DEPTH_SHARE = 0.05
 """Of the distance to a target's centre: what is nearer to the camera is not taken for larger."""
 NO_LENGTH_M = 1e-9
+CLOSE_M = 1e-6
+"""From the side of a pyramid of rays, at which a solid is still one that they may come to."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,18 +51,17 @@ class OutlineRays:
     def __len__(self) -> int:
         return len(self.own)
 
-    def pick(self, which: Mask) -> OutlineRays:
-        """Return those of some frames, by a mask (F,)."""
-        return OutlineRays(self.boards.pick(which), self.own[which], self.reach[which])
-
     def mapped(self, put: Callable[[Array], Array]) -> OutlineRays:
         """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
         return OutlineRays(self.boards.mapped(put), self.own, self.reach)
 
-    def segments(self) -> tuple[Array, Array]:
-        """Return where all rays begin and end, each of shape (F n n, 3), metres."""
-        eyes = np.repeat(self.boards.eye, self.own[0].size, axis=0)
-        return eyes, eyes + self.reach.reshape(-1, 1) * (cells_of(self.boards, self.own.shape[1]) - eyes)
+    def segments(self, which: Mask) -> tuple[Array, Array]:
+        """Return where the K rays of a mask (F, n, n) begin and end, each of shape (K, 3), metres."""
+        frame, i, j = np.nonzero(which)
+        board, n = self.boards, self.own.shape[1]
+        eyes, a, b = board.eye[frame], (i + 0.5) / n, (j + 0.5) / n
+        cells = board.corner[frame] + a[:, None] * board.right[frame] + b[:, None] * board.up[frame]
+        return eyes, eyes + self.reach[which][:, None] * (cells - eyes)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,8 +125,26 @@ def near(boards: Billboards, centres: Array, radius: float) -> Mask:
 
 
 def near_solid(boards: Billboards, solid: Solid) -> Mask:
-    """Tell in which frames a ray may come to a solid, shape (F,)."""
-    return near(boards, *_ball_about(solid))
+    """Tell in which frames a ray may come to a solid, shape (F,): it is near, and not beside all of them."""
+    may = near(boards, *_ball_about(solid))
+    may[may] = ~_beside(boards.pick(may), solid)
+    return may
+
+
+def _beside(boards: Billboards, solid: Solid) -> Mask:
+    """Tell in which frames a solid lies beyond one of the four sides of the pyramid of rays, shape (F,)."""
+    first = boards.corner - boards.eye
+    corners = (first, first + boards.right, first + boards.right + boards.up, first + boards.up)
+    middle = corners[0] + corners[2]
+    beside = np.zeros(len(boards), dtype=bool)
+    for a, b in zip(corners, (*corners[1:], corners[0]), strict=True):
+        inward = cross(a, b)
+        inward *= np.where(np.einsum("fd,fd->f", inward, middle) < 0.0, -1.0, 1.0)[:, None]
+        inward /= np.maximum(np.linalg.norm(inward, axis=1), NO_LENGTH_M**2)[:, None]
+        with np.errstate(invalid="ignore"):  # of a solid without an end on a side that is upright
+            reach = support(solid, inward) - np.einsum("fd,fd->f", inward, boards.eye)
+        beside |= reach < -CLOSE_M
+    return beside
 
 
 def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
@@ -132,8 +152,8 @@ def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
     out, may = np.zeros_like(rays.own), near_solid(rays.boards, solid)
     may[may] = signed_distance(solid, rays.boards.eye[may]) > 0.0
     if may.any():
-        some = rays.pick(may)
-        out[may] = blocks(solid, *some.segments()).reshape(some.own.shape) & some.own
+        which = may[:, None, None] & rays.own
+        out[which] = blocks(solid, *rays.segments(which))
     return out
 
 
@@ -142,13 +162,12 @@ def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
     out, may = np.zeros_like(rays.own), near(rays.boards, centres, radius)
     may &= np.linalg.norm(centres - rays.boards.eye, axis=1) >= radius
     if may.any():
-        some = rays.pick(may)
-        eyes, ends = some.segments()
-        along, away = ends - eyes, np.repeat(centres[may], some.own[0].size, axis=0) - eyes
+        which = may[:, None, None] & rays.own
+        eyes, ends = rays.segments(which)
+        along, away = ends - eyes, centres[np.nonzero(which)[0]] - eyes
         square = np.maximum(np.einsum("md,md->m", along, along), NO_LENGTH_M**2)
         share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)
-        hit = np.linalg.norm(away - share[:, None] * along, axis=1) < radius
-        out[may] = hit.reshape(some.own.shape) & some.own
+        out[which] = np.linalg.norm(away - share[:, None] * along, axis=1) < radius
     return out
 
 

@@ -18,6 +18,8 @@ from shotc.geom.outline import (
 )
 from shotc.geom.pieces import Mask
 from shotc.geom.shapes import BoxShape, CylinderShape, GroupShape, Part, TargetShape, bodies_of
+from shotc.geom.solid_arrays.points import signed_distance
+from shotc.geom.solid_arrays.segments import blocks
 from shotc.geom.solids import Cylinder, Prism, Solid, box
 from shotc.geom.surface.sight import candidates, in_the_way, stopped
 from shotc.geom.surface.tree import Surface, surface_of
@@ -177,10 +179,16 @@ def test_what_is_left_out_is_in_the_way_of_no_ray(size: float) -> None:
         assert (hits[0] == hits[1]).all()
 
 
-def test_solids_that_cover_are_near() -> None:
-    random = np.random.default_rng(9)
+def test_what_is_not_near_is_in_the_way_of_no_ray() -> None:
+    """Solids before, beside and behind outlines: most are left out, and what is covered is as with all."""
+    random, near = np.random.default_rng(9), []
     for shape in SHAPES:
-        eye, solids = scene(random, max(shape.radius, shape.height))
-        rays = rays_to(shape, (0.0, 0.0, 0.0), eye[None])
-        for solid in solids:
-            assert near_solid(rays.boards, solid)[0] or not covered_by_solid(rays, solid).any()
+        for _ in range(20):
+            eye, solids = scene(random, max(shape.radius, shape.height))
+            rays = rays_to(shape, (0.0, 0.0, 0.0), eye[None])
+            for solid in solids:
+                outside = signed_distance(solid, eye[None]) > 0.0
+                every = blocks(solid, *rays.segments(rays.own)) & outside
+                assert (covered_by_solid(rays, solid)[rays.own] == every).all()
+                near.append(near_solid(rays.boards, solid)[0])
+    assert 0.1 < np.mean(near) < 0.9
