@@ -208,5 +208,10 @@ def _steady(ctrl: Array) -> Array:
 
 def _balls(ctrl: Array) -> tuple[Array, Array]:
     """Return centres (n, 3) and radii (n,) of balls that hold the control points, and so the motion."""
-    centre = 0.5 * (ctrl.min(axis=1) + ctrl.max(axis=1))
-    return centre, size_of(ctrl - centre[:, None]).max(axis=1)
+    # Four at a time: numpy is ten times as slow along an axis that short.
+    one, two, three, four = (ctrl[:, k] for k in range(4))
+    low = np.minimum(np.minimum(one, two), np.minimum(three, four))
+    high = np.maximum(np.maximum(one, two), np.maximum(three, four))
+    centre = 0.5 * (low + high)
+    sizes = [size_of(part - centre) for part in (one, two, three, four)]
+    return centre, np.maximum(np.maximum(sizes[0], sizes[1]), np.maximum(sizes[2], sizes[3]))

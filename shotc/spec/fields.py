@@ -125,7 +125,7 @@ BodySize = Annotated[Vec3, Tuple("BodySize", (_POSITIVE_LENGTH,) * 3, "[length, 
 Velocity = Annotated[Vec3, Tuple("Velocity", (_VELOCITY,) * 3, "[east, north, up]")]
 
 Switch = StrictBool
-Count = Annotated[int, Integer("Count", 1, 5_000)]
+Count = Annotated[int, Integer("Count", 1, 20_000)]
 Priority = Annotated[int, Integer("Priority", 1, 1_000)]
 
 Name = Annotated[str, NAME]

@@ -53,7 +53,6 @@ def _stats(cast: Cast, director: Director) -> list[tuple[str, float | str]]:
     return [
         (f"fleet {name} drones", float(len(flight.coef))),
         (f"fleet {name} control points", float(flight.coef.shape[1])),
-        (f"fleet {name} least product", cast.least),
         (f"fleet {name} arcs", float(director.arcs)),
         (f"fleet {name} time", float(flight.breaks[-1])),
     ]

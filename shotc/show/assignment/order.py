@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors, FleetGoals, Frame
 from shotc.ir.show import Fleet
-from shotc.show.solvers.match import crossing, matched
+from shotc.show.solvers.match import matched
 
 DIGITS = 6
 """Decimals of a metre that control points keep, so that a plan stays short."""
@@ -31,7 +30,6 @@ class Cast:
     """Where the drones of a fleet are, in the order of their numbers, shape (n, 3) each.
 
     pads, above : where they start and to where they rise; over, ends : over which pads they come back
-    least : least product of two drones' ways in any move (``fleet_match.crossing``), square metres
     """
 
     pads: Array
@@ -39,7 +37,6 @@ class Cast:
     scenes: tuple[Scene, ...]
     over: Array
     ends: Array
-    least: float
 
 
 def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
@@ -47,13 +44,11 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     pads = np.round(np.array(fleet.pads), DIGITS)
     above = np.round(pads + np.array([0.0, 0.0, fleet.rise]), DIGITS)
-    scenes, last, least = [], above, inf
+    scenes, last = [], above
     for frame in goals.frames:
         order = matched(last * scale, frame.points * scale)
         places = np.round(frame.points[order], DIGITS)
-        least = min(least, crossing(last * scale, places * scale)[0])
         scenes.append(Scene(frame, places, frame.colors[order]))
         last = places
     order = matched(last * scale, above * scale)
-    least = min(least, crossing(last * scale, above[order] * scale)[0])
-    return Cast(pads, above, tuple(scenes), above[order], pads[order], least)
+    return Cast(pads, above, tuple(scenes), above[order], pads[order])

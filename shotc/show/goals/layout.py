@@ -138,7 +138,8 @@ class _Layouts:
             return inside
         if isinstance(inside, Diagnostic) or setting.number < lights_needed(source, flat, "outline"):
             return inside
-        outline = self._filled(setting, "outline", dark=dark)
+        # Where all find room inside, an outline is taken only if they do there, too.
+        outline = self._filled(setting, "outline", dark=dark and inside.bright < setting.number)
         if isinstance(outline, Diagnostic):
             return inside
         few = inside.bright == setting.number or outline.bright < AS_MANY * max(1, inside.bright)
@@ -148,6 +149,11 @@ class _Layouts:
         """Return goals that all find room; or if others may stay dark, as many as do, in a lattice if
         need be.
         """
+        flat = self.bodies[0]
+        if setting.number > TRIED and isinstance(flat, FlatBody):
+            layout = self._crowded_strokes(setting, fill, flat, dark=dark)
+            if layout is not None:
+                return layout
         if setting.number > TRIED and self._is_solid(fill):
             points = self.bodies[0].draw(fill, LEAST_POINTS, np.random.default_rng(list(self.task.seed)))
             wrong = _wrong(self.task, setting, self.bodies[0], points)
@@ -159,14 +165,32 @@ class _Layouts:
         if isinstance(goals, Diagnostic):
             return goals
         layout = self._apart(setting, (fill, goals), dark=dark)
-        flat = any(isinstance(body, FlatBody) for body in self.bodies)
-        if not dark or flat or None not in layout.spaced:
+        if not dark or isinstance(flat, FlatBody) or None not in layout.spaced:
             return layout
         if len(self.bodies) > 1:
             return self._fewer(setting, (fill, goals)) or layout
         return (
             self._lattice(setting, fill) if self._is_solid(fill) else self._thinned(setting, fill, goals[0])
         )
+
+    def _crowded_strokes(
+        self, setting: Setting, fill: Fill, body: FlatBody, *, dark: bool
+    ) -> Layout | Diagnostic | None:
+        """Return how a flat picture shows a large fleet that has too little room to be spread evenly, if
+        so.
+        """
+        points = body.draw(fill, LEAST_FLAT, np.random.default_rng(list(self.task.seed)))
+        wrong = _wrong(self.task, setting, body, points)
+        if points is None or wrong is not None:
+            return wrong
+        strokes = Strokes(body, fill, Placed(points[:0], points[:0], points), setting, self._draw(fill))
+        if not strokes.crowded:
+            return None
+        if not dark:
+            return Layout(fill, (), (None,), setting)
+        shown = lit(strokes)
+        goals = Placed(shown.points, shown.points[: shown.number], points)
+        return Layout(fill, (goals,), (shown,), setting)
 
     def _apart(self, setting: Setting, what: tuple[Fill, Sequence[Placed]], *, dark: bool) -> Layout:
         """Return the goals of all frames moved apart, up to the first frame in which they do not fit."""

@@ -12,20 +12,25 @@ from scipy.spatial import cKDTree
 from shotc.geom.bernstein import Array
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.fit import MOST_DARK_SHARE
-from shotc.show.geom.lattice import Mould, laid
+from shotc.show.geom.lattice import Mould, laid, widest
 from shotc.show.geom.push_along import push_along, thinned
 from shotc.show.geom.push_apart import grain
 from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.edges import along_edges
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.spaced import Draw, Placed, Setting, evenly
+from shotc.show.goals.spaced import TRIED, Draw, Placed, Setting, evenly
 
 LEAST_FLAT = 10_000
 """Points of any flat picture, where a light beside a stroke is seen."""
 SLACK_SHARES = (0.1, 0.2)
 """Shares of the spacing by which a light may be off its stroke. The second, at which letters look uneven,
 is for where it gives all lights room."""
+CROWDED_SHARE = 0.8
+"""Share of the lights that strokes could hold at most beyond which those of a large fleet do not part."""
+WORTH_SHARE = 0.8
+"""Share of the lights that strokes could hold at most with which a lattice of a large fleet is taken at
+once."""
 SPARE = 1.1
 """Lights with which thinning begins, for each that strokes of their area and length could hold at most."""
 ONE_IN = 20
@@ -57,6 +62,8 @@ def on_strokes(body: FlatBody, fill: Fill, goals: Placed, setting: Setting) -> P
 
 def all_lit(strokes: Strokes) -> Lit | None:
     """Return goals apart on the picture's strokes, or None where they do not hold all."""
+    if strokes.crowded:
+        return None
     tries = (strokes.all_of(strokes.setting.number, slack) for slack in SLACK_SHARES)
     found = next((goals for goals in tries if goals is not None), None)
     return None if found is None else Lit(strokes.placed(found), len(found))
@@ -67,7 +74,7 @@ def lit(strokes: Strokes) -> Lit:
 
     Those are left out where more than ``MOST_DARK_SHARE`` have no room, or have none behind either.
     """
-    found = all_lit(strokes)
+    found = all_lit(strokes) or strokes.in_lattice()
     if found is not None:
         return found
     flat, dense = strokes.most()
@@ -115,6 +122,28 @@ class Strokes:
         found = self._pushed(self._plain(number), slack)
         return self._pushed(self._stretched(number), slack) if found is None else found
 
+    @property
+    def crowded(self) -> bool:
+        """Tell whether a large fleet would hardly part: strokes of this area and length have not enough
+        room.
+        """
+        number = self.setting.number
+        return number > TRIED and number > CROWDED_SHARE * sum(self._by_area_and_edges())
+
+    def in_lattice(self) -> Lit | None:
+        """Return a large fleet in the widest lattice that has a place for each, or None where there is
+        none.
+        """
+        if not self.crowded or self.fill == "outline":
+            return None
+        mould = self._mould(self._points(self.setting.number))
+        found = widest(mould, self.setting.number, self.setting.least)
+        if found is None:
+            return None
+        goals = self.placed(found)
+        free = bool((self.setting.room.lack(goals) <= 0.0).all())
+        return Lit(goals, len(goals), True) if free else None
+
     def most(self) -> tuple[Array, bool]:
         """Return as many goals as are found to fit, and whether they are in a lattice.
 
@@ -122,15 +151,28 @@ class Strokes:
         they are the places of a lattice within the strokes. Both know of no number of drones.
         """
         slack = SLACK_SHARES[0] * self.setting.least
+        if self.crowded and self.fill != "outline":
+            places = self._in_lattice(self._points(self.setting.number))
+            if len(places) > WORTH_SHARE * sum(self._by_area_and_edges()):
+                return evenly(places, self.setting.number), True
         first = self.draw(LEAST_FLAT)
         start = self._started(first, self._held_at_most())
-        points = self.body.flat(self.draw(max(LEAST_FLAT, DENSE * len(start)))) * self.scale
+        points = self._points(len(start))
         found = thinned(start, points, self.setting.least, slack, self._held, upright=self.setting.upright)
-        tree = cKDTree(points)
-        places = laid(Mould(tree, slack + grain(tree), self.setting.upright), self.setting.least)
-        places = places[self.setting.room.lack(self.placed(places)) <= 0.0] if len(places) else places
+        places = self._in_lattice(points)
         dense = len(places) > len(found) * (1.0 + 1.0 / ONE_IN)
         return evenly(places if dense else found, self.setting.number), dense
+
+    def _points(self, number: int) -> Array:
+        return np.asarray(self.body.flat(self.draw(max(LEAST_FLAT, DENSE * number))) * self.scale)
+
+    def _mould(self, points: Array) -> Mould:
+        tree = cKDTree(points)
+        return Mould(tree, SLACK_SHARES[0] * self.setting.least + grain(tree), self.setting.upright)
+
+    def _in_lattice(self, points: Array) -> Array:
+        places = laid(self._mould(points), self.setting.least)
+        return places[self.setting.room.lack(self.placed(places)) <= 0.0] if len(places) else places
 
     def _started(self, points: Array, number: int) -> Array:
         if self.fill == "outline":

@@ -14,9 +14,14 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Fleet
 from shotc.show.geom.windows import Window, windows
+from shotc.show.separation.common import common
 from shotc.show.separation.faults import Tried, standing_too_near, too_near
 from shotc.show.separation.longer import Stretch, longer
 from shotc.show.separation.pushed import Pushed, kept, pushed
+
+MANY = 1000
+"""Drones beyond which moves that all make alike are proved in closed form; verification searches all
+pairs."""
 
 
 class Keeper:
@@ -35,9 +40,10 @@ class Keeper:
 
     def keep(self) -> FleetTrajectory:
         """Return the flight with its drones kept apart, or as it is where there are faults."""
-        nearest = closest(self.flight.breaks, self.coef, self.fleet.apart)
-        self.proven = nearest.proven
-        if kept(nearest.proven, self.across):
+        self.proven = self._alike()
+        if not kept(self.proven, self.across):
+            self.proven = closest(self.flight.breaks, self.coef, self.fleet.apart).proven
+        if kept(self.proven, self.across):
             return self.flight
         for window in windows(self.coef):
             self._mend(window)
@@ -45,6 +51,14 @@ class Keeper:
             # The windows were proved one by one; what is told is of the whole.
             self.proven = closest(self.flight.breaks, self.coef, self.fleet.apart).proven
         return replace(self.flight, coef=self.coef)
+
+    def _alike(self) -> float:
+        """Return the separation of a large fleet that moves alike all the time, proved; 0 where it is not."""
+        if len(self.coef) <= MANY:
+            return 0.0
+        return min(
+            (common(self.coef[:, w.points], self.fleet.apart) for w in windows(self.coef)), default=0.0
+        )
 
     def stats(self) -> list[tuple[str, float | str]]:
         """Return what was done."""
