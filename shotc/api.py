@@ -5,7 +5,7 @@ Everything here takes bytes and gives values; ``write`` alone touches the disk.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import AbstractContextManager
 from importlib.util import find_spec
 from pathlib import Path
@@ -21,6 +21,7 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext, silent
+from shotc.ir.show import MANY_DRONES
 from shotc.ir.source import Autopilot, MissionSource
 from shotc.lowering import lower, lower_kept, with_autopilot, with_smoothing
 from shotc.passes.resolve.lower.names import AUTO
@@ -39,6 +40,7 @@ from shotc.pipeline import (
 )
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
+from shotc.spec.presets import LARGE_OUTPUTS
 from shotc.spec.schema import json_schema as schema_of
 
 if TYPE_CHECKING:  # the base install has no numpy
@@ -251,7 +253,20 @@ def emit_plan(
         notes.extend(made.notes)
         if saved and names is not None and not made.artifacts:
             diagnostics.append(_nothing_made(emitter.name, made))
+    if names is None:
+        notes += _large(plan, wanted)
     return Emitted(tuple(artifacts), tuple(diagnostics), tuple(notes))
+
+
+def _large(plan: VerifiedIR, wanted: Collection[str]) -> Iterator[str]:
+    """Yield the outputs that are left out of a show for its size."""
+    drones = sum(len(fleet.coef) for fleet in plan.trajectory.fleets)
+    left = [name for name in LARGE_OUTPUTS if name not in wanted]
+    if drones > MANY_DRONES and left:
+        yield (
+            f"{' and '.join(left)} of {drones} drones would be large: made only where asked for, by "
+            f"`--emit {','.join(left)}`"
+        )
 
 
 def _nothing_made(name: str, made: Emission) -> Diagnostic:

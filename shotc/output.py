@@ -13,7 +13,7 @@ import json
 import os
 import re
 import signal
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from shutil import copyfile
@@ -45,6 +45,9 @@ SHOWN = (
     "*.tum",
 )
 """What else is written beside it."""
+
+TELL_BYTES = 10_000_000
+"""Bytes of a large file after which it is told how far it is."""
 
 HEAD = 65536
 """Bytes of a plan.json in which its mission's name is looked for."""
@@ -80,8 +83,13 @@ def left_over(folder: Path, written: Collection[str]) -> tuple[str, ...]:
     return tuple(sorted(found.difference(written)))
 
 
-def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tuple[Diagnostic, ...]]:
-    """Write artifacts into ``folder``, which is made if need be; return their paths, or an error."""
+def write(
+    artifacts: Sequence[Artifact], folder: Path, progress: Callable[[str], None] | None = None
+) -> tuple[list[Path], tuple[Diagnostic, ...]]:
+    """Write artifacts into ``folder``, which is made if need be; return their paths, or an error.
+
+    progress : is told how much of a large file is written
+    """
     clash = _clash(artifacts)
     if clash is not None:
         return [], (clash,)
@@ -91,7 +99,7 @@ def write(artifacts: Sequence[Artifact], folder: Path) -> tuple[list[Path], tupl
         folder.mkdir(parents=True, exist_ok=True)
         for artifact in artifacts:
             staged.append(_Staged.beside(folder / artifact.name))
-            _write_through(staged[-1].temporary, artifact.data)
+            _write_through(staged[-1].temporary, artifact, progress)
         with _uninterrupted():
             _put_in_place(staged)
     except OSError as fault:
@@ -166,9 +174,15 @@ def _clash(artifacts: Sequence[Artifact]) -> Diagnostic | None:
     )
 
 
-def _write_through(path: Path, data: bytes) -> None:
+def _write_through(path: Path, artifact: Artifact, progress: Callable[[str], None] | None) -> None:
+    written = told = 0
     with path.open("wb") as stream:
-        stream.write(data)
+        for part in artifact.chunks():
+            stream.write(part)
+            written += len(part)
+            if progress is not None and written - told >= TELL_BYTES:
+                progress(f"writing {artifact.name}: {written // 1_000_000} MB")
+                told = written
         stream.flush()
         os.fsync(stream.fileno())
 

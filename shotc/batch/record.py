@@ -14,6 +14,7 @@ from typing import Any
 
 from shotc import __version__
 from shotc.batch.work import Job, Outcome, Planned
+from shotc.emit.base import Artifact
 from shotc.filenames import file_name
 from shotc.progress_file import ProgressFile
 
@@ -40,9 +41,16 @@ class Record:
         entry = {
             "outcome": made.outcome._asdict(),
             "read": made.read,
-            "written": [(each.name, sha256(each.data).hexdigest()) for each in made.artifacts],
+            "written": [(each.name, _sha256(each)) for each in made.artifacts],
         }
         self.file.add(key_of(job), entry)
+
+
+def _sha256(artifact: Artifact) -> str:
+    found = sha256()
+    for part in artifact.chunks():
+        found.update(part)
+    return found.hexdigest()
 
 
 def key_of(job: Job) -> str:

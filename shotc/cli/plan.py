@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -153,7 +154,7 @@ def plan(
             _dump(done, dump_ir)
         if options.stop_after is None:
             progress("emit")
-            code = _finish(done, emitters, output, hands)
+            code = _finish(done, emitters, output, hands, progress)
         else:
             console.report(done.diagnostics, done.sources)
             code = console.exit_code(done.diagnostics)
@@ -162,7 +163,13 @@ def plan(
     raise typer.Exit(code)
 
 
-def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, hands: Crew) -> int:
+def _finish(
+    done: Compilation,
+    emitters: list[str] | None,
+    output: Path | None,
+    hands: Crew,
+    progress: Callable[[str], None],
+) -> int:
     """Emit and write a plan, report everything, and return the exit status."""
     folder = output or Path("out") / (file_name(done.mission) if done.mission else "")
     if done.plan is None:
@@ -173,7 +180,7 @@ def _finish(done: Compilation, emitters: list[str] | None, output: Path | None, 
 
     emitted = emit_plan(done.plan, emitters, hands)
     diagnostics = (*done.diagnostics, *emitted.diagnostics)
-    paths, faults = write(emitted.artifacts, folder)
+    paths, faults = write(emitted.artifacts, folder, progress)
     diagnostics += faults
     console.report(diagnostics, done.sources)
     if paths:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
 
@@ -13,10 +14,19 @@ if TYPE_CHECKING:  # the base install has no numpy
 
 @dataclass(frozen=True, slots=True)
 class Artifact:
-    """One output file: its name inside the output folder, and its bytes."""
+    """One output file: its name inside the output folder, and its bytes.
+
+    parts : makes the bytes one part after another, of a file that is too large to be held; ``data`` is then
+    empty
+    """
 
     name: str
     data: bytes
+    parts: Callable[[], Iterable[bytes]] | None = None
+
+    def chunks(self) -> Iterable[bytes]:
+        """Return all of its bytes, in parts."""
+        return (self.data,) if self.parts is None else self.parts()
 
 
 @dataclass(frozen=True, slots=True)

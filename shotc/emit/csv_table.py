@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from heapq import merge
 from math import isnan
 from typing import ClassVar
 
@@ -21,6 +23,7 @@ from shotc.ir.parked import bodies
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import clock, phase_index, references, seen, subjects
 from shotc.ir.sharpness import sharpness
+from shotc.ir.show import MANY_DRONES
 from shotc.ir.thrust import drawn, lean, thrust_to_weight
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
 
@@ -59,26 +62,25 @@ class CsvTable:
             for row in _framing(plan, track, others_of(everyone, track.drone))
         ]
         title = FRAMING + (SHARPNESS if _exposes(mission) else "")
+        rows = partial(_lines, header, plan.trajectory)
+        large = sum(len(fleet.coef) for fleet in plan.trajectory.fleets) > MANY_DRONES
+        whole = b"" if large else b"".join(rows())
         return Emission(
             (
-                Artifact("trajectory.csv", _table(header, _blocks(plan.trajectory))),
-                Artifact("framing.csv", _table(title, framing)),
+                Artifact("trajectory.csv", whole, rows if large else None),
+                Artifact("framing.csv", b"".join(line + b"\n" for line in (title.encode(), *framing))),
             )
         )
 
 
-def _blocks(ir: TrajectoryIR) -> list[bytes]:
-    """Return the rows of every drone, drones in the order of their names."""
+def _lines(header: str, ir: TrajectoryIR) -> Iterator[bytes]:
+    """Yield the table drone by drone, in the order of their names."""
     mission = ir.keyframes.mission
-    blocks = [(track.drone, "\n".join(_motion(mission, track)).encode()) for track in ir.drones]
-    for fleet in ir.fleets:
-        # A large show is a large table: bytes at once, so that it is not held twice as text.
-        blocks += ((name, rows.encode()) for name, rows in fleet_rows(mission, fleet))
-    return [rows for _, rows in sorted(blocks, key=lambda block: block[0])]
-
-
-def _table(header: str, rows: Sequence[bytes]) -> bytes:
-    return b"\n".join([header.encode(), *rows, b""])
+    filmed = sorted((track.drone, "\n".join(_motion(mission, track))) for track in ir.drones)
+    shown = [fleet_rows(mission, fleet) for fleet in ir.fleets]
+    yield header.encode() + b"\n"
+    for _, rows in merge(filmed, *shown, key=lambda block: block[0]):
+        yield rows.encode() + b"\n"
 
 
 def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:

@@ -119,7 +119,9 @@ def midway(ctrl: Array) -> Array:
 def least_along(ctrl: Array, towards: Array) -> Array:
     """Return how far control points (M, 4, D) are at least along directions (M, D), 0 where there is none."""
     size = size_of(towards)
-    return np.asarray(np.einsum("mkd,md->mk", ctrl, towards).min(axis=1) / np.where(size > 0.0, size, 1.0))
+    along = np.einsum("mkd,md->km", ctrl, towards)
+    least = np.minimum(np.minimum(along[0], along[1]), np.minimum(along[2], along[3]))
+    return np.asarray(least / np.where(size > 0.0, size, 1.0))
 
 
 def size_of(vectors: Array) -> Array:

@@ -8,6 +8,9 @@ from typing import Literal, NamedTuple
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.origin import KeyPath
 
+MANY_DRONES = 2000
+"""Drones of a show beyond which tables and recordings of it are made only where they are asked for."""
+
 Color = tuple[int, int, int]
 
 

@@ -5,13 +5,16 @@ from __future__ import annotations
 import csv
 import io
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pymap3d
 import pytest
 from scipy.interpolate import BSpline
 
+from shotc import output
 from shotc.diag.registry import registry
+from shotc.emit import csv_table
 from shotc.emit.csv_table import EMITTER
 from shotc.emit.mavlink import EMITTER as MAVLINK
 from shotc.emit.storyboard import EMITTER as STORYBOARD
@@ -153,3 +156,21 @@ def test_no_storyboard_without_a_camera() -> None:
     assert done.artifacts == ()
     assert done.diagnostics == ()
     assert "storyboard.png" in done.notes[0]
+
+
+def test_a_large_show_is_written_drone_by_drone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same bytes, of which no more than one drone's are held at a time; and how far it is, is told."""
+    (whole,) = (a for a in EMITTER.emit(PLAN).artifacts if a.name == "trajectory.csv")
+    monkeypatch.setattr(csv_table, "MANY_DRONES", len(PADS) - 1)
+    (large,) = (a for a in EMITTER.emit(PLAN).artifacts if a.name == "trajectory.csv")
+    assert large.data == b""
+    parts = [len(part) for part in large.chunks()]
+    assert len(parts) == 1 + len(PADS)
+    assert max(parts) < len(whole.data) / 2
+    monkeypatch.setattr(output, "TELL_BYTES", max(parts))
+    told: list[str] = []
+    paths, faults = output.write([large], tmp_path, told.append)
+    assert not faults
+    assert paths[0].read_bytes() == whole.data
+    assert told
+    assert all(text.startswith("writing trajectory.csv") for text in told)

@@ -297,3 +297,14 @@ def test_a_model_whose_size_nobody_says_is_told_with_what_says_it(tmp_path: Path
 def test_a_glb_needs_no_units(tmp_path: Path) -> None:
     (tmp_path / "a.glb").write_bytes(b"glTF")
     assert [d.code for d in faults(show("{model: {files: a.glb, center: [0, 0, 40]}}"), tmp_path)] == []
+
+
+def test_tables_and_recordings_of_large_shows_are_made_where_they_are_asked_for() -> None:
+    small, large = (FLEET.replace("count: 60", f"count: {n}") for n in (60, 2001))
+    assert resolve(show(fleet=small)).emit == ("csv", "skyc", "contact-sheet", "rerun")
+    assert resolve(show(SPHERE.replace("radius: 15", "radius: 35"), fleet=large)).emit == (
+        "skyc",
+        "contact-sheet",
+    )
+    asked = show(fleet=large) + "output: {emit: [csv]}\n"
+    assert resolve(asked).emit == ("csv",)

@@ -11,8 +11,8 @@ from shotc.spec.colors import COLORS
 from tests.support.show_texts import FLEET, SPHERE, only, resolve, show
 
 
-@pytest.mark.parametrize("count", ["0", "-3", "5001", "1e9", "2.5", "many"])
-def test_the_count_is_from_1_to_5000(count: str) -> None:
+@pytest.mark.parametrize("count", ["0", "-3", "20001", "1e9", "2.5", "many"])
+def test_the_count_is_from_1_to_20_000(count: str) -> None:
     d = only(show(fleet=FLEET.replace("count: 60", f"count: {count}")))
     assert registry()[d.code].slug in ("out-of-range", "wrong-type")
     assert (d.labels[0].span.line, d.labels[0].span.column) == (4, 18)

@@ -7,9 +7,10 @@ from typing import Any
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.show import MANY_DRONES
 from shotc.ir.source import TAKES
 from shotc.spec.mission import MissionSpec
-from shotc.spec.presets import EMIT, PRESETS, SHOW_EMIT
+from shotc.spec.presets import EMIT, LARGE_OUTPUTS, PRESETS, SHOW_EMIT
 from shotc.spec.shot import NO_DRONE
 from shotc.spec.words import nearest
 
@@ -23,7 +24,8 @@ def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
     if spec.output.emit is not None:
         return spec.output.emit
     if any(shot.kind == "display" for shot in spec.shots):
-        return SHOW_EMIT
+        drones = sum(fleet.count for fleet in spec.fleets.values())
+        return SHOW_EMIT if drones <= MANY_DRONES else tuple(n for n in SHOW_EMIT if n not in LARGE_OUTPUTS)
     machines = dict.fromkeys(TAKES[PRESETS[drone.model].autopilot][0] for drone in spec.drones.values())
     flown = tuple(machines) or ("mavlink",)
     return tuple(name for each in EMIT for name in (flown if each == "mavlink" else (each,)))
