@@ -11,6 +11,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Timing, Vec2, Vec3
 from shotc.ir.origin import KeyPath, OriginMap
+from shotc.ir.photos import Photos
 from shotc.ir.promise import Promise
 from shotc.ir.rehearsal import Rehearsal
 from shotc.ir.rules import Rules
@@ -199,6 +200,7 @@ class Shot(NamedTuple):
     above : what the altitude of its camera counts from; None where it has none
     smoothing : seconds; see ``ir.smoothing``
     focus : name of the target that the lens is focused on, None for the one that is framed
+    photos : taken in place of a film, or None
     """
 
     id: str
@@ -218,6 +220,7 @@ class Shot(NamedTuple):
     above: Above | None = None
     smoothing: float = NORMAL_S
     focus: str | None = None
+    photos: Photos | None = None
 
     @property
     def smoother(self) -> float:

@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic.json_schema import JsonSchemaValue
 
+from shotc.ir.photos import Photos
 from shotc.spec.faults import fault, unit_fault
 from shotc.spec.fieldtypes import FieldType
 from shotc.spec.quantities import Quantity
@@ -53,6 +54,32 @@ class ApertureType(FieldType):
             ],
             "description": "an f-number, such as f/2.8",
         }
+
+
+class IntervalType(FieldType):
+    """How far photos are apart, in time or on the way, as ``2 s`` or ``5 m``."""
+
+    label = "PhotoInterval"
+    _ways = (
+        Quantity("PhotoTime", "duration", 0.1, 3600.0, noun="time between photos"),
+        Quantity("PhotoDistance", "length", 0.1, 1000.0, noun="distance between photos"),
+    )
+
+    def read(self, value: Any) -> Photos:
+        """Return the interval; a bare number could be either."""
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            raise fault(
+                "wrong-type", f"expected a time or a distance, got {describe(value)}", "write `2 s` or `5 m`"
+            )
+        try:
+            parse_quantity(value, "length")
+        except QuantityError:
+            return Photos(seconds=self._ways[0].read(value))
+        return Photos(metres=self._ways[1].read(value))
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it, with their units."""
+        return {"anyOf": [way.schema()["anyOf"][1] for way in self._ways]}
 
 
 class ShutterType(FieldType):

@@ -10,7 +10,9 @@ from pydantic import Field, GetJsonSchemaHandler, model_validator
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+from shotc.ir.photos import Photos
 from shotc.spec.allow import Allowed
+from shotc.spec.exposure import IntervalType
 from shotc.spec.faults import fault, fault_at
 from shotc.spec.fields import (
     BoxOnScreen,
@@ -130,6 +132,14 @@ class RefineSpec(Model):
     )
 
 
+class PhotosSpec(Model):
+    """Photos that a shot takes in place of a film."""
+
+    every: Annotated[Photos, IntervalType()] = Field(
+        description="how far they are apart, in time or on the way, such as 2 s or 5 m"
+    )
+
+
 class ShotBase(Model):
     """The fields every shot has."""
 
@@ -161,6 +171,9 @@ class ShotBase(Model):
     )
     require: RequireSpec | None = Field(default=None, description="what the shot promises")
     refine: RefineSpec | None = Field(default=None, description="how refinement is used")
+    photos: PhotosSpec | None = Field(
+        default=None, description="photos in place of a film, by the files of machines that take them"
+    )
     allow: Allowed = Field(
         default=(),
         description="warnings of film grammar that are not told of this shot, by name, or hidden-subject, "

@@ -134,6 +134,7 @@ class Session:
         track = next(t for t in self._plan.trajectory.drones if t.drone == vehicle.drone)
         course = course_of(track, origin, frame, vehicle.autopilot.lift)
         found = [*checks.ready_to_fly(ready, origin, course), *zoomed(self.mission, track)]
+        found += filmed_instead(self.mission, track)
         return (None if has_errors(found) else Aboard(ready, track, course)), found
 
     def _mute_targets(self) -> Iterator[Diagnostic]:
@@ -233,6 +234,20 @@ def zoomed(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
                     (f"its field of view is {degrees(hfov.min()):.0f} to {degrees(hfov.max()):.0f} degrees",),
                     "zoom by hand, or give the shot one `hfov`",
                 )
+
+
+def filmed_instead(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
+    """Yield a warning for every shot that is to take photos."""
+    for phase in track.phases:
+        if phase.shot is not None and mission.shot(phase.shot).photos is not None:
+            shot = mission.shot(phase.shot)
+            yield Diagnostic(
+                "A033",
+                f"shot `{shot.id}` is filmed, and takes no photos",
+                (mission.origins.key((*shot.path, "photos")),),
+                (f"asked are photos {shot.photos}",),
+                "fly its mission file, or take the photos out of the film",
+            )
 
 
 def summary(who: Aboard) -> list[tuple[str, str]]:

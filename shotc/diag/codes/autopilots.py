@@ -200,6 +200,13 @@ CODES: tuple[CodeInfo, ...] = (
         "What a zoom command means differs from camera to camera. The camera's path and angles are right, the field "
         "of view stays as it is. Zoom by hand, or give the shot one `hfov`.",
     ),
+    _warning(
+        33,
+        "photos-not-sent",
+        "a shot that is to take photos is filmed",
+        "`photos` of a shot are taken by MAVLink files. `shotc stream` tells cameras to begin and to end a recording, and "
+        "nothing else.",
+    ),
     _fault(
         32,
         "machine-takes-no-setpoints",

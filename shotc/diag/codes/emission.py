@@ -250,6 +250,22 @@ _SAFETY_CODES = (
     ),
 )
 
+_PHOTO_CODES = (
+    CodeInfo(
+        "E124",
+        "photos-not-taken",
+        Severity.WARNING,
+        "a file films a shot that is to take photos",
+        "`photos: {every: 2 s}` of a shot takes photos in place of a film. MAVLink files do; those for DJI's apps and for Litchi "
+        "record a film, from which pictures can be taken.",
+        _MAVLINK.replace("    target: mast\n", "    target: mast\n    photos: {every: 2 s}\n")
+        .replace("x500", "mini")
+        .replace("[mavlink]", "[dji]"),
+        _MAVLINK.replace("    target: mast\n", "    target: mast\n    photos: {every: 2 s}\n"),
+        "plan",
+    ),
+)
+
 _SKYC_CODES = (
     CodeInfo(
         "E111",
@@ -380,6 +396,7 @@ CODES: tuple[CodeInfo, ...] = (
     *_MACHINE_CODES,
     *_UNAIDED_CODES,
     *_SAFETY_CODES,
+    *_PHOTO_CODES,
     *_SKYC_CODES,
     *_VIEW_CODES,
     CodeInfo(

@@ -189,7 +189,10 @@ class _Job:
         asked = steps_of(self.track, self.style, legs)
         steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
         speeds = DEFAULTS[self.drone.autopilot]
-        builder = Builder(self.drone, self.style, self.dialect, self.geo, speeds, focus=self.focus)
+        photos = {s.id: s.photos for s in self.mission.shots if s.photos is not None}
+        builder = Builder(
+            self.drone, self.style, self.dialect, self.geo, speeds, photos=photos, focus=self.focus
+        )
         return _Flight(builder.build(self.track, steps), asked, steps, coarser)
 
 

@@ -6,6 +6,7 @@ heading last, because on ArduPilot a CONDITION command holds back every command 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -15,9 +16,15 @@ from shotc.emit.mavlink.dialect import Dialect
 from shotc.emit.mavlink.focus import Focus
 from shotc.emit.mavlink.items import (
     CAMERA_FOCUS,
+    CAMERA_MODE,
     CHANGE_SPEED,
     CONDITION_YAW,
     FOCUS_METERS,
+    MODE_PHOTO,
+    MODE_VIDEO,
+    PHOTO_DISTANCE,
+    PHOTO_START,
+    PHOTO_STOP,
     ROI_LOCATION,
     ROI_NONE,
     SPEED_CLIMB,
@@ -39,6 +46,7 @@ from shotc.emit.waypoints.lens import SAME_LENS, edge
 from shotc.emit.waypoints.track import Poses, Track, select
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
+from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 
@@ -53,6 +61,7 @@ class Builder:
     yaw : body yaw commanded last, rad; aimed : gimbal angles commanded last, None after following
     region : point of W that the gimbal looks at, or None
     hfov : field of view commanded last, rad
+    photos : of the shots that take some, by name
     focus : where the lens is to be focused, None where the file does not say; focused : the last depth, m
     """
 
@@ -66,6 +75,7 @@ class Builder:
     aimed: Command | None = None
     region: Vec3 | None = None
     hfov: float | None = None
+    photos: Mapping[str, Photos] = field(default_factory=dict)
     focus: Focus | None = None
     focused: float | None = None
 
@@ -90,7 +100,7 @@ class Builder:
 
     def _leave(self, shot: str | None, *, following: bool) -> None:
         if shot is not None:
-            self.items.append(action(VIDEO_STOP))
+            self.items.append(self._stop(shot))
         if self.region is not None and not following:
             self.items.append(action(ROI_NONE))
             self.region = self.aimed = self.yaw = None
@@ -105,10 +115,29 @@ class Builder:
         self._zoom(step.command)
         self._sharpen(step)
         if entered is not None:
-            self.items.append(action(VIDEO_START))
+            self.items.extend(self._start(entered))
         if self.dialect.turns_by_item and not (step.region and turns_body(self.drone)):
             self._turn(step, float(end.body_yaw[0]), force=turned)
         self.items.append(self.dialect.waypoint(place, step.hold, step.radius, step.command.body_yaw))
+
+    def _start(self, shot: str) -> list[Item]:
+        """Return what begins the film or the photos of a shot."""
+        photos = self.photos.get(shot)
+        changes = self.dialect.changes_mode and self.photos
+        mode = (
+            [action(CAMERA_MODE, 0.0, float(MODE_VIDEO if photos is None else MODE_PHOTO))] if changes else []
+        )
+        if photos is None:
+            return [*mode, action(VIDEO_START)]
+        if photos.seconds is not None:
+            return [*mode, action(PHOTO_START, 0.0, photos.seconds)]
+        return [*mode, action(PHOTO_DISTANCE, photos.metres, 0.0, 1.0)]
+
+    def _stop(self, shot: str) -> Item:
+        photos = self.photos.get(shot)
+        if photos is None:
+            return action(VIDEO_STOP)
+        return action(PHOTO_DISTANCE if photos.seconds is None else PHOTO_STOP)
 
     def _pace(self, step: Step) -> None:
         if step.duration == 0:

@@ -52,6 +52,7 @@ class Px4:
     turns_by_item = False
     earth_pan = True
     focuses = True
+    changes_mode = True
 
     def takeoff(self, place: Place, yaw: float) -> list[Item]:
         """Return the take-off, after which the mission claims the gimbal."""
@@ -92,6 +93,7 @@ class ArduPilot:
     turns_by_item = True
     earth_pan = False
     focuses = False  # but by itself, or in percent of what nobody knows
+    changes_mode = False
 
     def takeoff(self, place: Place, yaw: float) -> list[Item]:
         """Return the take-off; it keeps its heading."""

@@ -201,6 +201,10 @@ _RUN: dict[int, Callable[[_Pilot, tuple[float | None, ...]], None]] = {
     mav.CAMERA_FOCUS: _nothing,
     mav.ROI_LOCATION: _look_at,
     mav.ROI_NONE: _look_away,
+    mav.CAMERA_MODE: _nothing,
+    mav.PHOTO_DISTANCE: _record,
+    mav.PHOTO_START: _record,
+    mav.PHOTO_STOP: _record,
     mav.VIDEO_START: _record,
     mav.VIDEO_STOP: _record,
 }

@@ -149,6 +149,7 @@ class _Job:
         error = self._error(written.route)
         told = [
             *not_carried,
+            *report.filmed_instead(self.mission, self.flight, self.form.emitter),
             *report.beyond(self.mission, self.flight, self.track, error),
             *report.drifts(self.mission, self.flight, self.track, error),
         ]

@@ -297,6 +297,22 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     return [f"{drone.autopilot} {drone.name}: set by hand {', '.join(parts)}"]
 
 
+def filmed_instead(mission: MissionIR, flight: DroneTrajectory, emitter: str) -> list[Diagnostic]:
+    """Say which shots are films in these files, though photos are asked for."""
+    flown = [mission.shot(phase.shot) for phase in flight.phases if phase.shot is not None]
+    return [
+        Diagnostic(
+            "E124",
+            f"the {FILES[emitter]} file of {flight.drone} films shot {shot.id} instead of taking photos",
+            (mission.origins.key((*shot.path, "photos")),),
+            (f"asked are photos {shot.photos}",),
+            "take the photos by hand or out of the film, or leave `photos` out",
+        )
+        for shot in dict.fromkeys(flown)
+        if shot.photos is not None
+    ]
+
+
 def no_rally(mission: MissionIR, drone: Drone, emitter: str) -> Diagnostic:
     """Say that a format has no rally points."""
     assert drone.safety is not None

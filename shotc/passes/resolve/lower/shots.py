@@ -121,6 +121,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
         above=_above(shot),
         smoothing=shot.smoothing or spec.rules.smoothing,
         focus=shot.focus,
+        photos=None if shot.photos is None else shot.photos.every,
     )
 
 
