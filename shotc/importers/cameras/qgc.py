@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import dist
+from math import degrees, dist
 from typing import Any, NamedTuple
 
+from shotc.geom.focal import field_of_view
 from shotc.geom.vec import Vec3
 from shotc.importers.cameras.places import (
     LARGEST_NUMBER,
@@ -18,6 +19,7 @@ from shotc.importers.cameras.places import (
     is_place,
     origin_at,
     reached,
+    shown,
     without_far,
     world,
 )
@@ -38,13 +40,20 @@ from shotc.source.yaml_tree import Document, parse
 
 WAYPOINT, SPLINE = 16, 82
 SPEED, LOOK, LOOK_NO_MORE, LOOK_OLD, GIMBAL, MOUNT, START, STOP = 178, 195, 197, 201, 1000, 205, 2500, 2501
-QUIET = frozenset((20, 21, 22, 1001, 115, SPEED, LOOK, LOOK_NO_MORE, LOOK_OLD, GIMBAL, MOUNT, START, STOP))
-"""Commands that are read, or that a plan has of its own: take-off, landing, return, who moves the gimbal."""
+PHOTOS_BY_WAY, MODE, ZOOM, FOCUS, PHOTOS, NO_PHOTOS = 206, 530, 531, 532, 2000, 2001
+_AIMING = (SPEED, LOOK, LOOK_NO_MORE, LOOK_OLD, GIMBAL, MOUNT)
+_TAKING = (START, STOP, PHOTOS_BY_WAY, MODE, ZOOM, FOCUS, PHOTOS, NO_PHOTOS)
+QUIET = frozenset((20, 21, 22, 1001, 115, *_AIMING, *_TAKING))
+"""Commands that are read, or that a plan has of its own: take-off, landing, return, who moves the gimbal, its
+camera's mode and focus."""
+FOCAL_LENGTH = 3
+"""Type of a zoom that is a focal length in mm."""
 SEA_LEVEL, HOME_LEVEL, TERRAIN = (0, 5), (3, 6), (10, 11)
 """Frames that heights count in."""
 YAW_LOCK = 16
 """Flag of command 1000: yaw counts from North, not from the body."""
 PARAMETERS = 7
+LARGEST_FOCAL_MM = 2000.0
 
 
 class Item(NamedTuple):
@@ -58,12 +67,16 @@ class Item(NamedTuple):
 
 @dataclass(slots=True)
 class _Aim:
-    """Where the camera looks: a place of W, or angles against the body, or as they are told from North."""
+    """Where the camera looks: a place of W, or angles against the body, or as they are told from North.
+
+    hfov : deg, None where no zoom says it
+    """
 
     place: Vec3 | None = None
     pitch: float | None = None
     yaw: float = 0.0
     locked: bool = False
+    hfov: float | None = None
 
 
 class Opened(NamedTuple):
@@ -122,8 +135,20 @@ def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Ref
             notes.assume(node_at(document, part), f"`{part}` is not imported", "zones of your own, or none")
     if (fast := next((item for item in items if item.command == SPEED), None)) is not None:
         notes.assume(fast.node, "speeds between waypoints are not read", "the drone goes at its own pace")
+    _assumed(items, notes)
     takes = _takes(whole, items, origin, notes)
     return Footage(whole, without_far(takes, notes), origin, home=(0.0, 0.0, 0.0))
+
+
+def _assumed(items: Sequence[Item], notes: Notes) -> None:
+    """Note what is taken of a camera's commands, once each."""
+    zooms = [item for item in items if item.command == ZOOM]
+    for item in [item for item in zooms if item.params[0] == FOCAL_LENGTH][:1]:
+        notes.assume(item.node, "a focal length without the sensor's width", "a frame 36 mm wide")
+    for item in [item for item in zooms if item.params[0] != FOCAL_LENGTH][:1]:
+        notes.assume(item.node, "a zoom that is no focal length", "the lens stays as it is")
+    for item in [item for item in items if item.command in (PHOTOS, PHOTOS_BY_WAY)][:1]:
+        notes.assume(item.node, "photos are taken", "a film of the same way")
 
 
 def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[Item]:
@@ -191,10 +216,19 @@ def _takes(whole: Node, items: Sequence[Item], origin: GeoOrigin, notes: Notes) 
             _told(items[i], looks, origin)
             i += 1
         hold = max(0.0, item.params[0] or 0.0) if item.command == WAYPOINT else 0.0
-        cameras.append(_camera(item, at, heading, looks, notes)._replace(hold=hold))
-        starts.append(any(told.command == START for told in after))
-        stops.append(any(told.command == STOP for told in after))
+        cameras.append(_camera(item, at, heading, looks, notes)._replace(hold=hold, hfov=looks.hfov))
+        starts.append(any(_begins(told) for told in after))
+        stops.append(any(_ends(told) for told in after))
     return recorded(whole, cameras, starts, stops)
+
+
+def _begins(item: Item) -> bool:
+    """Tell whether a film or photos begin with a command."""
+    return item.command in (START, PHOTOS) or (item.command == PHOTOS_BY_WAY and bool(item.params[0]))
+
+
+def _ends(item: Item) -> bool:
+    return item.command in (STOP, NO_PHOTOS) or (item.command == PHOTOS_BY_WAY and not item.params[0])
 
 
 def _place(item: Item, origin: GeoOrigin, notes: Notes) -> Vec3:
@@ -224,6 +258,8 @@ def _told(item: Item, looks: _Aim, origin: GeoOrigin) -> None:
     elif item.command == GIMBAL and p[0] is not None:
         looks.pitch, looks.yaw, looks.place = p[0], p[1] or 0.0, None
         looks.locked = bool(int(p[4] or 0.0) & YAW_LOCK)
+    elif item.command == ZOOM and p[0] == FOCAL_LENGTH and 0 < (p[1] or 0.0) < LARGEST_FOCAL_MM:
+        looks.hfov = shown(degrees(field_of_view((p[1] or 0.0) / 1e3)))
     elif item.command == MOUNT and p[0] is not None:
         looks.pitch, looks.yaw, looks.locked, looks.place = p[0], p[2] or 0.0, False, None
 

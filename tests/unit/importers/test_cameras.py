@@ -312,6 +312,40 @@ def test_what_is_recorded_is_a_shot_of_its_own() -> None:
     assert np.abs(ends - CURVE(np.array([22.0, 52.0]))[:, :3]).max() < 0.01
 
 
+def test_focal_lengths_and_photos_of_qgroundcontrol_are_lenses_and_takes() -> None:
+    data = plan_file(
+        item(22, 0, 0, 0, 0, LAT, LON, 10, frame=3),
+        item(531, 3, 24),
+        item(1000, -15, 0),
+        waypoint(0, heading=0.0),
+        item(530, 0, 0),
+        item(2000, 0, 2),
+        item(532, 3, 20),
+        waypoint(20, heading=0.0),
+        item(531, 3, 50),
+        waypoint(40, heading=0.0),
+        item(2001),
+        item(206, 5, 0, 1),
+        waypoint(60, heading=0.0),
+        item(206, 0),
+        item(531, 2, 50),
+        item(20),
+    )
+    found = mission("qgc", data)
+    first, second = found["shots"]
+    # 24 and 50 mm on a frame 36 mm wide; the second take begins where the first one ends.
+    assert [deg(k["hfov"]) for k in first["keyframes"]] == pytest.approx([73.74, 39.598, 39.598], abs=0.01)
+    assert len(second["keyframes"]) == 2
+    told = [message for _, message in assumed(made("qgc", data))]
+    for words in (
+        "a focal length without the sensor's width",
+        "a zoom that is no focal length",
+        "photos are taken",
+    ):
+        assert told.count(words) == 1
+    assert not any("which no camera needs" in words for words in told)
+
+
 def test_waypoints_of_litchi_become_the_cameras_at_them() -> None:
     one, two, three = keyframes("litchi", GOOD_LITCHI)
     assert [(deg(k["heading"]), deg(k["pitch"])) for k in (one, two)] == [(0.0, -10.0), (30.0, -20.0)]

@@ -115,7 +115,7 @@ def test_too_many_cameras_are_refused_at_once() -> None:
             None,
             "without a latitude",
         ),
-        ("qgc", plan_file(waypoint(0), item(530), waypoint(9)), None, "item 2 is command 530"),
+        ("qgc", plan_file(waypoint(0), item(183), waypoint(9)), None, "item 2 is command 183"),
         ("qgc", GOOD_PLAN.replace(b'"command": 1000', b'"command": null'), None, "item 1 is no simple item"),
     ],
 )
