@@ -15,6 +15,7 @@ import numpy as np
 
 from shotc.flightfiles.clocked import Flown
 from shotc.geom.bernstein import Array, Piecewise
+from shotc.importers.flights.points import BROKEN, refuse
 from shotc.importers.flights.rows import BODY, CAMERA, PHASE, SHOT, Rows
 from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
@@ -24,6 +25,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV
 from shotc.ir.phases import UPRIGHT, KeyframeTime, Phase, PhaseName, Reference
 from shotc.ir.sampling import clock, projected
 from shotc.ir.trajectory import DroneTrajectory
+from shotc.passes.verify.motion import HFOV_RANGE_RAD
 from shotc.planning.framing.moments import placed_at
 
 NAMES: tuple[PhaseName, ...] = ("takeoff", "transit", "shot", "return", "land")
@@ -34,12 +36,17 @@ STEP_S = 0.1
 
 
 class Aligned(NamedTuple):
-    """A track, whether its phases are the table's own, and the shots of the drone that are not aligned."""
+    """A track, and what of it its file tells.
+
+    told : whether its phases are the table's own; missing : shots of the drone that are not aligned
+    looks, faces : whether the angles of its camera, and the heading of its body, are known
+    """
 
     track: DroneTrajectory
     told: bool
     missing: tuple[str, ...]
     looks: bool
+    faces: bool
 
 
 def aligned(keyframes: KeyframeIR, drone: Drone, flown: Flown, upright: tuple[float, float]) -> Aligned:
@@ -60,7 +67,9 @@ def aligned(keyframes: KeyframeIR, drone: Drone, flown: Flown, upright: tuple[fl
     track = DroneTrajectory(drone.name, curve, phases, tuple(at), tuple(framing))
     filmed = {phase.shot for phase in phases}
     own = (shot.id for shot in mission.shots if shot.drone == drone.name)
-    return Aligned(track, told is not None, tuple(shot for shot in own if shot not in filmed), looks)
+    missing = tuple(shot for shot in own if shot not in filmed)
+    faces = rows is not None and rows.values(*BODY) is not None
+    return Aligned(track, told is not None, missing, looks, faces)
 
 
 def _with_camera(drone: Drone, flown: Flown) -> tuple[Piecewise, bool]:
@@ -70,17 +79,30 @@ def _with_camera(drone: Drone, flown: Flown) -> tuple[Piecewise, bool]:
     pose[..., :3], pose[..., HFOV] = curve.ctrl, drone.hfov
     if rows is None:
         return Piecewise(curve.breaks, pose), False
-    body, camera, lens = rows.values(*BODY), rows.values(*CAMERA[:2]), rows.values(CAMERA[2])
+    body, camera, lens = rows.values(*BODY), rows.values(*CAMERA[:2]), lens_of(rows)
     for channel, values in (
         (BODY_YAW, None if body is None else np.unwrap(body[:, 0])),
         (CAM_YAW, None if camera is None else np.unwrap(camera[:, 0])),
         (CAM_PITCH, None if camera is None else camera[:, 1]),
-        (HFOV, None if lens is None else lens[:, 0]),
+        (HFOV, lens),
     ):
         if values is not None:
             lead = np.repeat(values[:1], len(curve.breaks) - len(values))
             pose[..., channel] = _straight(np.concatenate([lead, values]))
     return Piecewise(curve.breaks, pose), camera is not None
+
+
+def lens_of(rows: Rows) -> Array | None:
+    """Return the field of view of every row, rad, None where a table has none; refuse what no lens shows."""
+    found = rows.values(CAMERA[2])
+    if found is None:
+        return None
+    low, high = HFOV_RANGE_RAD
+    wrong = np.flatnonzero((found[:, 0] < low) | (found[:, 0] > high))
+    if len(wrong):
+        angle = float(np.degrees(found[wrong[0], 0]))
+        refuse(BROKEN, f"a field of view of {angle:.4g} deg is none of a lens", rows.node(int(wrong[0])))
+    return np.asarray(found[:, 0])
 
 
 def _straight(values: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.flightfiles.aligned import Aligned
 from shotc.flightfiles.clocked import Flown
 from shotc.flightfiles.judge import BUILT, Found, from_pads, to_tolerance
-from shotc.flightfiles.moves import accelerations, bag_of, speeds, turns
+from shotc.flightfiles.moves import accelerations, bag_of, speeds, turns, zooms
 from shotc.flightfiles.swarm import AT_PAD_M, moved, when
 from shotc.geom.bernstein import lift_off
 from shotc.geom.meetings import closest_of
@@ -44,7 +44,10 @@ def judged(
     named = {flown.name: flown for flown in flights}
     for flown, each, flight in zip(flights, tracks, present, strict=False):
         yield from _motion(flight, flown)
-        for own in _claims(flight, each, ir, standing):
+        claims = [*_claims(flight, each, ir, standing)]
+        if flown.rows is not None and flown.rows.velocity is not None:
+            claims += energy(flight)  # which straight lines would take for none
+        for own in claims:
             yield placed(flown, own)
     found = [each.track for each in tracks]
     if 1 < len(found) <= MOST_PAIRWISE:
@@ -52,8 +55,9 @@ def judged(
             yield placed(named[own.subject], own)
     elif len(found) > MOST_PAIRWISE:
         yield _nearest(mission.rules.separation, flights)
+    looking = {each.track.drone for each in tracks if each.looks}
     for own in sights(present):
-        if own.subject in named:
+        if own.subject in looking:
             yield placed(named[own.subject], own)
 
 
@@ -71,6 +75,7 @@ def _motion(flight: Flight, flown: Flown) -> Iterator[Found]:
         *speeds([flown], bag_of([flown]), drone.limits, drone.path),
         *accelerations([flown], drone.limits, drone.path),
         *turns(flown, drone),
+        *zooms(flown, drone),
     ):
         yield moved(drone.name, [flown], move)
 
@@ -86,10 +91,10 @@ def _claims(
     )
     endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
     yield claim(flight, endurance, Worst(curve.end - lift_off(curve.channels(0, 1, 2)), curve.end, "exact"))
-    yield from energy(flight)
     yield from (own for own in space(flight) if own.constraint not in BUILT)
     if each.told:
         yield from transits(flight)
+    if each.told and each.faces:
         yield from ahead(flight)
     if each.looks:
         for shot in filmed(flight, ir):

@@ -108,7 +108,7 @@ def _space(
                 continue
             before = worst.get(each.constraint)
             if before is None or _less(each, before.claim):
-                worst[each.constraint] = _found(course, each, way)
+                worst[each.constraint] = _found(course, each, way if len(course.ways) > 1 else "")
     yield from worst.values()
 
 

@@ -12,7 +12,8 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.flightfiles.clocked import Flown
-from shotc.importers.flights.points import NOBODY
+from shotc.flightfiles.course import FAR_M
+from shotc.importers.flights.points import FAR, NOBODY
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
@@ -122,6 +123,8 @@ def named(
             faults.append(
                 _nobody(flight.file, flight.name, list(pads)[:MOST_NAMED])._replace(labels=(label,))
             )
+        elif (away := _away(flight, pads[flight.name])) is not None:
+            faults.append(away)
         elif flight.name in found or flight.name in others:
             text = f"`{flight.name}` has two flights"
             faults.append(Diagnostic(NOBODY, text, (flight.at(0.0),), help="give one flight for each drone"))
@@ -130,6 +133,19 @@ def named(
     if not faults:
         faults += [fault for fleet in mission.fleets if (fault := _incomplete(fleet, found)) is not None]
     return found, tuple(faults[:MOST_NAMED])
+
+
+def _away(flight: Flown, pad: Vec3) -> Diagnostic | None:
+    """Report a flight that is far from its pad."""
+    away = np.linalg.norm(flight.curve.ctrl - np.array(pad), axis=2)
+    piece = int(np.argmax(away.max(axis=1)))
+    if away[piece].max() <= FAR_M:
+        return None
+    kilometres = away[piece].max() / 1000
+    where = flight.at(float(flight.curve.breaks[piece + 1]))
+    text = f"`{flight.file}` cannot be judged: `{flight.name}` is {kilometres:.0f} km from its pad there"
+    help_ = "see the origin and the units of the file, and world.origin of the mission"
+    return Diagnostic(FAR, text, (where,), help=help_)
 
 
 def _by_pads(flights: Sequence[Flown], pads: dict[str, Vec3]) -> list[Flown]:

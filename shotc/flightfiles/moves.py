@@ -17,7 +17,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces
 from shotc.geom.proof import norm, sup_convex
 from shotc.importers.flights.rows import ACCELERATION, BODY, Rows
-from shotc.ir.drone import Drone
+from shotc.ir.drone import SAME_LENS_RAD, Drone
 from shotc.ir.limits import Limits
 from shotc.ir.origin import KeyPath
 from shotc.passes.verify.claims import Limit, Worst, gap
@@ -136,7 +136,7 @@ def _mean(values: Array, time: Array, rounding: float) -> Peak | None:
     if len(time) < 2:
         return None
     step = np.diff(time)
-    return _peak(norm(np.diff(values, axis=0)) / step, time[:-1], 4 * rounding / step)
+    return _peak(norm(np.diff(values, axis=0)) / step, time[1:], 4 * rounding / step)
 
 
 def _peak(size: Array, time: Array, leeway: Array) -> Peak:
@@ -177,6 +177,25 @@ def turns(flight: Flown, drone: Drone) -> Iterator[Move]:
         )
 
 
+def zooms(flight: Flown, drone: Drone) -> Iterator[Move]:
+    """Yield fields of view and how fast they change, where a table has them and the mission says the lens."""
+    lens = drone.lens
+    hfov = None if flight.rows is None else flight.rows.values("hfov_rad")
+    if lens is None or hfov is None or flight.rows is None:
+        return
+    angle, time = hfov[:, 0], flight.rows.time
+    path = (*drone.path, "camera", "zoom")
+    for side, value, upper in (("min", lens.longest, False), ("max", lens.widest, True)):
+        k = int(np.argmax(angle) if upper else np.argmin(angle))
+        limit = Limit(f"field of view {side}", value, "rad", path, upper=upper)
+        yield Move(limit, Worst(float(angle[k]), float(time[k])), SAME_LENS_RAD, 0)
+    if lens.zooms:
+        peak = _mean(hfov, time, _rounding(flight.rows, "hfov_rad"))
+        if peak is not None:
+            rate = Limit("zoom rate", lens.rate, "rad/s", (*drone.path, "camera", "zoom_rate"))
+            yield Move(rate, Worst(peak[0], peak[1]), peak[2], 0)
+
+
 def _rates(
     rows: Rows, of: tuple[str, Array, Sequence[str]], most: tuple[float, float], paths: Sequence[KeyPath]
 ) -> Iterator[Move]:
@@ -185,14 +204,14 @@ def _rates(
     rounding = 2 * _rounding(rows, *columns)
     step = np.diff(rows.time)
     rate = np.diff(angle) / step
-    peak = _peak(np.abs(rate), rows.time[:-1], 2 * rounding / step)
+    peak = _peak(np.abs(rate), rows.time[1:], 2 * rounding / step)
     yield Move(Limit(f"{name} rate", most[0], "rad/s", paths[0]), Worst(peak[0], peak[1]), peak[2], 0)
     if len(rate) > 1:
         # The rate somewhere within an interval is its mean: of two they are no farther apart than both take.
         wide = step[:-1] + step[1:]
         peak = _peak(
             np.abs(np.diff(rate)) / wide,
-            rows.time[:-2],
+            rows.time[2:],
             4 * rounding / np.minimum(step[:-1], step[1:]) / wide,
         )
         yield Move(

@@ -17,12 +17,16 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.promises import PROMISES, broken_promise, promise_help
 from shotc.passes.verify.report import limit_label, rule_of, side_of, state_of
+from shotc.passes.verify.sight import OUT_OF_PICTURE
 
+SEEN = "V025"
+"""The code of a drone in another one's picture."""
 HELPS = {
     "V002": "change speed more gently there",
     "V003": "change speed more gently there",
     "V004": "turn slower there",
     "V006": "turn the camera slower there",
+    SEEN: "film from elsewhere, or fly the other drone elsewhere then",
     "V035": "lead the way between shots {lack} farther away",
     "V055": "fly {lack} less",
     "V001": "fly slower there, by {lack} at least, or raise the limit",
@@ -50,7 +54,8 @@ def told(mission: MissionIR, found: Sequence[Found]) -> Iterator[Diagnostic]:
 
 def _broken(mission: MissionIR, found: Found, certificate: tuple[Claim, ...]) -> Diagnostic:
     claim = found.claim
-    code = rule_of(claim.constraint, mission).code
+    seen = claim.constraint.endswith(OUT_OF_PICTURE)
+    code = SEEN if seen else rule_of(claim.constraint, mission).code
     limit = f"{side_of(claim)} {told_apart(claim.worst, claim.limit, claim.unit)[1]}"
     labels = [limit_label(mission, claim, limit)]
     if found.where is not None:

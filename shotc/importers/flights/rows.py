@@ -29,6 +29,8 @@ RATES = ("cam_yaw_rate_rad_s", "cam_pitch_rate_rad_s")
 WANTED = (TIME, DRONE, *PLACE, *VELOCITY)
 EXAMPLE = ",".join(WANTED)
 MOST_ROWS = 5_000_000
+LONGEST_S = 86_400.0
+"""Seconds of the longest flight."""
 SHORTEST_S = 1e-4
 """Seconds between two rows of a drone, at least."""
 
@@ -141,7 +143,7 @@ def _numbers(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) 
             cell = _cell(text, k)
             if number(cell) is None:
                 node = Node("", line, 1, wide=max(1, len(text)))
-                refuse(BROKEN, f"column {k + 1} is `{plain(cell, 20)}`, which is no number", node)
+                refuse(BROKEN, f"column {k + 1} is `{plain(cell, 20)}`, which is no number below 1e9", node)
     refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1))
 
 
@@ -150,6 +152,9 @@ def _in_order(found: Rows) -> None:
         refuse(BROKEN, "a drone has one row, and a flight takes two", found.node(0))
     if found.time[0] < 0.0:
         refuse(BROKEN, f"it begins at {found.time[0]:g} s, before the mission does", found.node(0))
+    if found.time[-1] > LONGEST_S:
+        last = len(found.time) - 1
+        refuse(BROKEN, f"it lasts until {found.time[-1]:g} s, which is no flight", found.node(last))
     for i, (a, b) in enumerate(pairwise(found.time.tolist())):
         if b - a < SHORTEST_S:
             refuse(

@@ -19,6 +19,7 @@ from shotc.importers.archive import member
 from shotc.importers.cameras.places import LARGEST_NUMBER, is_place
 from shotc.importers.flights.names import LARGEST_CLOCKED
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
+from shotc.importers.flights.rows import LONGEST_S
 from shotc.importers.notes import plain
 from shotc.importers.xml_tree import Node
 
@@ -29,6 +30,10 @@ WHOLE = Node("", 1, 1, wide=1)
 MOST_DRONES, MOST_POINTS = 5000, 20_000
 SHORTEST_S = 1e-3
 DEGREE = 3
+
+
+Key = tuple[float, list[float], list[list[float]]]
+"""A time, s, a place, m, and the control points of the curve that ends there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,18 +121,7 @@ def _flight(data: bytes, drone: Any, index: int, turn: float) -> ShowFlight:
     where = f"{element}.settings.trajectory"
     if not isinstance(path, dict) or path.get("version") != 1:
         refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE)
-    points, begin = path.get("points"), path.get("takeoffTime", 0.0)
-    if not isinstance(points, list) or not 0 < len(points) <= MOST_POINTS:
-        refuse(BROKEN, f"`{where}.points` is no list of 1 to {MOST_POINTS} key points", WHOLE)
-    if not _is_number(begin) or begin < 0.0:
-        refuse(BROKEN, f"`{where}.takeoffTime` is no time", WHOLE)
-    keys = [_key(point, f"{where}.points[{i}]") for i, point in enumerate(points)]
-    for i, (a, b) in enumerate(pairwise(keys)):
-        if b[0] - a[0] < SHORTEST_S:
-            message = f"the time of `{where}.points[{i + 1}]`, {b[0]:g} s, does not come after {a[0]:g} s"
-            refuse(BROKEN, message, WHOLE)
-    if keys[0][0] + begin < 0.0:
-        refuse(BROKEN, f"`{where}.points[0]` is before the show begins", WHOLE)
+    keys, begin = _keys(path, where)
     told = settings.get("home")
     home = told if _is_place(told) else keys[0][1]
     times = np.array([key[0] for key in keys]) + begin
@@ -143,7 +137,26 @@ def _flight(data: bytes, drone: Any, index: int, turn: float) -> ShowFlight:
     )
 
 
-def _key(point: Any, where: str) -> tuple[float, list[float], list[list[float]]]:
+def _keys(path: dict[str, Any], where: str) -> tuple[list[Key], float]:
+    """Return the key points of a trajectory, and when it begins."""
+    points, begin = path.get("points"), path.get("takeoffTime", 0.0)
+    if not isinstance(points, list) or not 0 < len(points) <= MOST_POINTS:
+        refuse(BROKEN, f"`{where}.points` is no list of 1 to {MOST_POINTS} key points", WHOLE)
+    if not _is_number(begin) or begin < 0.0:
+        refuse(BROKEN, f"`{where}.takeoffTime` is no time", WHOLE)
+    keys = [_key(point, f"{where}.points[{i}]") for i, point in enumerate(points)]
+    for i, (a, b) in enumerate(pairwise(keys)):
+        if b[0] - a[0] < SHORTEST_S:
+            message = f"the time of `{where}.points[{i + 1}]`, {b[0]:g} s, does not come after {a[0]:g} s"
+            refuse(BROKEN, message, WHOLE)
+    if keys[0][0] + begin < 0.0:
+        refuse(BROKEN, f"`{where}.points[0]` is before the show begins", WHOLE)
+    if keys[-1][0] + begin > LONGEST_S:
+        refuse(BROKEN, f"`{where}` lasts until {keys[-1][0] + begin:g} s, which is no flight", WHOLE)
+    return keys, float(begin)
+
+
+def _key(point: Any, where: str) -> Key:
     if not isinstance(point, list) or len(point) != 3 or not _is_number(point[0]) or not _is_place(point[1]):
         refuse(BROKEN, f"`{where}` is no time, place and control points", WHOLE)
     time, place, control = point

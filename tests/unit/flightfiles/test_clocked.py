@@ -109,6 +109,28 @@ def test_shots_are_aligned_by_the_times_that_the_mission_fixes() -> None:
     assert any("nothing tells when it is filmed" in note for note in untold.notes)
 
 
+def test_nothing_is_claimed_of_angles_that_a_table_has_not() -> None:
+    """No heading, no camera: neither the course of the body nor what its camera shows is judged."""
+    rules = "rules: {mutual_visibility: {strength: require}, look_ahead: 30 deg}\ndrones:"
+    text = TEXT.replace("drones:", rules).replace(
+        "shots:", "  cam2: {model: x500, home: [90, -60, 0]}\nshots:"
+    )
+    timed = text.replace("pitch: 0 deg}", "pitch: 0 deg, timing: {start: 9, duration: 3}}")
+    report = verified(("cam1.csv", table({"cam1": FLIGHT})), text=timed)
+    assert (report.holds, codes(report)) == (True, [])
+    assert claims(report, "out of the picture") == []
+    head, *lines = table({"cam1": FLIGHT}).decode().splitlines()
+    wide = [
+        f"{head},body_yaw_rad,cam_yaw_rad,cam_pitch_rad,hfov_rad",
+        *(f"{line},0,0,0,1.2" for line in lines),
+    ]
+    seen = verified(("cam1.csv", "\n".join(wide).encode()), text=timed)
+    assert codes(seen) == ["V025"]
+    blunt = "\n".join(wide).replace(",1.2\n", ",0\n", 1).encode()
+    refused = verified(("cam1.csv", blunt), text=timed)
+    assert [(d.code, d.labels[0].span.line) for d in refused.diagnostics] == [("I010", 2)]
+
+
 def test_a_show_is_judged_drone_by_drone() -> None:
     report = verified(("all.skyc", swarm()), text=GENTLE)
     assert (report.holds, codes(report)) == (True, [])
@@ -274,6 +296,8 @@ def test_broken_curves_are_told_with_their_element(change: Callable[[Any], objec
         ("0.50,cam1", "nan,cam1", "I010", 4, "no number"),
         ("\n0.00,cam1", "\n-1,cam1", "I010", 2, "before the mission does"),
         ("\n0.25,cam1", "\n0.25", "I010", 3, "no number"),
+        ("\n14.00,cam1", "\n1e8,cam1", "I010", 58, "which is no flight"),
+        ("cam1,39.375,", "cam1,4e7,", "I012", 58, "40000 km from its pad"),
     ],
 )
 def test_broken_rows_are_told_with_their_line(old: str, new: str, code: str, line: int, said: str) -> None:
@@ -284,10 +308,16 @@ def test_broken_rows_are_told_with_their_line(old: str, new: str, code: str, lin
     assert said in report.diagnostics[0].message
 
 
+_LOOKING = b"\n".join(
+    line + (b",cam_yaw_rad,cam_pitch_rad,hfov_rad,body_yaw_rad" if i == 0 else b",0.1,-0.2,1.2,0.1")
+    for i, line in enumerate(table({"cam1": FLIGHT}).splitlines())
+)
+
+
 @settings(max_examples=60, deadline=None)
 @given(data=st.data(), shown=st.booleans())
 def test_no_bytes_make_a_traceback(data: st.DataObject, shown: bool) -> None:
-    inside = ZipFile(BytesIO(swarm())).read("show.json") if shown else table({"cam1": FLIGHT})
+    inside = ZipFile(BytesIO(swarm())).read("show.json") if shown else _LOOKING
     spoilt = bytearray(inside)
     for _ in range(data.draw(st.integers(1, 4))):
         at = data.draw(st.integers(0, len(spoilt) - 1))

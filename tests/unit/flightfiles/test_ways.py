@@ -9,7 +9,7 @@ import pytest
 
 from shotc.emit.litchi.table import write_table
 from shotc.emit.waypoints.geo import Place
-from shotc.emit.waypoints.route import Waypoint
+from shotc.emit.waypoints.route import Action, Waypoint
 from shotc.flightfiles.verify import FlightsReport
 from shotc.importers.cameras.takes import Asked
 from shotc.importers.mission import imported
@@ -160,7 +160,8 @@ def test_our_litchi_files_are_imported_as_they_are_written() -> None:
         Waypoint(Place(*globe(place)), heading, -12.5 - i, 4.0, stops=False)
         for i, (place, heading) in enumerate(zip(asked, (-90.0, 10.0, 170.0), strict=True))
     ]
-    points[0] = replace(points[0], stops=True)
+    points[0] = replace(points[0], stops=True, actions=(Action("start"), Action("stay", 3.0)))
+    points[2] = replace(points[2], stops=True, actions=(Action("stop"),))
     made = imported(
         "litchi", write_table(points), "ours.csv", strict=False, asked=Asked(every=True, ground=408.0)
     )
@@ -168,5 +169,6 @@ def test_our_litchi_files_are_imported_as_they_are_written() -> None:
     assert (made.shots, made.keyframes) == (1, 3)
     for heading, pitch in ((270.0, -12.5), (10.0, -13.5), (170.0, -14.5)):
         assert f"heading: {heading:.4f} deg, pitch: {pitch:.4f} deg" in made.text
+    assert "hold: 3.000" in made.text
     first = globe(asked[0])
     assert f"origin: {{lat: {first[0]:.7f}, lon: {first[1]:.7f}, alt: 408.000}}" in made.text
