@@ -180,8 +180,9 @@ def test_latitude_and_longitude_that_are_exchanged_are_named() -> None:
     assert "world.origin" in verified((file, data)).diagnostics[0].help
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", GOOD)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(data=st.data())
 def test_no_bytes_make_a_traceback(name: str, data: st.DataObject) -> None:
     """Whatever is changed in a good file, it is read or refused, and then judged or told."""
