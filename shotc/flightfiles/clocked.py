@@ -21,7 +21,7 @@ from shotc.diag.model import Label
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.geodetic import to_world
 from shotc.geom.proof import norm
-from shotc.importers.flights.rows import PLACE, Rows
+from shotc.importers.flights.rows import PLACE, SHORTEST_S, Rows
 from shotc.importers.flights.skyc import Show, ShowFlight
 from shotc.importers.notes import label
 from shotc.importers.xml_tree import Node
@@ -74,8 +74,10 @@ def of_rows(rows: Rows, name: str, file: str, limits: Limits) -> Flown:
     step = np.diff(time)[:, None]
     third = place[:-1] + step / 3 * _rate(rows)[0], place[1:] - step / 3 * _rate(rows)[1]
     breaks, ctrl = time, np.stack([place[:-1], *third, place[1:]], axis=1)
-    if time[0] > 0.0:
+    if time[0] > SHORTEST_S:
         breaks, ctrl = np.append(0.0, time), np.concatenate([np.repeat(ctrl[:1, :1], 4, axis=1), ctrl])
+    else:
+        breaks = np.append(0.0, time[1:])
     h = float(step.max())
     rounding = max(quantum([rows.texts(column) or [] for column in PLACE]), 1e-9)
     between, faster = limits.acceleration * h * h / 8, 0.0

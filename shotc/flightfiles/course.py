@@ -32,8 +32,8 @@ SAME_M = 1e-3
 """Metres within which two points are one."""
 AT_HOME_M = 1.0
 """Metres from its pad within which a machine lands at home."""
-BRIEFEST_S = 1e-3
-"""Seconds of the shortest leg."""
+BRIEFEST_S, LONGEST_S = 1e-3, 1e6
+"""Seconds of the shortest and of the longest leg, so that times can be told apart."""
 CURVE_SHARE = 0.1
 """Share of a leg's time in which one of its rounded corners is flown."""
 
@@ -222,7 +222,8 @@ def _legs(
     for i, (point, file, at) in enumerate(kept):
         if point.stay > 0.0:
             stay = _straight((at, at), (point, file), (drone, None), count)
-            yield stay._replace(seconds=max(point.stay, BRIEFEST_S), speed=0.0)
+            lasts = min(max(point.stay, BRIEFEST_S), LONGEST_S)
+            yield stay._replace(seconds=lasts, speed=0.0)
         if i + 1 < len(kept):
             to, name, end = kept[i + 1]
             lasts, speed = _lasts(end - at, _in_force(drone, plan, point.pace))
@@ -262,7 +263,7 @@ def _lasts(way: Array, pace: Pace) -> tuple[float, float]:
         lasts = length / pace.along
     else:
         lasts = seconds(Speeds(*pace[:3]), hypot(way[0], way[1]), float(way[2]))
-    lasts = max(lasts, BRIEFEST_S)
+    lasts = min(max(lasts, BRIEFEST_S), LONGEST_S)
     return lasts, length / lasts
 
 

@@ -97,6 +97,14 @@ def test_speeds_are_those_of_the_file_by_how_steep_it_is() -> None:
     assert codes(report) == ["V001"]
 
 
+@pytest.mark.parametrize("speed", [1e-300, 1e-9, 1e8])
+def test_a_speed_that_nothing_flies_is_no_trouble(speed: float) -> None:
+    hovers = "<wpml:hoverTime>1e8</wpml:hoverTime>"
+    report = verified(("cam1.kmz", dji_file(AROUND, speed, hovers)))
+    assert "V013" in codes(report)
+    assert claim(report, "zone hut").holds
+
+
 def test_heights_above_the_sea_count_from_the_origin() -> None:
     places = tuple((x, y, z + 408.0) for x, y, z in AROUND)
     report = verified(("cam1.waypoints", waypoints_file(places, frame=0)))
