@@ -62,7 +62,7 @@ class Stretch:
         """The field of view, rad, over mission time."""
         steps = control(self.parts)
         knots = [self.start + x * (self.end - self.start) for x, _, _ in steps]
-        ctrl = [[self.a.hfov + y * (self.b.hfov - self.a.hfov) for y in way] for _, _, way in steps]
+        ctrl = [[(1.0 - y) * self.a.hfov + y * self.b.hfov for y in way] for _, _, way in steps]
         return Piecewise(np.array([*knots, self.end]), np.array(ctrl)[:, :, None])
 
 
@@ -79,8 +79,14 @@ class Keyed:
 
     def hfov(self, times: Array) -> Array:
         """Return the field of view at times (M,), rad."""
-        film = self._lens
-        return np.asarray(film(np.clip(times, film.start, film.end))[:, 0])
+        ends = np.array([[s.a.hfov, s.b.hfov] for s in self.stretches])
+        share, of = self._shares(times)
+        wide = np.asarray(ends[of, 0] + share * (ends[of, 1] - ends[of, 0]))
+        for k, stretch in enumerate(self.stretches):
+            if stretch.parts > 1:
+                here, lens = of == k, stretch.lens
+                wide[here] = lens(np.clip(times[here], lens.start, lens.end))[:, 0]
+        return wide
 
     def lens(self, breaks: Array) -> Piecewise:
         """Return the field of view as a curve on breaks that hold all knots, constant beyond the film."""
