@@ -23,7 +23,7 @@ Residuals = list[float]
 FAR_M = 1e5  # metres beyond which nothing is filmed
 HALVINGS = 60
 HARD_WEIGHT = 10.0  # weight of what has to hold
-NEAR_WEIGHT = 0.3  # weight of a place that the camera stays near: a tenth of the way off is 0.03 half frames
+NEAR_WEIGHT = 0.3  # weight of a pose that the camera stays near: a tenth of the way off is 0.03 half frames
 FAINT_WEIGHT = 0.01  # weight of what is free: that it stays as it is, and is level
 EDGE_SHARE = 0.97  # of half a frame, within which a whole target is kept
 NUDGE = 1e-6
@@ -42,15 +42,23 @@ class Lens(NamedTuple):
     pitch: Vec2
 
 
+class Drawn(NamedTuple):
+    """A pose that a camera stays near: its place, and its yaw and pitch, rad, each None where it is free."""
+
+    at: Vec3
+    yaw: float | None = None
+    pitch: float | None = None
+
+
 class Room(NamedTuple):
     """Where the camera may be: lowest z, metres, and the distance it keeps from subjects.
 
-    drawn : the place that it stays near as far as the picture lets it (viewpoint Eq. 10), or None
+    drawn : the pose that it stays near as far as the picture lets it (viewpoint Eq. 10), or None
     """
 
     floor: float
     near: float
-    drawn: Vec3 | None = None
+    drawn: Drawn | None = None
 
 
 class Wanted(NamedTuple):
@@ -343,19 +351,25 @@ def _residuals(
         if s.elevation is None:
             found.append(FAINT_WEIGHT * offset[2] / max(hypot(*offset), 1e-9))
         found.append(HARD_WEIGHT * max(0.0, room.near - s.shape.gap(offset)))
-    found += _off_place(eye, room.drawn, subjects)
+    found += _off_pose(pose, room.drawn, subjects)
     if since is not None:
         found += [FAINT_WEIGHT * (e - k) / reach for e, k in zip(eye, since.kept, strict=True)]
         found.append(HARD_WEIGHT * max(0.0, hypot(*minus(eye, since.eye)) - since.way))
     return found
 
 
-def _off_place(eye: Vec3, drawn: Vec3 | None, subjects: Sequence[Wanted]) -> Residuals:
-    """Return how far a camera is from the place that it stays near, as shares of that one's distance."""
+def _off_pose(pose: Pose, drawn: Drawn | None, subjects: Sequence[Wanted]) -> Residuals:
+    """Return how far a camera is from the pose that it stays near: shares of its distance, and rad."""
     if drawn is None:
         return []
-    away = max(hypot(*minus(drawn, middle_of(subjects))), 1.0)
-    return [NEAR_WEIGHT * (e - d) / away for e, d in zip(eye, drawn, strict=True)]
+    away = max(hypot(*minus(drawn.at, middle_of(subjects))), 1.0)
+    found = [NEAR_WEIGHT * (e - d) / away for e, d in zip(pose[:3], drawn.at, strict=True)]
+    if drawn.yaw is not None:
+        # As the quaternion of the difference has it, whatever the pitch: to look down gains nothing.
+        found.append(NEAR_WEIGHT * 2.0 * sin(0.5 * (pose[3] - drawn.yaw)))
+    if drawn.pitch is not None:
+        found.append(NEAR_WEIGHT * (pose[4] - drawn.pitch))
+    return found
 
 
 def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:

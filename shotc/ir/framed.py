@@ -78,7 +78,7 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
 def course_of(mission: MissionIR, shot: Shot, start: float) -> Course:
     """Return the course of a framing whose first frame is at ``start``."""
     scene = Scene(mission, shot, start)
-    return _alone(scene) if len(shot.subjects) == 1 and scene.drawn is None else _several(scene)
+    return _alone(scene) if len(shot.subjects) == 1 and scene.near is None else _several(scene)
 
 
 def places_of(composition: Composition) -> list[Vec2]:
@@ -200,20 +200,20 @@ def _opening(scene: Scene) -> tuple[Pose, tuple[Subject, ...]]:
     the drone's.
     """
     subjects = scene.shot.subjects
-    wanted = scene.wanted(subjects, scene.start)
+    wanted, room = scene.wanted(subjects, scene.start), scene.room_at(scene.start)
     come = scene.comes_from(middle_of(wanted))
     turns = [WIDE * ((k + 1) // 2) * (1 if k % 2 else -1) for k in range(round(2 * pi / WIDE))]
     asked = [w.azimuth for w in wanted if w.azimuth is not None]
-    if scene.drawn is not None:
-        x, y, _ = minus(scene.drawn, middle_of(wanted))
+    if room.drawn is not None:
+        x, y, _ = minus(room.drawn.at, middle_of(wanted))
         asked.append(atan2(x, y))
     found: list[tuple[float, Pose, tuple[Subject, ...]]] = []
     for azimuth in [*asked, *(come + turn for turn in turns)]:
-        guess = first_pose(wanted, scene.lens, scene.room, azimuth)
-        pose, cost = viewpoint(wanted, scene.lens, scene.room, guess)
+        guess = first_pose(wanted, scene.lens, room, azimuth)
+        pose, cost = viewpoint(wanted, scene.lens, room, guess)
         settled = _assigned(subjects, wanted, pose, scene.lens)
         if settled != subjects:
-            pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, scene.room, pose)
+            pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, room, pose)
         found.append((cost, pose, settled))
     least = min(cost for cost, _, _ in found)
     good = [f for f in found if f[0] <= least + NEARLY]
@@ -244,7 +244,7 @@ def _polished(
     cost, pose, subjects = found
     wanted = scene.wanted(subjects, scene.start)
     for _ in range(AGAIN):
-        pose, later = viewpoint(wanted, scene.lens, scene.room, pose)
+        pose, later = viewpoint(wanted, scene.lens, scene.room_at(scene.start), pose)
         if later > (1 - NEARLY) * cost:
             break
         cost = later
@@ -258,16 +258,16 @@ def _follow(
     poses = [first]
     middle, before = middle_of(scene.wanted(subjects, times[0])), times[0]
     for t in times[1:]:
-        wanted = scene.wanted(subjects, t)
+        wanted, room = scene.wanted(subjects, t), scene.room_at(t)
         later, last = middle_of(wanted), poses[-1]
         eye, along = (last[0], last[1], last[2]), minus(later, middle)
         way = max(BRISK * scene.drone.limits.speed * (t - before), hypot(*along))
         since = Since(eye, plus(eye, along), way)
-        pose, cost = viewpoint(wanted, scene.lens, scene.room, (*since.kept, last[3], last[4]), since)
+        pose, cost = viewpoint(wanted, scene.lens, room, (*since.kept, last[3], last[4]), since)
         if cost == inf:
             x, y, _ = minus(since.kept, later)
-            guess = first_pose(wanted, scene.lens, scene.room, atan2(x, y))
-            pose, _ = viewpoint(wanted, scene.lens, scene.room, guess, since)
+            guess = first_pose(wanted, scene.lens, room, atan2(x, y))
+            pose, _ = viewpoint(wanted, scene.lens, room, guess, since)
         poses.append(pose)
         middle, before = later, t
     return tuple(poses)

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from math import atan2, ceil, hypot
 
 from shotc.geom.vec import Vec3, plus
-from shotc.geom.viewpoint import Lens, Room, Wanted
+from shotc.geom.viewpoint import Drawn, Lens, Room, Wanted
 from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
 from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
 from shotc.ir.ideal import ideal_place, offset_at
+from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
@@ -49,8 +50,7 @@ class Scene:
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
         self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
         self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
-        self.drawn = None if shot.ideal is None else shot.ideal.near
-        self.room = self.room._replace(drawn=self.drawn)
+        self.near = None if shot.ideal is None else shot.ideal.near
 
     def _ground(self) -> float:
         """Return the highest ground below the subjects, metres of W."""
@@ -58,6 +58,13 @@ class Scene:
             return 0.0
         places = (self.mission.target(s.target).at(t) for s in self.shot.subjects for t in self.looks)
         return max(self.mission.ground(x, y) for x, y, _ in places)
+
+    def room_at(self, t: float) -> Room:
+        """Return where the camera may be at a mission time, and what it stays near then."""
+        if self.near is None:
+            return self.room
+        drawn = Drawn(near_at(self.mission, self.near, t), self.near.yaw, self.near.pitch)
+        return self.room._replace(drawn=drawn)
 
     def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> Room:
         """Return where a camera may be that goes along beside a target, for where that is lowest.

@@ -16,7 +16,7 @@ from shotc.geom.ease import parts_of
 from shotc.geom.same import Same
 from shotc.geom.vec import Vec3
 from shotc.ir.drone import LensRange
-from shotc.ir.mission import Ideal, Keyframe, MissionIR, Shot
+from shotc.ir.mission import Beside, Ideal, Keyframe, MissionIR, Near, Shot
 
 ROUNDS = 5  # in which times and the lengths of ways that depend on them are settled
 LEAST = 0.1  # of the mean way between keyframes: a shorter one, where the camera turns, counts as long
@@ -39,9 +39,15 @@ def is_keyed(shot: Shot) -> bool:
 
 def place_of(mission: MissionIR, keyframe: Keyframe, t: float) -> Vec3:
     """Return a keyframe's place at a mission time, metres: of one beside a target, as that is then."""
-    beside = keyframe.beside
-    if beside is None:
-        return keyframe.at
+    return keyframe.at if keyframe.beside is None else _beside(mission, keyframe.beside, t)
+
+
+def near_at(mission: MissionIR, near: Near, t: float) -> Vec3:
+    """Return the place that a framing's camera stays near at a mission time, metres."""
+    return near.at if near.beside is None else _beside(mission, near.beside, t)
+
+
+def _beside(mission: MissionIR, beside: Beside, t: float) -> Vec3:
     target = mission.target(beside.target)
     x, y, _ = target.at(t)
     a, b, up = beside.offset

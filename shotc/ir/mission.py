@@ -134,6 +134,19 @@ class Keyframe(NamedTuple):
         return self.box is not None and self.target is None
 
 
+class Near(NamedTuple):
+    """A pose that the camera of a framing stays near as far as the picture lets it (viewpoint Eq. 10).
+
+    at : place of W, as of ``Keyframe``; beside : the moving target that it counts from, or None
+    yaw, pitch : of the camera, rad, each None where it is free
+    """
+
+    at: Vec3
+    beside: Beside | None = None
+    yaw: float | None = None
+    pitch: float | None = None
+
+
 class Ideal(NamedTuple):
     """Where the camera of a shot on its own clock would be, if nothing stood against it.
 
@@ -150,7 +163,7 @@ class Ideal(NamedTuple):
     framed : True where the points are found from how the subjects are to appear (``ir.framed``), for the
         time at which the shot begins, as far as that is known
     above : what up counts from in the frames "target" and "heading"
-    near : the place near which a framing's camera stays as far as the picture lets it
+    near : the pose near which a framing's camera stays
     """
 
     frame: Literal["world", "target", "heading", "about", "keyframes"]
@@ -160,7 +173,7 @@ class Ideal(NamedTuple):
     aim: Vec2 | None = None
     framed: bool = False
     above: Above = "target"
-    near: Vec3 | None = None
+    near: Near | None = None
 
 
 class Subject(NamedTuple):

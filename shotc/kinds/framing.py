@@ -1,16 +1,20 @@
 """Framing: the camera goes where its subjects appear as asked, and goes along with them."""
 
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.mission import Deferred, Ideal, Subject
-from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.geom.camera import yaw_of
+from shotc.ir.mission import Deferred, Ideal, Near, Subject
+from shotc.kinds.base import Expansion, Kind, Scene, Stand
 from shotc.kinds.moving import evenly
 from shotc.kinds.setpoints import WHAT, SetpointSpec, ViewSpec, setpoint_faults, setpoints_of
-from shotc.spec.fields import Frame, Name, Position, ShotSize
+from shotc.spec.fields import Angle, Frame, Name, Pitch, ShotSize, Station
 from shotc.spec.model import Model
+from shotc.spec.places import STATION
 from shotc.spec.shot import ShotBase
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -30,13 +34,35 @@ class SubjectSpec(Model):
     )
 
 
+class NearSpec(Model):
+    """A pose that the camera stays near; a position, or a place that counts from a target, is enough."""
+
+    at: Station = Field(description="place of the camera, or a place that counts from a target")
+    heading: Angle | None = Field(default=None, description="compass heading of the camera")
+    pitch: Pitch | None = Field(default=None, description="elevation of the camera")
+
+    @classmethod
+    def shorthand(cls, data: Any) -> Any:
+        """Return the mapping for a place alone."""
+        written = isinstance(data, dict) and data.keys() & {"at", "heading", "pitch"}
+        return data if written or isinstance(data, NearSpec) else {"at": data}
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Return the mapping's schema beside those of places."""
+        schema = handler.resolve_ref_schema(handler(core_schema))
+        return {"anyOf": [STATION.reference(), schema]}
+
+
 class FramingShot(ShotBase):
     """The parameters of a framing."""
 
     kind: Literal["framing"] = Field(description="what sort of shot it is")
     subjects: tuple[SubjectSpec, ...] = Field(min_length=1, description="who is in the picture, and how")
-    near: Position | None = Field(
-        default=None, description="place near which the camera stays as far as the picture lets it"
+    near: NearSpec | None = Field(
+        default=None, description="pose near which the camera stays as far as the picture lets it"
     )
 
 
@@ -62,9 +88,19 @@ def expand(shot: FramingShot, scene: Scene) -> Expansion:
         )
         for i, s in enumerate(shot.subjects)
     )
-    near = None if shot.near is None else scene.place(shot.near)
+    near = None if shot.near is None else _near(shot, shot.near, scene)
+    if isinstance(near, Diagnostic | Deferred):
+        return Expansion.of([near])
     ideal = Ideal("about", subjects[0].target, evenly([ORIGIN]), framed=True, near=near)
     return Expansion(ideal=ideal, subjects=subjects)
+
+
+def _near(shot: FramingShot, near: NearSpec, scene: Scene) -> Near | Diagnostic | Deferred:
+    under = ("near", "at") if (*scene.path, "near", "at") in scene.origins.values else ("near",)
+    stand = scene.stand(shot, near.at, *under)
+    if not isinstance(stand, Stand):
+        return stand
+    return Near(*stand, None if near.heading is None else yaw_of(near.heading), near.pitch)
 
 
 def _setpoint_faults(shot: FramingShot, scene: Scene) -> list[Diagnostic]:

@@ -21,8 +21,9 @@ from shotc.ir.allow import hidden_on_purpose
 from shotc.ir.bodies import flying, moved, parts_of_one, shapes
 from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.drone import Drone
-from shotc.ir.keyed import keeps_a_place
+from shotc.ir.keyed import keeps_a_place, near_at
 from shotc.ir.keyframes import PlacedKeyframe, PlacedShot, PlacedSubject
+from shotc.ir.mission import Near
 from shotc.ir.needs import with_need
 from shotc.ir.obstacle_mesh import body_prisms
 from shotc.ir.occlusion import others_of
@@ -103,6 +104,7 @@ __all__ = [
     "Keyed",
     "Mask",
     "MovingLeg",
+    "Near",
     "NoTransit",
     "PathDeviation",
     "PlacedKeyframe",
@@ -146,6 +148,7 @@ __all__ = [
     "leg_time",
     "minimum_jerk",
     "moved",
+    "near_at",
     "others_of",
     "parts_of_one",
     "placed_at",

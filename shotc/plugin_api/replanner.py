@@ -17,10 +17,12 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges, hull_and_pockets
+from shotc.geom.viewpoint import NEAR_WEIGHT
 from shotc.ir.limits import Limits, Vec2, Vec3
 from shotc.planning.clearances import Clearance
 
 __all__ = [
+    "NEAR_WEIGHT",
     "NO_TRAFFIC",
     "USUAL",
     "USUAL_FRAMING",
@@ -33,6 +35,7 @@ __all__ = [
     "Clearance",
     "Cone",
     "Cylinder",
+    "DrawnPose",
     "FilmedSubject",
     "FramingPlanner",
     "FramingProblem",
@@ -239,11 +242,24 @@ class FilmedSubject:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class DrawnPose:
+    """A pose that the camera stays near as far as the picture lets it (Naegeli et al., Eq. 10).
+
+    places : at the stages, (N + 1, 3); yaw, pitch : of the camera, rad, each None where it is free
+    """
+
+    places: Array
+    yaw: float | None = None
+    pitch: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class FramingSituation:
     """What is known at the moment of a replan of a shot that composes subjects.
 
     time : of this moment, mission time; place, velocity : of the drone, measured, shape (3,)
     aim : yaw and pitch of the camera, W, rad; subjects : the same ones in the same order at every replan
+    near : what the camera stays near besides
     """
 
     time: float
@@ -252,6 +268,7 @@ class FramingSituation:
     aim: Vec2
     subjects: tuple[FilmedSubject, ...]
     traffic: Traffic = NO_TRAFFIC
+    near: DrawnPose | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -12,7 +12,8 @@ import numpy as np
 from shotc.geom import viewpoint
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
-from shotc.ir.mission import MissionIR, Subject
+from shotc.ir.keyed import near_at
+from shotc.ir.mission import MissionIR, Near, Subject
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.phases import Phase
 from shotc.ir.setpoints import Asked
@@ -25,6 +26,7 @@ from shotc.plugin_api.replanner import (
     ChaseProblem,
     ChaseSituation,
     ChaseWeights,
+    DrawnPose,
     FilmedSubject,
     FramingPlanner,
     FramingProblem,
@@ -104,12 +106,16 @@ class Chased:
 
 @dataclass(frozen=True, slots=True)
 class Composed:
-    """A shot that is found from how its subjects are to appear; smoother : as in ``Chased``."""
+    """A shot that is found from how its subjects are to appear.
+
+    smoother : as in ``Chased``; near : the pose that its camera stays near
+    """
 
     stages: ClassVar = FRAMING_STAGES
     phase: Phase
     subjects: tuple[Subject, ...]
     smoother: float = 1.0
+    near: Near | None = None
 
     def planner(self, by: Replanner, film: Film, keeping: Keeping) -> FramingPlanner:
         """Return who plans it anew."""
@@ -136,6 +142,7 @@ class Composed:
                 for target in bodies
             ),
             traffic=of.traffic,
+            near=None if self.near is None else _drawn(mission, self.near, stages, of),
         )
 
     def _asked(self, subject: Subject, stages: Array) -> tuple[Asked, ...]:
@@ -179,7 +186,7 @@ def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
             continue
         if shot.ideal.framed:
             if any(mission.target(name).track is not None for name in films):
-                yield Composed(phase, shot.subjects, shot.smoother)
+                yield Composed(phase, shot.subjects, shot.smoother, shot.ideal.near)
             continue
         target = shot.ideal.target
         if target is not None and films == {target} and mission.target(target).track is not None:
@@ -198,6 +205,15 @@ def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:
     out = now.position[of.run] + (stages - stages[0])[:, None] * moves
     out[:, 2] += np.array([target.at(t)[2] for t in stages.tolist()]) - target.at(float(stages[0]))[2]
     return out, moves
+
+
+def _drawn(mission: MissionIR, near: Near, stages: Array, of: Moment) -> DrawnPose:
+    """Return what a camera stays near: beside a target, where that is taken to be."""
+    places = np.array([near_at(mission, near, t) for t in stages.tolist()])
+    if near.beside is not None:
+        target = mission.target(near.beside.target)
+        places += predicted(target, stages, of)[0] - [target.at(t) for t in stages.tolist()]
+    return DrawnPose(places, near.yaw, near.pitch)
 
 
 def _aim(film: Film, time: float, last: Plan) -> tuple[float, float]:

@@ -199,7 +199,8 @@ class StationType(PlaceType):
 
 
 _STATION_HINT = f"{_HINT}, or {{from: a target, offset: [east, north, up]}}"
-Station = Annotated[Spot | Geodetic | Relative, StationType()]
+STATION = StationType()
+Station = Annotated[Spot | Geodetic | Relative, STATION]
 
 
 class LookAtType(PlaceType):

@@ -16,7 +16,7 @@ from shotc_casadi.replan.pictures import Symbols, clear, in_field, uncovered
 from shotc_casadi.replan.steps import Until
 
 from shotc.geom.camera import view
-from shotc.plugin_api.replanner import Appearance, FilmedSubject, FramingWeights
+from shotc.plugin_api.replanner import Appearance, DrawnPose, FilmedSubject, FramingWeights
 from tests.support.framings import (
     AIM,
     BODY,
@@ -254,3 +254,33 @@ def test_the_same_calls_have_the_same_answers():
             assert (a.status, a.lack, a.steps) == (b.status, b.lack, b.steps)
             assert (a.plan.accelerations == b.plan.accelerations).all()
             assert (a.plan.aim == b.plan.aim).all()
+
+
+def test_who_is_to_stay_near_a_pose_goes_there_and_turns_as_far_as_the_picture_lets_him():
+    at, aside = np.array([1.0, -3.2, 1.9]), 0.5
+    free = Appearance((0.0, 0.0), None, None)
+    placed, turned = (
+        DrawnPose(np.tile(at, (61, 1)), *angles) for angles in ((None, None), (pi / 2 - aside, 0.1))
+    )
+    ends = []
+    for near in (placed, turned):
+        subjects = (subject(HEADS[0], STILL, 60, free),)
+        done = Framing(problem(60), CONVERGED).replan(situation(60, subjects, near=near), None)
+        assert done.plan is not None
+        assert done.plan.aim is not None
+        ends.append((done.plan.places[-1], done.plan.aim[-1]))
+    (place, aim), (_, other) = ends
+    # Nothing else says where it is; and its head stays in the middle.
+    assert place == pytest.approx(at, abs=0.05)
+    to = HEADS[0] - place
+    assert aim[0] == pytest.approx(np.arctan2(to[1], to[0]), abs=0.02)
+    # It goes round its head, so that it may turn to the angles it is to stay near, but not all the way.
+    assert pi / 2 - aside < other[0] < aim[0] - 0.2
+    assert abs(other[1] - 0.1) < abs(aim[1] - 0.1)
+
+
+def test_a_pose_that_is_no_number_fails():
+    near = DrawnPose(np.full((N + 1, 3), nan))
+    subjects = (subject(HEADS[0], STILL, N, Appearance((0.0, 0.0))),)
+    done = Framing(problem(N)).replan(situation(N, subjects, near=near), None)
+    assert (done.status, done.reason) == ("failed", "the pose to stay near is not finite")

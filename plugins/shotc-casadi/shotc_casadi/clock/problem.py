@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.plugin_api import Piecewise
-from shotc.plugin_api.refiner import Array, HalfSpaces, viewpoint
+from shotc.plugin_api.refiner import Array, HalfSpaces, Near, near_at, viewpoint
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.picture import SUBJECT
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
@@ -176,6 +176,13 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
     return low, high
 
 
+def _drawn_angles(pose: Near) -> Array:
+    """Return yaw and pitch that a camera stays near, 0 where they are free, and the weights of both, (4,)."""
+    asked = (pose.yaw, pose.pitch)
+    weight = viewpoint.NEAR_WEIGHT**2
+    return np.array([*(a or 0.0 for a in asked), *(0.0 if a is None else weight for a in asked)])
+
+
 def _parameters(subject: ClockSubject, breaks: Array, references: ClockReferences) -> Array:
     leg, n = subject.leg, len(breaks) - 1
     length = np.append(np.diff(breaks), 0.0)
@@ -191,9 +198,12 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
     )
     drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
     unit = weights.TOGETHER if subject.together else binds
-    drawn, ideal = subject.near, references.ideal
+    pose, ideal, angles = subject.near, references.ideal, np.zeros((n + 1, 4))
     place, leash = binds * near * np.ones(n + 1), near / weights.LEASH**2
-    if drawn is not None:  # viewpoint Eq. 10, as the ideal has it
+    if pose is not None:  # viewpoint Eq. 10, as the ideal has it
+        drawn = np.array([near_at(subject.mission, pose, float(t)) for t in breaks])
+        angles = _drawn_angles(pose) * np.where(filmed, 1.0, 0.0)[:, None]
+        angles[:, 2:] *= paid * weights.TOGETHER * _shared(length)[:, None]
         away = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
         share = viewpoint.NEAR_WEIGHT / np.maximum(away, 1.0)
         place = np.where(filmed, weights.TOGETHER * share**2, place)
@@ -203,6 +213,7 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
         "ideal": ideal,
         "place": place * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
         "leash": np.full(n + 1, leash),
+        "drawn": angles,
         "near": references.reach**-2.0,
         "target": references.target,
         "jerk": weights.JERK * near * np.where(filmed, smoother**weights.JERK_ORDER, weights.UNSEEN),

@@ -19,6 +19,7 @@ from shotc.plugin_api.refiner import (
     Drone,
     Keyed,
     Mask,
+    Near,
     PlacedShot,
     PlacedSubject,
     bounds_of,
@@ -91,10 +92,10 @@ class ClockSubject:
         return self.held_whole or len(self.framed) > 1
 
     @property
-    def near(self) -> Array | None:
-        """The place near which the camera of several subjects stays as far as the picture lets it, (3,)."""
+    def near(self) -> Near | None:
+        """The pose near which the camera of several subjects stays as far as the picture lets it."""
         ideal = self.placed.shot.ideal
-        return None if ideal is None or ideal.near is None or not self.together else np.array(ideal.near)
+        return None if ideal is None or not self.together else ideal.near
 
     @property
     def aim(self) -> tuple[float, float] | None:

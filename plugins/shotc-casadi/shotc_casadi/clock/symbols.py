@@ -90,6 +90,7 @@ FIELDS = {
     "ideal": 3,
     "place": 1,
     "leash": 1,
+    "drawn": 4,
     "near": 1,
     "target": 12,
     "jerk": 1,
@@ -110,6 +111,7 @@ each, and, where the air moves, how fast it does to the East and North.
 length : seconds
 ideal : where the camera would be, W, metres; place : weight of the squared distance to it
 leash : 1/m^2, by which that weight grows with the squared distance
+drawn : yaw and pitch that the camera of several subjects stays near, rad, and the weights of both squares
 near : 1/m^2, one over the square of how far the camera may be from there; 0 where as far as it takes
 target : its position, velocity, acceleration and jerk; of several subjects their middle's
 jerk : weight of the camera's squared jerk
@@ -203,7 +205,14 @@ def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], shown: Sequence[A
     turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
     off = (residuals(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in shown)
     # What cannot all be as asked leaves much: by Gauss and Newton that takes many steps.
-    return _Aimed(turned, node=given["picture"] * sum(map(ca.sumsqr, off)), moved=tuple(moved))
+    node = given["picture"] * sum(map(ca.sumsqr, off)) + _off_drawn(x[YAW], x[PITCH], given["drawn"])
+    return _Aimed(turned, node=node, moved=tuple(moved))
+
+
+def _off_drawn(yaw: Any, pitch: Any, drawn: Any) -> Any:
+    """Return what a camera pays for being off the angles that it stays near (viewpoint Eq. 10)."""
+    aside = 2.0 * ca.sin(0.5 * (yaw - drawn[0]))
+    return drawn[2] * aside**2 + drawn[3] * (pitch - drawn[1]) ** 2
 
 
 def _integrated(x: Any, jerk: Any, h: Any) -> Any:

@@ -8,13 +8,22 @@ velocity and the gimbal's pitch; here all of them have the limits of the drone a
 from __future__ import annotations
 
 from functools import lru_cache, partial
-from math import isfinite
+from math import isfinite, sqrt
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from shotc.plugin_api.replanner import Appearance, Array, FramingProblem, FramingSituation, Plan, Replan
+from shotc.plugin_api.replanner import (
+    NEAR_WEIGHT,
+    Appearance,
+    Array,
+    DrawnPose,
+    FramingProblem,
+    FramingSituation,
+    Plan,
+    Replan,
+)
 from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
 from shotc_casadi.replan.flight import BOUNDS, Flight, fault, sent
 from shotc_casadi.replan.keeping import Kept, ends, rows, within
@@ -38,6 +47,10 @@ STATES, INPUTS = 8, 5
 SHARED = (
     13  # parameters of all: weights, half the fields of view, greatest rates, pitch range; subjects follow
 )
+
+NEAR, NEAR_COMMON = 3, 5
+"""Parameters of what the camera stays near, after those of bodies: of a stage its place; of all stages yaw
+and pitch, and the roots of the weights of place, yaw and pitch."""
 
 Cast = tuple[bool, ...]
 """Which of the bodies are filmed."""
@@ -101,6 +114,23 @@ def _fill(s: FramingSituation, given: Array, common: Array) -> None:
             wanted.size is not None,
             wanted.view is not None,
         ]
+    at, own = BOUNDS + EACH * len(s.subjects), SHARED + COMMON * len(s.subjects)
+    given[:, at : at + NEAR], common[own : own + NEAR_COMMON] = 0.0, 0.0
+    if s.near is not None:
+        given[:, at : at + NEAR] = s.near.places[1:]
+        common[own : own + NEAR_COMMON] = _drawn(s, s.near, common[0])
+
+
+def _drawn(s: FramingSituation, near: DrawnPose, place: float) -> list[float]:
+    """Return yaw, pitch and the roots of the weights of a pose that the camera stays near.
+
+    They are those by which the ideal of the shot is found. place : weight of a half frame, squared
+    """
+    middle = np.mean([body.point[0] for body in s.subjects if body.wanted is not None], axis=0)
+    away = max(float(np.linalg.norm(near.places[0] - middle)), 1.0)
+    root = NEAR_WEIGHT * sqrt(place)
+    turns = [0.0 if angle is None else root for angle in (near.yaw, near.pitch)]
+    return [near.yaw or 0.0, near.pitch or 0.0, root / away, *turns]
 
 
 def _shifted(index: Array, last: Plan) -> Array:
@@ -120,9 +150,10 @@ def stage(of: Kept, cast: Cast) -> Stage:
     """Return one stage of the problem in symbols."""
     k = len(cast)
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
-    own = BOUNDS + EACH * k
-    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", SHARED + COMMON * k + of.common)
-    shared = g[SHARED + COMMON * k :]
+    bodied, own = BOUNDS + EACH * k, BOUNDS + EACH * k + NEAR
+    told = SHARED + COMMON * k
+    p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", told + NEAR_COMMON + of.common)
+    near, shared = (p[bodied:own], g[told : told + NEAR_COMMON]), g[told + NEAR_COMMON :]
     step, most, (turn, tilt) = shared[0], shared[2], (g[9], g[10])
     bodies = [
         Symbols.of(
@@ -145,7 +176,7 @@ def stage(of: Kept, cast: Cast) -> Stage:
         following=ca.vertcat(
             x[:3] + step * (x[3:6] + 0.5 * step * a), x[3:6] + step * a, x[6:] + step * rate
         ),
-        residuals=_residuals(camera, u, bodies, cast, g),
+        residuals=ca.vertcat(_residuals(camera, u, bodies, cast, g), _off_pose(camera, *near)),
         rows=(ca.vertcat(*keep), *_covers(y[:3], bodies, cast, g[3])),
         firm=firm,
         ends=ends(of, y[:3], y[3:6], shared),
@@ -169,6 +200,12 @@ def _residuals(camera: Camera, u: Any, bodies: list[Symbols], cast: Cast, g: Any
     return ca.vertcat(*found)
 
 
+def _off_pose(camera: Camera, place: Any, drawn: Any) -> Any:
+    """Return how far a camera is off the pose that it stays near (Naegeli et al., Eq. 10)."""
+    turned = ca.vertcat(2.0 * ca.sin(0.5 * (camera.yaw - drawn[0])), camera.pitch - drawn[1])
+    return ca.vertcat(drawn[2] * (camera.place - place), drawn[3:] * turned)
+
+
 def _covers(place: Any, bodies: list[Symbols], cast: Cast, weight: Any) -> tuple[Any, ...]:
     """Return the rows of all pairs of a filmed subject and another body, where there are such."""
     pairs = [
@@ -180,6 +217,10 @@ def _covers(place: Any, bodies: list[Symbols], cast: Cast, weight: Any) -> tuple
     return (ca.vertcat(*pairs),) if pairs else (ca.SX(0, 1),)
 
 
+def _numbers(near: DrawnPose) -> list[Array]:
+    return [near.places, np.array([near.yaw or 0.0, near.pitch or 0.0])]
+
+
 def _given(s: FramingSituation, last: Plan | None) -> dict[str, list[Array]]:
     flown = [] if last is None else [last.times, last.accelerations]
     flown += [] if last is None or last.aim is None else [last.aim]
@@ -188,6 +229,7 @@ def _given(s: FramingSituation, last: Plan | None) -> dict[str, list[Array]]:
         "the drone's measured state": [s.place, s.velocity, np.array(s.aim)],
         "the subjects' predicted motion": [a for b in s.subjects for a in (b.point, b.centre)],
         "a wanted view": views,
+        "the pose to stay near": [] if s.near is None else _numbers(s.near),
         "a plan that was sent": sent(s.traffic),
         "the last plan": flown,
         "the time": [np.array([s.time])],

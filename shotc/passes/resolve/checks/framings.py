@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import asin, degrees, dist, isnan
+from math import asin, degrees, dist, hypot, isnan
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
-from shotc.geom.viewpoint import Seen, Wanted, direction, judged, nearest, size_from
+from shotc.geom.vec import wrapped
+from shotc.geom.viewpoint import Pose, Seen, Wanted, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
 from shotc.ir.framed import Course, course_of
 from shotc.ir.framed_scene import lens_of, wanted_at
 from shotc.ir.hidden import lacks
-from shotc.ir.mission import MissionIR, Shot, Subject
+from shotc.ir.keyed import near_at
+from shotc.ir.mission import MissionIR, Near, Shot, Subject
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.framing import beyond_gimbal
 from shotc.passes.resolve.checks.framing_remedies import (
@@ -30,6 +32,7 @@ from shotc.rounding import up
 
 OFF_PLACE = 0.05  # half frames
 OFF_PLACE_M = 0.5  # metres from a place that a camera stays near
+OFF_PLACE_RAD = 0.05  # rad off the angles that it stays near
 OFF_SIZE = 0.1  # share of the size asked
 OFF_VIEW = 0.09  # rad
 APART = 2.0  # times smaller than asked that a subject may be, for others to be in the picture with it
@@ -264,7 +267,7 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
         if compromise:
             notes.append(f"`{subject.target}` is {', '.join(compromise)}")
             labels.append(mission.origins.value(subject.path))
-    far = _far_from_place(course)
+    far = _far_from_place(mission, course)
     if far is not None:
         notes.append(far)
         labels.append(mission.origins.value((*shot.path, "near")))
@@ -284,15 +287,26 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
         )
 
 
-def _far_from_place(course: Course) -> str | None:
+def _far_from_place(mission: MissionIR, course: Course) -> str | None:
     """Say how far the camera is from the place that it is to stay near, where that is worth telling."""
     near = None if course.shot.ideal is None else course.shot.ideal.near
     if near is None:
         return None
-    away, t = max((dist(pose[:3], near), t) for t, pose in zip(course.times, course.poses, strict=True))
-    if away <= OFF_PLACE_M:
-        return None
-    return f"the camera is {away:.1f} m from the place that it stays near at t = {t:.1f} s"
+    away, t = max(
+        (dist(pose[:3], near_at(mission, near, t)), t)
+        for t, pose in zip(course.times, course.poses, strict=True)
+    )
+    turned, when = max((_turned(near, pose), t) for t, pose in zip(course.times, course.poses, strict=True))
+    told = [f"is {away:.1f} m from the place that it stays near at t = {t:.1f} s"] * (away > OFF_PLACE_M)
+    if turned > OFF_PLACE_RAD:
+        told.append(f"looks {degrees(turned):.0f} deg beside the way that it stays near at t = {when:.1f} s")
+    return f"the camera {', and '.join(told)}" if told else None
+
+
+def _turned(near: Near, pose: Pose) -> float:
+    """Return how far a camera's angles are off those that it stays near, rad."""
+    yaw = 0.0 if near.yaw is None else wrapped(pose[3] - near.yaw)
+    return hypot(yaw, 0.0 if near.pitch is None else pose[4] - near.pitch)
 
 
 def _known(mission: MissionIR, shot: Shot) -> bool:
