@@ -256,8 +256,9 @@ _PHOTO_CODES = (
         "photos-not-taken",
         Severity.WARNING,
         "a file films a shot that is to take photos",
-        "`photos: {every: 2 s}` of a shot takes photos in place of a film. MAVLink files do; those for DJI's apps and for Litchi "
-        "record a film, from which pictures can be taken.",
+        "`photos: {every: 2 s}` of a shot takes photos in place of a film. MAVLink files do, and those for DJI Pilot 2 and Litchi where "
+        "the drone moves all through the shot, no other shot begins where it ends, and the mission fits into one file: they tell "
+        "intervals of legs. DJI Fly takes none. Else a film is recorded, from which pictures can be taken.",
         _MAVLINK.replace("    target: mast\n", "    target: mast\n    photos: {every: 2 s}\n")
         .replace("x500", "mini")
         .replace("[mavlink]", "[dji]"),

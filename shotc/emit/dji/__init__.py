@@ -21,6 +21,7 @@ FORMAT = Format(
     read_kmz,
     zooms=("pilot-2",),
     says_link_lost=True,
+    photos=("pilot-2",),
 )
 """What a focal length means to the machines of DJI Fly is not known, so their files zoom not."""
 

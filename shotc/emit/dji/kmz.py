@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from io import BytesIO
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
@@ -12,10 +13,15 @@ from shotc.emit.waypoints.geo import Place
 from shotc.emit.waypoints.link import NOTHING
 from shotc.emit.waypoints.route import Action, Waypoint
 from shotc.ir.drone import Drone
+from shotc.ir.photos import Photos
 
 TEMPLATE, WAYLINES = "wpmz/template.kml", "wpmz/waylines.wpml"
 POINTS_MOST = 200  # of a mission in DJI Fly
 _KINDS = {"startRecord": "start", "stopRecord": "stop", "hover": "stay", "zoom": "zoom"}
+_INTERVALS = {
+    "multipleTiming": lambda every: Photos(seconds=every),
+    "multipleDistance": lambda every: Photos(metres=every),
+}
 
 
 def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
@@ -37,7 +43,16 @@ def read_kmz(data: bytes) -> list[Waypoint]:
     """Return the points of a mission of ours; curve is 0, for these machines go through their points."""
     with ZipFile(BytesIO(data)) as archive:
         root = ET.fromstring(archive.read(WAYLINES))
-    return [_waypoint(mark) for mark in root.iter() if _local(mark) == "Placemark"]
+    points = [_waypoint(mark) for mark in root.iter() if _local(mark) == "Placemark"]
+    for group in (each for each in root.iter() if _local(each) == "actionGroup"):
+        trigger = _text(group, "actionTriggerType")
+        if trigger in _INTERVALS:
+            photos = _INTERVALS[trigger](float(_text(group, "actionTriggerParam")))
+            first, last = (int(_text(group, f"actionGroup{end}Index")) for end in ("Start", "End"))
+            start, stop = (Action(kind, photos=photos) for kind in ("start", "stop"))
+            points[first] = replace(points[first], actions=(*points[first].actions, start))
+            points[last] = replace(points[last], actions=(stop, *points[last].actions))
+    return points
 
 
 def _waypoint(mark: ET.Element) -> Waypoint:

@@ -10,6 +10,7 @@ from shotc.emit.dji.profiles import Profile
 from shotc.emit.waypoints.link import DJI_ACTIONS, return_height
 from shotc.emit.waypoints.route import Waypoint
 from shotc.ir.drone import Safety
+from shotc.ir.photos import Photos
 
 KML = "http://www.opengis.net/kml/2.2"
 CREATED_MS = 1704067200000  # 2024-01-01: the same plan gives the same bytes, whenever that is
@@ -187,11 +188,12 @@ class Document:
         if i == 0:
             group = self._group(mark, ids, (0, 0), self.profile.group_mode, "reachPoint")
             self._rotate(group, ids, point.pitch)
-        if point.actions:
-            stays = any(a.kind == "stay" for a in point.actions)
-            mode = "sequence" if stays or len(point.actions) > 1 else self.profile.group_mode
+        done = [action for action in point.actions if action.photos is None]
+        if done:
+            stays = any(a.kind == "stay" for a in done)
+            mode = "sequence" if stays or len(done) > 1 else self.profile.group_mode
             group = self._group(mark, ids, (i, i), mode, "reachPoint")
-            for action in point.actions:
+            for action in done:
                 if action.kind == "stay":
                     self._put(self._action(group, ids, "hover"), "hoverTime", f"{action.seconds:.1f}")
                     continue
@@ -203,6 +205,9 @@ class Document:
                     continue
                 params = self._action(group, ids, "startRecord" if action.kind == "start" else "stopRecord")
                 self._put(params, "payloadPositionIndex", 0)
+        for action in point.actions:
+            if action.photos is not None and action.kind == "start":
+                self._photograph(mark, i, ids, action.photos)
         if i + 1 < len(self.points):
             mode = self.profile.group_mode
             group = self._group(mark, ids, (i, i + 1), mode, self.profile.evenly)
@@ -210,15 +215,33 @@ class Document:
             self._put(params, "gimbalPitchRotateAngle", f"{self.points[i + 1].pitch:.1f}")
             self._put(params, "payloadPositionIndex", 0)
 
+    def _photograph(self, mark: ET.Element, i: int, ids: count[int], photos: Photos) -> None:
+        """Write photos from a point on, to the one at which they stop."""
+        end = next(k for k in range(i + 1, len(self.points)) if _stops_photos(self.points[k]))
+        trigger = "multipleDistance" if photos.seconds is None else "multipleTiming"
+        every = photos.metres if photos.seconds is None else photos.seconds
+        group = self._group(mark, ids, (i, end), self.profile.group_mode, trigger, every)
+        params = self._action(group, ids, "takePhoto")
+        self._put(params, "payloadPositionIndex", 0)
+
     def _group(
-        self, mark: ET.Element, ids: count[int], span: tuple[int, int], mode: str, trigger: str
+        self,
+        mark: ET.Element,
+        ids: count[int],
+        span: tuple[int, int],
+        mode: str,
+        trigger: str,
+        every: float | None = None,
     ) -> ET.Element:
         group = self._put(mark, "actionGroup")
         self._put(group, "actionGroupId", next(ids))
         self._put(group, "actionGroupStartIndex", span[0])
         self._put(group, "actionGroupEndIndex", span[1])
         self._put(group, "actionGroupMode", mode)
-        self._put(self._put(group, "actionTrigger"), "actionTriggerType", trigger)
+        begins = self._put(group, "actionTrigger")
+        self._put(begins, "actionTriggerType", trigger)
+        if every is not None:
+            self._put(begins, "actionTriggerParam", f"{every:g}")
         return group
 
     def _action(self, group: ET.Element, ids: count[int], name: str) -> ET.Element:
@@ -238,6 +261,10 @@ class Document:
         self._put(params, "gimbalRotateTimeEnable", 0)
         self._put(params, "gimbalRotateTime", 0)
         self._put(params, "payloadPositionIndex", 0)
+
+
+def _stops_photos(point: Waypoint) -> bool:
+    return any(action.kind == "stop" and action.photos is not None for action in point.actions)
 
 
 def _kml(name: str) -> str:

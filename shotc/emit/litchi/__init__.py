@@ -21,6 +21,7 @@ FORMAT = Format(
     lambda points, _: write_table(points),
     read_table,
     halts=True,
+    photos=("dji-fly", "litchi"),
 )
 SETTINGS = (
     "litchi: set in the Hub what the table cannot say: Heading Mode Custom (WD), Path Mode Curved Turns,"

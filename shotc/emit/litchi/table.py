@@ -9,6 +9,7 @@ from math import ceil
 
 from shotc.emit.waypoints.geo import Place
 from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.ir.photos import Photos
 
 POINTS_MOST = 99  # of a block of Litchi's
 ACTIONS_MOST = 15  # of a point
@@ -43,21 +44,33 @@ def write_table(points: list[Waypoint]) -> bytes:
     stream = StringIO()
     table = csv.writer(stream, lineterminator="\n")
     table.writerow(COLUMNS)
-    table.writerows(_row(point) for point in points)
+    photos: Photos | None = None
+    for point in points:
+        for action in point.actions:
+            photos = action.photos if action.kind == "start" else None if action.kind == "stop" else photos
+        table.writerow(_row(point, photos))
     return stream.getvalue().encode()
 
 
 def read_table(data: bytes) -> list[Waypoint]:
     """Return the points of a table; the drone stops at its ends, and where it does something."""
     rows = list(csv.DictReader(StringIO(data.decode())))
-    points = [_waypoint(row) for row in rows]
+    points: list[Waypoint] = []
+    photos: Photos | None = None
+    for row in rows:
+        before, photos = photos, _interval(row)
+        point, turned = _waypoint(row), before != photos
+        ended = [Action("stop", photos=before)] if turned and before else []
+        begun = [Action("start", photos=photos)] if turned and photos else []
+        points.append(replace(point, actions=(*ended, *point.actions, *begun)))
     last = len(points) - 1
     return [replace(p, stops=i in (0, last) or bool(p.actions)) for i, p in enumerate(points)]
 
 
-def _row(point: Waypoint) -> list[str]:
+def _row(point: Waypoint, photos: Photos | None) -> list[str]:
     place = point.place
-    actions = [pair for action in point.actions for pair in _pairs(action)]
+    every = photos or Photos(-1.0, -1.0)
+    actions = [pair for action in point.actions if not action.photos for pair in _pairs(action)]
     actions += [(NONE, 0)] * (ACTIONS_MOST - len(actions))
     return [
         f"{place.lat:.9f}",
@@ -71,8 +84,17 @@ def _row(point: Waypoint) -> list[str]:
         *(str(number) for pair in actions[:ACTIONS_MOST] for number in pair),
         "0",
         f"{point.speed:.2f}",
-        *("0", "0", "0", "0", "-1", "-1"),
+        *("0", "0", "0", "0"),
+        *(f"{-1.0 if number is None else number:g}" for number in every),
     ]
+
+
+def _interval(row: dict[str, str]) -> Photos | None:
+    """Return the photos that are taken from a point on."""
+    seconds, metres = float(row["photo_timeinterval"]), float(row["photo_distinterval"])
+    if seconds <= 0 and metres <= 0:
+        return None
+    return Photos(seconds if seconds > 0 else None, metres if metres > 0 else None)
 
 
 def _pairs(action: Action) -> list[tuple[int, int]]:

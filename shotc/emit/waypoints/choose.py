@@ -7,6 +7,7 @@ bounds or no leg can be cut any more.
 from __future__ import annotations
 
 from bisect import insort
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import radians
@@ -22,6 +23,7 @@ from shotc.emit.waypoints.route import Action, Route
 from shotc.emit.waypoints.stations import LEG_LEAST, Gap, Station, stations_of
 from shotc.emit.waypoints.track import LOST, Poses, Stretch, Track, project, select
 from shotc.ir.drone import Drone, LensRange
+from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -48,6 +50,7 @@ class Chooser:
     planned : by how much each sample is too near to each obstacle, m, (n,) each
     halts : whether the machine stands still at every point where it does something
     lens : whose zoom the file commands; None where it does not
+    photos : of the shots that take some in place of a film
     """
 
     track: Track
@@ -58,10 +61,12 @@ class Chooser:
     planned: tuple[Array, ...]
     halts: bool
     lens: LensRange | None = None
+    photos: Mapping[str, Photos] = field(default_factory=dict)
 
     def stations(self) -> list[Station]:
         """Return the stations of the route."""
-        needed, gaps = stations_of(self.track, self.way, None if self.lens is None else self._stay)
+        stay = None if self.lens is None else self._stay
+        needed, gaps = stations_of(self.track, self.way, stay, self.photos)
         parts = [_Part(gap, self._seeds(gap)) for gap in gaps]
         for _ in range(ROUNDS):
             stations, owners = _joined(needed, parts)

@@ -29,6 +29,7 @@ from shotc.geom.camera import heading_of
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone, LensRange
 from shotc.ir.mission import MissionIR
+from shotc.ir.photos import Photos
 from shotc.ir.source import Autopilot
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
@@ -48,6 +49,7 @@ class Format:
     emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
     shapes : the curves by which its machines may fly; halts : whether they stop where they do something
     zooms : those of the machines whose zoom it commands; says_link_lost : whether it says what is done then
+    photos : those that take photos as it says
     """
 
     emitter: str
@@ -60,6 +62,7 @@ class Format:
     halts: bool = False
     zooms: tuple[Autopilot, ...] = ()
     says_link_lost: bool = False
+    photos: tuple[Autopilot, ...] = ()
 
     def lens(self, drone: Drone) -> LensRange | None:
         """Return the lens that its files zoom, None where they do not."""
@@ -94,11 +97,15 @@ def emit_files(plan: VerifiedIR, form: Format) -> Emission:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Written:
-    """The files of a drone, the route read back from them, and the places of its legs by each curve."""
+    """The files of a drone, the route read back from them, and the places of its legs by each curve.
+
+    photographed : shots of which they take photos
+    """
 
     artifacts: tuple[Artifact, ...]
     route: Route
     legs: tuple[Array, ...]
+    photographed: frozenset[str]
 
     @property
     def ways(self) -> Array:
@@ -125,6 +132,8 @@ class _Job:
         drone = mission.drone(flight.drone)
         track, obstacles = track_of(mission, flight), bounds(mission, drone)
         chooser = chooser_of(track, drone, obstacles, form.shapes, halts=form.halts, lens=form.lens(drone))
+        if drone.autopilot in form.photos:
+            chooser = replace(chooser, photos=_photos(mission, track))
         return _Job(mission, flight, drone, form, tie(mission.origin, drone.home), track, chooser, obstacles)
 
     def written(self) -> _Written:
@@ -132,13 +141,17 @@ class _Job:
         route = self.chooser.route(self.chooser.stations())
         points = _two(waypoints_of(_parted(route), self.geo))
         blocks = split(points, self.form.most)
+        if len(blocks) > 1 and self.chooser.photos:
+            # What is begun in one file is not gone on with in the next.
+            return replace(self, chooser=replace(self.chooser, photos={})).written()
         named = [f"-{i + 1}" for i in range(len(blocks))] if len(blocks) > 1 else [""]
         artifacts = tuple(
             Artifact(f"{self.drone.name}{number}{self.form.ending}", self.form.write(block, self.drone))
             for number, block in zip(named, blocks, strict=True)
         )
         route = route_of(joined([self.form.read(a.data) for a in artifacts]), self.geo)
-        return _Written(artifacts, route, tuple(legs_of(route, s, FINE).position for s in self.form.shapes))
+        legs = tuple(legs_of(route, s, FINE).position for s in self.form.shapes)
+        return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
 
     def emission(self, written: _Written) -> Emission:
         """Return the files, unless they come too near to something, and what is to be told of them."""
@@ -149,7 +162,7 @@ class _Job:
         error = self._error(written.route)
         told = [
             *not_carried,
-            *report.filmed_instead(self.mission, self.flight, self.form.emitter),
+            *report.filmed_instead(self.mission, self.flight, self.form.emitter, written.photographed),
             *report.beyond(self.mission, self.flight, self.track, error),
             *report.drifts(self.mission, self.flight, self.track, error),
         ]
@@ -198,6 +211,23 @@ class _Job:
             depth, owner = float(depths[worst][deepest]), owner_of(obstacle, places[worst][deepest])
             found.append(report.broken(self.mission, self.drone, owner, depth, time))
         return found
+
+
+def _photos(mission: MissionIR, track: Track) -> dict[str, Photos]:
+    """Return the photos of shots in which the drone is on its way all along, and that no other shot touches.
+
+    Formats tell intervals of legs: a drone that stands has none.
+    """
+    found: dict[str, Photos] = {}
+    for name in dict.fromkeys(s.shot for s in track.stretches if s.shot is not None):
+        photos = mission.shot(name).photos
+        numbers = [i for i, s in enumerate(track.stretches) if s.shot == name]
+        around = [i for i in (numbers[0] - 1, numbers[-1] + 1) if 0 <= i < len(track.stretches)]
+        beside = [track.stretches[i].shot for i in around]
+        rests = any(track.stretches[i].rest for i in numbers)
+        if photos is not None and not rests and not any(beside):
+            found[name] = photos
+    return found
 
 
 def _worst_shot(errors: list[ShotError]) -> ShotError:

@@ -297,8 +297,10 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     return [f"{drone.autopilot} {drone.name}: set by hand {', '.join(parts)}"]
 
 
-def filmed_instead(mission: MissionIR, flight: DroneTrajectory, emitter: str) -> list[Diagnostic]:
-    """Say which shots are films in these files, though photos are asked for."""
+def filmed_instead(
+    mission: MissionIR, flight: DroneTrajectory, emitter: str, taken: Collection[str]
+) -> list[Diagnostic]:
+    """Say which shots are films in these files, though photos are asked for; taken : those with photos."""
     flown = [mission.shot(phase.shot) for phase in flight.phases if phase.shot is not None]
     return [
         Diagnostic(
@@ -309,7 +311,7 @@ def filmed_instead(mission: MissionIR, flight: DroneTrajectory, emitter: str) ->
             "take the photos by hand or out of the film, or leave `photos` out",
         )
         for shot in dict.fromkeys(flown)
-        if shot.photos is not None
+        if shot.photos is not None and shot.id not in taken
     ]
 
 

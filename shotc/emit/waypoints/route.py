@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints.geo import Geo, Place
 from shotc.geom.camera import yaw_of
+from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 
@@ -18,11 +19,13 @@ class Action(NamedTuple):
     """What is done at a point: recording starts or stops, the drone stays some seconds, or the lens zooms.
 
     focal : focal length to zoom to, mm, as the lens counts them
+    photos : what starts or stops in place of a film, or None
     """
 
     kind: Literal["start", "stop", "stay", "zoom"]
     seconds: float = 0.0
     focal: float = 0.0
+    photos: Photos | None = None
 
 
 @dataclass(frozen=True, slots=True)

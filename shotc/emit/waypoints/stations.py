@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.waypoints.route import Action
 from shotc.emit.waypoints.track import Stretch, Track
+from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 
@@ -44,11 +45,15 @@ class Gap:
 
 
 def stations_of(
-    track: Track, way: Array, stay: Callable[[Stretch], list[Action]] | None = None
+    track: Track,
+    way: Array,
+    stay: Callable[[Stretch], list[Action]] | None = None,
+    photos: Mapping[str, Photos] | None = None,
 ) -> tuple[list[Station], list[Gap]]:
     """Return the stations that a track needs, and the gap after each but the last.
 
     way : (n,), metres flown before each sample; stay : what is done in a filmed one, if more than to stay
+    photos : of the shots that take some in place of a film
     A stretch too short for two points is a stay at the first of them.
     """
     groups, gaps = _grouped(track, way)
@@ -59,13 +64,13 @@ def stations_of(
         after = gaps[i] if i < len(gaps) else None
         actions: list[Action] = []
         for stretch in group:
-            actions += _changed(shot, stretch.shot)
+            actions += _changed(shot, stretch.shot, photos or {})
             shot = stretch.shot
             seconds = float(track.time[stretch.last] - track.time[stretch.first])
             seconds = round(seconds if shot else min(seconds, SETTLE), 1)
             if seconds >= STAY_LEAST:
                 actions += stay(stretch) if stay and shot else [Action("stay", seconds)]
-        actions += _changed(shot, after.shot if after else None)
+        actions += _changed(shot, after.shot if after else None, photos or {})
         shot = after.shot if after else None
         first, last = _ends(track, group, before, after)
         ends = before is None or after is None
@@ -107,11 +112,11 @@ def _aim(group: list[Stretch], before: Gap | None, after: Gap | None, first: int
     return None if any(stretch.shot for stretch in group) else last
 
 
-def _changed(before: str | None, after: str | None) -> Iterator[Action]:
+def _changed(before: str | None, after: str | None, photos: Mapping[str, Photos]) -> Iterator[Action]:
     if before != after and before is not None:
-        yield Action("stop")
+        yield Action("stop", photos=photos.get(before))
     if before != after and after is not None:
-        yield Action("start")
+        yield Action("start", photos=photos.get(after))
 
 
 def _speed(track: Track, index: int) -> float:

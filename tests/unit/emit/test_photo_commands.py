@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+import xml.etree.ElementTree as ET
+from zipfile import ZipFile
 
 import pytest
 
 from shotc.emit.dji import EMITTER as DJI
+from shotc.emit.dji.kmz import read_kmz
+from shotc.emit.litchi import EMITTER as LITCHI
 from shotc.emit.mavlink import EMITTER as MAVLINK
 from shotc.ir.mission import MissionIR
 from shotc.ir.photos import Photos
@@ -62,11 +68,71 @@ def test_a_film_after_photos_has_the_camera_film_again() -> None:
 
 
 @pytest.mark.slow
-def test_dji_films_it_and_says_so() -> None:
+def test_dji_fly_films_it_and_says_so() -> None:
     emission = DJI.emit(plan(straight(), mission=mission(Photos(seconds=2.0)), autopilot="dji-fly"))
     assert emission.artifacts
     (told,) = emission.diagnostics
     assert (told.code, told.notes) == ("E124", ("asked are photos every 2 s",))
+
+
+def local(element: ET.Element) -> str:
+    return element.tag.rpartition("}")[2]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("photos", "trigger", "every"),
+    [(Photos(seconds=2.0), "multipleTiming", "2"), (Photos(metres=5.5), "multipleDistance", "5.5")],
+)
+def test_pilot_2_takes_photos_over_all_points_of_the_shot(photos, trigger, every) -> None:
+    emission = DJI.emit(plan(straight(), mission=mission(photos), autopilot="pilot-2"))
+    assert emission.diagnostics == ()
+    with ZipFile(io.BytesIO(emission.artifacts[0].data)) as archive:
+        files = [ET.fromstring(archive.read(f"wpmz/{n}")) for n in ("waylines.wpml", "template.kml")]
+    film = DJI.emit(plan(straight(), mission=orbit_mission(), autopilot="pilot-2"))
+    points = read_kmz(film.artifacts[0].data)
+    count, kinds = len(points), [{a.kind for a in p.actions} for p in points]
+    ends = [i for i, done in enumerate(kinds) if done & {"start", "stop"}]
+    for root in files:
+        told = [{local(e): e.text for e in g.iter()} for g in root.iter() if local(g) == "actionGroup"]
+        (group,) = (g for g in told if g["actionTriggerType"] == trigger)
+        assert (group["actionTriggerParam"], group["actionActuatorFunc"]) == (every, "takePhoto")
+        assert [int(group[f"actionGroup{end}Index"] or "") for end in ("Start", "End")] == ends
+        assert not {g.get("actionActuatorFunc") for g in told} & {"startRecord", "stopRecord"}
+        assert sum(local(e) == "Placemark" for e in root.iter()) == count
+    # What is read back is the same shot: its picture is judged as that of the film is.
+    assert emission.notes[0].split("; films")[0] == film.notes[0].split("; films")[0]
+
+
+@pytest.mark.slow
+def test_litchi_has_intervals_on_the_legs_of_the_shot() -> None:
+    emission = LITCHI.emit(plan(straight(), mission=mission(Photos(metres=4.0)), autopilot="dji-fly"))
+    assert emission.diagnostics == ()
+    rows = list(csv.DictReader(io.StringIO(emission.artifacts[0].data.decode())))
+    on = [float(row["photo_distinterval"]) for row in rows]
+    assert {row["photo_timeinterval"] for row in rows} == {"-1"}
+    first, last = on.index(4.0), len(on) - 1 - on[::-1].index(4.0)
+    assert set(on[first : last + 1]) == {4.0}
+    assert set(on[:first] + on[last + 1 :]) == {-1.0}
+    # From where the drone begins to go East to the last point before it is 40 m on.
+    assert float(rows[last + 1]["longitude"]) == max(float(row["longitude"]) for row in rows)
+    assert all(row[f"actiontype{n}"] in ("-1", "0") for row in rows for n in range(1, 16))
+    assert "(shot half, t = " in emission.notes[0]
+
+
+@pytest.mark.slow
+def test_a_shot_that_stands_is_filmed_by_formats_that_tell_intervals_of_legs() -> None:
+    low, high = (0.0, -60.0, 0.0, 1.5, 0.0), (0.0, -60.0, 20.0, 1.5, 0.0)
+    back = (30.0, -60.0, 20.0, 1.5, 0.0)
+    moves: list[Move] = [
+        ("takeoff", None, 8.0, high),
+        ("shot", "half", 6.0, high),
+        ("return", None, 9.0, back),
+    ]
+    emission = LITCHI.emit(
+        plan(flight(moves, pad=low), mission=mission(Photos(seconds=2.0)), autopilot="dji-fly")
+    )
+    assert [d.code for d in emission.diagnostics] == ["E124"]
 
 
 TEXT = """\
