@@ -5,6 +5,23 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+LAYERS = ("layers", "layers deep m", "layers seen m", "layers aside m")
+
+
+def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
+    """Yield how deep pictures in layers are, and what a seat off the axis sees of it; stats : of passes."""
+    known = dict(stats)
+    for name in known:
+        picture = re.fullmatch(r"goals (.+)/(\d+) layers", name)
+        if picture:
+            at = name.removesuffix("layers")
+            count, deep, seen, aside = (float(known[at + key]) for key in LAYERS)
+            where = f"picture {picture[2]} of {picture[1]}"
+            yield (
+                f"{where} is {deep:.2f} m deep, in {count:.0f} layers: its lights may look {seen:.2f} m "
+                f"apart, and from 20 m beside the axis the last layer looks {aside:.2f} m aside"
+            )
+
 
 def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
     """Yield how many moves of each fleet are on arcs, and which pictures are lattices; stats : of passes."""

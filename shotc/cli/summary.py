@@ -10,7 +10,7 @@ from textwrap import wrap
 from shotc.cli.centred import centred
 from shotc.cli.console import clock, table
 from shotc.cli.exposed import exposed
-from shotc.cli.show_facts import dense
+from shotc.cli.show_facts import dense, layered
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
 from shotc.ir.fleet import FleetTrajectory
@@ -124,7 +124,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("turns", text) for text in _turns(plan)]
     facts += exposed(plan)
     facts += [("smoothed", text) for text in _smoothed(mission)]
-    facts += [("shows", text) for text in dense(plan.trajectory.stats)]
+    facts += [("shows", text) for text in (*dense(plan.trajectory.stats), *layered(plan.trajectory.stats))]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]
 

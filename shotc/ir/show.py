@@ -145,6 +145,7 @@ class Picture(NamedTuple):
     color : of every light; None where the file says, white where it does not
     transition : seconds to it from the picture before it, None for as fast as the pace allows
     hold : seconds that its last frame stands
+    layers : in how many layers, one behind the other, a flat picture stands
     transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
     proved
     """
@@ -156,6 +157,7 @@ class Picture(NamedTuple):
     hold: float
     path: KeyPath
     transition_path: Literal["auto", "straight", "arc"] = "auto"
+    layers: int = 1
 
 
 class Display(NamedTuple):

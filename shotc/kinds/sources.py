@@ -34,9 +34,13 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
         note = "only `text`, `svg` and `cube` have edges to stand on"
         help_ = "write `fill: surface`, or remove it"
         return Diagnostic("D009", "this picture has no outline", (label,), (note,), help_)
+    if spec.layers > 1 and not isinstance(source, Lettering | Drawing):
+        label = scene.origins.value((*path, "layers"))
+        note = "only `text` and `svg` are flat"
+        return Diagnostic("D026", "this picture has no layers", (label,), (note,), "remove `layers`")
     fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
     change = spec.transition or TransitionSpec()
-    return Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path)
+    return Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

@@ -243,7 +243,7 @@ CODES: tuple[CodeInfo, ...] = (
         "does. Drones for which there is no room stay dark, which `plan` tells (D062); here more than 95 % would. "
         "Make the shape larger, take fewer drones, or a smaller separation.",
         _PASSING,
-        ("radius: 15", "radius: 40 cm"),
+        ("radius: 15", "radius: 10 cm"),
     ),
     slip(
         "D019",
@@ -320,6 +320,15 @@ CODES: tuple[CodeInfo, ...] = (
         "",
         "",
         "other",
+    ),
+    slip(
+        "D026",
+        "no-layers",
+        "layers are asked of a picture that is not flat",
+        "`layers` puts a text or a drawing into several sheets, one behind the other, whose lights stand in each other's "
+        "gaps as the audience sees them. Balls, cubes, rings and models have a depth of their own, which `fill` uses.",
+        _PASSING,
+        ("transition: 12, hold: 4, fill: surface}", "transition: 12, hold: 4, fill: surface, layers: 2}"),
     ),
     *pictures.CODES,
     *flights.CODES,

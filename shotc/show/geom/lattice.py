@@ -40,10 +40,11 @@ class Mould(NamedTuple):
 
 def lattice(low: Array, high: Array, step: float, upright: bool) -> Array:
     """Return the points of a lattice of a step in a box given by two corners of shape (D,), shape (K, D)."""
-    square = upright and len(low) == 2
-    wide, tall = step, step * (1.0 if square else sqrt(3.0) / 2.0)
+    if len(low) == 2:
+        return rows_of(low, high, step, upright)
+    wide, tall = step, step * sqrt(3.0) / 2.0
     deep = step * (1.0 if upright else sqrt(2.0 / 3.0))
-    size = (*(high - low), 0.0)
+    size = high - low
     # Layers lie in the hollows of those below, which comes round after three of them; rows after two.
     k, j, i = np.meshgrid(
         np.arange(floor(size[2] / deep) + 1),
@@ -52,10 +53,23 @@ def lattice(low: Array, high: Array, step: float, upright: bool) -> Array:
         indexing="ij",
     )
     hollow = 0.0 if upright else k % 3
-    x = wide * (i + 0.5 * (0.0 if square else j % 2) + 0.5 * hollow)
+    x = wide * (i + 0.5 * (j % 2) + 0.5 * hollow)
     y = tall * (j + hollow / 3.0)
-    points = np.stack([x, y, deep * k], axis=-1).reshape(-1, 3)[:, : len(low)]
-    return np.asarray(low + points[((points >= 0.0) & (points <= high - low)).all(axis=1)])
+    return _within(low, size, np.stack([x, y, deep * k], axis=-1).reshape(-1, 3))
+
+
+def rows_of(low: Array, high: Array, step: float, square: bool) -> Array:
+    """Return the points of a lattice of squares or hexagons in a rectangle of corners (2,), shape (K, 2)."""
+    tall, size = step * (1.0 if square else sqrt(3.0) / 2.0), high - low
+    j, i = np.meshgrid(
+        np.arange(floor(size[1] / tall) + 1), np.arange(-1, floor(size[0] / step) + 1), indexing="ij"
+    )
+    x = step * (i + (0.0 if square else 0.5 * (j % 2)))
+    return _within(low, size, np.stack([x, tall * j], axis=-1).reshape(-1, 2))
+
+
+def _within(low: Array, size: Array, points: Array) -> Array:
+    return np.asarray(low + points[((points >= 0.0) & (points <= size)).all(axis=1)])
 
 
 def laid(mould: Mould, step: float) -> Array:

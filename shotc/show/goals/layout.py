@@ -18,6 +18,7 @@ from shotc.show.goals.body import Body, Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.faults import no_points, too_few_points, viewpoint_inside
 from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.in_layers import filled_in_layers, in_layers
 from shotc.show.goals.letters import lights_needed
 from shotc.show.goals.lit import LEAST_FLAT, Lit, Strokes, all_lit, lit, on_strokes
 from shotc.show.goals.model import CloudBody, MeshBody
@@ -129,6 +130,8 @@ class _Layouts:
     def legible(self, setting: Setting, *, dark: bool) -> Layout | Diagnostic:
         """Return the goals of all frames; of a text without a ``fill`` where it reads best."""
         fill = self.task.picture.fill
+        if self.task.picture.layers > 1:
+            return self._layered(setting, filled_in_layers(fill))
         if fill != "legible":
             return self._filled(setting, fill, dark=dark)
         inside = self._filled(setting, "volume", dark=dark)
@@ -189,6 +192,18 @@ class _Layouts:
         if not dark:
             return Layout(fill, (), (None,), setting)
         shown = lit(strokes)
+        goals = Placed(shown.points, shown.points[: shown.number], points)
+        return Layout(fill, (goals,), (shown,), setting)
+
+    def _layered(self, setting: Setting, fill: Fill) -> Layout | Diagnostic:
+        """Return a flat picture in layers, one behind the other."""
+        (body,) = self.bodies
+        assert isinstance(body, FlatBody)
+        points = body.draw(fill, LEAST_FLAT, np.random.default_rng(list(self.task.seed)))
+        wrong = _wrong(self.task, setting, body, points)
+        if points is None or wrong is not None:
+            return wrong or no_points(self.task.mission, self.task.picture)
+        shown = in_layers(body, setting, self._draw(fill), self.task.picture.layers)
         goals = Placed(shown.points, shown.points[: shown.number], points)
         return Layout(fill, (goals,), (shown,), setting)
 

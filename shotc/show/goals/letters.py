@@ -53,13 +53,18 @@ def too_few_lights(
     return Diagnostic("D057", message, (place_of(mission, picture),), (note,), help_)
 
 
-def too_small(mission: MissionIR, fleet: Fleet, picture: Picture, setting: Setting) -> Diagnostic | None:
-    """Warn of letters so low that lights of a stroke are as near to the next one as to each other."""
+def too_small(
+    mission: MissionIR, fleet: Fleet, picture: Picture, seen: float, setting: Setting
+) -> Diagnostic | None:
+    """Warn of letters so low that lights of a stroke are as near to the next one as to each other.
+
+    seen : how near lights may look, in the metric of the fleet, metres
+    """
     source = picture.source
     if not isinstance(source, Lettering):
         return None
     share = SMALL if any(letter.islower() for letter in source.text) else 1.0
-    needed = (DOTS - 1) * setting.least / setting.stretch / share
+    needed = (DOTS - 1) * seen / setting.stretch / share
     if source.height >= needed * (1.0 - 1e-9):
         return None
     notes = (apart(setting), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")

@@ -15,6 +15,7 @@ from shotc.ir.show import Lettering, Picture
 from shotc.show.goals.body import Body, SourceFault
 from shotc.show.goals.faults import in_the_way, of_source, too_dark, too_few, too_many
 from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.in_layers import layer_stats, seen_spacing
 from shotc.show.goals.layout import Layout, Task, growth, laid_out
 from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
 from shotc.show.goals.remedies import Remedies, remedies
@@ -48,7 +49,7 @@ def draw_picture(task: Task, setting: Setting) -> Drawn:
         found = _remedies(task, setting, bodies, layout)
         return Drawn((), (too_many(task.mission, task.fleet, task.picture, found, layout.setting),))
     frames = tuple(_frame(task, k, body, layout) for k, body in enumerate(bodies))
-    return Drawn(frames, tuple(_warnings(task, setting, bodies, layout)), _stats(task, layout))
+    return Drawn(frames, tuple(_warnings(task, setting, bodies, layout)), _stats(task, bodies, layout))
 
 
 def _warnings(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layout) -> list[Diagnostic]:
@@ -59,7 +60,7 @@ def _warnings(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layo
         diagnostics.append(
             too_dark(task.mission, task.fleet, task.picture, ways, layout.bright, layout.setting)
         )
-    small = too_small(task.mission, task.fleet, task.picture, setting)
+    small = too_small(task.mission, task.fleet, task.picture, seen_spacing(task.picture, setting), setting)
     if small is not None:
         diagnostics.append(small)
     few = None if diagnostics else _few(task, setting, bodies[0], layout)
@@ -116,10 +117,13 @@ def _colors(picture: Picture, body: Body, goals: Array) -> Colors:
     return np.tile(np.array(picture.color or WHITE, dtype=np.uint8), (len(goals), 1))
 
 
-def _stats(task: Task, layout: Layout) -> tuple[tuple[str, float | str], ...]:
+def _stats(task: Task, bodies: Sequence[Body], layout: Layout) -> tuple[tuple[str, float | str], ...]:
     name = f"goals {task.display.id}/{task.index + 1}"
     flown = [frame for frame in layout.spaced if frame is not None]
     frames = (f"{name} frames", float(len(flown)))
+    flat = bodies[0]
+    if task.picture.layers > 1 and isinstance(flat, FlatBody):
+        return (frames, *layer_stats(name, task.picture, flat, layout.setting))
     if layout.lattice:
         return (frames, (f"{name} lattice", float(layout.bright)))
     if layout.bright < len(flown[0].points):

@@ -182,3 +182,20 @@ def test_letters_too_small_for_the_spacing() -> None:
     assert warning.code == "D063"
     assert "D063" not in codes(mission(text("go", height), "legible", 30))
     assert "D063" not in codes(mission(text("GO", 9.0), "legible", 30))
+
+
+@pytest.mark.parametrize("apart", [APART, Apart("cylinder", 1.2, 2.0, 0.2)])
+def test_layers_show_more_lights_of_which_none_is_beside_a_stroke(apart: Apart) -> None:
+    source = text("LOVE", 14.0)
+    one = mission(source, "volume", 320, apart=apart)
+    drawn = one.mission.displays[0].pictures[0]._replace(layers=3)
+    display_ = one.mission.displays[0]._replace(pictures=(drawn,))
+    three = KeyframeIR(one.mission._replace(displays=(display_,)), ())
+    flat, deep = (placed(ir)[0] for ir in (one, three))
+    assert len(lights(deep)) > 1.4 * len(lights(flat))
+    scaled = deep.points * (1.0, 1.0, stretch(apart))
+    level, up = (pdist(part) for part in (scaled[:, :2], scaled[:, 2:]))
+    size = np.hypot(level, up) if apart.shape == "ellipsoid" else np.maximum(level, up)
+    assert size.min() >= apart.across * (1 - 1e-9)
+    assert len(np.unique(lights(deep)[:, 1].round(6))) == 3
+    assert off_strokes(source, "volume", lights(deep)).max() < 0.25 * straight_spacing(APART)

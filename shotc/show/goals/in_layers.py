@@ -1,0 +1,76 @@
+"""Flat pictures in layers: their goals, and what a seat beside the middle of the audience sees of them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from shotc.ir.show import Picture
+from shotc.show.geom.fit import MOST_DARK_SHARE
+from shotc.show.geom.lattice import Mould
+from shotc.show.geom.layers import Layers, layers_of, widest_layers
+from shotc.show.geom.push_apart import grain
+from shotc.show.goals.body import Fill
+from shotc.show.goals.dark import dark_places
+from shotc.show.goals.flat import FlatBody
+from shotc.show.goals.lit import LEAST_FLAT, SLACK_SHARES, Lit
+from shotc.show.goals.spaced import Draw, Setting
+
+POINTS_EACH = 20
+"""Points of the picture for each place of its layers."""
+ASIDE_M, AWAY_M = 20.0, 100.0
+"""How far off the axis a seat is of which it is told, and how far away it is without a viewpoint, metres."""
+
+
+def in_layers(body: FlatBody, setting: Setting, draw: Draw, count: int) -> Lit:
+    """Return goals in so many layers, as many as find room there, the others dark behind the last of them.
+
+    Dark ones are left out where more than ``MOST_DARK_SHARE`` have no room, or have none behind either.
+    """
+    layers = layers_of(count, setting.upright)
+    scale = np.array([1.0, setting.stretch])
+
+    def mould(number: int) -> Mould:
+        tree = cKDTree(body.flat(draw(max(LEAST_FLAT, number))) * scale)
+        return Mould(tree, SLACK_SHARES[0] * layers.seen * setting.least + grain(tree), setting.upright)
+
+    # Points as dense as the places can be, however many drones there are.
+    first, _ = widest_layers(mould(0), layers, 2**31, setting.least)
+    places, layer = widest_layers(mould(POINTS_EACH * len(first)), layers, setting.number, setting.least)
+    back = (layer - 0.5 * (count - 1)) * layers.depth * setting.least
+    goals = body.standing(places / scale) + back[:, None] * body.axes[1]
+    goals = goals[setting.room.lack(goals) <= 0.0] if len(goals) else goals
+    spare = setting.number - len(goals)
+    if spare == 0 or spare > MOST_DARK_SHARE * setting.number:
+        return Lit(goals, len(goals), True)
+    dark = dark_places(goals, spare, setting, body.axes[1])
+    return Lit(goals if dark is None else np.concatenate([goals, dark]), len(goals), True)
+
+
+def layer_stats(
+    name: str, picture: Picture, body: FlatBody, setting: Setting
+) -> list[tuple[str, float | str]]:
+    """Return how deep a picture is, how near its lights look, and what a seat off the axis sees, metres."""
+    layers: Layers = layers_of(picture.layers, setting.upright)
+    deep = (picture.layers - 1) * layers.depth * setting.least
+    away = AWAY_M if setting.viewpoint is None else float(np.linalg.norm(body.centre - setting.viewpoint))
+    return [
+        (f"{name} layers", float(picture.layers)),
+        (f"{name} layers deep m", deep),
+        (f"{name} layers seen m", layers.seen * setting.least),
+        (f"{name} layers aside m", deep * ASIDE_M / away),
+    ]
+
+
+def filled_in_layers(fill: Fill | Literal["legible"]) -> Fill:
+    """Return what layers fill: the inside of strokes, where nothing else is asked for."""
+    return "volume" if fill == "legible" else fill
+
+
+def seen_spacing(picture: Picture, setting: Setting) -> float:
+    """Return how near lights of a picture may look, in the metric of the fleet, metres."""
+    if picture.layers == 1:
+        return setting.least
+    return setting.least * layers_of(picture.layers, setting.upright).seen

@@ -1,0 +1,68 @@
+"""Lattices and layers: how near their points are, and how many a shape holds, against closed forms."""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+from shotc.show.geom.lattice import Mould, laid, lattice, widest
+from shotc.show.geom.layers import layered, layers_of
+
+DENSITY = {(2, False): 2 / sqrt(3), (2, True): 1.0, (3, False): sqrt(2), (3, True): 2 / sqrt(3)}
+
+
+def nearest(points: Array, *, upright: bool) -> float:
+    """The least distance of two points: of upright cylinders the larger of the level and the upright one."""
+    away = np.abs(points[:, None] - points)
+    level = np.linalg.norm(away[..., :-1], axis=2)
+    size = np.maximum(level, away[..., -1]) if upright else np.linalg.norm(away, axis=2)
+    np.fill_diagonal(size, np.inf)
+    return float(size.min())
+
+
+@pytest.mark.parametrize(("dimensions", "upright"), list(DENSITY))
+def test_a_lattice_is_apart_and_as_dense_as_any(dimensions: int, upright: bool) -> None:
+    size = np.full(dimensions, 40.0 if dimensions == 2 else 20.0)
+    points = lattice(np.zeros(dimensions), size, 0.9, upright)
+    assert nearest(points[:1500], upright=upright) == pytest.approx(0.9)
+    whole = (
+        float(np.prod(size + 0.9)) / 0.9**dimensions
+    )  # each point has a cell, half of it beyond the border
+    assert len(points) == pytest.approx(DENSITY[dimensions, upright] * whole, rel=0.1)
+
+
+@pytest.mark.parametrize("upright", [False, True])
+def test_as_many_places_are_in_a_ball_as_the_closed_form_says(upright: bool) -> None:
+    rng = np.random.default_rng(0)
+    ball = rng.normal(size=(40_000, 3))
+    ball *= 8.0 * rng.random((40_000, 1)) ** (1 / 3) / np.linalg.norm(ball, axis=1)[:, None]
+    mould = Mould(cKDTree(ball), 0.5, upright)
+    held = len(laid(mould, 1.0))
+    assert held == pytest.approx(DENSITY[3, upright] * 4 / 3 * pi * 8.3**3, rel=0.06)
+    few = widest(mould, held // 2, 1.0)
+    assert few is not None
+    assert len(few) == held // 2
+    assert nearest(few, upright=upright) == pytest.approx(2 ** (1 / 3), rel=0.03)
+    assert widest(mould, held + 200, 1.0) is None
+
+
+@pytest.mark.parametrize("upright", [False, True])
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_layers_are_apart_in_space_and_denser_to_the_eye(count: int, upright: bool) -> None:
+    rng = np.random.default_rng(1)
+    mould = Mould(cKDTree(rng.random((40_000, 2)) * 14.0), 0.1, upright)
+    layers = layers_of(count, upright)
+    flat, layer = layered(mould, layers, 1.0)
+    space = np.column_stack([flat[:, 0], layer * layers.depth, flat[:, 1]])
+    assert nearest(space, upright=upright) >= 1.0 - 1e-9
+    assert nearest(flat, upright=False) == pytest.approx(layers.seen)
+    ball = {2: sqrt(0.5), 3: sqrt(1 / 3), 4: 0.5}[count]
+    assert layers.seen == pytest.approx(
+        ball if not upright else {2: sqrt(0.5), 3: sqrt(2) / 3, 4: 0.5}[count]
+    )
+    one = 1.0 if upright or count == 2 else 2 / sqrt(3)
+    assert len(flat) == pytest.approx(count * one * 14.4**2, rel=0.08)
