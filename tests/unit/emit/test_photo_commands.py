@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import xml.etree.ElementTree as ET
+from pathlib import Path
 from zipfile import ZipFile
 
 import pytest
@@ -102,6 +103,17 @@ def test_pilot_2_takes_photos_over_all_points_of_the_shot(photos, trigger, every
         assert sum(local(e) == "Placemark" for e in root.iter()) == count
     # What is read back is the same shot: its picture is judged as that of the film is.
     assert emission.notes[0].split("; films")[0] == film.notes[0].split("; films")[0]
+
+
+@pytest.mark.slow
+def test_a_reader_that_others_wrote_finds_the_intervals_of_litchi(tmp_path: Path) -> None:
+    litchi = pytest.importorskip("litchi_wp.waypoint", reason="litchi-wp is not installed")
+    emission = LITCHI.emit(plan(straight(), mission=mission(Photos(seconds=2.5)), autopilot="dji-fly"))
+    file = tmp_path / "mission.csv"
+    file.write_bytes(emission.artifacts[0].data)
+    read = litchi.Waypoint.from_file(str(file))
+    assert {w.photo.time_interval for w in read} == {2.5, -1}
+    assert {w.photo.distance_interval for w in read} == {-1}
 
 
 @pytest.mark.slow
