@@ -1,0 +1,42 @@
+"""Which way a fleet takes: straight where the spacing proves it, else on arcs, or as the mission says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import Array
+from shotc.ir.show import Apart, Sphere
+from shotc.show.assignment.moves import Mover
+from shotc.show.solvers.arc_move import ArcMove
+from tests.support.display_missions import display, fleet, picture, show
+
+ROUND = Apart("ellipsoid", 1.5, 2.5, 0.0)
+UPRIGHT = Apart("cylinder", 1.5, 2.5, 0.0)
+
+
+def sheet(step: float, z: float) -> Array:
+    return np.array([[step * (k % 6), step * (k // 6), z] for k in range(30)])
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "apart", "path", "arc"),
+    [
+        (3.0, 1.74, ROUND, "auto", False),  # 1 / 3^2 + 1 / 1.74^2 < 1 / 1.5^2
+        (3.0, 1.72, ROUND, "auto", True),
+        (1.5, 1.5, ROUND, "auto", True),
+        (2.0, 1.6, ROUND, "straight", False),
+        (9.0, 9.0, ROUND, "arc", True),
+        (3.0, 3.0, UPRIGHT, "auto", False),  # twice the separation, of cylinders
+        (2.9, 3.0, UPRIGHT, "auto", True),
+    ],
+)
+def test_the_way_is_straight_where_that_is_proved_and_nothing_else_is_asked(
+    before: float, after: float, apart: Apart, path: str, arc: bool
+) -> None:
+    asked = picture(Sphere((0.0, 0.0, 60.0), 5.0))._replace(transition_path=path)  # type: ignore[arg-type]
+    swarm = fleet(30, apart)
+    mover = Mover(show(display(asked), swarm).mission, swarm)
+    move = mover.move(sheet(before, 20.0), sheet(after, 60.0), 1.0, asked)
+    assert isinstance(move, ArcMove) == arc
+    assert not mover.faults
