@@ -50,7 +50,8 @@ def codes() -> str:
         "",
     ]
     for letter, (_, title) in FAMILIES.items():
-        infos = [info for info in registry().values() if info.code.startswith(letter)]
+        of_family = (info for info in registry().values() if info.code.startswith(letter))
+        infos = sorted(of_family, key=lambda info: info.code)
         if infos:
             lines += [
                 f"## {letter}: {title}",

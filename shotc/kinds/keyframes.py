@@ -59,7 +59,7 @@ def _beyond_lens(scene: Scene, lens: LensRange, hfov: float, *path: str | int) -
     if not lens.zooms:
         message = f"the lens of `{name}` is fixed: it shows {widest:.4g} deg and not {degrees(hfov):.4g} deg"
         help_ = (
-            "take `hfov` out and go nearer or farther, or say what lens it has: "
+            "take `hfov` out and go nearer or farther; if the machine carries a lens that zooms, say which: "
             f"`camera: {{zoom: [24 mm, 70 mm]}}` of `{name}`"
         )
         return scene.fault("K018", message, help_, *path, "hfov")

@@ -35,7 +35,9 @@ from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE, ZOOM_RATE
 from shotc.spec.quantities import Percentage, Quantity, Tuple, WattHours
 from shotc.units import SMALLEST
 
-ModelName = Annotated[str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model")]
+ModelName = Annotated[
+    str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model", all_by="shotc list drones")
+]
 
 # A drone that leans or lifts less than the lowest of these can hardly leave its place.
 Tilt = Annotated[float, Quantity("Tilt", "angle", radians(1.0), radians(80.0), noun="tilt")]

@@ -147,24 +147,29 @@ class Hinted(FieldType):
 class NamedOr(FieldType):
     """A name from a table, kept as what the table says, or what ``other`` reads.
 
-    what : the noun for messages about unknown names
+    what : the noun for messages about unknown names; all_by : the command that lists them
     """
 
     def __init__(
-        self, label: str, named: Mapping[str, Any], what: str, other: FieldType | None = None
+        self,
+        label: str,
+        named: Mapping[str, Any],
+        what: str,
+        other: FieldType | None = None,
+        all_by: str = "",
     ) -> None:
         self.label = label
         self.named = named
         self.what = what
         self.other = other
+        self.listed = f" (`{all_by}` shows all)" if all_by else ""
 
     def read(self, value: Any) -> Any:
         """Return the table's entry, or the value as ``other`` reads it."""
         if isinstance(value, str) and (self.other is None or value[:1].isalpha()):
             if value not in self.named:
-                raise fault(
-                    "unknown-value", f"unknown {self.what} `{clip(value)}`", nearest(value, self.named)
-                )
+                help_ = nearest(value, self.named) + self.listed
+                raise fault("unknown-value", f"unknown {self.what} `{clip(value)}`", help_)
             return self.named[value]
         if self.other is None:
             raise fault("wrong-type", f"expected the name of {a(self.what)}, got {describe(value)}")

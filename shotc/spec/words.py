@@ -51,8 +51,22 @@ def closest(word: str, known: Iterable[str]) -> str | None:
         return slip[0]
     if _MEANT.get(word) in words:
         return _MEANT[word]
+    if part := _in_full(word, words):
+        return part
     close = get_close_matches(word, words, n=1, cutoff=0.6)
     return close[0] if close else next((w for w in words if _alike(word.lower(), w.lower())), None)
+
+
+def _in_full(word: str, words: Collection[str]) -> str | None:
+    """Return a name in lower case, the one of several parts that begins as a word, or the longest in it."""
+    plain = "-".join(word.lower().replace("_", " ").split())
+    names = [name for name in words if "-" in name]
+    if plain in words:
+        return plain
+    begun = [name for name in names if name.startswith(f"{plain}-")]
+    if len(begun) == 1:
+        return begun[0]
+    return max((name for name in names if name in plain), key=len, default=None)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

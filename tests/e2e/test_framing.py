@@ -56,10 +56,10 @@ def pairs(planned: Planned) -> list[tuple[str, str]]:
 
 def test_there_is_a_row_for_every_sample_of_every_subject(plan: Plan, path: Path) -> None:
     planned = plan(path)
-    assert (
-        ",".join(planned.framing.header)
-        == "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered"
-    )
+    columns = "t_s,drone,shot,target,u,v,u_ref,v_ref,size,in_frame,occluded,covered"
+    exposed = ",focus_m,near_m,far_m,motion_blur_px,background_blur_px"
+    optics = any(drone.optics is not None for drone in planned.mission.drones)
+    assert ",".join(planned.framing.header) == columns + (exposed if optics else "")
     assert set(pairs(planned)) == {
         (shot.id, name)
         for shot in planned.mission.shots

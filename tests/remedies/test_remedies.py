@@ -30,7 +30,7 @@ TOLD_IN_WORDS = {
     **dict.fromkeys(("K005", "D021"), "what to drop is the author's choice"),
     **dict.fromkeys(("K009", "M003"), "how long a shot lasts is the author's choice"),
     "M036": "how a subject appears at first is the author's choice",
-    **dict.fromkeys(("K015", "M030", "M034"), "it asks whether what is written is meant"),
+    **dict.fromkeys(("K015", "K022", "M030", "M034"), "it asks whether what is written is meant"),
     **dict.fromkeys(("K016", "K019", "M002"), "it needs a name or another kind with keys of its own"),
     **dict.fromkeys(
         ("D011", "D012", "D013", "D024"),

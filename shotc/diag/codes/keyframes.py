@@ -227,6 +227,18 @@ CODES: tuple[CodeInfo, ...] = (
         ("from: target, offset", "from: tower, offset"),
     ),
     _code(
+        22,
+        "lens-not-of-the-model",
+        "a drone is given a lens that the camera built into its model has not",
+        "`camera` overrides what the `model` says, and is taken at its word. A model whose camera is built in has one field of view; a lens "
+        "that zooms, or a wider one, is most likely none that it carries, and what is framed with it is not in the film. A narrower one is "
+        "not told: most of these cameras crop.",
+        (
+            "{model: x500, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min,\n    camera: {zoom",
+            "{model: pro, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min,\n    camera: {zoom",
+        ),
+    )._replace(severity=Severity.WARNING),
+    _code(
         21,
         "focus-without-aperture",
         "a shot focuses on a target with a camera whose aperture is not known",

@@ -28,9 +28,11 @@ ZOOM_LEAST = np.radians(0.1)
 PROMISED = "E122"  # of a zoom that is not carried where framing is promised
 COMMANDED = ("px4", "ardupilot", "pilot-2")  # machines whose files zoom a lens that is known to
 UNKNOWN_LENS = (
-    "say what the camera carries, as `camera: {zoom: [24 mm, 70 mm]}`, zoom by hand, or film the shot with"
-    " one field of view"
+    "say what the camera carries, as `camera: {zoom: [24 mm, 70 mm]}`, or film the shot with the field of"
+    " view of the drone"
 )
+OTHER_LENS = "film the shot with the field of view of the drone, or zoom by hand"
+UNPROMISED = ", and take its `require` out: no file can promise what a hand does"
 TURN_LEAST = np.radians(1.0)  # of a camera on a drone that stands
 FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
 """What the files of an emitter are called."""
@@ -147,9 +149,7 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
                     f" the picture is up to {at_least(off, 3)} half frames off",
                     *(["the shot promises its framing with `require`"] if promised else []),
                 ),
-                UNKNOWN_LENS
-                if unknown
-                else "zoom by hand, or film the shot with the field of view of the lens",
+                UNKNOWN_LENS if unknown else OTHER_LENS + (UNPROMISED if promised else ""),
             )
         )
     return out
@@ -293,8 +293,9 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     aperture, shutter = drone.optics.aperture, drone.optics.shutter
     parts = [] if aperture is None else [f"aperture f/{aperture:g}"]
     parts += [] if shutter is None else [f"shutter {exposure(shutter)}"]
-    parts += [] if focuses or aperture is None else ["focus, or its tracking"]
-    return [f"{drone.autopilot} {drone.name}: set by hand {', '.join(parts)}"]
+    parts += [] if focuses or aperture is None else ["focus"]
+    told = "set on the camera, for no file does"
+    return [f"{drone.autopilot} {drone.name}: {told}: {', '.join(parts)}"]
 
 
 def filmed_instead(

@@ -100,14 +100,24 @@ def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
         over,
         f"target `{keyframe.target}` is cropped by `{keyframe.composition.name}`",
         (f"it reaches {over:.2f} m out of the frame, {_range(setting)}",),
-        lambda _mission, _shot: f"turn the camera towards it, move away, or {_wider(setting, aim)}",
+        lambda mission, shot: ", or ".join(
+            ["turn the camera towards it", "move away", *_wider(setting, aim, _widest(mission, shot))]
+        ),
     )
 
 
-def _wider(setting: Setting, aim: Vec2) -> str:
-    """Say how wide a lens shows the target whole to a camera that looks as it does."""
-    wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH_M, setting.hfov, WIDEST)
-    return "widen `hfov`" if wide is None else f"widen `hfov` to {at_least(degrees(wide), 1)} deg"
+def _wider(setting: Setting, aim: Vec2, widest: float) -> list[str]:
+    """Say how wide a lens shows the target whole to a camera that looks as it does, if it may be."""
+    if setting.hfov >= widest:
+        return []
+    wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH_M, setting.hfov, widest)
+    return ["widen `hfov`" if wide is None else f"widen `hfov` to {at_least(degrees(wide), 1)} deg"]
+
+
+def _widest(mission: MissionIR, shot: Shot) -> float:
+    """Return the widest field of view that the drone of a shot may have, rad."""
+    lens = mission.drone(shot.drone).lens
+    return WIDEST if lens is None else lens.widest
 
 
 def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
@@ -166,7 +176,9 @@ def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: S
     composition = keyframe.composition
 
     def options(fits: Fits) -> str:
-        return _options(farther(mission, shot, keyframe, setting, fits), setting, fits)
+        return _options(
+            farther(mission, shot, keyframe, setting, fits), setting, fits, _widest(mission, shot)
+        )
 
     return (
         options(lambda s: has_candidate(s, composition))
@@ -175,10 +187,10 @@ def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: S
     )
 
 
-def _options(distance: str, setting: Setting, fits: Fits) -> str:
+def _options(distance: str, setting: Setting, fits: Fits, widest: float) -> str:
     wide = None
-    if setting.hfov < WIDEST:
-        wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, WIDEST)
+    if setting.hfov < widest:
+        wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, widest)
     options = [distance]
     if wide is not None:
         options.append(f"widen `hfov` to {at_least(degrees(wide), 1)} deg")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import cos, isclose, sin
+from math import cos, degrees, isclose, sin, tan
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
@@ -36,6 +36,7 @@ Put = Callable[[Spot | Geodetic], Vec3]
 LEAST_AREA = 1e-4  # m^2
 BURIED = 0.25  # share of a target's height under the ground that is no rounding of its place
 BEYOND = 2.0  # times a preset's figure; presets stay at half of what makers publish, or more
+WIDER = 1.02  # times as wide as the picture of a model, from which a lens counts as another
 _PUBLISHED = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2"}
 LEAST_SPEED = 0.1  # m/s that the wind has to leave
 
@@ -134,6 +135,7 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
         resolved = resolve_drone(name, drone, put, wind, density)
         faults += becalmed("drone", resolved, wind.speed, origins)
         faults += beyond_model("drone", drone, resolved.path, origins)
+        faults += another_lens(drone, resolved, origins)
         found[name] = resolved
     return found, faults
 
@@ -244,6 +246,29 @@ def beyond_model(
         )
         for key, (limit, usual) in given.items()
         if limit is not None and limit > BEYOND * usual * (1 + 1e-9)
+    ]
+
+
+def another_lens(spec: DroneSpec, drone: Drone, origins: OriginMap) -> list[Diagnostic]:
+    """Warn of a lens that the camera built into the drone's model has not: one that zooms, or a wider one."""
+    preset, lens = PRESETS[spec.model], drone.lens
+    if not preset.fixed_lens or lens is None:
+        return []
+    wider = tan(lens.widest / 2) > WIDER * tan(preset.hfov / 2)
+    if not (lens.zooms or wider):
+        return []
+    shown = f"shows {degrees(lens.widest):.4g} deg"
+    if lens.zooms:
+        shown = f"zooms from {degrees(lens.widest):.4g} to {degrees(lens.longest):.4g} deg"
+    return [
+        Diagnostic(
+            "K022",
+            f"the lens that is written for `{drone.name}` is not the one of its model",
+            (origins.key((*drone.path, "camera")), origins.value((*drone.path, "model"), "the model")),
+            (f"it {shown}; `{spec.model}` has a camera built in that shows {degrees(preset.hfov):.4g} deg",),
+            "take the lens out of `camera`, unless the machine carries it: what is framed with it is not in"
+            " the film of another one",
+        )
     ]
 
 
