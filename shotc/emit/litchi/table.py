@@ -84,9 +84,16 @@ def _row(point: Waypoint, photos: Photos | None) -> list[str]:
         *(str(number) for pair in actions[:ACTIONS_MOST] for number in pair),
         "0",
         f"{point.speed:.2f}",
-        *("0", "0", "0", "0"),
+        *_focus(point.watched),
         *(f"{-1.0 if number is None else number:g}" for number in every),
     ]
+
+
+def _focus(watched: Place | None) -> tuple[str, ...]:
+    """Return the point of interest of a row, whose height counts from take-off; 0 where there is none."""
+    if watched is None:
+        return ("0", "0", "0", "0")
+    return (f"{watched.lat:.9f}", f"{watched.lon:.9f}", f"{watched.alt:.2f}", "0")
 
 
 def _interval(row: dict[str, str]) -> Photos | None:
@@ -107,6 +114,7 @@ def _pairs(action: Action) -> list[tuple[int, int]]:
 
 def _waypoint(row: dict[str, str]) -> Waypoint:
     heading = float(row["heading(deg)"])
+    lat, lon, alt = (float(row[f"poi_{name}"]) for name in ("latitude", "longitude", "altitude(m)"))
     pairs = [(int(row[f"actiontype{n}"]), int(row[f"actionparam{n}"])) for n in range(1, ACTIONS_MOST + 1)]
     return Waypoint(
         Place(float(row["latitude"]), float(row["longitude"]), float(row["altitude(m)"])),
@@ -116,6 +124,7 @@ def _waypoint(row: dict[str, str]) -> Waypoint:
         stops=False,
         actions=tuple(_action(kind, value) for kind, value in pairs if kind != NONE),
         curve=float(row["curvesize(m)"]),
+        watched=None if lat == lon == 0.0 else Place(lat, lon, alt),
     )
 
 

@@ -19,10 +19,11 @@ from shotc.emit.waypoints import report
 from shotc.emit.waypoints.choose import Chooser, chooser_of
 from shotc.emit.waypoints.clearance import Obstacle, bounds, owner_of, shortfall
 from shotc.emit.waypoints.compare import Error, ShotError, compare
-from shotc.emit.waypoints.geo import Geo, tie
+from shotc.emit.waypoints.geo import Geo, Place, tie
 from shotc.emit.waypoints.link import link_notes, return_height
 from shotc.emit.waypoints.models import TURNINGS, Shape, fly, legs_of
 from shotc.emit.waypoints.route import Action, Route, Waypoint, route_of
+from shotc.emit.waypoints.stations import Station
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import Track, track_of
 from shotc.geom.camera import heading_of
@@ -36,6 +37,7 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 Array = NDArray[np.float64]
 
 CUT_LEAST = 0.05  # metres by which a re-flight may be nearer to anything than the plan is
+STRAIGHT = np.radians(0.05)  # off a target, within which a camera looks at its axis: files have tenths
 SAME_PLACE = 0.1  # metres between points that some machines take for one, and refuse
 ASIDE = 0.15  # metres that one of them moves
 FINE = 160  # samples of a leg, less one, when clearances are judged: one every quarter of a metre at least
@@ -138,8 +140,10 @@ class _Job:
 
     def written(self) -> _Written:
         """Choose the points, write them, and read them back."""
-        route = self.chooser.route(self.chooser.stations())
-        points = _two(waypoints_of(_parted(route), self.geo))
+        stations = self.chooser.stations()
+        points = waypoints_of(_parted(self.chooser.route(stations)), self.geo)
+        watched = self._watched(stations)
+        points = _two([replace(p, watched=at) for p, at in zip(points, watched, strict=True)])
         blocks = split(points, self.form.most)
         if len(blocks) > 1 and self.chooser.photos:
             # What is begun in one file is not gone on with in the next.
@@ -152,6 +156,19 @@ class _Job:
         route = route_of(joined([self.form.read(a.data) for a in artifacts]), self.geo)
         legs = tuple(legs_of(route, s, FINE).position for s in self.form.shapes)
         return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
+
+    def _watched(self, stations: list[Station]) -> list[Place | None]:
+        """Return what stands still and is looked straight at from each station of a shot, all through it."""
+        found: list[Place | None] = [None] * len(stations)
+        for each in (s for s in self.track.stretches if s.shot is not None):
+            inside = [i for i, s in enumerate(stations) if each.first <= s.first and s.last <= each.last]
+            target, at = self.track.subject[each.first : each.last + 1], [stations[i].first for i in inside]
+            east, north, _ = (target[0] - self.track.poses.position[at]).T
+            off = np.angle(np.exp(1j * (np.arctan2(north, east) - self.track.poses.cam_yaw[at])))
+            if np.ptp(target, axis=0).max() < SAME_PLACE and np.abs(off).max(initial=0.0) < STRAIGHT:
+                place = self.geo.places(target[:1])[0]
+                found = [place if i in inside else before for i, before in enumerate(found)]
+        return found
 
     def emission(self, written: _Written) -> Emission:
         """Return the files, unless they come too near to something, and what is to be told of them."""

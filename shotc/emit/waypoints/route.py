@@ -35,6 +35,7 @@ class Waypoint:
     heading : of the camera, degrees clockwise from North in [-180, 180); pitch : degrees, negative looks down
     speed : of the leg that begins here, m/s; stops : whether the drone stands still here
     actions : in their order; curve : metres from here to where a corner is rounded, for machines that do
+    watched : the centre of the target that stands and that the camera looks straight at, if there is one
     """
 
     place: Place
@@ -44,6 +45,7 @@ class Waypoint:
     stops: bool
     actions: tuple[Action, ...] = ()
     curve: float = 0.0
+    watched: Place | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+import pyproj
 import pytest
 
 from shotc.emit.litchi import EMITTER, FORMAT
@@ -13,6 +14,7 @@ from shotc.emit.litchi.table import COLUMNS, read_table, write_table
 from shotc.emit.waypoints.geo import Place
 from shotc.emit.waypoints.machine_files import emit_files
 from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.ir.path import BODY_YAW, CAM_YAW
 from tests.support.film_plans import orbit_plan
 from tests.support.mavlink_flights import retold
 
@@ -41,6 +43,32 @@ def test_what_is_read_is_what_was_written(orbit):
     assert write_table(read_table(data)) == data
     kinds = [a.kind for p in read_table(data) for a in p.actions]
     assert kinds == ["start", "stop"]
+
+
+def test_a_target_that_is_looked_straight_at_is_the_point_of_interest(orbit):
+    plan = orbit_plan()
+    mission = plan.trajectory.keyframes.mission
+    target, home = mission.targets[0], mission.drones[0].home
+    points = read_table(orbit.artifacts[0].data)
+    first, last = (
+        next(i for i, p in enumerate(points) if any(a.kind == kind for a in p.actions))
+        for kind in ("start", "stop")
+    )
+    filmed = points[first : last + 1]
+    assert [p for p in points if p.watched is not None] == filmed
+    for point in filmed:
+        assert point.watched.alt == pytest.approx(target.centre[2] - home[2], abs=0.006)
+        bearing = pyproj.Geod(ellps="WGS84").inv(
+            point.place.lon, point.place.lat, point.watched.lon, point.watched.lat
+        )[0]
+        assert abs((bearing - point.heading + 180.0) % 360.0 - 180.0) < 0.15
+    ctrl = plan.trajectory.drones[0].curve.ctrl.copy()
+    ctrl[..., [CAM_YAW, BODY_YAW]] += 0.1
+    turned = replace(plan.trajectory.drones[0], curve=replace(plan.trajectory.drones[0].curve, ctrl=ctrl))
+    beside = EMITTER.emit(
+        retold(replace(plan, trajectory=replace(plan.trajectory, drones=(turned,))), autopilot="dji-fly")
+    )
+    assert all(p.watched is None for p in read_table(beside.artifacts[0].data))
 
 
 def test_corners_are_rounded_within_half_of_their_legs(orbit):
