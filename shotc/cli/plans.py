@@ -39,7 +39,9 @@ def bytes_of(path: Path, most: int = -1) -> bytes:
             UNREADABLE_FILE,
             f"the file cannot be read: {reason}",
             (Label(path.as_posix(), WHOLE_FILE),),
-            help="give the plan.json that `shotc plan` wrote",
+            help="give the plan.json that `shotc plan` wrote"
+            if path.suffix in ("", ".json")
+            else "see whether its name is right, and whether it may be read",
         )
         console.report([fault], {})
         raise typer.Exit(console.EXIT_REJECTED) from None

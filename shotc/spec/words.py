@@ -38,6 +38,8 @@ _ELSEWHERE = {
     "hfov": "the field of view is the `camera`'s of a drone, or one of `kind: keyframes` at each of them",
     "speed": "how fast is a matter of `pace`, of `timing: {duration: ...}`, or of the drone's `limits`",
     "gimbal": "the gimbal is the drone's",
+    "aperture": "the aperture is the `camera`'s of a drone",
+    "shutter": "the shutter is the `camera`'s of a drone",
     "camera": "the camera is the drone's",
 }
 

@@ -262,7 +262,7 @@ _PHOTO_CODES = (
         _MAVLINK.replace("    target: mast\n", "    target: mast\n    photos: {every: 2 s}\n")
         .replace("x500", "mini")
         .replace("[mavlink]", "[dji]"),
-        _MAVLINK.replace("    target: mast\n", "    target: mast\n    photos: {every: 2 s}\n"),
+        _MAVLINK.replace("x500", "mini").replace("[mavlink]", "[dji]"),
         "plan",
     ),
 )
