@@ -38,7 +38,7 @@ drones:
     home: [0, -60, 0]
     limits: {speed: 36 km/h, yaw_rate: 30 deg/s}
     gimbal: {pitch: [-80 deg, 10 deg]}
-    camera: {sensor: 36 mm, focal_length: 18 mm, aspect: "4:3"}
+    camera: {sensor: 36 mm, focal_length: 25 mm, aspect: "4:3"}
     endurance: 10 min
   cam2: {home: [6, -60, 0]}
 rules: {composition: phi, separation: 4, ground_clearance: 1, target_clearance: 2, pace: calm}
@@ -78,7 +78,7 @@ def test_drones_override_their_presets_and_lose_the_wind(mission: MissionIR) -> 
         preset.limits, speed=pytest.approx(7.0), yaw_rate=pytest.approx(radians(30))
     )
     assert drone.gimbal == replace(preset.gimbal, pitch=pytest.approx((radians(-80), radians(10))))
-    assert degrees(drone.hfov) == pytest.approx(90)
+    assert degrees(drone.hfov) == pytest.approx(71.51, abs=0.01)
     assert drone.aspect == pytest.approx(4 / 3)
     assert (drone.endurance, drone.radius, drone.body) == (600, preset.radius, preset.body)
     other = mission.drone("cam2")
