@@ -127,5 +127,6 @@ def test_no_edit_is_accepted() -> None:
 
 
 @pytest.mark.fuzz
+@pytest.mark.timeout(1800)
 def test_no_edit_of_many_is_accepted() -> None:
     assert [seed for seed in range(FEW, MANY) if not refused(seed)] == []
