@@ -26,7 +26,7 @@ from shotc.passes.verify.ahead import unjudged
 from shotc.passes.verify.energy import ENERGY, J_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
-from shotc.planning.path.shots import TURNS
+from shotc.planning.path.unwrapping import TURNS
 from shotc.rounding import at_least, at_most, away
 
 WIDTH = 100

@@ -23,14 +23,12 @@ from shotc.ir.keyframes import KeyframeIR, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV
 from shotc.ir.phases import UPRIGHT, KeyframeTime, Phase, PhaseName, Reference
-from shotc.ir.sampling import clock, projected
+from shotc.ir.sampling import projected, ticks
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.verify.motion import HFOV_RANGE_RAD
 from shotc.planning.framing.moments import placed_at
 
 NAMES: tuple[PhaseName, ...] = ("takeoff", "transit", "shot", "return", "land")
-LEAST_S = 1e-6
-"""Seconds between two times at which something is wanted, at least."""
 STEP_S = 0.1
 """Seconds between places of a shot at which a keyframe may be met."""
 
@@ -206,7 +204,7 @@ def _framed(
             continue
         line = None
         if a.reference is not None and b.reference is not None:
-            times = _ticks(mission, one.time, other.time)
+            times = ticks(mission.rate, one.time, other.time)
             seen = projected(mission, track, a.target, times)
             first, along = np.array(a.reference), np.subtract(b.reference, a.reference)
             off = np.stack([seen.u, seen.v], axis=1) - first
@@ -217,19 +215,12 @@ def _framed(
 
 def _subjects(mission: MissionIR, placed: PlacedShot, phase: Phase) -> Iterator[Reference]:
     """Yield the subjects of a shot on its own clock, each where the mission wants it at every tick."""
-    times = _ticks(mission, phase.start, phase.end)
+    times = ticks(mission.rate, phase.start, phase.end)
     for subject in placed.subjects:
         wanted = [subject.asked(float(t) - phase.start).place for t in times]
         known = None if subject.reference is None or any(place is None for place in wanted) else wanted
         line = None if known is None else _line(times, np.array(known, dtype=float))
         yield Reference(placed.shot.id, subject.target, phase.start, phase.end, line)
-
-
-def _ticks(mission: MissionIR, start: float, end: float) -> Array:
-    """Return the ticks of the output clock between two times, and both."""
-    ticks = clock(mission.rate, end)
-    inside = ticks[(ticks > start + LEAST_S) & (ticks < end - LEAST_S)]
-    return np.concatenate([[start], inside, [end]])
 
 
 def _line(times: Array, values: Array) -> Piecewise:

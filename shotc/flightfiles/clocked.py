@@ -18,7 +18,7 @@ from math import ceil, log10
 import numpy as np
 
 from shotc.diag.model import Label
-from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 from shotc.geom.geodetic import to_world
 from shotc.geom.proof import norm
 from shotc.importers.flights.rows import PLACE, SHORTEST_S, Rows
@@ -148,10 +148,7 @@ def _first_beyond(breaks: Array, ctrl: Array, pad: Array) -> float:
     if not beyond.any():
         return float(breaks[-1])
     k = int(np.argmax(beyond))
-    share = np.linspace(0.0, 1.0, PARTS + 1)[:, None]
-    points = ctrl[k][None, :, :2]
-    while points.shape[1] > 1:
-        points = (1.0 - share[..., None]) * points[:, :-1] + share[..., None] * points[:, 1:]
-    inside = norm(points[:, 0] - pad[:2]) <= UPRIGHT_M
+    share = np.linspace(0.0, 1.0, PARTS + 1)
+    inside = norm(bernstein_basis(ctrl.shape[1] - 1, share) @ ctrl[k][:, :2] - pad[:2]) <= UPRIGHT_M
     count = max(int(np.argmin(inside)) - 1, 0) if not inside.all() else PARTS
     return float(breaks[k] + (breaks[k + 1] - breaks[k]) * count / PARTS)

@@ -39,14 +39,11 @@ def owners(
 ) -> tuple[tuple[Owned, ...], tuple[Diagnostic, ...]]:
     """Return the drones that have files, in the order of the mission, and what belongs to nobody.
 
-    names : of the files; told : the drone of each, or of none
+    names : of the files; told : the drone of each, as many, or of none
     A file is of the drone that it is named after: ``cam1.kmz``, ``cam1-litchi.csv``, or ``cam1-1.kmz`` and on
     for the parts of one flight. Where the mission has one drone, every file is of that one.
     """
     known = {drone.name: drone for drone in mission.drones}
-    if told and len(told) != len(names):
-        text = f"{len(told)} drones are named for {len(names)} files"
-        return (), (Diagnostic(NOBODY, text, help="give `--drone` once for every file, in their order"),)
     found: dict[str, list[tuple[int, int]]] = {}
     faults: list[Diagnostic] = []
     for i, name in enumerate(names):

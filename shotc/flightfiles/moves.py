@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.flightfiles.clocked import Flown, quantum
-from shotc.geom.bernstein import Array
-from shotc.geom.pieces import Pieces
+from shotc.geom.bernstein import Array, bernstein_basis
+from shotc.geom.pieces import Pieces, join, pieces
 from shotc.geom.proof import norm, sup_convex
 from shotc.importers.flights.rows import ACCELERATION, BODY, Rows
 from shotc.ir.drone import SAME_LENS_RAD, Drone
@@ -42,15 +42,14 @@ class Move(NamedTuple):
     owner: int
 
 
+def bagged(parts: Sequence[Pieces]) -> Bag:
+    """Return the pieces of each of some flights as one bag."""
+    return Bag(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
+
+
 def bag_of(flights: Sequence[Flown]) -> Bag:
     """Return the pieces of all flights."""
-    curves = [flight.curve for flight in flights]
-    pieces = Pieces(
-        np.concatenate([curve.breaks[:-1] for curve in curves]),
-        np.concatenate([curve.breaks[1:] for curve in curves]),
-        np.concatenate([curve.ctrl for curve in curves]),
-    )
-    return Bag(pieces, np.repeat(np.arange(len(curves)), [len(curve.ctrl) for curve in curves]))
+    return bagged([pieces(flight.curve) for flight in flights])
 
 
 def speeds(flights: Sequence[Flown], bag: Bag, limits: Limits, path: KeyPath) -> Iterator[Move]:
@@ -77,10 +76,7 @@ def who(bag: Bag, at: float, value: object, *, upper: bool) -> int:
     inside = (bag.pieces.low <= at + 1e-9) & (bag.pieces.high >= at - 1e-9)
     some = bag.pieces.pick(inside)
     share = np.clip((at - some.low) / np.maximum(some.high - some.low, 1e-12), 0.0, 1.0)
-    ctrl = some.ctrl
-    while ctrl.shape[1] > 1:
-        ctrl = (1.0 - share)[:, None, None] * ctrl[:, :-1] + share[:, None, None] * ctrl[:, 1:]
-    values = value(ctrl[:, 0])
+    values = value(np.einsum("mk,mkd->md", bernstein_basis(some.ctrl.shape[1] - 1, share), some.ctrl))
     return int(bag.owner[inside][int(np.argmax(values) if upper else np.argmin(values))])
 
 
@@ -104,10 +100,10 @@ Peak = tuple[float, float, float]
 def _acceleration(flight: Flown) -> Peak | None:
     rows = flight.rows
     if rows is None:
-        pieces = Pieces(flight.curve.breaks[:-1], flight.curve.breaks[1:], flight.curve.ctrl)
-        size = norm(pieces.derivative().derivative().ctrl).max(axis=1)
-        step = np.maximum(pieces.high - pieces.low, STEEP_STEP_S)
-        return _peak(size, pieces.low, 24 * flight.leeway.place / step**2)
+        whole = pieces(flight.curve)
+        size = norm(whole.derivative().derivative().ctrl).max(axis=1)
+        step = np.maximum(whole.high - whole.low, STEEP_STEP_S)
+        return _peak(size, whole.low, 24 * flight.leeway.place / step**2)
     if rows.velocity is None:
         return None
     peak = _mean(rows.velocity, rows.time, _rounding(rows, "vx_m_s", "vy_m_s", "vz_m_s"))

@@ -10,7 +10,7 @@ import numpy as np
 
 from shotc.flightfiles.clocked import Flown, leaves
 from shotc.flightfiles.judge import Found, to_tolerance
-from shotc.flightfiles.moves import Bag, Move, accelerations, bag_of, beyond, speeds, who
+from shotc.flightfiles.moves import Bag, Move, accelerations, bag_of, bagged, beyond, speeds, who
 from shotc.geom.bernstein import Array
 from shotc.geom.meetings import closest_of
 from shotc.geom.pieces import Pieces, cut, join
@@ -56,11 +56,7 @@ class Swarm:
             up, down = leaves(flight.curve, pad, pads)
             free.append(cut(curve, up, down))
             upright.append(join([cut(curve, curve.start, up), cut(curve, down, curve.end)]))
-        return Swarm(mission, fleet, flights, bag_of(flights), _bag(free), _bag(upright), pads)
-
-
-def _bag(parts: Sequence[Pieces]) -> Bag:
-    return Bag(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
+        return Swarm(mission, fleet, flights, bag_of(flights), bagged(free), bagged(upright), pads)
 
 
 def judged(swarm: Swarm) -> Iterator[Found]:

@@ -17,7 +17,8 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import restrict
-from shotc.geom.nearest_pair import Bag, Index, NearestPair, size_of
+from shotc.geom.nearest_pair import Bag, Index, NearestPair
+from shotc.geom.proof import norm
 from shotc.geom.separation import Nearest
 
 SLAB_S = 0.5
@@ -78,7 +79,7 @@ class _Slabs:
     def apart(self, pairs: Index, slab: Index) -> Array:
         """Return how far the balls of pairs are apart, (M,)."""
         one, other = pairs[:, 0], pairs[:, 1]
-        away = size_of(self.centre[one, slab] - self.centre[other, slab])
+        away = norm(self.centre[one, slab] - self.centre[other, slab])
         return np.asarray(away - self.radius[one, slab] - self.radius[other, slab])
 
     def bag(self, pairs: Index, slab: Index) -> Bag:
@@ -125,7 +126,7 @@ def _slabs(flights: Sequence[Piecewise]) -> _Slabs:
         low.append(np.minimum.reduceat(own.min(axis=1), k))
         high.append(np.maximum.reduceat(own.max(axis=1), k))
     least, most = np.stack(low), np.stack(high)
-    return _Slabs(common, cut, at, 0.5 * (least + most), 0.5 * size_of(most - least))
+    return _Slabs(common, cut, at, 0.5 * (least + most), 0.5 * norm(most - least))
 
 
 def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array, split_half
+from shotc.geom.proof import norm
 
 Index = NDArray[np.intp]
 
@@ -88,8 +89,8 @@ class NearestPair:
     def size(self, relative: Array) -> Array:
         """Return how near the drones are whose stretched relative positions are given, shape (M,)."""
         if self.upright:
-            return np.asarray(np.maximum(size_of(relative[:, :2]), np.abs(relative[:, 2])))
-        return size_of(relative)
+            return np.asarray(np.maximum(norm(relative[:, :2]), np.abs(relative[:, 2])))
+        return norm(relative)
 
     def least(self, ctrl: Array) -> Array:
         """Return lower bounds of ``size`` along cubics, from planes across their middles."""
@@ -118,12 +119,7 @@ def midway(ctrl: Array) -> Array:
 
 def least_along(ctrl: Array, towards: Array) -> Array:
     """Return how far control points (M, 4, D) are at least along directions (M, D), 0 where there is none."""
-    size = size_of(towards)
+    size = norm(towards)
     along = np.einsum("mkd,md->km", ctrl, towards)
     least = np.minimum(np.minimum(along[0], along[1]), np.minimum(along[2], along[3]))
     return np.asarray(least / np.where(size > 0.0, size, 1.0))
-
-
-def size_of(vectors: Array) -> Array:
-    """Return the Euclidean norm (...) of vectors (..., D)."""
-    return np.asarray(np.sqrt(np.einsum("...d,...d->...", vectors, vectors)))

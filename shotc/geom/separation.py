@@ -22,7 +22,8 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import pieces
-from shotc.geom.nearest_pair import Bag, Index, NearestPair, joined, midway, size_of
+from shotc.geom.nearest_pair import Bag, Index, NearestPair, joined, midway
+from shotc.geom.proof import norm
 
 REACH_SHARE = 0.4
 """Largest radius of a drone's ball in a slab, as a share of the horizontal distance that is to be kept."""
@@ -175,7 +176,7 @@ class _Search(NearestPair):
         for at in range(0, len(candidates), BLOCK_PAIRS):
             pairs = candidates[at : at + BLOCK_PAIRS]
             first, second = pairs[:, 0], pairs[:, 1] + skip
-            near = size_of(centre[first] - centre[second]) - radius[first] - radius[second] < far
+            near = norm(centre[first] - centre[second]) - radius[first] - radius[second] < far
             relative = ctrl[first[near]] - ctrl[second[near]]
             bag = Bag(pairs[near], np.broadcast_to([low, high], (len(relative), 2)), relative)
             yield bag.pick(self.least(relative) < self.best - self.gap())
@@ -213,5 +214,5 @@ def _balls(ctrl: Array) -> tuple[Array, Array]:
     low = np.minimum(np.minimum(one, two), np.minimum(three, four))
     high = np.maximum(np.maximum(one, two), np.maximum(three, four))
     centre = 0.5 * (low + high)
-    sizes = [size_of(part - centre) for part in (one, two, three, four)]
+    sizes = [norm(part - centre) for part in (one, two, three, four)]
     return centre, np.maximum(np.maximum(sizes[0], sizes[1]), np.maximum(sizes[2], sizes[3]))

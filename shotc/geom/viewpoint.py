@@ -130,10 +130,8 @@ def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
     low, high = 0.0, wanted.shape.radius + wanted.shape.height + near + 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if wanted.shape.gap(_times(toward, middle)) < near:
-            low = middle
-        else:
-            high = middle
+        closer = wanted.shape.gap(_times(toward, middle)) < near
+        low, high = (middle, high) if closer else (low, middle)
     return high
 
 
@@ -169,14 +167,13 @@ def stand(wanted: Wanted, lens: Lens, room: Room, azimuth: float, size: float) -
 
     Where the elevation is free it is level, or as little above as the room's floor asks for.
     """
-    if wanted.elevation is not None:
-        toward = direction(azimuth, wanted.elevation)
-        return _times(toward, distance_for(wanted, lens, toward, size))
 
     def at(elevation: float) -> Vec3:
         toward = direction(azimuth, elevation)
         return _times(toward, distance_for(wanted, lens, toward, size))
 
+    if wanted.elevation is not None:
+        return at(wanted.elevation)
     lift = room.floor - wanted.centre[2]
     offset = at(0.0)
     if offset[2] >= lift:

@@ -34,6 +34,13 @@ def clock(rate: float, end: float) -> Array:
     return np.arange(ceil((end - SAME_TIME) * rate) + 1) / rate
 
 
+def ticks(rate: float, start: float, end: float) -> Array:
+    """Return the ticks k / rate between two times, seconds, and both of these."""
+    times = clock(rate, end)
+    inside = times[(times > start + SAME_TIME) & (times < end - SAME_TIME)]
+    return np.concatenate([[start], inside, [end]])
+
+
 def phase_index(phases: tuple[Phase, ...], t: Array) -> NDArray[np.intp]:
     """Return the index of the phase at each time; a boundary belongs to the phase that begins there."""
     starts = np.array([phase.start for phase in phases[1:]])

@@ -23,7 +23,7 @@ FORMAT = Format(
     says_link_lost=True,
     photos=("pilot-2",),
 )
-"""What a focal length means to the machines of DJI Fly is not known, so their files zoom not."""
+"""What a focal length means to the machines of DJI Fly is not known, so their files do not zoom."""
 
 
 COPIED = (

@@ -39,10 +39,9 @@ SHORTEST_S = 1e-4
 class Rows:
     """The rows of one drone, in order of time.
 
-    drone : its name, empty where the table has no such column; first : the line of the first row, from 1
+    drone : its name, empty where the table has no such column; numbers : the lines of its rows, from 1
     time : (N,), s; place : (N, 3), m; velocity : (N, 3), m/s, or None
     columns : places of all columns in a line; lines : the rows as they are
-    digits : significant ones of its places
     """
 
     drone: str

@@ -11,10 +11,11 @@ from shotc.geom.bernstein import Array
 from shotc.ir.measures import measure
 from shotc.ir.path import CAM_YAW, HFOV
 from shotc.ir.phases import Phase
+from shotc.ir.sampling import ticks
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.meeting import filming, put_off
-from shotc.passes.verify.sight import Sight, ticks
+from shotc.passes.verify.sight import Sight
 from shotc.rounding import at_least
 
 BEYOND_DEG = 0.5  # degrees that a camera is turned more than it must
@@ -26,7 +27,7 @@ def kept_out(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
     Another time is no help where the other drone is seen on its pad, too.
     """
     mission, other = sight.mission, sight.other
-    times = ticks(mission, phase)
+    times = ticks(mission.rate, phase.start, phase.end)
     if _pad_is_seen(sight, times, claim):
         yield f"move the home of `{other.drone}`, which is in the picture, too"
     elif other.phases:

@@ -21,7 +21,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
-from shotc.ir.sampling import SAME_TIME, cameras, clock
+from shotc.ir.sampling import cameras, ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, slack
 
@@ -67,7 +67,8 @@ def _claim(flight: Flight, other: Flight, phase: Phase) -> Claim:
         shot=phase.shot,
     )
     sight = Sight(flight.mission, flight.track, other.track)
-    return claim(flight, limit, _worst(sight, ticks(flight.mission, phase), limit.value))
+    times = ticks(flight.mission.rate, phase.start, phase.end)
+    return claim(flight, limit, _worst(sight, times, limit.value))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,13 +93,6 @@ class Sight:
         eyes = cameras(self.mission, self.film, t)
         measured = outside if self.mission.rules.half_angle is None else off_axis
         return measured(eyes, places, self.body.radius)
-
-
-def ticks(mission: MissionIR, phase: Phase) -> Array:
-    """Return the ticks of the output clock within a phase, and both its ends."""
-    times = clock(mission.rate, phase.end)
-    inside = times[(times > phase.start + SAME_TIME) & (times < phase.end - SAME_TIME)]
-    return np.concatenate([[phase.start], inside, [phase.end]])
 
 
 def _worst(sight: Sight, times: Array, limit: float) -> Worst:

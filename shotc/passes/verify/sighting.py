@@ -12,10 +12,11 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies
 from shotc.ir.phases import Phase
 from shotc.ir.preference import MOST_MOVED, Price, given_up, prefers_free_pictures
+from shotc.ir.sampling import ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.kept_out import kept_out
-from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight, ticks
+from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
@@ -91,8 +92,8 @@ def _labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
 
 
 def _notes(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
-    mission, rate = sight.mission, sight.mission.rate
-    times = ticks(mission, phase)
+    rate = sight.mission.rate
+    times = ticks(rate, phase.start, phase.end)
     seen = sight.out(times) < claim.limit - slack(claim.limit)
     worst = phase.start if claim.time is None else claim.time
     if seen.any():

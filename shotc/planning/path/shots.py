@@ -23,17 +23,15 @@ from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, line_b
 from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, Solved, Stretch, solve_stretch
 from shotc.planning.path.seeing import ROUNDS, FilmedCurve, is_led, watched_at, watched_at_keyframes
 from shotc.planning.path.swings import Swing, worst_swing
+from shotc.planning.path.unwrapping import turns_of
 from shotc.planning.timing.deadlines import has_times
 from shotc.planning.timing.estimate import lateness
 from shotc.solvers.conic import Status
-from shotc.solvers.headings import DEFAULT, FLOWN
+from shotc.solvers.headings import DEFAULT
 
 NOTICE_M = 0.1  # metres off a generated keyframe that are worth telling
 PLACES_BETWEEN = 65  # places between two keyframes at which a path is compared with the straight way
 BETWEEN = "what lies between its keyframes"
-TURNS = ".headings"
-"""Of statistics: how the turns of a shot are flown."""
-
 LEFT_M = 0.02  # metres off that belong to a stretch worth telling
 
 
@@ -142,7 +140,7 @@ def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) ->
         deviations=_deviations(space, placed, keyed, SIGHT if line.drawn is not None else BETWEEN),
         cuts=camera.cuts,
         swing=worst_swing(mission, keyed, camera),
-        stats=(*_stats(placed, solved, camera, whole), *_turns(placed, camera, headings)),
+        stats=(*_stats(placed, solved, camera, whole), *turns_of(shot.id, camera.unsolved, headings)),
     )
 
 
@@ -383,14 +381,6 @@ def _bowed(keyed: KeyedPath, points: Array, k: int) -> _Away:
 def _cause(space: FreeSpace, point: Array, otherwise: str) -> str:
     near = breaches(space, point)
     return str(near[0].owner) if near else otherwise
-
-
-def _turns(placed: PlacedShot, camera: CameraLine, headings: str) -> tuple[tuple[str, str], ...]:
-    """Return whether the turns of a shot are flown as a method plans them, where its curves are flown."""
-    if headings not in FLOWN:
-        return ()
-    steady = f"turns steadily in {camera.unsolved} stretches: `{headings}` finds no curve within the limits"
-    return ((placed.shot.id + TURNS, steady if camera.unsolved else f"as `{headings}` plans them"),)
 
 
 def _stats(

@@ -28,6 +28,8 @@ from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns
 EASE_RATIO = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
 SLOWER = (1.0, 1.5, 2.0, 3.0)  # times that time, where a curve that is to be flown needs more
 LONGEST_KEYFRAMES = 24  # keyframes that are decided together
+TURNS = ".headings"
+"""Of statistics: how the turns of a shot are flown."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,3 +157,14 @@ def _shortest(turn: Array, how: Turning) -> Array:
     full = how.rate**2 / how.acceleration
     short = 2 * np.sqrt(turn / how.acceleration)
     return np.asarray(np.where(turn < full, short, turn / how.rate + how.rate / how.acceleration))
+
+
+def turns_of(shot: str, unsolved: int, method: str) -> tuple[tuple[str, str], ...]:
+    """Return whether the turns of a shot are flown as a method plans them, where its curves are flown.
+
+    unsolved : stretches whose curve the method did not find
+    """
+    if method not in FLOWN:
+        return ()
+    steady = f"turns steadily in {unsolved} stretches: `{method}` finds no curve within the limits"
+    return ((shot + TURNS, steady if unsolved else f"as `{method}` plans them"),)

@@ -22,7 +22,7 @@ from shotc.planning.timing.grid import (
 )
 from shotc.planning.timing.limits import Axis, Ceiling, axes
 from shotc.planning.timing.profile import Profile, profile_of
-from shotc.planning.timing.straight import Bounds, bounds_along, rate_of_line
+from shotc.planning.timing.straight import bounds_along, rate_of_line
 from shotc.solvers.conic import Status
 from shotc.solvers.retiming_socp import (
     Iterate,
@@ -103,7 +103,10 @@ def time_move(
     rate = None if inside else rate_of_line(path, span)
     bounds = None if rate is None else bounds_along(rate, limits)
     if bounds is not None:
-        return _straight(path, span, ceiling, bounds)
+        profile, flown = on_path(path, bounds.profile(*span), ceiling)
+        quickest = bounds._replace(jerk=np.inf).rest_to_rest(span[1] - span[0])
+        scale = max(1.0, float(needed_scale(usages(flown, limits)).max()))
+        return Move(path, profile, flown, quickest, scale, 0, len(flown.ctrl)).stretched(scale)
     samples, start, topp_time = _opening(path, span, limits, through)
     first = samples, start
     steps, best, last = 0, None, np.inf
@@ -133,14 +136,6 @@ def time_move(
     cells = len(best.flown.ctrl)
     move = Move(path, best.profile, best.flown, topp_time, best.slowdown, steps, cells, held)
     return move.stretched(best.slowdown)
-
-
-def _straight(path: Piecewise, span: tuple[float, float], ceiling: Ceiling, bounds: Bounds) -> Move:
-    """Return the move along a straight line, which no programme has to find."""
-    profile, flown = on_path(path, bounds.profile(*span), ceiling)
-    scale = max(1.0, float(needed_scale(usages(flown, axes_of(path, span, ceiling))).max()))
-    quickest = bounds._replace(jerk=np.inf).rest_to_rest(span[1] - span[0])
-    return Move(path, profile, flown, quickest, scale, 0, len(flown.ctrl)).stretched(scale)
 
 
 class _Opening(NamedTuple):
