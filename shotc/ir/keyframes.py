@@ -33,6 +33,10 @@ class PlacedKeyframe(NamedTuple):
     path: KeyPath
     turn: float | None = None
 
+    def asks_for_lens(self, own: float) -> bool:
+        """Tell whether its field of view is a wish: the author's, or other than the camera's own, rad."""
+        return self.placed or self.hfov != own
+
 
 class PlacedSubject(NamedTuple):
     """A subject of a shot on its own clock, with the screen position it is to have.

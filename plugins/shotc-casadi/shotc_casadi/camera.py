@@ -11,6 +11,7 @@ from shotc.plugin_api import MovingLeg, Piecewise
 from shotc.plugin_api.refiner import (
     CAM_PITCH,
     CAM_YAW,
+    HFOV,
     Array,
     Drone,
     Fit,
@@ -21,8 +22,9 @@ from shotc.plugin_api.refiner import (
     subdivide,
     within,
 )
+from shotc_casadi.lens import LEAST_SHARE, lens_bounds
 from shotc_casadi.stages import Stages
-from shotc_casadi.symbols import PITCH, YAW
+from shotc_casadi.symbols import LENS, PITCH, YAW
 
 STIFF = 1e-12  # weight of smoothness against the nodes, both without dimension by the spacing of keyframes
 NODES_A_PIECE = 1.5
@@ -36,40 +38,57 @@ class Given(NamedTuple):
     """Places on the path where the camera's angles bind, both ends among them, and others where slopes do.
 
     s : path parameter, shape (K,); angles : yaw and pitch, shape (K, 2)
-    through : path parameter, shape (L,); slopes : x, y, z, yaw, pitch by path parameter there, shape (L, 5)
+    through : path parameter, shape (L,); slopes : x, y, z, yaw, pitch by path parameter there, and the field
+        of view where the lens zooms, shape (L, 5) or (L, 6)
     """
 
     s: Array
     angles: Array
     through: Array = np.zeros(0)
-    slopes: Array = np.zeros((0, 5))
+    slopes: Array = np.zeros((0, 6))
 
 
 def camera(drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: Given) -> Piecewise:
     """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline through the changes.
 
-    states : shape (N + 1, 16) as in symbols
-    given : is met exactly; so are the positions that bind
+    states : shape (N + 1, 16) or (N + 1, 18) as in symbols
+    given : is met exactly; so are the positions that bind, and the lens there
+    A lens that zooms otherwise than along the convex path is a sixth number, the field of view.
     """
     curve = leg.curve
     assert curve is not None
     breaks = _breaks(curve.breaks, stages)
-    base = restrict(curve.channels(0, 1, 2, CAM_YAW, CAM_PITCH), breaks)
-    change = states[:, [0, 1, 2, YAW, PITCH]] - base(stages.s)
+    rows, bounds = [0, 1, 2, CAM_YAW, CAM_PITCH], {4: drone.gimbal.pitch}
+    columns = [0, 1, 2, YAW, PITCH]
+    if _zooms(states, curve(stages.s)[:, HFOV]):
+        rows, columns = [*rows, HFOV], [*columns, LENS]
+        bounds[5] = lens_bounds(drone, curve.channels(HFOV).ctrl)
+    base = restrict(curve.channels(*rows), breaks)
+    change = states[:, columns] - base(stages.s)
     pinned = stages.s[stages.pins]
-    turned = given.angles - base(given.s)[:, 3:]
-    slopes = given.slopes - base.derivative()(given.through)
-    anchors = [(pinned, np.zeros(len(pinned)))] * 3 + [(given.s, turned[:, k]) for k in (0, 1)]
+    turned = given.angles - base(given.s)[:, 3:5]
+    slopes = given.slopes[:, : len(rows)] - base.derivative()(given.through)
+    still = (pinned, np.zeros(len(pinned)))
+    anchors = [*[still] * 3, *[(given.s, turned[:, k]) for k in (0, 1)], still]
     tasks = [
         replace(_task(breaks, stages, change[:, k], *anchors[k]), slope_at=given.through, slope=slopes[:, k])
-        for k in range(5)
+        for k in range(len(rows))
     ]
-    (low, high), pitch = drone.gimbal.pitch, base.ctrl[:, :, 4]
-    tasks[4] = replace(tasks[4], low=low - pitch, high=high - pitch)
+    for k, (low, high) in bounds.items():
+        tasks[k] = replace(tasks[k], low=low - base.ctrl[:, :, k], high=high - base.ctrl[:, :, k])
     fits = [_fitted(task) for task in tasks]
     ctrl = base.ctrl + spline(breaks, np.column_stack(fits)).ctrl
-    ctrl[:, :, 4] = within(ctrl[:, :, 4], low, high)
+    for k, (low, high) in bounds.items():
+        ctrl[:, :, k] = within(ctrl[:, :, k], low, high)
     return Piecewise(breaks, ctrl)
+
+
+def _zooms(states: Array, given: Array) -> bool:
+    """Tell whether a lens strays from the field of view that it is given, both at the nodes."""
+    if states.shape[1] <= LENS:
+        return False
+    wide, own = np.tan(given / 2), np.tan(states[:, LENS] / 2)
+    return bool(np.abs(np.log(own / wide)).max() > LEAST_SHARE)
 
 
 def _breaks(convex: Array, stages: Stages) -> Array:

@@ -117,9 +117,11 @@ def _costs(d: Derived, stages: int, over: _Horizon) -> tuple[Any, Any]:
 
 
 @lru_cache(maxsize=16)
-def derived(visibility: Visibility, planes: int, extents: int = 0, windy: bool = False) -> Derived:
-    """Return the functions of one stage with that many half-spaces; extents, windy : as in ``stage``."""
-    return differentiated(stage(visibility, planes, extents, windy))
+def derived(
+    visibility: Visibility, planes: int, extents: int = 0, windy: bool = False, zooms: bool = False
+) -> Derived:
+    """Return the functions of one stage with that many half-spaces; the others are as in ``stage``."""
+    return differentiated(stage(visibility, planes, extents, windy, zooms))
 
 
 def differentiated(s: Stage) -> Derived:

@@ -14,7 +14,7 @@ from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
 from shotc_casadi.frames import LEAST_HALF_FRAMES, insides
-from shotc_casadi.references import Subject, fields_of_view, references_at
+from shotc_casadi.references import LENS, Subject, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
 STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
@@ -38,7 +38,8 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
         # What it gains before the first keyframe, or after the last, nobody sees.
         lost = slope if 0 < k < len(s) - 1 else np.minimum(slope, 0.0) if k == 0 else np.maximum(slope, 0.0)
         if np.abs(lost).max() * away[k] > SLIGHT_HALF_FRAMES:
-            unit = np.array([*[away[k]] * 3, half[k], half[k]])
+            # Steps of the field of view, where the camera has one, are shares of it.
+            unit = np.array([*[away[k]] * 3, half[k], half[k], *np.sin(q[k, LENS:])])
             by = _by_pose(subject, float(s[k]), q[k], STEP_SHARE * unit)[touches] / STEP_SHARE
             rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
             found.append(int(k))
@@ -53,7 +54,7 @@ def _along(subject: Subject, camera: Piecewise, s: float, step: float) -> Array:
 
 
 def _by_pose(subject: Subject, s: float, q: Array, steps: Array) -> Array:
-    """Return by how much a target comes inside each edge where a number of a pose takes its step, (4, 5)."""
+    """Return by how much a target comes inside each edge where a number of a pose takes its step, (4, K)."""
     poses = np.concatenate([q + np.diag(steps), q - np.diag(steps)])
     at = np.full(len(poses), s)
     after, before = np.split(insides(subject, references_at(subject, OURS, at), at, poses), 2)

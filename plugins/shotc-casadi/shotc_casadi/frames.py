@@ -39,12 +39,13 @@ MOST_HALF_FRAMES = 0.5  # half frames asked for at most
 def insides(subject: Subject, references: References, s: Array, q: Array) -> Array:
     """Return how far inside each edge of the frame the whole target lies, half frames, shape (M, 4).
 
-    q : camera x, y, z, yaw, pitch at s, shape (M, 5). Order left, right, bottom, top; negative is cropped.
+    q : camera x, y, z, yaw, pitch at s, shape (M, 5), or (M, 6) with its field of view
+    Order left, right, bottom, top; negative is cropped.
     The distance from the frustum's plane (``frustum_margins``, exact), divided by what a half frame is
     at the target's distance. What verification takes for rounding counts as inside.
     """
     offset = (references.centre - q[:, :3]).T
-    wide, tall = fields_of_view(subject, s)
+    wide, tall = fields_of_view(subject, s, q)
     view = View(np.cos(q[:, 3]), np.sin(q[:, 3]), np.cos(q[:, 4]), np.sin(q[:, 4]), wide, tall)
     metres = np.min([frustum_margins(view, *body) for body in _bodies(references, offset)], axis=0)
     away = np.linalg.norm(offset, axis=0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy.interpolate import make_interp_spline
 from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, Array
 from shotc_casadi.conditions import Condition
 from shotc_casadi.due import due
+from shotc_casadi.lens import is_free, lens_guess, lens_parameters, lens_state_bounds
 from shotc_casadi.margins import Margins
 from shotc_casadi.program import Problem
 from shotc_casadi.references import References, Subject, fields_of_view
@@ -67,9 +69,11 @@ def problem(
 ) -> Problem:
     """Return the programme of one shot; walls : shape (N + 1, M, 4)."""
     states, inputs = _guess(subject, stages, references, condition)
-    return Problem(
+    parameters = _parameters(subject, stages, references, walls, margins, states)
+    wind = _wind(subject, stages, margins)
+    made = Problem(
         visibility=condition.visibility,
-        parameters=_parameters(subject, stages, references, walls, margins, states),
+        parameters=np.column_stack([parameters, wind]),
         states=states,
         inputs=inputs,
         state_bounds=_state_bounds(subject, len(stages.s), margins),
@@ -79,6 +83,26 @@ def problem(
         extents=references.extents.shape[1],
         windy=any(subject.drone.limits.wind),
     )
+    if not is_free(subject, condition, stages, references):
+        return made
+    lens = lens_parameters(subject, stages, POSITION_ERROR, PIN, REST)
+    more, moves = lens_guess(subject, stages)
+    low, high = lens_state_bounds(subject, stages, _pace(subject, margins))
+    free = np.full_like(moves, inf)
+    return replace(
+        made,
+        parameters=np.column_stack([parameters, lens, wind]),
+        states=np.column_stack([states, more]),
+        inputs=np.column_stack([inputs, moves]),
+        state_bounds=_beside(made.state_bounds, (low, high)),
+        input_bounds=_beside(made.input_bounds, (-free, free)),
+        zooms=True,
+    )
+
+
+def _beside(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Return bounds with those of more columns beside them."""
+    return np.column_stack([first[0], second[0]]), np.column_stack([first[1], second[1]])
 
 
 def _pace(subject: Subject, margins: Margins) -> float:
@@ -149,12 +173,15 @@ def _parameters(
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
     extents = references.extents
-    columns, windy = [*table, extents.reshape(n + 1, -1), _planes(walls, margins)], any(drone.limits.wind)
-    if windy:
-        columns.append(np.tile(_pace(subject, margins) * np.array(drone.limits.wind), (n + 1, 1)))
-    whole = np.column_stack(columns)
-    assert whole.shape[1] == size(walls.shape[1], extents.shape[1], windy)
+    whole = np.column_stack([*table, extents.reshape(n + 1, -1), _planes(walls, margins)])
+    assert whole.shape[1] == size(walls.shape[1], extents.shape[1])
     return whole
+
+
+def _wind(subject: Subject, stages: Stages, margins: Margins) -> Array:
+    """Return the parameters of air that moves, shape (N + 1, 2), or (N + 1, 0) where it does not."""
+    nodes, wind = len(stages.s), np.array(subject.drone.limits.wind)
+    return np.tile(_pace(subject, margins) * wind, (nodes, 1)) if wind.any() else np.zeros((nodes, 0))
 
 
 def _distance(references: References, reference: Array, stages: Stages) -> Array:

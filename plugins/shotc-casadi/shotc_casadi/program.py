@@ -22,9 +22,9 @@ ROWS = ("speed", "acceleration")
 class Problem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(planes, extents, windy)); extents : how many bodies the target
-        has, 0 of one upright cylinder; windy : whether the air moves
-    states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS)
+    parameters : shape (N + 1, symbols.size(planes, extents, windy, zooms)); extents : how many bodies the
+        target has, 0 of one upright cylinder; windy : whether the air moves; zooms : whether the lens does
+    states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS), each with those of a lens that zooms
     state_bounds, input_bounds : (lower, upper), shapes as states and inputs
     held, driven : upper bounds (or lower, for half-spaces) of the stage's constraints:
         (lower, upper), each of shape (2 + planes,) and (1,)
@@ -40,6 +40,7 @@ class Problem:
     driven: tuple[Array, Array]
     extents: int = 0
     windy: bool = False
+    zooms: bool = False
 
     @property
     def stages(self) -> int:
@@ -63,7 +64,7 @@ def instance(problem: Problem) -> Instance:
     State bounds narrower than NARROW_WIDTH are opened to that about their middle.
     """
     return Instance(
-        kind=derived(problem.visibility, problem.planes, problem.extents, problem.windy),
+        kind=derived(problem.visibility, problem.planes, problem.extents, problem.windy, problem.zooms),
         parameters=problem.parameters,
         states=problem.states,
         inputs=problem.inputs,

@@ -34,6 +34,7 @@ from shotc_casadi.extents import EXTENT, between, count_of, extents_of
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
 
+LENS = 5  # the column of the field of view in a camera of x, y, z, yaw, pitch and that
 AHEAD_M = 1.0  # metres ahead of the camera that a target nobody asked for is put
 
 
@@ -88,7 +89,7 @@ def references_at(subject: Subject, condition: Condition, s: Array) -> Reference
     """Return what a condition wants at path parameters s, shape (N + 1,)."""
     if condition.aims == "framing":
         return _framed(subject, s)
-    keys = _keys(subject)
+    keys = keys_of(subject)
     at = np.array([key_s for key_s, _ in keys])
     angles = _unwrapped([own_angles(subject, k) for _, k in keys], subject.leg.curve(at)[:, CAM_YAW])
     turn = np.column_stack([steady(at, angles[:, i])(s)[:, 0] for i in (0, 1)])
@@ -101,7 +102,7 @@ def references_at(subject: Subject, condition: Condition, s: Array) -> Reference
             for (_, k), a in zip(keys, angles, strict=True)
         ]
     )
-    x, i = _progress(at, s)
+    x, i = progress_at(at, s)
     looked_at = (1 - x) * points[i] + x * points[i + 1]
     aim = _towards(looked_at - _position(subject, s), turn)
     return replace(own, centre=looked_at, aim=aim, framed=np.ones(len(s)))
@@ -119,8 +120,8 @@ def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float
 
 def _framed(subject: Subject, s: Array) -> References:
     made = _unframed(subject, s)
-    keys = _keys(subject)
-    x, i = _progress(np.array([at for at, _ in keys]), s)
+    keys = keys_of(subject)
+    x, i = progress_at(np.array([at for at, _ in keys]), s)
     for k, ((_, a), (_, b)) in enumerate(pairwise(keys)):
         here = i == k
         if a.target is None or b.target is None or a.reference is None or b.reference is None:
@@ -167,7 +168,7 @@ def _bodies(subject: Subject) -> int:
     return count_of([subject.mission.target(name).shape for name in names])
 
 
-def _keys(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
+def keys_of(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
     """Return the keyframes with their places on the path, each place once."""
     keys: list[tuple[float, PlacedKeyframe]] = []
     for mark in subject.leg.marks:
@@ -176,7 +177,7 @@ def _keys(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
     return keys
 
 
-def _progress(at: Array, s: Array) -> tuple[Array, np.ndarray]:
+def progress_at(at: Array, s: Array) -> tuple[Array, np.ndarray]:
     """Return the smooth progress within the interval between keyframes, (N + 1, 1), and which it is."""
     i = np.clip(np.searchsorted(at, s, side="right") - 1, 0, len(at) - 2)
     x = np.clip((s - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0)
@@ -201,7 +202,11 @@ def _position(subject: Subject, s: Array) -> Array:
     return np.asarray(subject.leg.curve(s)[:, :3])
 
 
-def fields_of_view(subject: Subject, s: Array) -> tuple[Array, Array]:
-    """Return tan of half the horizontal and vertical fields of view at s."""
-    half = np.tan(subject.leg.curve(s)[:, HFOV] / 2)
+def fields_of_view(subject: Subject, s: Array, q: Array | None = None) -> tuple[Array, Array]:
+    """Return tan of half the horizontal and vertical fields of view at s.
+
+    q : x, y, z, yaw, pitch of a camera there, and its field of view where that is not the convex path's
+    """
+    own = q is not None and q.shape[1] > LENS
+    half = np.tan((q[:, LENS] if own and q is not None else subject.leg.curve(s)[:, HFOV]) / 2)
     return half, half / subject.drone.aspect

@@ -64,9 +64,8 @@ def deviation(path: PathIR, refined: Refined) -> list[PathDeviation]:
     """Return where a refined shot is farthest from its convex path, if that is worth telling."""
     assert refined.camera is not None
     leg = leg_of(path, refined.shot)
-    away = np.linalg.norm(
-        (refined.camera(refined.nodes.s) - leg.curve(refined.nodes.s)[:, :5])[:, :3], axis=1
-    )
+    s = refined.nodes.s
+    away = np.linalg.norm(refined.camera(s)[:, :3] - leg.curve(s)[:, :3], axis=1)
     k = int(away.argmax())
     if away[k] < NOTICE_M:
         return []

@@ -4,6 +4,8 @@ State (16): position, velocity, acceleration (W, SI); camera yaw with rate and a
 pitch likewise; time. Input (6): jerk; yaw and pitch jerk; the stage's length in seconds. A stage
 stands at a given progress along the reference path, so the length of a stage is how fast the
 progress is made (theta of Gebhardt and Hilliges Eq. 15, with progress as the independent variable).
+Where the lens zooms, two states more are the horizontal field of view and its rate, and an input more is its
+acceleration.
 """
 
 from __future__ import annotations
@@ -23,6 +25,8 @@ WIDTH = STATES + INPUTS
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 YAW, YAW_RATE, YAW_ACCELERATION, PITCH, PITCH_RATE, PITCH_ACCELERATION, TIME = range(9, 16)
 JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5
+LENS, LENS_RATE, LENS_ACCELERATION = 16, 17, 6  # states and input of a lens that zooms
+LENS_STATES, LENS_INPUTS = 2, 1
 
 WIND = 2  # parameters of air that moves
 
@@ -52,7 +56,8 @@ FIELDS = {
     "nominal": 1,
 }
 """The parameters of a stage and their sizes; the target's bodies, where it is no cylinder, and half-spaces
-(normal and offset) follow, and at the end, where the air moves, how fast it does to the East and North.
+(normal and offset) follow, then where the lens zooms LENS_FIELDS, and at the end, where the air moves, how
+fast it does to the East and North.
 
 centre, radius, height : the target's cylinder, W, metres
 place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
@@ -61,6 +66,22 @@ aim : yaw and pitch wanted; state : wanted state
 tangent : unit vector along the reference path
 lag, framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights in the cost
 nominal : 1 / s, one over the stage's length in the first guess
+"""
+
+LENS_FIELDS = {
+    "lens": 1,
+    "spread": 1,
+    "lens_off": 1,
+    "spread_off": 1,
+    "lens_still": 1,
+    "lens_acceleration": 1,
+}
+"""The parameters of a lens that zooms and their sizes.
+
+lens : natural logarithm of the tangent of half the horizontal field of view wanted
+spread : the same plus that of the distance to the target, metres, at which the target has the size wanted
+lens_off, spread_off, lens_still, lens_acceleration : weights of squares: off these two, of the rate and of
+    the acceleration of the field of view
 """
 
 
@@ -96,18 +117,27 @@ class Stage:
         return self.end_cost + self.passing + ca.sumsqr(self.passing_roots)
 
 
-def stage(visibility: Visibility, planes: int, extents: int = 0, windy: bool = False) -> Stage:
+def stage(
+    visibility: Visibility, planes: int, extents: int = 0, windy: bool = False, zooms: bool = False
+) -> Stage:
     """Return a stage with that many half-spaces to stay in, of a target of that many bodies.
 
     extents : 0 where the target is one upright cylinder; windy : whether the air moves
+    zooms : whether the field of view is part of the problem
 
     held is horizontal speed through the air squared, acceleration squared, then the half-spaces' slacks
     (metres); driven is jerk squared.
     """
-    z = ca.SX.sym("z", STATES + INPUTS)
-    p = ca.SX.sym("p", size(planes, extents, windy))
-    x, u = z[:STATES], z[STATES:]
+    states = STATES + LENS_STATES * zooms
+    z = ca.SX.sym("z", states + INPUTS + LENS_INPUTS * zooms)
+    p = ca.SX.sym("p", size(planes, extents, windy, zooms))
+    x, u = z[:states], z[states:]
     given = cut(p, FIELDS)
+    first = size(planes, extents) - 4 * planes
+    if zooms:
+        given |= cut(p[first + 4 * planes :], LENS_FIELDS)
+        half = ca.tan(x[LENS] / 2)
+        given |= {"half_width": half, "half_height": half * given["half_height"] / given["half_width"]}
     position = x[POSITION]
     offset = given["centre"] - position
     distance = ca.sqrt(ca.sumsqr(offset) + 1e-9)
@@ -115,7 +145,7 @@ def stage(visibility: Visibility, planes: int, extents: int = 0, windy: bool = F
     node = (
         given["framing"] * _framing(view, distance, given)
         + given["aiming"] * _aiming(x, given)
-        + ca.dot(given["state_weight"], (x - given["state"]) ** 2)
+        + ca.dot(given["state_weight"], (x[:STATES] - given["state"]) ** 2)
         + given["lag"] * ca.dot(given["tangent"], position - given["state"][POSITION]) ** 2
     )
     if visibility != "none":
@@ -127,7 +157,9 @@ def stage(visibility: Visibility, planes: int, extents: int = 0, windy: bool = F
         + length * given["angular_jerk"] * (u[YAW_JERK] ** 2 + u[PITCH_JERK] ** 2)
         + given["pace"] * (length * given["nominal"] - 1) ** 2
     )
-    first = size(planes, extents) - 4 * planes
+    if zooms:
+        node += _off_lens(x, distance, given)
+        passing += length * given["lens_acceleration"] * u[LENS_ACCELERATION] ** 2
     slack = [
         ca.dot(p[first + 4 * i : first + 4 * i + 3], position) - p[first + 4 * i + 3] for i in range(planes)
     ]
@@ -136,9 +168,10 @@ def stage(visibility: Visibility, planes: int, extents: int = 0, windy: bool = F
     return Stage(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
 
 
-def size(planes: int, extents: int = 0, windy: bool = False) -> int:
+def size(planes: int, extents: int = 0, windy: bool = False, zooms: bool = False) -> int:
     """Return how many parameters a stage has."""
-    return sum(FIELDS.values()) + EXTENT * extents + 4 * planes + WIND * windy
+    lens = sum(LENS_FIELDS.values()) * zooms
+    return sum(FIELDS.values()) + EXTENT * extents + 4 * planes + lens + WIND * windy
 
 
 def cut(p: Any, fields: Mapping[str, int]) -> dict[str, Any]:
@@ -160,7 +193,11 @@ def _following(x: Any, u: Any) -> Any:
     moved = integrated(x[POSITION], x[VELOCITY], x[ACCELERATION], u[JERK])
     yaw = integrated(x[YAW], x[YAW_RATE], x[YAW_ACCELERATION], u[YAW_JERK])
     pitch = integrated(x[PITCH], x[PITCH_RATE], x[PITCH_ACCELERATION], u[PITCH_JERK])
-    return ca.vertcat(*moved, *yaw, *pitch, x[TIME] + h)
+    whole = [*moved, *yaw, *pitch, x[TIME] + h]
+    if x.numel() > STATES:
+        v, a = x[LENS_RATE], u[LENS_ACCELERATION]
+        whole += [x[LENS] + h * (v + h * a / 2), v + h * a]
+    return ca.vertcat(*whole)
 
 
 def _to_camera(d: Any, yaw: Any, pitch: Any) -> tuple[Any, Any, Any]:
@@ -189,6 +226,20 @@ def _framing(view: tuple[Any, Any, Any], distance: Any, given: dict[str, Any]) -
 def _aiming(x: Any, given: dict[str, Any]) -> Any:
     aim = given["aim"]
     return ca.cos(aim[1]) ** 2 * (x[YAW] - aim[0]) ** 2 + (x[PITCH] - aim[1]) ** 2
+
+
+def _off_lens(x: Any, distance: Any, given: dict[str, Any]) -> Any:
+    """Return what a lens pays for another field of view than wanted, and its target for another size.
+
+    Shares, by their logarithms: a lens that is wider by a share shrinks the picture as a camera does that is
+    farther off by that share.
+    """
+    wide = ca.log(given["half_width"])
+    return (
+        given["lens_off"] * (wide - given["lens"]) ** 2
+        + given["spread_off"] * (wide + ca.log(distance) - given["spread"]) ** 2
+        + given["lens_still"] * x[LENS_RATE] ** 2
+    )
 
 
 class _Body(NamedTuple):

@@ -10,16 +10,23 @@ import numpy as np
 import pytest
 from shotc_casadi.clock import symbols as clock
 from shotc_casadi.derivatives import derived, differentiated, laid_out
-from shotc_casadi.symbols import STATES, WIDTH, size, stage
+from shotc_casadi.symbols import LENS, STATES, WIDTH, size, stage
 
 N = 3
-KINDS = [*product(("none", "points", "silhouette", "clock"), (0, 2)), ("beside", 1), ("together", 2)]
+KINDS = [
+    *product(("none", "points", "silhouette", "clock"), (0, 2)),
+    ("beside", 1),
+    ("together", 2),
+    ("zooming", 1),
+]
 CLOCKS = {"clock": (), "beside": (0, 2), "together": (1, 1, 2)}
 
 
 @cache
 def made(kind, planes):
     """A stage of a shot with keyframes, or of one on its own clock, beside ellipsoids or of two subjects."""
+    if kind == "zooming":
+        return stage("silhouette", planes, 0, windy=True, zooms=True)
     return clock.stage(clock.Sizes(planes, *CLOCKS[kind])) if kind in CLOCKS else stage(kind, planes)
 
 
@@ -67,6 +74,8 @@ def point(seed, s, kind):
     states, width, each = sizes(s)
     draw = np.random.default_rng(seed)
     x = draw.normal(0, 1, N * width + states)
+    if kind == "zooming":  # fields of view are above zero
+        x[LENS::width] = draw.uniform(0.3, 1.5, N + 1)
     p = draw.uniform(0.2, 1.5, ((N + 1), each))
     first = 1 if kind in CLOCKS else 0  # after the length of a stage, which is above zero
     p[:, first : first + 3] += draw.normal(0, 3, 3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from shotc_casadi import problem
+from shotc_casadi import lens, problem
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.problem import USUAL_STAGES
 from shotc_casadi.refiner import ANG, FRAMING_ONLY, LOOK_AT, OURS, OURS_4PT
@@ -22,6 +22,8 @@ WEIGHTS = {
     "time": 1.0,
     "pace": problem.PACE,
     "lag": problem.LAG,
+    "lens": problem.POSITION_ERROR,
+    "zoom": lens.ACCELERATION,
     "pins": problem.PIN,
     "rests": problem.REST,
     "due": problem.TIMED,

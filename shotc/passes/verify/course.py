@@ -216,6 +216,8 @@ def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     keyframes, shot = placed.keyframes, placed.shot
     pose = flight.track.curve(t)
     lens = np.abs(pose[:, HFOV] - [k.hfov for k in keyframes])
+    if flight.drone.zooms:
+        lens = np.where([k.asks_for_lens(flight.drone.hfov) for k in keyframes], lens, 0.0)
     yield _largest(flight, ("lens off its keyframes", LENS_RAD, "rad"), shot, (lens, t))
     unframed = np.array([k.reference is None for k in keyframes])
     yaw = wrapped(pose[:, CAM_YAW] - [k.yaw for k in keyframes])

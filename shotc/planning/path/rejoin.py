@@ -25,7 +25,7 @@ def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
     """Return the path with some shots' cameras replaced.
 
     cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2, on
-        breaks that hold those of the leg
+        breaks that hold those of the leg; a sixth channel is the field of view, else the leg's own stays
     Legs whose ends stay the same keep the unfilmed legs around them. Drones on the mission's clock keep the
     time of every leg (see ``in_time``). NoTransit where there is no way to a new end, or none in time;
     ValueError where a curve does not cover its leg.

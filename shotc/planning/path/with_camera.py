@@ -17,6 +17,7 @@ from shotc.planning.path.shots import stack
 from shotc.solvers.conic import Status
 
 SAME_END = 1e-9  # metres or radians
+LENS = 5  # the column of the field of view in a camera that has one
 
 
 class NoTransit(Exception):
@@ -44,18 +45,19 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | No
     old = leg.curve
     if abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
+    lens = old.channels(HFOV)
+    if camera.ctrl.shape[2] > LENS:
+        lens, camera = camera.channels(LENS), camera.channels(*range(LENS))
     kept = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
     if ahead is not None and (turned := _facing(drone, leg, camera, ahead)) is not None:
-        whole = stack(
-            turned.position, turned.camera, turned.body, restrict(old.channels(HFOV), turned.position.breaks)
-        )
+        whole = stack(turned.position, turned.camera, turned.body, restrict(lens, turned.position.breaks))
         return replace(leg, curve=whole)
     body = _body(drone, leg, camera, old) if kept else None
     kept = body is not None
     body = body or _body(drone, leg, camera, None)
     if body is None:
         raise NoTransit("the gimbal's yaw range")
-    curve = stack(camera, body, restrict(old.channels(HFOV), camera.breaks))
+    curve = stack(camera, body, restrict(lens, camera.breaks))
     if kept:
         # Fits are good to 1e-9; joints are to be equal.
         ctrl = curve.ctrl.copy()

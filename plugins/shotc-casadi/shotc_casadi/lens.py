@@ -1,0 +1,117 @@
+"""A lens that zooms, as a part of the problem: what it is to show between keyframes, and its bounds.
+
+Keyframes bind it, as they bind the place. Between two that ask for the same lens, the lens stays as it is
+unless the picture needs another; between two that ask for different ones, the target's size goes from that at
+the first to that at the second as its place on screen does, and the lens follows from the size.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import log
+
+import numpy as np
+
+from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, HFOV, Array, Drone
+from shotc_casadi.conditions import Condition
+from shotc_casadi.frames import insides
+from shotc_casadi.references import References, Subject, keys_of, progress_at
+from shotc_casadi.stages import Stages
+from shotc_casadi.symbols import LENS_FIELDS, LENS_STATES
+
+# Weights of the cost: as in ``problem``, without dimension.
+ACCELERATION = (
+    1e-2  # per squared share of the field of view, gained in the square of the time between two pins
+)
+SAME_SHARE = 1e-9  # of a field of view by which two lenses differ that are one
+LEAST_SHARE = 2e-3  # of a field of view: a lens that strays by less from the one it is given keeps that
+
+
+def is_free(subject: Subject, condition: Condition, stages: Stages, references: References) -> bool:
+    """Tell whether the lens of a shot is part of its problem.
+
+    It is where it zooms, the condition frames targets, keyframes that nobody wrote ask for no lens, and there
+    is something to win: keyframes ask for different ones, or the convex path shows less than nodes ask for.
+    """
+    if condition.aims != "framing" or not subject.drone.zooms:
+        return False
+    if any(not k.placed and k.asks_for_lens(subject.drone.hfov) for k in subject.placed.keyframes):
+        return False
+    pose = subject.leg.curve(stages.s)
+    if _spread(subject, stages.s)[1].any():
+        return True
+    lacks = insides(subject, references, stages.s, pose[:, [0, 1, 2, CAM_YAW, CAM_PITCH]]) < references.inside
+    return condition.visibility != "none" and bool(lacks[references.whole > 0].any())
+
+
+def lens_bounds(drone: Drone, given: Array) -> tuple[float, float]:
+    """Return the least and the largest field of view, rad: those of the lens, and those it is given."""
+    assert drone.lens is not None
+    return min(drone.lens.longest, float(given.min())), max(drone.lens.widest, float(given.max()))
+
+
+def lens_guess(subject: Subject, stages: Stages) -> tuple[Array, Array]:
+    """Return states and inputs of the lens along the convex path, shapes (N + 1, 2) and (N, 1)."""
+    given = subject.leg.curve(stages.s)[:, HFOV]
+    rate = np.gradient(given, stages.t)
+    return np.column_stack([given, rate]), (np.diff(rate) / np.diff(stages.t))[:, None]
+
+
+def lens_state_bounds(subject: Subject, stages: Stages, pace: float) -> tuple[Array, Array]:
+    """Return the bounds of the states of the lens at all nodes; pace : share of its rate that is used."""
+    assert subject.drone.lens is not None
+    low, high = lens_bounds(subject.drone, subject.leg.curve(stages.s)[:, HFOV])
+    rate = pace * subject.drone.lens.rate
+    rows = np.ones((len(stages.s), LENS_STATES))
+    return rows * [low, -rate], rows * [high, rate]
+
+
+def lens_parameters(subject: Subject, stages: Stages, off: float, pin: float, still: float) -> Array:
+    """Return the LENS_FIELDS of all nodes, shape (N + 1, sum of their sizes).
+
+    off, pin, still : weights of a squared share of the field of view, of the same where it binds, and of the
+        rate as a share of the largest where the drone rests
+    """
+    assert subject.drone.lens is not None
+    n, total = len(stages.s) - 1, float(stages.t[-1])
+    given = subject.leg.curve(stages.s)[:, HFOV]
+    lens, each = np.log(np.tan(given / 2)), 1.0 / n
+    spread, sized = _spread(subject, stages.s)
+    lens_off, spread_off = each * off * (1.0 - sized), each * off * sized
+    lens_off[stages.pins] = each * pin
+    rests = np.array([stop.s for stop in subject.leg.stops])
+    at_rest = np.isclose(stages.s[:, None], rests, rtol=1e-9, atol=0.0).any(axis=1)
+    span = total / max(len(stages.pins) - 1, 1)
+    values = {
+        "lens": lens,
+        "spread": spread,
+        "lens_off": lens_off,
+        "spread_off": spread_off,
+        "lens_still": each * still * at_rest / subject.drone.lens.rate**2,
+        "lens_acceleration": ACCELERATION / total * span**4 / np.sin(given) ** 2,
+    }
+    return np.column_stack([values[name] for name in LENS_FIELDS])
+
+
+def _spread(subject: Subject, s: Array) -> tuple[Array, Array]:
+    """Return the logarithm of half the width of the picture at the target, metres, and where that is asked.
+
+    s : path parameters, shape (N + 1,), as of both
+    """
+    keys = keys_of(subject)
+    at = np.array([key_s for key_s, _ in keys])
+    x, i = progress_at(at, s)
+    spread, sized = np.zeros(len(s)), np.zeros(len(s))
+    poses = subject.leg.curve(at)
+    for k, ((_, a), (_, b)) in enumerate(pairwise(keys)):
+        apart = abs(a.hfov - b.hfov) > SAME_SHARE * max(a.hfov, b.hfov)
+        if not apart or a.target is None or a.target != b.target or None in (a.reference, b.reference):
+            continue
+        centre = np.array(subject.mission.target(a.target).centre)
+        first, second = (
+            log(np.linalg.norm(centre - poses[j, :3]) * np.tan(poses[j, HFOV] / 2)) for j in (k, k + 1)
+        )
+        here = i == k
+        spread[here] = first + (second - first) * x[here, 0]
+        sized[here] = 1.0
+    return spread, sized
