@@ -10,6 +10,7 @@ from shotc.geom.solids import Solid
 from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, counted_from, flat
 from shotc.ir.limits import Timing, Vec2, Vec3
+from shotc.ir.music import Music
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.photos import Photos
 from shotc.ir.promise import Promise
@@ -26,7 +27,7 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.terrain import Terrain
 
 ELSEWHERE_IN_PLANS = frozenset(
-    {"origins", "files", "source", "terrain", "meshes", "wind_toward", "rehearsal"}
+    {"origins", "files", "source", "terrain", "meshes", "wind_toward", "rehearsal", "music"}
 )
 """Fields of a mission that a plan does not hold as such: they are made of its text and its files."""
 
@@ -268,6 +269,7 @@ class MissionIR(NamedTuple):
     source : what the mission was lowered from
     wind : its speed, m/s; wind_toward : yaw of the direction in which it blows, rad, None where nobody says
     rehearsal : what rehearsals are asked; no pass reads it
+    music : what a show is flown to, or None
     """
 
     name: str
@@ -292,6 +294,7 @@ class MissionIR(NamedTuple):
     groups: tuple[Target, ...] = ()
     wind_toward: float | None = None
     rehearsal: Rehearsal | None = None
+    music: Music | None = None
 
     @property
     def parked(self) -> tuple[Drone, ...]:

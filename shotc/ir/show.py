@@ -148,6 +148,7 @@ class Picture(NamedTuple):
     layers : in how many layers, one behind the other, a flat picture stands
     transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
     proved
+    at : when it stands on the mission's clock, s, or None where that follows from what is before it
     """
 
     source: Source
@@ -158,6 +159,7 @@ class Picture(NamedTuple):
     path: KeyPath
     transition_path: Literal["auto", "straight", "arc"] = "auto"
     layers: int = 1
+    at: float | None = None
 
 
 class Display(NamedTuple):
@@ -176,6 +178,18 @@ class Display(NamedTuple):
     timing: Timing
     pace: float
     path: KeyPath
+
+    @property
+    def start(self) -> float | None:
+        """When its first picture is to stand on the mission's clock, s, or None where that is open."""
+        at = self.pictures[0].at
+        return self.timing.start if at is None else at
+
+    @property
+    def start_path(self) -> KeyPath:
+        """Where the mission says when it starts."""
+        first = self.pictures[0]
+        return (*self.path, "timing", "start") if first.at is None else (*first.path, "at")
 
 
 def drone_names(fleet: Fleet) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from shotc.ir.mission import (
     Keyframe,
     Subject,
 )
+from shotc.ir.music import Music
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.rules import Rules
 from shotc.ir.target import Target
@@ -110,6 +111,7 @@ class Scene(NamedTuple):
     match : names of the files that a pattern under a key path stands for, 2 before 10, or what is wrong
     pace : of the mission's rules; fleets : their names
     ground : z of the ground at x and y, metres
+    music : of the mission, or None
     """
 
     drone: Drone
@@ -124,6 +126,7 @@ class Scene(NamedTuple):
     pace: float
     fleets: tuple[str, ...] = ()
     ground: GroundHeight = flat
+    music: Music | None = None
 
     def subject(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
         """Return the target called ``name``; ``path``, below the shot, is where the name is written."""

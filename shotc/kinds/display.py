@@ -66,7 +66,7 @@ def expand(shot: DisplayShot, scene: Scene) -> Expansion:
     written: tuple[FilesSpec | PictureSpec, ...] = (frames,) if isinstance(frames, FilesSpec) else frames
     pictures = [picture_of(spec, scene, i) for i, spec in enumerate(written)]
     wrong = [picture for picture in pictures if isinstance(picture, Diagnostic)]
-    faults = [*_unknown_fleet(shot, scene), *_useless(shot, scene), *wrong]
+    faults = [*_unknown_fleet(shot, scene), *_useless(shot, scene), *_twice(shot, scene), *wrong]
     if faults:
         return Expansion.of(faults)
     shown = _display(shot, scene, tuple(p for p in pictures if isinstance(p, Picture)))
@@ -106,6 +106,25 @@ def _useless(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
     if shot.viewpoint_weight is not None and shot.viewpoint is None:
         note = "it weighs the picture from a viewpoint, and the display has none"
         yield _no_such(scene, "viewpoint_weight", note, "add `viewpoint`, or remove it", "viewpoint_weight")
+
+
+def _twice(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
+    """Yield the start that both the timing and the first picture say."""
+    frames = shot.frames
+    if shot.timing.start is None or isinstance(frames, FilesSpec) or frames[0].at is None:
+        return
+    labels = (
+        scene.origins.value((*scene.path, "timing", "start")),
+        scene.origins.value((*scene.path, "frames", 0, "at"), "and here"),
+    )
+    note = "a display starts when its first picture stands"
+    yield Diagnostic(
+        "D125",
+        "the start of this display is said twice",
+        labels,
+        (note,),
+        "remove it, or `at` of the picture",
+    )
 
 
 def _no_such(scene: Scene, key: str, note: str, help: str, *path: str) -> Diagnostic:

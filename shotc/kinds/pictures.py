@@ -19,6 +19,7 @@ from shotc.spec.fields import (
 )
 from shotc.spec.fieldtypes import FieldType, Integer, Text
 from shotc.spec.model import Model, OneOf
+from shotc.spec.music import MomentSpec
 from shotc.spec.quantities import Quantity
 from shotc.spec.shorthand import QuantityModel
 from shotc.units import SMALLEST, describe
@@ -146,6 +147,11 @@ class PictureSpec(Model):
     )
     transition: TransitionSpec | None = Field(
         default=None, description="how drones come to it from the picture before: a time, or more of it"
+    )
+    at: MomentSpec | None = Field(
+        default=None,
+        description="when it stands, seconds, `{beat: 32}` or `{bar: 9}`; the picture before it stands until "
+        "the way to it begins",
     )
     hold: NonNegativeDuration = Field(default=0.0, description="how long its last frame stands")
 

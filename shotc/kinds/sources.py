@@ -6,6 +6,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
 from shotc.kinds.base import Scene
+from shotc.kinds.moments import moment
 from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec, TransitionSpec
 
 MESHES = (".ply", ".obj", ".stl", ".glb")
@@ -40,7 +41,10 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
         return Diagnostic("D026", "this picture has no layers", (label,), (note,), "remove `layers`")
     fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
     change = spec.transition or TransitionSpec()
-    return Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
+    at = None if spec.at is None else moment(spec.at, scene, (*path, "at"))
+    if isinstance(at, Diagnostic):
+        return at
+    return Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers, at)
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

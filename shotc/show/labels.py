@@ -31,6 +31,16 @@ def transition_label(mission: MissionIR, picture: Picture) -> Label:
     return mission.origins.value(longer if longer in mission.origins.values else path)
 
 
+def moments(mission: MissionIR, earliest: float) -> str:
+    """Say when a picture may stand at the earliest, in seconds and in beats."""
+    possible, music = at_least(earliest), mission.music
+    beat = None if music is None else music.next_beat(earliest)
+    if music is None or beat is None:
+        return f"write `at: {possible} s` or later"
+    bar, part = divmod(beat - 1, music.per_bar)
+    return f"write `at: {{beat: {beat}}}` (bar {bar + 1}, beat {part + 1}), `at: {possible} s` or later"
+
+
 def centre_label(mission: MissionIR, picture: Picture, text: str = "") -> Label:
     """Return a label on the centre of a picture."""
     return mission.origins.value((*key_of(picture), "center"), text)

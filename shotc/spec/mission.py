@@ -10,6 +10,7 @@ from shotc.spec.faults import fault
 from shotc.spec.fields import Name, Title
 from shotc.spec.fleets import FleetSpec
 from shotc.spec.model import Model, section
+from shotc.spec.music import MusicSpec
 from shotc.spec.rehearse import RehearseSpec
 from shotc.spec.rules import OutputSpec, RulesSpec
 from shotc.spec.shot import ShotBase
@@ -57,6 +58,7 @@ class MissionSpec(Model):
     targets: dict[Name, TargetSpec] = Field(default={}, description="what is filmed")
     drones: dict[Name, DroneSpec] = Field(default={}, description="what films")
     fleets: dict[Name, FleetSpec] = Field(default={}, description="drones that make pictures in the sky")
+    music: MusicSpec | None = Field(default=None, description="what a show is flown to, and its beats")
     rules: RulesSpec = section("rules for the whole mission")
     shots: tuple[Shot, ...] = Field(default=(), description="what is filmed when, in order")
     output: OutputSpec = section("what is written out")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes import flights, pictures
+from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
 
@@ -332,4 +333,5 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     *pictures.CODES,
     *flights.CODES,
+    *MUSICAL,
 )

@@ -40,6 +40,17 @@ _SKYC_CODES = (
         "",
         "other",
     ),
+    CodeInfo(
+        "E150",
+        "song-not-carried",
+        Severity.WARNING,
+        "a show file is without its song",
+        "Show files play MP3 alone. A plan does not hold the song, so only `shotc plan`, which has it at hand, puts it into a "
+        "show file.",
+        "",
+        "",
+        "other",
+    ),
 )
 
 _FILE_CODES = (

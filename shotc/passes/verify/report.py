@@ -65,6 +65,7 @@ RULES = {
     "pictures out of order": Rule("V015", help=REPLAN),
     "lack of hold": Rule("V015", help=REPLAN),
     "error of transition": Rule("V015", help=REPLAN),
+    "error of moment": Rule("V015", help=REPLAN),
     "distance from keyframes": Rule("V016", help=REPLAN),
     "delay of keyframes": Rule("V016", help=REPLAN),
     "keyframes out of order": Rule("V016", help=REPLAN),

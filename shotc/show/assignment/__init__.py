@@ -18,6 +18,7 @@ from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.show.assignment.director import Director
 from shotc.show.assignment.order import Cast, cast_of
+from shotc.show.assignment.song import song_faults
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +30,7 @@ class AssignGoals:
     def run(self, ir: GoalIR, ctx: PassContext) -> Outcome[ShowIR]:
         """Give every drone its goals and every fleet its times."""
         mission = ir.keyframes.mission
-        directors = []
+        directors: list[Director] = []
         for goals in ir.fleets:
             ctx.progress(f"who goes where in fleet {goals.fleet}")
             fleet = mission.fleet(goals.fleet)
@@ -39,6 +40,7 @@ class AssignGoals:
         while any(director.advance(ends) for director in directors):
             pass
         diagnostics: list[Diagnostic] = [d for director in directors for d in director.finish()]
+        diagnostics += song_faults(mission, max(ends.values(), default=0.0))
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
         fleets = tuple(director.trajectory() for director in directors)

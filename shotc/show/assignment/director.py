@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
@@ -98,7 +99,7 @@ class Director:
         score.phase("shot", display.id)
 
     def _wait(self, display: Display, earliest: float, ready: float) -> float:
-        start = display.timing.start
+        start = display.start
         if start is None:
             return max(0.0, ready - earliest)
         if start < max(earliest, ready) - TINY_S and not self._found:
@@ -112,10 +113,24 @@ class Director:
             if frames[0] is not scenes[0]:
                 move = self.mover.move(self.score.places, frames[0].places, display.pace, picture)
                 duration = self._duration(picture, self.score.places, frames[0].places, move)
+                self._stand_until(picture, duration)
                 self.score.move(frames[0].places, move, duration)
             self._show(display, picture, frames)
         if self.score.clock <= before:
             self._found.append(faults.no_time(self.mission, display))
+
+    def _stand_until(self, picture: Picture, duration: float) -> None:
+        """Have the picture before one that is to stand at a time stand until the way to it begins."""
+        if picture.at is None:
+            return
+        slack = picture.at - duration - self.score.clock
+        if slack < -TINY_S:
+            if not self._found:
+                earliest = self.score.clock + duration
+                self._found.append(faults.too_late(self.mission, picture, earliest, duration))
+            return
+        self.score.stand(slack)
+        self.score.shown[-1] = replace(self.score.shown[-1], end=self.score.clock)
 
     def _show(self, display: Display, picture: Picture, frames: tuple[Scene, ...]) -> None:
         score, times = self.score, [self.score.clock]

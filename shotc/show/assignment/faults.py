@@ -12,7 +12,7 @@ from shotc.ir.show import Display, Fleet, Picture, drone_names
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Lack
-from shotc.show.labels import transition_label
+from shotc.show.labels import moments, transition_label
 
 UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
 
@@ -41,13 +41,35 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, 
 
 def too_early(mission: MissionIR, display: Display, earliest: float) -> Diagnostic:
     """Return D081: the fleet does not yet stand in its first picture at the display's start."""
-    asked, possible = display.timing.start or 0.0, at_least(earliest)
+    asked, possible = display.start or 0.0, at_least(earliest)
+    if display.pictures[0].at is not None:
+        help_ = moments(mission, earliest)
+        if mission.music is not None:
+            later = mission.music.start + earliest - asked
+            help_ += f", or have the music start at {at_least(later)} s"
+    else:
+        help_ = f"give it `start: {possible} s` or later"
     return Diagnostic(
         "D081",
         f"display `{display.id}` starts at {plain(asked)} s, but {possible} s is the earliest possible",
-        (mission.origins.value((*display.path, "timing", "start")),),
+        (mission.origins.value(display.start_path),),
         ("before it come take-off and the way to the first picture, or the display before it",),
-        f"give it `start: {possible} s` or later",
+        help_,
+    )
+
+
+def too_late(mission: MissionIR, picture: Picture, earliest: float, way: float) -> Diagnostic:
+    """Return D124: a picture cannot stand when it is to; way : seconds of the way to it."""
+    return Diagnostic(
+        "D124",
+        f"the picture is to stand at {plain(picture.at or 0.0)} s, but {at_least(earliest)} s is the "
+        "earliest possible",
+        (mission.origins.value((*picture.path, "at")),),
+        (
+            f"the picture before it stands until {plain(earliest - way)} s, and the way takes "
+            f"{at_least(way)} s",
+        ),
+        moments(mission, earliest),
     )
 
 

@@ -17,6 +17,7 @@ from shotc.passes.resolve.lower.deferred import deferred_features
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
 from shotc.passes.resolve.lower.files import Files, Reader, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
+from shotc.passes.resolve.lower.music import Heard, music_of
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.rehearsal import rehearsal, toward
@@ -65,12 +66,13 @@ def lowered(
     """Resolve a mission; kinds, emitters : as ``Resolve`` has them."""
     world = _world(ir)
     progress("expanding the shots")
-    shots = _shots(ir, world, kinds)
-    show = shown(ir, world.put, world.files, shots.displays)
+    heard = music_of(ir, world.files)
+    shots = _shots(ir, world, kinds, heard)
+    show = shown(ir, world.put, world.files, shots.displays, heard.song)
     names = check_names(ir.spec, ir.origins, emitters)
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
-    faults = once([*world.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
-    mission, courses = with_framings(with_times(_mission(ir, world, shots, show)))
+    faults = once([*world.faults, *heard.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
+    mission, courses = with_framings(with_times(_mission(ir, world, shots, show, heard)))
     return Lowered(mission, courses, tuple(faults), world.astray, world.sound, world.level)
 
 
@@ -101,7 +103,7 @@ class _World(NamedTuple):
     standing: Obstacles
 
 
-def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots:
+def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], heard: Heard) -> Shots:
     cast = Cast(
         kinds,
         world.drones,
@@ -112,6 +114,7 @@ def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind]) -> Shots
         world.files.read,
         partial(match_files, ir.folder, ir.origins),
         world.heights,
+        heard.music,
     )
     return expand_shots(ir.spec, cast, lambda: resolve_drone("spare", DroneSpec(), world.put, WindSpec()))
 
@@ -150,7 +153,7 @@ def _world(ir: LoadedMission) -> _World:
     )
 
 
-def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> MissionIR:
+def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show, heard: Heard) -> MissionIR:
     spec = ir.spec
     return MissionIR(
         name=spec.mission,
@@ -175,6 +178,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show) -> Miss
         source=_source(ir, world.read, show),
         wind_toward=toward(spec.world.wind),
         rehearsal=rehearsal(spec.rehearse),
+        music=heard.music,
     )
 
 

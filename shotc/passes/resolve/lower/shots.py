@@ -8,6 +8,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.ground import Above, GroundHeight, flat
 from shotc.ir.limits import Timing
 from shotc.ir.mission import Deferred, GeoOrigin, Keyframe, Shot
+from shotc.ir.music import Music
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules
@@ -39,6 +40,7 @@ class Cast(NamedTuple):
     read: Callable[[str, KeyPath], bytes | Diagnostic]
     match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
     ground: GroundHeight = flat
+    music: Music | None = None
 
 
 class Shots(NamedTuple):
@@ -86,6 +88,7 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
         pace=spec.rules.pace,
         fleets=tuple(spec.fleets),
         ground=cast.ground,
+        music=cast.music,
     )
     kind = cast.kinds[shot.kind]
     expansion = expanded(kind, shot, scene) if kind.foreign else kind.expand(shot, scene)

@@ -15,7 +15,7 @@ from shotc.spec.load import LoadedMission
 class Show(NamedTuple):
     """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others.
 
-    files : (name, bytes); drawn : (name, SHA-256) of the same
+    files : (name, bytes), the song among them; drawn : (name, SHA-256) of what is drawn
     """
 
     fleets: tuple[Fleet, ...] = ()
@@ -24,12 +24,19 @@ class Show(NamedTuple):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-def shown(ir: LoadedMission, put: Put, files: Files, displays: tuple[Display, ...]) -> Show:
-    """Resolve the fleets, and read what their displays draw."""
+def shown(
+    ir: LoadedMission,
+    put: Put,
+    files: Files,
+    displays: tuple[Display, ...],
+    song: tuple[str, bytes] | None = None,
+) -> Show:
+    """Resolve the fleets, and read what their displays draw; song : what they fly to, (name, bytes)."""
     if not ir.spec.fleets:
         return Show()
     fleets, wrong = fleets_of(ir.spec, put, files)
     if isinstance(ir.folder, KeptFiles):
         return Show(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
     drawn, missing = read_material(displays, ir.folder, ir.origins)
-    return Show(fleets, drawn, digests(drawn), (*wrong, *missing))
+    material = drawn if song is None else (*drawn, song)
+    return Show(fleets, material, digests(drawn), (*wrong, *missing))

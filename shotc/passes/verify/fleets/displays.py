@@ -75,6 +75,7 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
     yield held(name, limit, Worst(float(missing), None, "exact"))
     limit = Limit("pictures out of order", 0.0, "", (*display.path, "frames"), shot=display.id)
     yield held(name, limit, Worst(float(astray), None, "exact"))
+    yield from _moments(flight, display, shown)
     last = {s.picture: s for s in shown}
     short = [(display.pictures[k].hold - (s.end - s.start), s) for k, s in last.items() if k in wanted]
     lack, at = max(short, key=lambda found: found[0], default=(-inf, None))
@@ -82,6 +83,17 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
         path = (*display.pictures[at.picture].path, "hold")
         limit = Limit("lack of hold", ON_TIME_S, "s", path, shot=display.id)
         yield held(name, limit, Worst(max(lack, 0.0), at.start, "exact"))
+
+
+def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+    """Claim that pictures stand when they are to."""
+    first = {s.picture: s for s in reversed(shown)}
+    timed = [(k, p) for k, p in enumerate(display.pictures) if p.at is not None and k in first]
+    off = [(abs(first[k].start - (p.at or 0.0)), first[k].start, p.path) for k, p in timed]
+    if off:
+        error, time, path = max(off)
+        limit = Limit("error of moment", ON_TIME_S, "s", (*path, "at"), shot=display.id)
+        yield held(flight.fleet.name, limit, Worst(error, time, "exact"))
 
 
 def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:

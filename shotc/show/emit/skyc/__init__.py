@@ -10,6 +10,7 @@ from shotc.filenames import file_name
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.skyc.archive import archive, left_out, no_origin, too_large
 from shotc.show.emit.skyc.show import MOST_DRONES, show_of
+from shotc.show.emit.skyc.song import song_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,10 @@ class SkycEmitter:
         faults = [left_out(mission, zone) for zone in show.left_out]
         if mission.origin is None:
             faults.append(no_origin(mission))
-        file = Artifact(f"{file_name(mission.name)}.skyc", archive(show.content))
+        song = song_of(mission)
+        faults += song.faults
+        content = show.content if song.media is None else {**show.content, "media": song.media}
+        file = Artifact(f"{file_name(mission.name)}.skyc", archive(content, song.assets))
         note = f"{file.name}: no drone is more than {show.error * 1e3:.2f} mm from its place in the plan"
         return Emission((file,), tuple(faults), (note,))
 

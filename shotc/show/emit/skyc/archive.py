@@ -1,4 +1,4 @@
-"""The file itself: a ZIP archive with ``show.json`` in its root; and what its format leaves out.
+"""The file itself: a ZIP archive with ``show.json`` in its root and the song beside it; what it leaves out.
 
 The same show has the same bytes.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from io import BytesIO
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Zone
@@ -20,16 +20,23 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 READABLE = 0o644 << 16
 
 
-def archive(content: Mapping[str, object]) -> bytes:
-    """Return the archive of a show; what it refers to is inside ``content``, without references."""
+def archive(content: Mapping[str, object], assets: Mapping[str, bytes]) -> bytes:
+    """Return the archive of a show; assets : the files that ``content`` refers to, by name."""
+    text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     stream = BytesIO()
-    entry = ZipInfo("show.json", EPOCH)
-    entry.compress_type = ZIP_DEFLATED
+    with ZipFile(stream, "w") as zipped:
+        zipped.writestr(_entry("show.json", ZIP_DEFLATED), text)
+        for name, data in assets.items():
+            zipped.writestr(_entry(name, ZIP_STORED), data)
+    return stream.getvalue()
+
+
+def _entry(name: str, method: int) -> ZipInfo:
+    entry = ZipInfo(name, EPOCH)
+    entry.compress_type = method
     entry.create_system = 3  # not the system that it happens to be made on
     entry.external_attr = READABLE
-    with ZipFile(stream, "w") as zipped:
-        zipped.writestr(entry, json.dumps(content, separators=(",", ":"), allow_nan=False))
-    return stream.getvalue()
+    return entry
 
 
 def no_origin(mission: MissionIR) -> Diagnostic:

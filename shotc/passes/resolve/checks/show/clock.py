@@ -15,7 +15,7 @@ from shotc.passes.resolve.checks.motion import least_travel
 from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST
 from shotc.rounding import at_least
 from shotc.show.geom.shape import bounds
-from shotc.show.labels import key_of, transition_label, word_of
+from shotc.show.labels import key_of, moments, transition_label, word_of
 
 SLACK = 1e-6  # seconds of rounding
 
@@ -81,10 +81,30 @@ def _change(before: Picture, after: Picture, limits: Limits) -> float:
     return max(after.transition or 0.0, _between(before, after, limits))
 
 
+class _Late(NamedTuple):
+    """A picture that is to stand before it can; earliest : s, at least."""
+
+    picture: Picture
+    before: Picture
+    earliest: float
+
+
+def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[_Late]]:
+    """Return when a display that begins at a time ends at the earliest, and its pictures that are late."""
+    clock, late = begin, []
+    for before, after in pairwise(display.pictures):
+        clock += before.hold + _animation(before) + _change(before, after, limits)
+        if after.at is not None and after.at < clock - SLACK:
+            late.append(_Late(after, before, clock))
+        clock = max(clock, after.at or 0.0)
+    last = display.pictures[-1]
+    return clock + last.hold + _animation(last), late
+
+
 def least_display(display: Display, limits: Limits) -> float:
     """Return the least seconds from a display's first picture, standing, to the end of its last."""
-    changes = sum(_change(a, b, limits) for a, b in pairwise(display.pictures))
-    return changes + sum(p.hold + _animation(p) for p in display.pictures)
+    begin = display.start or 0.0
+    return _shown(display, begin, limits)[0] - begin
 
 
 def _animation(picture: Picture) -> float:
@@ -150,11 +170,12 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
         if last.picture is not None:
             there += _change(last.picture, first, limits)
         waits = ends.get(display.timing.after or "", 0.0)
-        start = display.timing.start
+        start = display.start
         if start is not None and start < max(there, waits) - SLACK:
             faults.append(_early(mission, display, last, there, waits))
         begin = max(start or 0.0, there, waits)
-        ends[display.id] = begin + least_display(display, limits)
+        ends[display.id], late = _shown(display, begin, limits)
+        faults += [_late(mission, found) for found in late[:1]]
         free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
     return faults
 
@@ -164,8 +185,8 @@ def _rise_time(fleet: Fleet) -> float:
 
 
 def _early(mission: MissionIR, display: Display, last: _Free, there: float, waits: float) -> Diagnostic:
-    label = mission.origins.value((*display.path, "timing", "start"))
-    start = display.timing.start or 0.0
+    label = mission.origins.value(display.start_path)
+    start = display.start or 0.0
     why = f"its drones rise for {at_least(there, 1)} s at least"
     if last.picture is not None:
         why = f"its fleet shows something else and changes over until {at_least(there, 1)} s at least"
@@ -176,6 +197,17 @@ def _early(mission: MissionIR, display: Display, last: _Free, there: float, wait
     return Diagnostic("D020", message, (label,), (why,), help_)
 
 
+def _late(mission: MissionIR, late: _Late) -> Diagnostic:
+    origins, earliest = mission.origins, at_least(late.earliest, 1)
+    return Diagnostic(
+        "D123",
+        f"this {word_of(late.picture)} cannot stand at {late.picture.at or 0.0:.1f} s",
+        (origins.value((*late.picture.path, "at")), origins.key(key_of(late.before), "the picture before")),
+        (f"what comes before it, and the way to it, take until {earliest} s at least",),
+        f"{moments(mission, late.earliest)}; {EARLIEST}",
+    )
+
+
 def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     """Yield a fleet whose displays alone last longer than it can stay in the air."""
     shown = [d for d in mission.displays if d.fleet == fleet.name]
@@ -184,7 +216,7 @@ def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     limits = fleet.limits
     pictures = sum(least_display(d, limits) for d in shown)
     changes = sum(_change(a.pictures[-1], b.pictures[0], limits) for a, b in pairwise(shown))
-    first, last = shown[0].timing.start, shown[-1].timing.start
+    first, last = shown[0].start, shown[-1].start
     if first is not None and last is not None:
         between = last - first + least_display(shown[-1], limits)
     else:

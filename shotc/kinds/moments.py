@@ -1,0 +1,42 @@
+"""Moments of a show that a mission writes in seconds, beats or bars, on the mission's clock."""
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.music import beat_of_bar
+from shotc.ir.origin import KeyPath
+from shotc.kinds.base import Scene
+from shotc.spec.music import MomentSpec
+
+
+def moment(spec: MomentSpec, scene: Scene, path: KeyPath) -> float | Diagnostic | None:
+    """Return seconds of the mission's clock, or None where its beats cannot be used.
+
+    path : where the moment is written
+    """
+    if spec.time is not None:
+        return spec.time
+    music = scene.music
+    if music is not None and music.unread:
+        return None
+    per_bar = 4 if music is None else music.per_bar
+    if spec.bar is None:
+        assert spec.beat is not None
+        beat, key = spec.beat, "beat"
+    else:
+        beat, key = beat_of_bar(spec.bar, spec.beat or 1.0, per_bar), "bar"
+    label = scene.origins.value((*path, key))
+    if music is None or not music.has_beats:
+        note = "the mission has no `music`" if music is None else "its `music` says nothing of beats"
+        help_ = "write `music: {tempo: 120}`, `beats` or `beats_file`, or give the moment in seconds"
+        return Diagnostic("D121", f"nothing says when this {key} falls", (label,), (note,), help_)
+    time = music.time(beat)
+    if time is not None:
+        return time
+    last = len(music.listed)
+    bars = (last - 1) // per_bar + 1
+    return Diagnostic(
+        "D122",
+        f"the music has no beat {beat:g}: it ends with beat {last}",
+        (label, scene.origins.key(music.path, "the music")),
+        (f"beat {last} is in bar {bars}, with {per_bar} beats in a bar",),
+        f"write `at: {{beat: {last}}}` or an earlier one, list more beats, or give the moment in seconds",
+    )
