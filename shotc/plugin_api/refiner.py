@@ -47,7 +47,7 @@ from shotc.ir.preference import MOST_MOVED, UNWATCHED, given_up, prefers_free_pi
 from shotc.ir.sampling import projected, seen
 from shotc.ir.setpoints import Asked
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.clock.aims import CameraTask, aims_at, camera_task_of, wanted_places
+from shotc.planning.clock.aims import CameraTask, aims_at, camera_task_of, through, wanted_places
 from shotc.planning.clock.bounds import Bound, bounds_of
 from shotc.planning.clock.camera import AngleTask, turn
 from shotc.planning.clock.clock import Clock
@@ -166,6 +166,7 @@ __all__ = [
     "steady",
     "subdivide",
     "surroundings",
+    "through",
     "turn",
     "viewpoint",
     "wanted_places",

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.camera import View
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import places as track_places
@@ -23,6 +23,8 @@ class CameraTask:
     keyed : what its camera does instead, where keyframes tell it
     start : mission time of the first frame, from which the times of setpoints count
     smoother : smoothing that is asked, over the normal one
+    lens : the field of view over mission time, rad, where a refiner chose it; else that of the drone or of
+        ``keyed``
     """
 
     mission: MissionIR
@@ -31,6 +33,7 @@ class CameraTask:
     keyed: Keyed | None = None
     start: float = 0.0
     smoother: float = 1.0
+    lens: Piecewise | None = None
 
     @property
     def watches(self) -> bool:
@@ -39,6 +42,8 @@ class CameraTask:
 
     def hfov(self, times: Array) -> Array:
         """Return its field of view at mission times (M,), rad."""
+        if self.lens is not None:
+            return np.asarray(self.lens(times)[:, 0])
         return np.full(len(times), self.drone.hfov) if self.keyed is None else self.keyed.hfov(times)
 
 
@@ -46,6 +51,12 @@ def camera_task_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: 
     """Return who films a shot that is placed for its start, seconds."""
     keyed = keyed_of(mission, drone, placed, start)
     return CameraTask(mission, drone, placed.subjects, keyed, start, placed.shot.smoother)
+
+
+def through(camera_task: CameraTask, lens: Piecewise) -> CameraTask:
+    """Return who films a shot through another lens: the field of view over mission time, rad, one channel."""
+    keyed = camera_task.keyed
+    return replace(camera_task, lens=lens, keyed=None if keyed is None else replace(keyed, chosen=lens))
 
 
 def wanted_places(subject: PlacedSubject, start: float, times: Array) -> Array:
@@ -101,7 +112,7 @@ def _aim(camera_task: CameraTask, subject: PlacedSubject, times: Array, places: 
     """
     drone = camera_task.drone
     offset = _centres(camera_task.mission, subject, times) - places
-    half = np.tan(drone.hfov / 2)
+    half = np.tan(drone.hfov / 2 if camera_task.lens is None else camera_task.hfov(times) / 2)
     u, v = wanted_places(subject, camera_task.start, times).T
     ray = np.stack([u * half, v * half / drone.aspect, np.ones(len(times))])  # right, up, forward
     right, up, forward = ray / np.linalg.norm(ray, axis=0)

@@ -71,14 +71,18 @@ class Keyed:
     """A shot told by keyframes, as it begins at one time.
 
     stretches : in order and without gaps, from the first frame to the last
+    chosen : the field of view over mission time, rad, where a refiner chose it
     """
 
     mission: MissionIR
     drone: Drone
     stretches: tuple[Stretch, ...]
+    chosen: Piecewise | None = None
 
     def hfov(self, times: Array) -> Array:
         """Return the field of view at times (M,), rad."""
+        if self.chosen is not None:
+            return np.asarray(self.chosen(times)[:, 0])
         ends = np.array([[s.a.hfov, s.b.hfov] for s in self.stretches])
         share, of = self._shares(times)
         wide = np.asarray(ends[of, 0] + share * (ends[of, 1] - ends[of, 0]))

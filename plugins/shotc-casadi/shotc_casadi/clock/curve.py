@@ -59,7 +59,8 @@ def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None 
     if turned.curve is None:
         return None
     breaks = position.breaks
-    parts = [position, restrict(turned.curve, breaks), restrict(leg.curve.channels(HFOV), breaks)]
+    lens = leg.curve.channels(HFOV) if subject.lens is None else subject.lens
+    parts = [position, restrict(turned.curve, breaks), restrict(lens, breaks)]
     ctrl = np.concatenate([part.ctrl for part in parts], axis=2)
     ctrl[0, 0], ctrl[-1, -1] = leg.curve.ctrl[0, 0], leg.curve.ctrl[-1, -1]
     return replace(leg, curve=Piecewise(breaks, ctrl))

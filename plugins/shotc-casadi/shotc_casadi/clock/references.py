@@ -8,7 +8,7 @@ from math import pi, tan
 
 import numpy as np
 
-from shotc.plugin_api import MissionIR, PathIR
+from shotc.plugin_api import MissionIR, PathIR, Piecewise
 from shotc.plugin_api.refiner import (
     MOST_MOVED,
     UNWATCHED,
@@ -27,6 +27,7 @@ from shotc.plugin_api.refiner import (
     ideal_places,
     places,
     shapes,
+    through,
 )
 from shotc_casadi.clock.several import pictured, where_it_fits
 from shotc_casadi.clock.symbols import BODY, LINE
@@ -49,6 +50,7 @@ class ClockSubject:
 
     held_whole : whether the camera of a shot that follows one subject is part of the problem all the same, so
         that all of it is kept in the frame
+    lens : the field of view over mission time, rad, where that is chosen; else the leg's
     """
 
     path: PathIR
@@ -56,6 +58,7 @@ class ClockSubject:
     placed: PlacedShot
     leg: ClockLeg
     held_whole: bool = False
+    lens: Piecewise | None = None
 
     @property
     def mission(self) -> MissionIR:
@@ -65,7 +68,8 @@ class ClockSubject:
     @property
     def camera_task(self) -> CameraTask:
         """Who films, and what its camera does where keyframes tell it."""
-        return camera_task_of(self.mission, self.drone, self.placed, self.leg.start)
+        task = camera_task_of(self.mission, self.drone, self.placed, self.leg.start)
+        return task if self.lens is None else through(task, self.lens)
 
     @property
     def bound(self) -> tuple[Bound, ...]:

@@ -28,10 +28,11 @@ from shotc.plugin_api.refiner import (
     prefers_free_pictures,
     worst_of_runs,
 )
+from shotc_casadi.clock.lens import zoomed
 from shotc_casadi.clock.proof import Gap
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.shown import held_whole, no_less, past_occluders
+from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_occluders
 from shotc_casadi.messages import UNITS, fallen_back, stats, unsolved
 from shotc_casadi.solving import MOTION
 
@@ -92,16 +93,27 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keep
     """Refine a shot; unseen : whether the drones' pictures are to be kept free."""
     refined = refine_clock(subject, unseen=unseen)
     message = _report(path, subject, refined, name)
+    refined = _zoomed(subject, refined)
     whole = held_whole(subject, refined, unseen=unseen) if keeps_whole else None
     new, why = refined.leg, GUIDE_BETTER
     if new is not None and not no_less(subject, subject.leg, new):
         refined, why = replace(refined, leg=None), SHOWS_LESS
     freed = past_occluders(subject, whole or refined, unseen=unseen)
+    freed, whole = (None if one is None else _zoomed(subject, one) for one in (freed, whole))
     reasons = ((freed, SIGHT), (whole, WHOLE), (refined, CALM))
     if any(one is not None and one.leg is not None for one, _ in reasons):
         why = IN_PICTURE
     taken, moved = _taken(path, reasons, unseen=unseen)
     return _Tried(taken or replace(refined, leg=None), moved, why, message)
+
+
+def _zoomed(subject: ClockSubject, refined: ClockRefined) -> ClockRefined:
+    """Return a refinement whose lens zooms, where that has something to win and shows no less."""
+    before = refined.leg or subject.leg
+    leg = zoomed(subject, before)
+    if leg is None or not as_whole(subject, before, leg):
+        return refined
+    return replace(refined, leg=leg)
 
 
 def _taken(

@@ -1,0 +1,269 @@
+"""The lens of a shot on its own clock: the field of view over mission time, once the place is known.
+
+The place costs nothing that depends on the lens, so the two are found one after the other, and that of the
+lens is a convex programme of one channel: near to what is wanted, wide enough for whole subjects, smooth, in
+its range and its rate at every instant. Keyframes bind it, and so do both ends of the leg.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import log
+from typing import NamedTuple
+
+import numpy as np
+import piqp
+from scipy import sparse
+
+from shotc.plugin_api.refiner import (
+    CAM_PITCH,
+    CAM_YAW,
+    HFOV,
+    Array,
+    ClockLeg,
+    IntArray,
+    Mask,
+    PlacedSubject,
+    View,
+    quintic_hermite,
+    shapes,
+    viewpoint,
+)
+from shotc_casadi.clock.curve import filmed
+from shotc_casadi.clock.references import ClockSubject, seen_at
+from shotc_casadi.lens import SAME_SHARE, lens_bounds
+
+# Weights: mean squares over the film, of shares of the field of view.
+WHOLE = 300.0  # of a share by which it is too narrow for a subject: as the framing of paths has it
+SMOOTH_S = 1.0  # seconds below which its wiggles vanish, with normal smoothing
+FAINT = 1e-3  # on the ways into and out of the film, against that in it
+NEARLY_SHARE = 0.999  # of its rate that is used
+SIZED_SHARE = 0.05  # of a size that is asked for: what is nearer to it is left to the place
+NARROW_SHARE = 1e-3  # of a field of view that is missing for a subject, and is worth a zoom
+SAME_S = 1e-6  # seconds
+TOLERANCE = 1e-9  # of the solver
+VALUE, RATE, BEND = range(3)  # of the states of a node
+
+
+class _Lens(NamedTuple):
+    """What a lens is to do at nodes (N + 1,), fields of view in rad.
+
+    wanted : near which it stays; least : that shows all subjects whole; weight : of each node
+    given : of the guide; bound : where that binds
+    """
+
+    wanted: Array
+    least: Array
+    weight: Array
+    given: Array
+    bound: Mask
+
+
+def zoomed(subject: ClockSubject, leg: ClockLeg) -> ClockLeg | None:
+    """Return a leg with a lens that zooms on the way, None where it has none or nothing is to be won.
+
+    leg : of the subject's shot, refined or not; its place stays, its camera turns anew
+    """
+    drone = subject.drone
+    if not drone.zooms or not subject.framed:
+        return None
+    t = leg.curve.breaks
+    task = _task(subject, leg, t)
+    if task is None:
+        return None
+    states = _solved(subject, t, task)
+    if states is None:
+        return None
+    lens = quintic_hermite(t, *(states[:, [k]] for k in (VALUE, RATE, BEND)))
+    camera = leg.curve.channels(CAM_YAW, CAM_PITCH) if subject.together else None
+    return filmed(replace(subject, lens=lens), leg.curve.channels(0, 1, 2), camera)
+
+
+def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
+    """Return what the lens is to do, None where it may as well do what it is given."""
+    film = (t >= leg.start - SAME_S) & (t <= leg.end + SAME_S)
+    pose = leg.curve(t)
+    given = pose[:, HFOV]
+    wanted = np.where(film, _wanted(subject, leg, t), given)
+    least = np.where(film, _least(subject, t, pose), 0.0)
+    low, high = lens_bounds(subject.drone, given)
+    wanted, least = np.clip(wanted, low, high), np.minimum(least, high)
+    if (wanted == given).all() and (least <= given * (1.0 + NARROW_SHARE)).all():
+        return None
+    length = np.diff(t)
+    weight = 0.5 * (np.append(length, 0.0) + np.append(0.0, length)) * np.where(film, 1.0, FAINT)
+    return _Lens(wanted, least, weight / (leg.end - leg.start), given, _bound(subject, t))
+
+
+def _bound(subject: ClockSubject, t: Array) -> Mask:
+    """Return where keyframes bind the lens: when they are reached, and while the camera holds there."""
+    bound = np.zeros(len(t), dtype=bool)
+    keyed = subject.camera_task.keyed
+    for stretch in () if keyed is None else keyed.stretches:
+        inside = (t >= stretch.start - SAME_S) & (t <= stretch.end + SAME_S)
+        ends = (np.abs(t - stretch.start) <= SAME_S) | (np.abs(t - stretch.end) <= SAME_S)
+        bound |= inside if stretch.a is stretch.b else ends
+    return bound
+
+
+def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array) -> Array:
+    """Return the fields of view near which the lens stays, rad, shape (N + 1,).
+
+    Between keyframes of one target and different lenses those at which its size goes evenly, by its
+    logarithm, from the one to the other; where sizes are asked for, and missed, those that have them; else
+    what the lens is given.
+    """
+    pose, keyed = leg.curve(t), subject.camera_task.keyed
+    wanted = np.array(pose[:, HFOV])
+    if keyed is None:
+        factor = _factor(subject, t, pose)
+        return 2.0 * np.arctan(np.tan(wanted / 2) * factor) if (factor != 1.0).any() else wanted
+    away = np.linalg.norm(seen_at(subject, t)[:, 0] - pose[:, :3], axis=1)
+    for stretch in keyed.stretches:
+        a, b = stretch.a, stretch.b
+        if not stretch.follows or abs(a.hfov - b.hfov) <= SAME_SHARE * max(a.hfov, b.hfov):
+            continue
+        inside = (t > stretch.start + SAME_S) & (t < stretch.end - SAME_S)
+        ends = np.array([stretch.start, stretch.end])
+        there = np.linalg.norm(seen_at(subject, ends)[:, 0] - leg.curve(ends)[:, :3], axis=1)
+        first, last = (log(d * np.tan(k.hfov / 2)) for d, k in zip(there, (a, b), strict=True))
+        spread = first + (last - first) * stretch.share(t[inside])
+        wanted[inside] = 2.0 * np.arctan(np.exp(spread) / away[inside])
+    return wanted
+
+
+def _factor(subject: ClockSubject, t: Array, pose: Array) -> Array:
+    """Return by which the picture is to be wider for the sizes asked for, in the mean of all, (N + 1,)."""
+    off = []
+    for j, one in enumerate(subject.framed):
+        asked = np.array([one.asked(float(u) - subject.leg.start).size or np.nan for u in t])
+        _, _, low, high = _outline(subject, one, t, pose, j)
+        off.append(np.log(0.5 * (high - low) / asked))
+    known = np.isfinite(off)
+    mean = np.where(known, off, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+    return np.where((np.abs(mean) > SIZED_SHARE).any(), np.exp(mean), 1.0)
+
+
+def _least(subject: ClockSubject, t: Array, pose: Array) -> Array:
+    """Return the least field of view that has all subjects whole, rad, 0 where any does, shape (N + 1,).
+
+    Of one subject the camera keeps the place on screen, about which its outline shrinks then.
+    """
+    factor = np.zeros(len(t))
+    for j, one in enumerate(subject.framed):
+        sizes = (one.size, *(setpoint.size for setpoint in one.setpoints))
+        if any(size is not None and size > 1.0 for size in sizes):
+            continue
+        box = np.array(_outline(subject, one, t, pose, j))
+        middle = np.zeros((2, len(t))) if subject.together else _places(subject, one, t)
+        for axis, edge, inwards in ((0, 0, -1.0), (0, 1, 1.0), (1, 2, -1.0), (1, 3, 1.0)):
+            room = viewpoint.EDGE_SHARE - inwards * middle[axis]
+            grows = inwards * (box[edge] - middle[axis])
+            need = np.where(room > 0.0, grows / np.maximum(room, 1e-9), np.inf)
+            factor = np.fmax(factor, need)
+    return np.asarray(2.0 * np.arctan(np.tan(pose[:, HFOV] / 2) * factor))
+
+
+def _places(subject: ClockSubject, one: PlacedSubject, t: Array) -> Array:
+    """Return where on screen a subject is to be at times, the middle if nowhere, shape (2, N + 1)."""
+    places = np.zeros((2, len(t)))
+    for span in subject.leg.framing:
+        if span.target == one.target and span.reference is not None:
+            inside = (t >= span.start - SAME_S) & (t <= span.end + SAME_S)
+            places[:, inside] = span.reference(t[inside]).T
+    return places
+
+
+def _outline(
+    subject: ClockSubject, one: PlacedSubject, t: Array, pose: Array, which: int
+) -> tuple[Array, Array, Array, Array]:
+    """Return left, right, low and high of a subject's outline at times, half frames; NaN for behind."""
+    offset = (seen_at(subject, t)[:, which] - pose[:, :3]).T
+    yaw, pitch, half = pose[:, CAM_YAW], pose[:, CAM_PITCH], np.tan(pose[:, HFOV] / 2)
+    camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / subject.drone.aspect)
+    x, y, z = offset
+    return shapes(subject.mission.target(one.target), t).bounds(camera, (x, y, z))
+
+
+def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
+    """Return the field of view, its rate and its acceleration at the nodes, (N + 1, 3), None for no way."""
+    n, h, smoother = len(t) - 1, np.diff(t), subject.placed.shot.smoother
+    scale = 1.0 / np.sin(task.wanted)
+    drawn, narrow = 2.0 * task.weight * scale**2, 2.0 * WHOLE * task.weight * scale**2
+    bend = 2.0 * (SMOOTH_S * smoother) ** 6 * h / (t[-1] - t[0]) * scale[:-1] ** 2
+    states = np.zeros((n + 1, 3))
+    states[:, VALUE] = drawn
+    square = np.concatenate([states.ravel(), bend, narrow])
+    states[:, VALUE] = -drawn * task.wanted
+    linear = np.concatenate([states.ravel(), np.zeros(n + n + 1)])
+    rows = _Rows(n)
+    low, high = lens_bounds(subject.drone, task.given)
+    assert subject.drone.lens is not None
+    rate = NEARLY_SHARE * subject.drone.lens.rate
+    value, first, second = (rows.state(k) for k in (VALUE, RATE, BEND))
+    inner, after = slice(0, n), slice(1, n + 1)
+    widths = [sparse.diags(h / 3) @ first[inner], sparse.diags(h / 3) @ first[after]]
+    bounded = sparse.vstack(
+        [
+            value,
+            value[inner] + widths[0],
+            value[after] - widths[1],
+            first,
+            first[inner] + sparse.diags(h / 2) @ second[inner],
+            value + rows.slack,
+        ]
+    ).tocsc()
+    ranges = [(low, high, 3 * n + 1), (-rate, rate, 2 * n + 1)]
+    least, most = (np.concatenate([np.full(r[2], r[side]) for r in ranges]) for side in (0, 1))
+    least, most = np.append(least, task.least), np.append(most, np.full(n + 1, np.inf))
+    held = np.flatnonzero(task.bound | np.isin(np.arange(n + 1), (0, n)))
+    ends = [0, n]
+    equal = sparse.vstack([rows.motion(h), value[held], first[ends], second[ends]]).tocsc()
+    right = np.concatenate([np.zeros(3 * n), task.given[held], np.zeros(4)])
+    solver = piqp.SparseSolver()
+    solver.settings.eps_abs, solver.settings.eps_rel = TOLERANCE, TOLERANCE
+    solver.setup(sparse.diags(square).tocsc(), linear, equal, right, bounded, least, most)
+    if solver.solve() != piqp.PIQP_SOLVED:
+        return None
+    found = np.asarray(solver.result.x)[: 3 * (n + 1)].reshape(n + 1, 3).copy()
+    found[[0, -1]] = [[task.given[0], 0.0, 0.0], [task.given[-1], 0.0, 0.0]]
+    return found
+
+
+class _Rows:
+    """Where the unknowns of a programme stand: three states a node, an input a stage, a slack a node."""
+
+    def __init__(self, stages: int) -> None:
+        self.n = stages
+        self.size = 3 * (stages + 1) + stages + stages + 1
+
+    def state(self, which: int) -> sparse.csr_matrix:
+        """Return the rows that pick a state at all nodes."""
+        return self._picked(3 * np.arange(self.n + 1) + which)
+
+    @property
+    def slack(self) -> sparse.csr_matrix:
+        """Return the rows that pick the slacks."""
+        return self._picked(3 * (self.n + 1) + self.n + np.arange(self.n + 1))
+
+    def motion(self, h: Array) -> sparse.csr_matrix:
+        """Return the rows that are zero where an even jerk leads from each node to the next."""
+        jerk = self._picked(3 * (self.n + 1) + np.arange(self.n))
+        value, first, second = (self.state(k) for k in (VALUE, RATE, BEND))
+        by = sparse.diags
+        before, after = slice(0, self.n), slice(1, self.n + 1)
+        return sparse.vstack(
+            [
+                value[after]
+                - value[before]
+                - by(h) @ first[before]
+                - by(h**2 / 2) @ second[before]
+                - by(h**3 / 6) @ jerk,
+                first[after] - first[before] - by(h) @ second[before] - by(h**2 / 2) @ jerk,
+                second[after] - second[before] - by(h) @ jerk,
+            ]
+        )
+
+    def _picked(self, at: IntArray) -> sparse.csr_matrix:
+        ones = np.ones(len(at))
+        return sparse.csr_matrix((ones, (np.arange(len(at)), at)), shape=(len(at), self.size))
