@@ -311,7 +311,7 @@ def zooming(rate: str) -> str:
 @pytest.mark.parametrize("rate", [3.2, 4.5, 20.0])
 def test_a_zoom_by_the_mission_clock_keeps_the_rate_of_the_lens(rate: float) -> None:
     # 30 deg in 10 s: the step of least jerk would take 5.6 deg/s.
-    plan = compiled_text(zooming(f"{rate} deg/s")).plan
+    plan = compiled_text(zooming(f"{rate} deg/s"), "none").plan
     assert plan is not None
     claim = next(c for c in plan.certificate if c.constraint == "zoom rate")
     assert (claim.method, claim.holds) == ("bounded", True)
