@@ -204,7 +204,29 @@ _MACHINE_CODES = (
     ),
 )
 
+_CROSSING = _MAVLINK.replace(
+    "drones: {cam: {model: x500, home: [0, -40, 0]}}",
+    "drones:\n  cam: {model: x500, home: [0, -40, 0]}\n  second: {model: x500, home: [10, -40, 0]}",
+).replace(
+    "output:",
+    "  - id: across\n    kind: keyframes\n    drone: second\n    target: mast\n    timing: {after: look}\n"
+    "    keyframes:\n      - {at: [0, -35, 16], look_at: mast}\n      - {at: [0, -15, 16], look_at: mast}\noutput:",
+)
+
 _UNAIDED_CODES = (
+    CodeInfo(
+        "E145",
+        "timing-not-carried",
+        Severity.WARNING,
+        "mission files of two drones do not carry the timing that keeps them apart",
+        "Two drones may use the same air one after the other in a plan, for all fly by one clock. An autopilot starts its "
+        "mission file when it is told to, and flies it at mean speeds, so that both may be at one place at once. `shotc stream` "
+        "sends the plan itself to all of them by one clock; else fly one after the other has landed, or give each "
+        "drone air of its own, by zones or heights.",
+        _CROSSING,
+        _MAVLINK,
+        "plan",
+    ),
     CodeInfo(
         "E122",
         "promised-zoom-not-carried",

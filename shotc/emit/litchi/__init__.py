@@ -12,6 +12,9 @@ from shotc.emit.waypoints.models import ROUNDED
 from shotc.emit.waypoints.report import without_waypoints
 from shotc.ir.trajectory import VerifiedIR
 
+FARTHEST_M = 30_000.0
+"""Of a mission: DJI's older programming interface, by which Litchi flies, takes no longer one."""
+
 FORMAT = Format(
     "litchi",
     ("dji-fly", "litchi"),
@@ -22,6 +25,7 @@ FORMAT = Format(
     read_table,
     halts=True,
     photos=("dji-fly", "litchi"),
+    farthest=FARTHEST_M,
 )
 SETTINGS = (
     "litchi: set in the Hub what the table cannot say: Heading Mode Custom (WD), Path Mode Curved Turns,"

@@ -26,6 +26,7 @@ from shotc.emit.mavlink.report import (
     clockless,
     coarsened,
     cut,
+    in_step,
     left_out,
     note,
     raised,
@@ -42,7 +43,9 @@ from shotc.emit.waypoints.flown import Flown
 from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, Place, tie
 from shotc.emit.waypoints.link import link_notes
 from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
+from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
+from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
@@ -69,10 +72,15 @@ class MavlinkEmitter:
             return Emission((), (*fleets, *others))
         if mission.origin is None:
             return Emission((), (*fleets, *others, no_origin(mission, self.name)))
-        emissions = [_Job.of(mission, flight).emit() for flight in flown]
+        done = [_Job.of(mission, flight).emit() for flight in flown]
+        ways = {
+            flight.drone: evenly(way) for flight, (_, way) in zip(flown, done, strict=True) if way is not None
+        }
+        meeting = [in_step(mission, each) for each in kept_apart_by_time(mission, ways, ())]
+        emissions = [emission for emission, _ in done]
         return Emission(
             tuple(a for e in emissions for a in e.artifacts),
-            (*fleets, *others, *(d for e in emissions for d in e.diagnostics)),
+            (*fleets, *others, *(d for e in emissions for d in e.diagnostics), *meeting),
             (*notes, *(n for e in emissions for n in e.notes)),
         )
 
@@ -118,11 +126,12 @@ class _Job:
             focus_of(mission, drone, flight, track) if dialect.focuses else None,
         )
 
-    def emit(self) -> Emission:
+    def emit(self) -> tuple[Emission, Array | None]:
+        """Return the files, and the places (n, 3) of their re-flight, None where none is written."""
         not_carried = [] if self.style.zooms else lens(self.mission, self.flight)
         faults = [d for d in not_carried if d.code == PROMISED]
         if faults:
-            return Emission((), tuple(faults))
+            return Emission((), tuple(faults)), None
         flight = self._fit()
         everywhere = self.flight.curve(
             np.arange(self.flight.curve.start, self.flight.curve.end + SAMPLE_STEP, SAMPLE_STEP)
@@ -148,7 +157,7 @@ class _Job:
             *sidenotes(self.drone, flight.asked, flight.steps),
             *link_notes(self.drone, 0.0, written=False),
         ]
-        return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes))
+        return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes)), flown.position
 
     def _rally(self) -> list[Place]:
         """Return the rally points, at the height at which the drone returns, or that of its highest point."""

@@ -10,6 +10,7 @@ from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
 from shotc.emit.waypoints.compare import Error
 from shotc.emit.waypoints.report import by_hand, zoomed_to
+from shotc.emit.waypoints.timing import Meeting
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -72,6 +73,21 @@ def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
             "fly the plan itself with `shotc stream`",
         )
     ]
+
+
+def in_step(mission: MissionIR, meeting: Meeting) -> Diagnostic:
+    """Say that two drones would meet by their mission files, were they not where they are in time."""
+    return Diagnostic(
+        "E145",
+        f"the mission files of {' and '.join(meeting.names)} do not carry the timing that keeps them apart",
+        tuple(mission.origins.key(mission.drone(name).path) for name in meeting.names),
+        (
+            f"their ways come within {meeting.distance:.1f} m of each other, the separation is"
+            f" {mission.rules.separation:.1f} m",
+            "an autopilot starts its file when it is told to, and flies at mean speeds",
+        ),
+        "fly them by one clock with `shotc stream`, or give each drone air of its own by zones or heights",
+    )
 
 
 def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic | None:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, bernstein_basis, split_half
 from shotc.geom.solid_arrays.points import footprint_distances, signed_distance
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -16,6 +16,9 @@ from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.obstacles import flight_space
 from shotc.planning.over_ground import OverGround
+
+CLOSED_M = 1e-4  # of a curve, below which its parts are not told apart
+SHARES = np.linspace(0.0, 1.0, 65)  # of a curve, at which the worst of one that is not proved is looked for
 
 
 class Level(NamedTuple):
@@ -65,3 +68,32 @@ def shortfall(obstacle: Obstacle, points: Array) -> Array:
     across = footprint_distances(solid, points[:, :2])
     above = np.maximum(np.maximum(solid.bottom - points[:, 2], points[:, 2] - solid.top), 0.0)
     return np.asarray(obstacle.metres - np.hypot(across, above))
+
+
+def nearer_between(obstacle: Obstacle, curves: Array, allowed: float) -> tuple[Array, float] | None:
+    """Return where Bernstein curves (k, n, 3) are nearer to an obstacle than allowed, and by how much.
+
+    allowed : metres that they may lack. None where they are proved to keep that at every point: a curve's
+    middle is no farther from its other points than from its control points, and what is lacking changes by no
+    more than the place. Terrain, whose height does, and meshes have proofs of their own.
+    """
+    if isinstance(obstacle, OverGround | BesideMesh):
+        curves = curves[obstacle.lowered(allowed).lack(curves) > 0.0]
+        if not len(curves):
+            return None
+        places = np.einsum("tk,nkd->ntd", bernstein_basis(curves.shape[1] - 1, SHARES), curves).reshape(-1, 3)
+        lacks = shortfall(obstacle, places)
+        k = int(lacks.argmax())
+        return places[k], max(float(lacks[k]), allowed)
+    while len(curves):
+        left, right = split_half(curves)
+        middle = left[:, -1]
+        lacks = shortfall(obstacle, middle)
+        reach = np.linalg.norm(curves - middle[:, None], axis=2).max(axis=1)
+        unclear = lacks + reach > allowed
+        settled = (lacks > allowed) | (unclear & (reach < CLOSED_M))
+        if settled.any():
+            k = int(np.where(settled, lacks, -np.inf).argmax())
+            return middle[k], max(float(lacks[k]), allowed)
+        curves = np.concatenate([left[unclear], right[unclear]])
+    return None

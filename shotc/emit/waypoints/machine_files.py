@@ -17,7 +17,7 @@ from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.waypoints import report
 from shotc.emit.waypoints.choose import Chooser, chooser_of
-from shotc.emit.waypoints.clearance import Obstacle, bounds, owner_of, shortfall
+from shotc.emit.waypoints.clearance import Obstacle, bounds, nearer_between, owner_of, shortfall
 from shotc.emit.waypoints.compare import Error, ShotError, compare
 from shotc.emit.waypoints.geo import Geo, Place, tie
 from shotc.emit.waypoints.link import link_notes, return_height
@@ -40,7 +40,7 @@ CUT_LEAST = 0.05  # metres by which a re-flight may be nearer to anything than t
 STRAIGHT = np.radians(0.05)  # off a target, within which a camera looks at its axis: files have tenths
 SAME_PLACE = 0.1  # metres between points that some machines take for one, and refuse
 ASIDE = 0.15  # metres that one of them moves
-FINE = 160  # samples of a leg, less one, when clearances are judged: one every quarter of a metre at least
+FINE = 160  # samples of a leg, less one, at which clearances are judged before they are proved between
 RATE_MOST = 10.0  # Hz of frames at which a picture is judged: it changes slowly
 
 
@@ -49,6 +49,7 @@ class Format:
     """A family of files.
 
     emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
+    farthest : metres of way of a file
     shapes : the curves by which its machines may fly; halts : whether they stop where they do something
     zooms : those of the machines whose zoom it commands; says_link_lost : whether it says what is done then
     photos : those that take photos as it says
@@ -65,6 +66,7 @@ class Format:
     zooms: tuple[Autopilot, ...] = ()
     says_link_lost: bool = False
     photos: tuple[Autopilot, ...] = ()
+    farthest: float = np.inf
 
     def lens(self, drone: Drone) -> LensRange | None:
         """Return the lens that its files zoom, None where they do not."""
@@ -144,7 +146,8 @@ class _Job:
         points = waypoints_of(_parted(self.chooser.route(stations)), self.geo)
         watched = self._watched(stations)
         points = _two([replace(p, watched=at) for p, at in zip(points, watched, strict=True)])
-        blocks = split(points, self.form.most)
+        position = np.array([self.geo.point(p.place) for p in points])
+        blocks = split(points, np.linalg.norm(np.diff(position, axis=0), axis=1), self.form)
         if len(blocks) > 1 and self.chooser.photos:
             # What is begun in one file is not gone on with in the next.
             return replace(self, chooser=replace(self.chooser, photos={})).written()
@@ -221,13 +224,22 @@ class _Job:
             depths = [shortfall(obstacle, each) - held for each in places]
             worst = max(range(len(depths)), key=lambda k: float(depths[k].max()))
             deepest = int(depths[worst].argmax())
-            if depths[worst][deepest] <= CUT_LEAST:
-                continue
-            away = np.linalg.norm(self.track.poses.position - places[worst][deepest], axis=1)
+            place, depth = places[worst][deepest], float(depths[worst][deepest])
+            if depth <= CUT_LEAST:
+                between = self._between(written.route, obstacle, held + CUT_LEAST)
+                if between is None:
+                    continue
+                place, depth = between[0], between[1] - held
+            away = np.linalg.norm(self.track.poses.position - place, axis=1)
             time = float(self.track.time[int(away.argmin())])
-            depth, owner = float(depths[worst][deepest]), owner_of(obstacle, places[worst][deepest])
+            owner = owner_of(obstacle, place)
             found.append(report.broken(self.mission, self.drone, owner, depth, time))
         return found
+
+    def _between(self, route: Route, obstacle: Obstacle, allowed: float) -> tuple[Array, float] | None:
+        """Return where one of the curves lacks more than allowed though no sample does; None is proved."""
+        found = (nearer_between(obstacle, shape.cubics(route), allowed) for shape in self.form.shapes)
+        return next((each for each in found if each is not None), None)
 
 
 def _photos(mission: MissionIR, track: Track) -> dict[str, Photos]:
@@ -295,18 +307,27 @@ def waypoints_of(route: Route, geo: Geo) -> list[Waypoint]:
     ]
 
 
-def split(points: list[Waypoint], most: int) -> list[list[Waypoint]]:
-    """Return blocks of at most ``most`` points; each begins where the last one ends, at a stop if it can."""
+def split(points: list[Waypoint], legs: Array, form: Format) -> list[list[Waypoint]]:
+    """Return blocks that a format holds; each begins where the last one ends, at a stop if it can.
+
+    legs : metres from each point to the next, (n - 1,)
+    """
     blocks: list[list[Waypoint]] = []
-    while len(points) > most:
-        stops = [i for i in range(most // 2, most) if points[i].stops]
-        at = stops[-1] if stops else most - 1
+    while (fit := _fitting(legs, form)) < len(points):
+        stops = [i for i in range(fit // 2, fit) if points[i].stops]
+        at = max(1, stops[-1] if stops else fit - 1)
         actions = points[at].actions
         first = next((k for k, a in enumerate(actions) if a.kind == "start"), len(actions))
         end = replace(points[at], stops=True, actions=actions[:first])
         blocks.append([*points[:at], end])
         points = [replace(points[at], stops=True, actions=actions[first:]), *points[at + 1 :]]
+        legs = legs[at:]
     return [*blocks, points]
+
+
+def _fitting(legs: Array, form: Format) -> int:
+    """Return how many of the points that legs (n - 1,) join go into a file, two at least."""
+    return max(2, min(form.most, 1 + int((np.cumsum(legs) <= form.farthest).sum())))
 
 
 def joined(blocks: list[list[Waypoint]]) -> list[Waypoint]:

@@ -6,9 +6,7 @@ time, which depends on how hard the machine accelerates. What a file adds is the
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 
 import numpy as np
@@ -27,8 +25,29 @@ GENTLE, BRISK = 1.5, 3.0  # m/s^2, of the ramps between speeds
 STAY_STEP = 0.1  # seconds between samples of a stay
 SLOWEST = 0.05  # m/s, so that no leg takes for ever
 
-Shape = Callable[[Route, int], Array]
-"""From a route and a count to samples (m - 1, count + 1, 3) of its legs."""
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """Curves by which a machine may fly a route.
+
+    tangents : of the cubics through its points; None of straight legs with rounded corners
+    cut : whether a curve begins anew at a stop
+    """
+
+    tangents: paths.Tangents | None = None
+    cut: bool = True
+
+    def samples(self, route: Route, count: int) -> Array:
+        """Return samples (m - 1, count + 1, 3) of the legs of a route."""
+        if self.tangents is None:
+            return paths.rounded(route.position, route.curve, count)
+        return paths.through(route.position, route.stops, self.tangents, count, cut=self.cut)
+
+    def cubics(self, route: Route) -> Array:
+        """Return the Bernstein control points (k, 4, 3) of all its curves, in order."""
+        if self.tangents is None:
+            return paths.corners(route.position, route.curve).reshape(-1, 4, 3)
+        return paths.cubics(route.position, route.stops, self.tangents, cut=self.cut)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,14 +61,6 @@ class Turning:
 TURNINGS = (Turning(BRISK, by_time=False), Turning(BRISK, by_time=True), Turning(GENTLE, by_time=True))
 
 
-def _cubic(route: Route, count: int, *, tangents: paths.Tangents, cut: bool) -> Array:
-    return paths.through(route.position, route.stops, tangents, count, cut=cut)
-
-
-def _rounded(route: Route, count: int) -> Array:
-    return paths.rounded(route.position, route.curve, count)
-
-
 SPLINES: dict[str, paths.Tangents] = {
     "a centripetal Catmull-Rom spline": paths.catmull_rom(0.5),
     "a uniform Catmull-Rom spline": paths.catmull_rom(0.0),
@@ -58,13 +69,10 @@ SPLINES: dict[str, paths.Tangents] = {
     **{f"Bezier curves with handles of {share:g} legs": paths.handles(share) for share in (0.2, 0.4, 0.6)},
 }
 """Curves that machines of DJI may fly through points, in words."""
-_STRAIGHT: Shape = partial(_cubic, tangents=paths.straight, cut=True)
-CURVED: tuple[Shape, ...] = (
-    *(partial(_cubic, tangents=t, cut=cut) for t, cut in product(SPLINES.values(), (True, False))),
-    _STRAIGHT,
-)
+_STRAIGHT = Shape(paths.straight)
+CURVED = (*(Shape(t, cut) for t, cut in product(SPLINES.values(), (True, False))), _STRAIGHT)
 """Curves through the points, as DJI's machines may fly them."""
-ROUNDED: tuple[Shape, ...] = (_rounded, _STRAIGHT)
+ROUNDED = (Shape(), _STRAIGHT)
 """Straight legs with rounded corners, as Litchi flies them."""
 
 
@@ -86,7 +94,7 @@ class Legs:
 
 def legs_of(route: Route, shape: Shape, count: int = SAMPLES) -> Legs:
     """Return the legs of a route."""
-    position = shape(route, count)
+    position = shape.samples(route, count)
     steps = np.linalg.norm(np.diff(position, axis=1), axis=2)
     return Legs(position, np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1))
 

@@ -311,12 +311,25 @@ def test_a_drone_that_timing_keeps_apart_from_one_with_a_clock_gets_no_file():
 
 def test_a_mission_is_split_at_its_stops_and_joined_again():
     points = read_kmz(emitted(orbit_plan()).artifacts[0].data)
-    blocks = split(points, 9)
+    blocks = split(points, np.ones(len(points) - 1), replace(FORMAT, most=9))
     assert [len(b) <= 9 for b in blocks] == [True] * len(blocks)
     assert all(a[-1].place == b[0].place for a, b in pairwise(blocks))
     again = joined(blocks)
     assert [p.place for p in again] == [p.place for p in points]
     assert [p.actions for p in again] == [p.actions for p in points]
+
+
+def test_a_file_is_no_longer_than_its_format_takes():
+    points = read_kmz(emitted(orbit_plan()).artifacts[0].data)
+    legs = np.linspace(4.0, 12.0, len(points) - 1)
+    blocks = split(points, legs, replace(FORMAT, farthest=50.0))
+    assert len(blocks) > 1
+    at = 0
+    for block in blocks:
+        assert legs[at : at + len(block) - 1].sum() <= 50.0
+        at += len(block) - 1
+    assert at == len(points) - 1
+    assert len(split(points, legs, replace(FORMAT, farthest=1.0))) == len(points) - 1  # no leg is cut
 
 
 @pytest.mark.parametrize(

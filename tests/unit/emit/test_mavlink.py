@@ -104,8 +104,13 @@ def test_every_drone_gets_its_files() -> None:
         keyframes=replace(source.trajectory.keyframes, mission=pair),
         drones=(first, replace(first, drone="cam2")),
     )
-    names = [a.name for a in EMITTER.emit(replace(source, trajectory=trajectory)).artifacts]
-    assert names == ["cam1.plan", "cam2.plan", "cam2.waypoints"]
+    emission = EMITTER.emit(replace(source, trajectory=trajectory))
+    assert [a.name for a in emission.artifacts] == ["cam1.plan", "cam2.plan", "cam2.waypoints"]
+    # Both fly one way: what keeps them apart is no part of their files.
+    (meeting,) = (d for d in emission.diagnostics if d.code == "E145")
+    assert "cam1 and cam2" in meeting.message
+    assert "within 0.0 m" in meeting.notes[0]
+    assert "shotc stream" in meeting.help
 
 
 def test_the_take_off_is_relative_to_a_raised_pad() -> None:

@@ -31,7 +31,7 @@ def route(points, *, speed=3.0, stops=(), curve=2.0, actions=None):
 
 @pytest.mark.parametrize("shape", CURVED)
 def test_every_curve_goes_through_its_points(shape):
-    legs = shape(route(BENT, stops=(2,)), 20)
+    legs = shape.samples(route(BENT, stops=(2,)), 20)
     assert np.allclose(legs[:, 0], BENT[:-1])
     assert np.allclose(legs[:, -1], BENT[1:])
 
@@ -77,7 +77,7 @@ def test_a_rounded_corner_misses_its_point_by_a_quarter_of_the_way_between_its_e
     assert np.allclose(legs[1, 0], middle)
     assert np.allclose(legs[0, 0], CORNER[0])
     assert (legs[..., 1] <= legs[..., 0]).all()  # inside of the corner
-    straight = ROUNDED[1](route(CORNER), 30)
+    straight = ROUNDED[1].samples(route(CORNER), 30)
     assert np.allclose(straight[0, :, 1], 0.0)
 
 
