@@ -29,11 +29,13 @@ from shotc.pipeline import (
     ASSIGN,
     FILM,
     FRONT,
+    JOIN,
     SHOW,
     VERIFY,
     PassReport,
     Run,
     Setting,
+    Step,
     passes_of,
     run,
     run_refined,
@@ -155,21 +157,39 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
 
 
 def _lower(checked: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
-    """Plan a mission that has passed the front passes: what fleets display, or what cameras film."""
+    """Plan a mission that has passed the front passes: what fleets display, and what cameras film."""
     keyframes = with_autopilot(checked, options.autopilot)
-    if checked.mission.displays:
-        options.on_mission(checked.mission)
-        return _lower_show(keyframes, setting, options, ctx)
+    mission = checked.mission
+    if mission.displays and not mission.shots:
+        options.on_mission(mission)
+        return _lower_show(keyframes, (*SHOW, VERIFY), setting, options, ctx)
     seat, faults = _seat(options.refiner or plugins.usual_refiner(), checked.mission)
     if seat is None or stops(faults):
         return Run(None, faults, ())
-    options.on_mission(checked.mission)
+    options.on_mission(mission)
     seated = setting._replace(seat=seat, deadline=options.deadline)
+    if mission.displays:
+        return _lower_both(keyframes, seated, options, ctx)
     done = run_refined(passes_of((*FILM, VERIFY), seated), keyframes, ctx, seat, options.stop_after)
     return done._replace(diagnostics=(*faults, *done.diagnostics))
 
 
-def _lower_show(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
+def _lower_both(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
+    """Plan what fleets display, then what cameras film out of their airspace; one judge over all."""
+    shown = _lower_show(keyframes, SHOW, setting, options, ctx)
+    if shown.value is None or options.stop_after == shown.reports[-1].name:
+        return shown
+    from shotc.show.beside_cameras import beside
+
+    passes = passes_of((*FILM, JOIN, VERIFY), setting._replace(show=shown.value))
+    filmed = run_refined(passes, beside(shown.value), ctx, setting.seat, options.stop_after)
+    diagnostics = (*shown.diagnostics, *filmed.diagnostics)
+    return filmed._replace(diagnostics=diagnostics, reports=(*shown.reports, *filmed.reports))
+
+
+def _lower_show(
+    keyframes: KeyframeIR, steps: Sequence[Step], setting: Setting, options: PlanOptions, ctx: PassContext
+) -> Run:
     """Plan what fleets display, with one thread for the sums of linear algebra.
 
     They are many and short: threads cost them several times what they take, and would add up another way on
@@ -177,7 +197,7 @@ def _lower_show(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, c
     """
     from threadpoolctl import threadpool_limits
 
-    passes = passes_of((*SHOW, VERIFY), setting)  # loads the libraries that are to be limited
+    passes = passes_of(steps, setting)  # loads the libraries that are to be limited
     with threadpool_limits(1, "blas"):
         return run(passes, keyframes, ctx, options.stop_after)
 

@@ -55,12 +55,14 @@ class Setting(NamedTuple):
 
     kinds : the shot kinds by name; emitters : the names of all, None where they are not known
     seat : the refiner and where it comes from (``refine_path.Seat``); deadline : seconds that it may take
+    show : the flights of fleets that cameras are planned beside (TrajectoryIR)
     """
 
     kinds: Any
     emitters: Any = None
     seat: Any = None
     deadline: float | None = None
+    show: Any = None
 
 
 ASSIGN = Step(
@@ -84,10 +86,18 @@ SHOW = (
     Step("bound-splines", "ShowIR", "ShowIR", "shotc.show.splines:BoundSplines"),
     Step("keep-apart", "ShowIR", "TrajectoryIR", "shotc.show.separation:KeepApart"),
 )
-ROUTES = {"film": (ASSIGN, *FRONT, *FILM, VERIFY), "show": (ASSIGN, *FRONT, *SHOW, VERIFY)}
-"""From a mission to a verified plan: what cameras film, and what fleets display."""
+JOIN = Step(
+    "join-flights", "TrajectoryIR", "TrajectoryIR", "shotc.show.beside_cameras:JoinFlights", ("show",)
+)
+ROUTES = {
+    "film": (ASSIGN, *FRONT, *FILM, VERIFY),
+    "show": (ASSIGN, *FRONT, *SHOW, VERIFY),
+    "film beside a show": (*FILM, JOIN, VERIFY),
+}
+"""From a mission to a verified plan: what cameras film, and what fleets display. A mission that does both
+goes the way of a show up to its flights, then that of a film beside it, with one judge over all."""
 
-PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, VERIFY))
+PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, JOIN, VERIFY))
 
 
 def passes_of(steps: Sequence[Step], setting: Setting) -> tuple[AnyPass, ...]:

@@ -54,7 +54,7 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
     ir, mission = plan.trajectory, plan.trajectory.keyframes.mission
     shots = f"{len(mission.shots)} shot{'s' * (len(mission.shots) != 1)}"
     if ir.fleets:
-        shots = headline(plan)
+        shots = f"{shots} and {headline(plan)}" if ir.drones else headline(plan)
     tables = [rows for rows in (shot_rows(plan) if ir.drones else [], display_rows(plan)) if rows]
     return "\n".join(
         [

@@ -69,12 +69,19 @@ def compare_source(data: bytes, name: str, folder: Path | None, options: Options
         path = done.reports[-1].output if done.reports else None
         if not isinstance(path, PathIR) or has_errors(done.diagnostics):
             return Report(None, done.diagnostics, done.sources)
+        path = _without_show(path)
         first = first or (path, done)
         conditions += (_under(refiner, path, smoothing, options) for refiner in options.refiners)
     assert first is not None
     path, done = first
     found = Comparison(path.keyframes.mission, tuple(conditions), differences(conditions))
     return Report(found, done.diagnostics, done.sources)
+
+
+def _without_show(path: PathIR) -> PathIR:
+    """Return the flights of cameras alone, which stay out of the airspace of the show that they film."""
+    mission = path.keyframes.mission._replace(displays=(), fleets=())
+    return replace(path, keyframes=path.keyframes._replace(mission=mission))
 
 
 def _under(refiner: str, path: PathIR, smoothing: float | None, options: Options) -> Condition:

@@ -169,6 +169,14 @@ def restrict(curve: Piecewise, breaks: Array) -> Piecewise:
     return Piecewise(breaks, np.stack(out, axis=1))
 
 
+def held_until(curve: Piecewise, end: float) -> Piecewise:
+    """Return a curve that stands still from its own end to a later one."""
+    if curve.end >= end:
+        return curve
+    still = np.repeat(curve.ctrl[-1:, -1:], curve.degree + 1, axis=1)
+    return Piecewise(np.append(curve.breaks, end), np.concatenate([curve.ctrl, still]))
+
+
 def subdivide(breaks: Array, parts: int) -> Array:
     """Return breaks with every piece cut into ``parts`` equal ones; the old breaks are kept exactly.
 

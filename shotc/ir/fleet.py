@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 
 Colors = NDArray[np.uint8]
@@ -95,3 +96,10 @@ class ShowIR:
     fleets: tuple[FleetTrajectory, ...]
     wanted: tuple[Array, ...]
     stats: tuple[tuple[str, float | str], ...]
+
+
+def standing(mission: MissionIR, fleets: tuple[FleetTrajectory, ...], name: str | None) -> Shown | None:
+    """Return when the picture of a name stands, its last frame of several; None where no picture has it."""
+    named = {(d.id, k) for d in mission.displays for k, p in enumerate(d.pictures) if name and p.name == name}
+    stands = (s for fleet in fleets for s in reversed(fleet.shown) if (s.display, s.picture) in named)
+    return next(stands, None)

@@ -64,6 +64,14 @@ class Fleet(NamedTuple):
     path: KeyPath
 
 
+def kept_from_cameras(separation: float, fleet: Fleet) -> float:
+    """Return how far cameras stay from every drone of a fleet, centre to centre, metres: the stricter rule.
+
+    separation : of the mission's rules, metres
+    """
+    return max(separation, fleet.apart.across, fleet.apart.upright)
+
+
 class Sphere(NamedTuple):
     """A ball."""
 
@@ -149,6 +157,8 @@ class Picture(NamedTuple):
     transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
     proved
     at : when it stands on the mission's clock, s, or None where that follows from what is before it
+    name : what shots of cameras call it, or None
+    size : width, depth and height of the box about it that they frame, metres; None where its shape says that
     """
 
     source: Source
@@ -160,6 +170,8 @@ class Picture(NamedTuple):
     transition_path: Literal["auto", "straight", "arc"] = "auto"
     layers: int = 1
     at: float | None = None
+    name: str | None = None
+    size: Vec3 | None = None
 
 
 class Display(NamedTuple):

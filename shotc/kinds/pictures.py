@@ -12,10 +12,12 @@ from shotc.spec.faults import fault, read_each
 from shotc.spec.fields import (
     Angle,
     Duration,
+    Name,
     NonNegativeDuration,
     Position,
     PositiveLength,
     RelativePath,
+    Size3,
 )
 from shotc.spec.fieldtypes import FieldType, Integer, Text
 from shotc.spec.model import Model, OneOf
@@ -154,6 +156,12 @@ class PictureSpec(Model):
         "the way to it begins",
     )
     hold: NonNegativeDuration = Field(default=0.0, description="how long its last frame stands")
+    name: Name | None = Field(default=None, description="what shots of cameras call it that film it")
+    size: Size3 | None = Field(
+        default=None,
+        description="width, depth and height of the box about it that cameras frame, the depth along its "
+        "heading: of what is named and no sphere, cube or torus",
+    )
 
 
 class FramesType(FieldType):

@@ -44,7 +44,19 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
     at = None if spec.at is None else moment(spec.at, scene, (*path, "at"))
     if isinstance(at, Diagnostic):
         return at
-    return Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers, at)
+    return Picture(
+        source,
+        fill,
+        spec.color,
+        change.duration,
+        spec.hold,
+        path,
+        change.path,
+        spec.layers,
+        at,
+        spec.name,
+        spec.size,
+    )
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

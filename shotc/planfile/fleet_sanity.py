@@ -24,8 +24,6 @@ Fault = tuple[str, str]
 def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
     """Yield (path, fault) of everything that would make the fleets of a plan meaningless to prove."""
     mission = ir.keyframes.mission
-    if ir.drones and ir.fleets:
-        yield "fleets", "drones film in this plan, which are not proved against fleets"
     for i, fleet in enumerate(mission.fleets):
         yield from _fleet(fleet, f"mission.fleets[{i}]")
     names = {fleet.name for fleet in mission.fleets}

@@ -193,6 +193,8 @@ def _groups(mission: MissionIR) -> Iterator[Fault]:
     """Yield what is wrong with the groups: each is the bodies that it names, where they stand."""
     bodies = {target.name: target for target in mission.targets}
     for i, group in enumerate(mission.groups):
+        if not group.parts and not isinstance(group.shape, GroupShape):
+            continue  # a picture of a fleet, which has no bodies
         parts = [bodies[name] for name in group.parts if name in bodies]
         if len(parts) < len(group.parts) or not parts or not isinstance(group.shape, GroupShape):
             yield f"mission.groups[{i}]", "its parts are not those that it names"

@@ -7,6 +7,7 @@ damaged plan.json, or a faulty plugin, runs into.
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._filmed_shows import STANDING
 from shotc.diag.codes._framed import FRAMED
 from shotc.diag.codes._held import HELD
 from shotc.diag.codes._passed import PASSED
@@ -289,5 +290,5 @@ _FORM = (
 )
 
 CODES: tuple[CodeInfo, ...] = tuple(
-    sorted((*_LIMITS, *_SPACE, *_FORM, *FRAMED, *HELD, *SHOWN), key=lambda info: info.code)
+    sorted((*_LIMITS, *_SPACE, *_FORM, *FRAMED, *HELD, *SHOWN, *STANDING), key=lambda info: info.code)
 )

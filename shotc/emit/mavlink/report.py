@@ -60,14 +60,15 @@ def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Dia
 def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     """Say which shots are out of time in a mission file, for that has no clock."""
     flown = {phase.shot for phase in flight.phases}
-    moving = [s for s in mission.shots if s.ideal is not None and s.id in flown]
+    shown = {picture.name for display in mission.displays for picture in display.pictures if picture.name}
+    moving = [s for s in mission.shots if s.id in flown and (s.ideal is not None or s.subject in shown)]
     if not moving:
         return []
     names = ", ".join(f"`{shot.id}`" for shot in moving)
     return [
         Diagnostic(
             "E107",
-            f"the mission file of {flight.drone} does not carry when its shots of moving targets are filmed",
+            f"the mission file of {flight.drone} does not carry when its shots of what moves are filmed",
             tuple(mission.origins.key(shot.path) for shot in moving),
             (f"an autopilot starts it when it is told to, and flies at mean speeds; in question: {names}",),
             "fly the plan itself with `shotc stream`",

@@ -8,6 +8,7 @@ import numpy as np
 
 from shotc.emit.screen import ScreenSummary, certified, framed_targets
 from shotc.emit.storyboard.composition import composition_text
+from shotc.emit.storyboard.fleet_lights import FleetLights, lights_at
 from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
 from shotc.emit.storyboard.worst import Worst, worst_framing
 from shotc.geom.bernstein import Array
@@ -36,6 +37,7 @@ class Moment:
     time, hold : seconds; pose : channels, shape (7,)
     framed : its subjects, the foremost first
     worst : where none of its shot is framed worse, by how much, in words; else ""
+    lights : of fleets, or None where none flies
     """
 
     number: int
@@ -44,6 +46,7 @@ class Moment:
     hold: float
     framed: tuple[Framed, ...]
     worst: str = ""
+    lights: FleetLights | None = None
 
     @property
     def mark(self) -> str:
@@ -185,6 +188,7 @@ def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: Ke
         pose=flight.curve(at.time),
         hold=placed.keyframes[at.index].hold,
         framed=at_keyframe(plan, pair, at),
+        lights=lights_at(plan, at.time),
     )
 
 
@@ -196,12 +200,22 @@ def _passed(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: Keyf
 
 def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:
     """Return the moment of a shot at some time, seconds."""
-    return Moment(number, time, pair[1].curve(time), hold=0.0, framed=at_time(plan, pair, time))
+    return Moment(
+        number,
+        time,
+        pair[1].curve(time),
+        hold=0.0,
+        framed=at_time(plan, pair, time),
+        lights=lights_at(plan, time),
+    )
 
 
 def standing(mission: MissionIR, board: ShotBoard) -> MissionIR:
-    """Return the mission with a moving target standing wherever it is at one of a shot's moments."""
-    targets: list[Target] = []
+    """Return the mission with a moving target standing wherever it is at one of a shot's moments.
+
+    A picture of a fleet that the shot films is a target that stands there.
+    """
+    targets: list[Target] = [t for t in mission.groups if t.name == board.shot.subject and not t.parts]
     for target in mission.targets:
         if target.track is None:
             targets.append(target)

@@ -13,6 +13,7 @@ from shotc.emit.screen import guide_lines
 from shotc.emit.storyboard.camera_picture import Picture, picture
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip
 from shotc.emit.storyboard.content import Moment
+from shotc.emit.storyboard.fleet_lights import draw_lights
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.scene import draw_scene, name_places
 from shotc.emit.storyboard.subjects import Framed
@@ -50,6 +51,8 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
     box, mission = cell.picture, frozen(mission, moment.time)
     shown = picture(moment.pose, box.width / box.height, box)
     draw_scene(canvas, shown, mission, moment.targets, grid)
+    if moment.lights is not None:
+        draw_lights(canvas, shown, moment.lights)
     for composition in dict.fromkeys(subject.composition for subject in moment.framed):
         _composition(canvas, shown, composition)
     taken: list[Box] = []

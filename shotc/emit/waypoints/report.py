@@ -52,8 +52,8 @@ def no_origin(mission: MissionIR, emitter: str) -> Diagnostic:
 def fleetless(
     mission: MissionIR, fleets: tuple[FleetTrajectory, ...], emitter: str
 ) -> tuple[Diagnostic, ...]:
-    """Say once that fleets get no mission files; nothing where there is no fleet."""
-    if not fleets:
+    """Say once that fleets get no mission files; nothing without fleets, or where they get show files."""
+    if not fleets or "skyc" in mission.emit:
         return ()
     names = ", ".join(f"`{track.fleet}` ({len(track.coef)} drones)" for track in fleets)
     return (

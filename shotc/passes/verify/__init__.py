@@ -22,6 +22,7 @@ from shotc.passes.verify.ahead import ahead
 from shotc.passes.verify.claims import Flight
 from shotc.passes.verify.course import course
 from shotc.passes.verify.energy import energy
+from shotc.passes.verify.filmed_pictures import not_standing
 from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.loss import losses
 from shotc.passes.verify.motion import motion
@@ -100,7 +101,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
     ]
     certificate = tuple(claims)
     diagnostics = (*report(ir, certificate), *unjudged(ir, certificate), *losses(ir, certificate), *pans(ir))
-    diagnostics += tuple(unsharp(ir, certificate))
+    diagnostics += (*unsharp(ir, certificate), *not_standing(ir))
     return Verdict(certificate, (*_grounded(ir), *diagnostics), tuple(covered))
 
 

@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from shotc.geom.bernstein import Piecewise
-from shotc.geom.bspline import restrict
+from shotc.geom.bspline import held_until, restrict
 from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.proof import Bound, box_gap, inf_distance
 from shotc.geom.solids import point
@@ -60,13 +60,5 @@ def _difference(one: Piecewise, other: Piecewise) -> Pieces:
     """Return the first curve less the second on their common pieces, each standing still after its end."""
     end = max(one.end, other.end)
     breaks = np.union1d(one.breaks, other.breaks)
-    first, second = (restrict(_standing(curve, end), breaks) for curve in (one, other))
+    first, second = (restrict(held_until(curve, end), breaks) for curve in (one, other))
     return Pieces(breaks[:-1], breaks[1:], first.ctrl - second.ctrl)
-
-
-def _standing(curve: Piecewise, end: float) -> Piecewise:
-    """Return a curve that stands still from its end to another."""
-    if curve.end >= end:
-        return curve
-    still = np.repeat(curve.ctrl[-1:, -1:], curve.degree + 1, axis=1)
-    return Piecewise(np.append(curve.breaks, end), np.concatenate([curve.ctrl, still]))

@@ -91,6 +91,7 @@ STARTING = {
     "jump of ": Rule("V011", help=REPLAN),
     "drift at ": Rule("V016", help=REPLAN),
     "separation ": Rule("V022"),
+    "lights outside ": Rule("V057"),
     "distance from scene": Rule("V052"),
     "distance from buildings": Rule("V052"),
 }

@@ -174,7 +174,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show, heard: 
         files=show.files,
         terrain=world.terrain,
         meshes=world.standing.meshes,
-        groups=world.targets.groups,
+        groups=(*world.targets.groups, *shots.pictures),
         source=_source(ir, world.read, show),
         wind_toward=toward(spec.world.wind),
         rehearsal=rehearsal(spec.rehearse),

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from shotc.ir.mission import Deferred
 from shotc.spec.mission import MissionSpec
-from shotc.spec.shot import NO_DRONE
 
 
 def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[Deferred, ...]:
@@ -27,7 +26,3 @@ def _of_mission(spec: MissionSpec) -> Iterator[Deferred]:
         if place is not None and spec.fleets:
             help_ = f"remove `{key}`, and keep the show above all that stands there"
             yield Deferred(f"a show {how} (`world.{key}`)", ("world", key), help_)
-    drawn = [i for i, shot in enumerate(spec.shots) if shot.drone == NO_DRONE]
-    if 0 < len(drawn) < len(spec.shots):
-        help_ = "write the shots of the cameras and the displays as two missions"
-        yield Deferred("a mission with both cameras and displays", ("shots", drawn[0], "kind"), help_)

@@ -23,9 +23,18 @@ def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
     """Return the emitters that a mission asks for, or, where it is silent, those that suit what it flies."""
     if spec.output.emit is not None:
         return spec.output.emit
-    if any(shot.kind == "display" for shot in spec.shots):
-        drones = sum(fleet.count for fleet in spec.fleets.values())
-        return SHOW_EMIT if drones <= MANY_DRONES else tuple(n for n in SHOW_EMIT if n not in LARGE_OUTPUTS)
+    displays = [shot for shot in spec.shots if shot.kind == "display"]
+    shown = _show_emitters(spec) if displays else ()
+    filmed = _film_emitters(spec) if len(displays) < len(spec.shots) or not displays else ()
+    return tuple(dict.fromkeys((*filmed, *shown)))
+
+
+def _show_emitters(spec: MissionSpec) -> tuple[str, ...]:
+    drones = sum(fleet.count for fleet in spec.fleets.values())
+    return SHOW_EMIT if drones <= MANY_DRONES else tuple(n for n in SHOW_EMIT if n not in LARGE_OUTPUTS)
+
+
+def _film_emitters(spec: MissionSpec) -> tuple[str, ...]:
     machines = dict.fromkeys(TAKES[PRESETS[drone.model].autopilot][0] for drone in spec.drones.values())
     flown = tuple(machines) or ("mavlink",)
     return tuple(name for each in EMIT for name in (flown if each == "mavlink" else (each,)))

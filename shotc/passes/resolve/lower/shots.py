@@ -16,9 +16,10 @@ from shotc.ir.target import Target
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.lower.foreign import expanded
+from shotc.passes.resolve.lower.named_pictures import named_pictures
 from shotc.spec.heights import Altitude
 from shotc.spec.mission import MissionSpec
-from shotc.spec.shot import ShotBase
+from shotc.spec.shot import NO_DRONE, ShotBase
 
 if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Display
@@ -44,21 +45,28 @@ class Cast(NamedTuple):
 
 
 class Shots(NamedTuple):
-    """Shots that have keyframes, those of fleets, and what stands against the others."""
+    """Shots that have keyframes, those of fleets, and what stands against the others.
+
+    pictures : of fleets, those that have names, as targets
+    """
 
     shots: tuple[Shot, ...]
     displays: "tuple[Display, ...]"
     diagnostics: tuple[Diagnostic, ...]
     deferred: tuple[Deferred, ...]
+    pictures: tuple[Target, ...] = ()
 
 
 def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> Shots:
     """Expand every shot; one without a drone of its own is checked with what ``spare`` makes and left out."""
+    displays, diagnostics, deferred = _expand_displays(spec, cast, spare)
+    pictures, wrong = named_pictures(spec, displays, cast)
+    cast = cast._replace(targets={**cast.targets, **pictures})
+    diagnostics += wrong
     shots: list[Shot] = []
-    displays: list[Display] = []
-    diagnostics: list[Diagnostic] = []
-    deferred: list[Deferred] = []
     for i, written in enumerate(spec.shots):
+        if written.drone == NO_DRONE:
+            continue
         path = ("shots", i)
         if written.target is not None and written.target not in cast.targets:
             where = (*path, "target")
@@ -67,11 +75,26 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
         expansion = _expand(spec, written, cast, cast.drones.get(written.drone) or spare(), path)
         diagnostics += expansion.diagnostics
         deferred += expansion.deferred
-        if expansion.display is not None:
-            displays.append(expansion.display)
-        elif (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
+        if (expansion.keyframes or expansion.ideal) and written.drone in cast.drones:
             shots.append(_shot(spec, written, expansion, path))
-    return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred))
+    found = tuple(target for target in pictures.values() if target is not None)
+    return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred), found)
+
+
+def _expand_displays(
+    spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]
+) -> "tuple[list[Display], list[Diagnostic], list[Deferred]]":
+    """Expand the shots of fleets, whose pictures cameras may film."""
+    displays: list[Display] = []
+    diagnostics: list[Diagnostic] = []
+    deferred: list[Deferred] = []
+    for i, written in enumerate(spec.shots):
+        if written.drone == NO_DRONE:
+            expansion = _expand(spec, written, cast, spare(), ("shots", i))
+            diagnostics += expansion.diagnostics
+            deferred += expansion.deferred
+            displays += [] if expansion.display is None else [expansion.display]
+    return displays, diagnostics, deferred
 
 
 def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.fleets.apart import from_parked, separations
+from shotc.passes.verify.fleets.cameras import from_cameras
 from shotc.passes.verify.fleets.displays import displays
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.motion import motion
@@ -20,7 +21,7 @@ def fleet_claims(ir: TrajectoryIR, progress: Callable[[str], None]) -> list[Clai
     for flight in flights:
         progress(f"verify {flight.fleet.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *displays(flight, ir)]
-    return [*claims, *separations(flights), *from_parked(ir, flights)]
+    return [*claims, *separations(flights), *from_parked(ir, flights), *from_cameras(flights, ir.drones)]
 
 
 __all__ = ["fleet_claims", "fleet_structure"]

@@ -20,6 +20,7 @@ from shotc.ir.show import Display
 from shotc.ir.tolerances import ON_PLACE
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Limit, Worst, gap, held
+from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 from shotc.passes.verify.shots import ON_TIME_S
 
@@ -40,6 +41,7 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _pictures(flight, display, flown[0], shown)
             yield from _transitions(flight, display, shown)
             yield from _holds(flight, display, shown)
+            yield from named_pictures(flight, display, shown)
 
 
 def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:

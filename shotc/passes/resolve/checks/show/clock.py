@@ -25,6 +25,9 @@ def check_clock(mission: MissionIR) -> list[Diagnostic]:
     fleets = {fleet.name: fleet for fleet in mission.fleets}
     shown = [d for d in mission.displays if d.fleet in fleets]
     faults = [fault for d in shown for fault in _transitions(mission, d, fleets[d.fleet])]
+    waiting = [d for d in shown if d.timing.after in {shot.id for shot in mission.shots}]
+    if waiting:
+        return [*faults, *(_after_camera(mission, display) for display in waiting)]
     order = _in_order(shown)
     if len(order) < len(shown):
         return [*faults, _never(mission, next(d for d in shown if d not in order))]
@@ -149,6 +152,13 @@ def _never(mission: MissionIR, display: Display) -> Diagnostic:
     note = "the displays of one fleet are shown in the order in which they are written"
     message = f"display `{display.id}` waits for one that is shown later"
     return Diagnostic("D024", message, (label,), (note,), "write them in the order in which they are shown")
+
+
+def _after_camera(mission: MissionIR, display: Display) -> Diagnostic:
+    label = mission.origins.value((*display.path, "timing", "after"))
+    note = "a show is planned first, and the cameras that film it after it"
+    message = f"display `{display.id}` waits for `{display.timing.after}`, a shot of a camera"
+    return Diagnostic("D131", message, (label,), (note,), "remove it, and let the shot wait for the display")
 
 
 class _Free(NamedTuple):

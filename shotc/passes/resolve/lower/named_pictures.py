@@ -1,0 +1,87 @@
+"""Pictures of fleets that shots of cameras film by their names: targets that stand in nobody's way."""
+
+from collections.abc import Iterable, Mapping
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.shapes import BoxShape, CylinderShape
+from shotc.ir.limits import Vec3
+from shotc.ir.origin import OriginMap
+from shotc.ir.show import Box, Model, Picture, Sphere, Torus
+from shotc.ir.target import Target
+from shotc.spec.mission import MissionSpec
+
+if TYPE_CHECKING:
+    from shotc.geom.shapes import BodyShape
+    from shotc.ir.show import Display
+    from shotc.passes.resolve.lower.shots import Cast
+
+
+def named_pictures(
+    spec: MissionSpec, displays: "Iterable[Display]", cast: "Cast"
+) -> tuple[Mapping[str, Target | None], list[Diagnostic]]:
+    """Return the named pictures as targets, None for one whose size is not known, and what is wrong."""
+    found: dict[str, Target | None] = {}
+    faults: list[Diagnostic] = []
+    for display in displays:
+        for picture in (p for p in display.pictures if p.name is not None):
+            name, where = str(picture.name), (*picture.path, "name")
+            if name in cast.targets or name in found:
+                label = cast.origins.value(where)
+                help_ = f"call it `{name}-2`"
+                faults.append(Diagnostic("D129", f"there are two targets `{name}`", (label,), help=help_))
+                continue
+            made = _body(picture, _room(spec, display))
+            found[name] = None if made is None else Target(name, made[0], made[1], where)
+            if made is None:
+                faults.append(_without_size(cast.origins, picture))
+    return found, faults
+
+
+def _room(spec: MissionSpec, display: "Display") -> float:
+    """Return how far lights may stand outside what they show, m: half of what they are apart at least."""
+    fleet = spec.fleets.get(display.fleet)
+    written = None if fleet is None else fleet.separation
+    least = spec.rules.separation if written is None else written.horizontal + written.margin
+    return 0.5 * least
+
+
+def _body(picture: Picture, room: float) -> "tuple[Vec3, BodyShape] | None":
+    """Return the centre and the shape of the body that holds a picture, or None where nobody says its size.
+
+    room : metres beyond the picture, on each side
+    """
+    source, more = picture.source, 2.0 * room
+    if isinstance(source, Sphere):
+        return source.centre, CylinderShape(source.radius + room, 2.0 * source.radius + more)
+    if picture.size is not None and source.centre is not None:
+        width, depth, height = picture.size
+        return source.centre, BoxShape(depth + more, width + more, height + more, _ahead(source.heading))
+    if isinstance(source, Box):
+        width, depth, height = source.size
+        return source.centre, BoxShape(depth + more, width + more, height + more, _ahead(source.heading))
+    if isinstance(source, Torus):
+        rim = source.radius + source.tube
+        depth = source.radius * abs(cos(source.tilt)) + source.tube
+        up = source.radius * abs(sin(source.tilt)) + source.tube
+        return source.centre, BoxShape(
+            2.0 * depth + more, 2.0 * rim + more, 2.0 * up + more, _ahead(source.heading)
+        )
+    return None
+
+
+def _ahead(heading: float) -> tuple[float, float]:
+    return (sin(heading), cos(heading))
+
+
+def _without_size(origins: OriginMap, picture: Picture) -> Diagnostic:
+    label = origins.value((*picture.path, "name"))
+    note = "how large it is drawn is known where it is planned, too late for the cameras that frame it"
+    message, help_ = (
+        f"nothing says how large `{picture.name}` is",
+        "write `size: [width, depth, height]` of it",
+    )
+    if isinstance(picture.source, Model) and picture.source.centre is None:
+        message, help_ = f"nothing says where `{picture.name}` is", "write `center` of the model"
+    return Diagnostic("D130", message, (label,), (note,), help_)

@@ -1,0 +1,45 @@
+"""Whether the pictures of fleets that cameras film stand while they are filmed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.fleet import standing
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.passes.verify.shots import ON_TIME_S
+from shotc.rounding import at_least, plain
+
+
+def not_standing(ir: TrajectoryIR) -> Iterator[Diagnostic]:
+    """Yield the shots that film a picture before it stands, or after it has."""
+    if ir.fleets:
+        flown = [phase for track in ir.drones for phase in track.phases if phase.shot is not None]
+        yield from (found for phase in flown if (found := _astray(ir, phase)) is not None)
+
+
+def _astray(ir: TrajectoryIR, phase: Phase) -> Diagnostic | None:
+    mission = ir.keyframes.mission
+    shot = mission.shot(phase.shot)
+    stand = standing(mission, ir.fleets, shot.subject)
+    if stand is None:
+        return None
+    early, late = stand.start - phase.start, phase.end - stand.end
+    if max(early, late) <= ON_TIME_S:
+        return None
+    parts = [f"{at_least(early)} s before it stands"] if early > ON_TIME_S else []
+    parts += [f"{at_least(late)} s after it has left"] if late > ON_TIME_S else []
+    origins, picture = mission.origins, mission.display(stand.display).pictures[stand.picture]
+    help_ = f"give the shot `duration: {plain(stand.end - stand.start)}` or less"
+    if early > ON_TIME_S:
+        help_ = "leave out the start of the shot: it begins when the picture stands"
+    elif stand.end > stand.start:
+        help_ += f", or the picture `hold: {at_least(picture.hold + late)}`"
+    return Diagnostic(
+        "V058",
+        f"shot `{shot.id}` films `{shot.subject}` {' and '.join(parts)}",
+        (origins.key(shot.path), origins.value((*picture.path, "name"), "the picture")),
+        (f"it stands from {plain(stand.start)} to {plain(stand.end)} s",),
+        help_,
+    )

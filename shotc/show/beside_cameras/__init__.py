@@ -1,0 +1,59 @@
+"""join-flights: the flights of cameras that were planned beside a show, and the show, made one TrajectoryIR.
+
+A show is planned first. The cameras that film it stay out of its airspace, which they know as keep-out zones
+of their own mission; the trajectory that is verified has the mission as it is written, and all flights.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+from shotc.ir.fleet import standing
+from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.mission import Shot
+from shotc.ir.passes import Outcome, PassContext
+from shotc.ir.trajectory import TrajectoryIR
+from shotc.show.beside_cameras.airspace import airspace
+
+
+@dataclass(frozen=True, slots=True)
+class JoinFlights:
+    """The pass; show : the trajectory of the fleets alone."""
+
+    show: TrajectoryIR
+    name: ClassVar[str] = "join-flights"
+
+    def run(self, ir: TrajectoryIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
+        """Return the flights of cameras and fleets, of the mission as it is written."""
+        ctx.progress("cameras and fleets together")
+        stats = (*self.show.stats, *ir.stats)
+        joined = replace(ir, keyframes=self.show.keyframes, fleets=self.show.fleets, stats=stats)
+        return Outcome(joined)
+
+
+def timed(show: TrajectoryIR, shot: Shot) -> Shot:
+    """Return the shot of a camera with the times that the show gives it.
+
+    One that waits for a display begins when that has ended, one that films a picture by its name when it
+    stands, unless it says otherwise.
+    """
+    timing = shot.timing
+    ends = {phase.shot: phase.end for fleet in show.fleets for phase in fleet.phases if phase.shot}
+    stands = standing(show.keyframes.mission, show.fleets, shot.subject)
+    start, after = timing.start, timing.after
+    if start is None and after is None and stands is not None:
+        start = stands.start
+    if after is not None and after in ends:
+        start, after = max(start or 0.0, ends[after]), None
+    return shot._replace(timing=timing._replace(start=start, after=after))
+
+
+def beside(show: TrajectoryIR) -> KeyframeIR:
+    """Return what cameras are planned from: the mission with the airspace of its show kept out of."""
+    mission = show.keyframes.mission
+    zones = (zone for fleet in show.fleets for zone in airspace(mission, fleet))
+    shots = tuple(timed(show, shot) for shot in mission.shots)
+    by_id = {shot.id: shot for shot in shots}
+    placed = tuple(each._replace(shot=by_id[each.shot.id]) for each in show.keyframes.shots)
+    return KeyframeIR(mission._replace(zones=(*mission.zones, *zones), shots=shots), placed)

@@ -1,0 +1,54 @@
+"""The airspace of a show: prisms that hold every way of its fleets, which cameras stay out of all the time.
+
+Cameras could fly between the drones of a fleet as far as proofs go, but nobody would let them. What
+verification proves of a camera and a fleet knows nothing of these prisms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import pieces
+from shotc.geom.solids import Prism
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.show import kept_from_cameras
+
+LAYERS = 6
+"""Layers of height in which the ways of a fleet are held, each by a prism of its own."""
+THINNEST_M = 4.0
+"""Metres that a layer is high at least."""
+SIDES = 16
+"""Sides of a prism."""
+
+
+def airspace(mission: MissionIR, fleet: FleetTrajectory) -> Iterator[Zone]:
+    """Yield keep-out zones that hold all ways of a fleet, and the separation of cameras round them."""
+    own = mission.fleet(fleet.fleet)
+    ctrl = pieces(fleet.breaks, fleet.coef).reshape(-1, 4, 3)
+    low, high = ctrl[..., 2].min(axis=1), ctrl[..., 2].max(axis=1)
+    number = int(np.clip((high.max() - low.min()) / THINNEST_M, 1, LAYERS))
+    room = kept_from_cameras(mission.rules.separation, own)
+    for bottom, top in pairwise(np.linspace(low.min(), high.max(), number + 1).tolist()):
+        inside = (high >= bottom) & (low <= top)
+        if inside.any():
+            points = _about(ctrl[inside].reshape(-1, 3)[:, :2], room)
+            solid = Prism(points, bottom - room, top + room)
+            yield Zone(f"airspace of {own.name}", "out", solid, own.path)
+
+
+def _about(points: Array, room: float) -> tuple[tuple[float, float], ...]:
+    """Return the corners of a polygon about points (N, 2), so far away, counter-clockwise, (SIDES, 2)."""
+    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
+    sides = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    reach = np.array([(points @ side).max() for side in sides]) + room
+    corners = []
+    for k in range(SIDES):
+        pair = sides[[k, (k + 1) % SIDES]]
+        x, y = np.linalg.solve(pair, reach[[k, (k + 1) % SIDES]]).tolist()
+        corners.append((x, y))
+    return tuple(corners)
