@@ -27,9 +27,9 @@ from shotc.lowering import lower, lower_kept, with_autopilot, with_smoothing
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import (
     ASSIGN,
+    BESIDE_SHOW,
     FILM,
     FRONT,
-    JOIN,
     SHOW,
     VERIFY,
     PassReport,
@@ -181,7 +181,7 @@ def _lower_both(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, c
         return shown
     from shotc.show.beside_cameras import beside
 
-    passes = passes_of((*FILM, JOIN, VERIFY), setting._replace(show=shown.value))
+    passes = passes_of(BESIDE_SHOW, setting._replace(show=shown.value))
     filmed = run_refined(passes, beside(shown.value), ctx, setting.seat, options.stop_after)
     diagnostics = (*shown.diagnostics, *filmed.diagnostics)
     return filmed._replace(diagnostics=diagnostics, reports=(*shown.reports, *filmed.reports))

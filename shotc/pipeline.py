@@ -92,10 +92,11 @@ JOIN = Step(
 ROUTES = {
     "film": (ASSIGN, *FRONT, *FILM, VERIFY),
     "show": (ASSIGN, *FRONT, *SHOW, VERIFY),
-    "film beside a show": (*FILM, JOIN, VERIFY),
 }
-"""From a mission to a verified plan: what cameras film, and what fleets display. A mission that does both
-goes the way of a show up to its flights, then that of a film beside it, with one judge over all."""
+"""From a mission to a verified plan: what cameras film, and what fleets display."""
+
+BESIDE_SHOW = (*FILM, JOIN, VERIFY)
+"""What follows the passes of a show where cameras film it, too: one judge over all."""
 
 PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, JOIN, VERIFY))
 

@@ -22,7 +22,7 @@ CHECKED = [info for info in registry().values() if info.phase == "check" and not
 
 TOLD_IN_WORDS = {
     **dict.fromkeys(
-        (*("S004", "S005", "S007", "S008", "S011", "S012", "S015", "S016", "S017", "D120"),
+        (*("S004", "S005", "S007", "S008", "S011", "S012", "S015", "S016", "S017", "D120", "D130"),
             *("G050", "N008", "U002", "U005", "U006")),
         "only the author knows the value: the help says its form",
     ),

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, get_args, get_type_hints
 
@@ -9,7 +10,7 @@ from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.ir.passes import Outcome, PassContext
 from shotc.passes.refine_path import Seat
-from shotc.pipeline import FRONT, PASS_NAMES, ROUTES, VERIFY, Setting, passes_of, run
+from shotc.pipeline import BESIDE_SHOW, FRONT, PASS_NAMES, ROUTES, VERIFY, Setting, Step, passes_of, run
 
 
 @dataclass(frozen=True)
@@ -44,10 +45,10 @@ class Spell:
         return Outcome(str(ir.value))
 
 
-@pytest.mark.parametrize("route", ROUTES)
-def test_the_passes_of_a_route_are_what_it_says_of_them(route: str) -> None:
-    passes = passes_of(ROUTES[route], Setting(plugins.discover("kinds").plugins, (), Seat()))
-    for step, made in zip(ROUTES[route], passes, strict=True):
+@pytest.mark.parametrize("steps", [*ROUTES.values(), BESIDE_SHOW], ids=[*ROUTES, "film beside a show"])
+def test_the_passes_of_a_route_are_what_it_says_of_them(steps: Sequence[Step]) -> None:
+    passes = passes_of(steps, Setting(plugins.discover("kinds").plugins, (), Seat()))
+    for step, made in zip(steps, passes, strict=True):
         hints = get_type_hints(made.run)
         (given,) = get_args(hints["return"])
         assert (made.name, hints["ir"].__name__, given.__name__) == (step.name, step.takes, step.gives)

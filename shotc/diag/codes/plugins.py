@@ -5,29 +5,6 @@ from __future__ import annotations
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.model import Severity
 
-_PASSING = """\
-shotc: 1
-mission: pan
-targets: {mast: {at: [0, 0, 6], radius: 1, height: 12}}
-drones: {cam: {model: x500, home: [0, -30, 0]}}
-shots:
-  - id: look
-    kind: keyframes
-    drone: cam
-    target: mast
-    keyframes:
-      - {at: [-12, -20, 8], look_at: mast}
-      - {at: [12, -20, 10], look_at: mast}
-"""
-
-_BOTH = (
-    _PASSING.replace(
-        "shots:\n",
-        "fleets: {swarm: {count: 20, layout: {grid: {spacing: 4, origin: [100, 0, 0]}}}}\nshots:\n",
-    )
-    + "  - {id: show, kind: display, fleet: swarm, frames: [{sphere: {center: [100, 0, 40], radius: 20}}]}\n"
-)
-
 CODES: tuple[CodeInfo, ...] = (
     CodeInfo(
         "P001",
@@ -92,11 +69,11 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "the mission uses a part of the language that this version checks but cannot plan",
         "The whole language is parsed and validated, so that missions can be written and reviewed today. Shows "
-        "over terrain or beside scenes, and missions that both film and show, are planned by later versions; until then `shotc plan` refuses the mission instead of "
+        "over terrain or beside scenes are planned by later versions; until then `shotc plan` refuses the mission instead of "
         "flying a part of it.",
-        _BOTH,
-        _PASSING,
-        "plan",
+        "",
+        "",
+        "other",
     ),
     CodeInfo(
         "P007",

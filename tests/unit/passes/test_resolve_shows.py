@@ -96,13 +96,11 @@ def test_a_display_is_a_record_and_no_shot() -> None:
     )
 
 
-def test_a_mission_that_films_as_well_waits_for_a_later_version() -> None:
+def test_a_mission_may_film_as_well() -> None:
     camera = "  - {drone: cam1, " + at(0, -50, 10).replace("id: a", "id: b") + "}\n"
     text = show(more=camera).replace("fleets:", "drones: {cam1: {home: [0, -60, 0]}}\nfleets:")
     found = resolve(text)
-    assert [(d.feature, d.path) for d in found.deferred] == [
-        ("a mission with both cameras and displays", ("shots", 0, "kind"))
-    ]
+    assert found.deferred == ()
     assert (len(found.shots), len(found.displays), found.rate) == (1, 1, 50.0)
 
 

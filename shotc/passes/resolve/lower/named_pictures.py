@@ -29,7 +29,7 @@ def named_pictures(
             name, where = str(picture.name), (*picture.path, "name")
             if name in cast.targets or name in found:
                 label = cast.origins.value(where)
-                help_ = f"call it `{name}-2`"
+                help_ = f"write `name: {name}-2`"
                 faults.append(Diagnostic("D129", f"there are two targets `{name}`", (label,), help=help_))
                 continue
             made = _body(picture, _room(spec, display))
@@ -80,8 +80,8 @@ def _without_size(origins: OriginMap, picture: Picture) -> Diagnostic:
     note = "how large it is drawn is known where it is planned, too late for the cameras that frame it"
     message, help_ = (
         f"nothing says how large `{picture.name}` is",
-        "write `size: [width, depth, height]` of it",
+        "say its `size`, as [width, depth, height]",
     )
     if isinstance(picture.source, Model) and picture.source.centre is None:
-        message, help_ = f"nothing says where `{picture.name}` is", "write `center` of the model"
+        message, help_ = f"nothing says where `{picture.name}` is", "say the `center` of the model"
     return Diagnostic("D130", message, (label,), (note,), help_)

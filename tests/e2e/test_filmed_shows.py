@@ -1,0 +1,148 @@
+"""Cameras that film a show: what is claimed of both together, held against dense samples and other eyes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shotc.api import PlanOptions, compile_source, verify_plan
+from shotc.emit.plan_json import EMITTER as PLAN_JSON
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.fleet_spline import places
+from shotc.geom.solids import signed_distance
+from shotc.ir.passes import PassContext
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
+from shotc.passes.verify import judge
+from shotc.show.beside_cameras import timed
+from shotc.show.beside_cameras.airspace import airspace
+from tests.support.records import replace
+
+pytestmark = pytest.mark.slow
+
+MISSION = """\
+shotc: 1
+mission: filmed
+drones:
+  cam: {model: x500, home: [0, -70, 0], camera: {hfov: 60 deg, aspect: "16:9"}}
+fleets:
+  swarm: {count: 10, layout: {grid: {spacing: 4, origin: [30, 30, 0]}}, separation: 1}
+shots:
+  - id: dance
+    kind: display
+    fleet: swarm
+    frames:
+      - {sphere: {center: [0, 0, 30], radius: 6}, name: globe, hold: 14}
+      - {cube: {center: [0, 0, 30], size: 14, heading: 20 deg}, name: block, hold: 4}
+  - id: turn
+    kind: orbit
+    drone: cam
+    target: globe
+    radius: 29
+    altitude: {above: origin, height: 30}
+    start_azimuth: 180 deg
+    sweep: 50 deg
+    timing: {duration: 12}
+    require: {in_frame: 100 %}
+"""
+
+
+@pytest.fixture(scope="module")
+def plan() -> VerifiedIR:
+    done = compile_source(MISSION.encode(), "filmed.yaml", None, PlanOptions(refiner="none"))
+    assert done.plan is not None, done.diagnostics
+    return done.plan
+
+
+def apart(ir: TrajectoryIR, times: Array) -> Array:
+    """Return how far the camera is from the nearest drone of the fleet at times, sampled, metres."""
+    camera, fleet = ir.drones[0].curve, ir.fleets[0]
+    eye = camera(np.clip(times, camera.start, camera.end))[:, :3]
+    swarm = places(fleet.breaks, fleet.coef, np.minimum(times, fleet.breaks[-1]))
+    return np.asarray(np.linalg.norm(swarm - eye, axis=2).min(axis=0))
+
+
+def separation(certificate: tuple[Claim, ...]) -> Claim:
+    return next(c for c in certificate if c.constraint == "separation from cam")
+
+
+def test_the_separation_of_camera_and_fleet_is_that_of_dense_samples(plan: VerifiedIR) -> None:
+    ir, claim = plan.trajectory, separation(plan.certificate)
+    sampled = apart(ir, np.arange(0.0, ir.end, 0.01)).min()
+    assert claim.limit == 3.0
+    assert claim.holds
+    assert sampled - 0.05 <= claim.worst <= sampled
+    assert claim.drones[1] == "cam"
+    assert claim.time is not None
+    assert apart(ir, np.array([claim.time]))[0] == pytest.approx(claim.worst, abs=0.05)
+
+
+def test_a_camera_that_flies_through_the_picture_breaks_it(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    camera = ir.drones[0]
+    ctrl = camera.curve.ctrl.copy()
+    ctrl[:, :, 1] += 27.0
+    through = replace(camera, curve=Piecewise(camera.curve.breaks, ctrl))
+    claim = separation(judge(replace(ir, drones=(through,)), PassContext()).certificate)
+    moved = apart(replace(ir, drones=(through,)), np.arange(0.0, ir.end, 0.01)).min()
+    assert not claim.holds
+    assert moved - 0.05 <= claim.worst <= moved
+
+
+def test_cameras_stay_out_of_an_airspace_that_holds_every_drone(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    zones = list(airspace(ir.keyframes.mission, ir.fleets[0]))
+    camera, fleet = ir.drones[0].curve, ir.fleets[0]
+    times = np.arange(0.0, ir.end, 0.5)
+    for drone in places(fleet.breaks, fleet.coef, np.minimum(times, fleet.breaks[-1])):
+        assert all(min(signed_distance(z.solid, tuple(p)) for z in zones) <= -2.9 for p in drone)
+    eye = camera(np.clip(times, camera.start, camera.end))[:, :3]
+    assert all(min(signed_distance(z.solid, tuple(p)) for z in zones) > 0.29 for p in eye)
+
+
+def test_the_shot_begins_when_its_picture_stands_and_every_light_is_in_the_frame(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    flight, fleet = ir.drones[0], ir.fleets[0]
+    filmed = next(p for p in flight.phases if p.shot == "turn")
+    assert filmed.start == pytest.approx(fleet.shown[0].start, abs=1e-6)
+    times = np.linspace(filmed.start, filmed.end, 25)
+    for pose, swarm in zip(
+        flight.curve(times), places(fleet.breaks, fleet.coef, times).swapaxes(0, 1), strict=True
+    ):
+        yaw, pitch = pose[CAM_YAW], pose[CAM_PITCH]
+        ahead = np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), np.sin(pitch)])
+        right = np.array([np.sin(yaw), -np.cos(yaw), 0.0])
+        off = swarm - pose[:3]
+        depth, half = off @ ahead, np.tan(pose[HFOV] / 2)
+        assert (depth > 0).all()
+        assert (np.abs(off @ right) <= half * depth).all()
+        assert (np.abs(off @ np.cross(right, ahead)) <= half * 9 / 16 * depth).all()
+
+
+def test_the_plan_is_proved_again_from_its_bytes(plan: VerifiedIR) -> None:
+    data = PLAN_JSON.emit(plan).artifacts[0].data
+    again = verify_plan(data, "plan.json")
+    assert again.diagnostics == ()
+    assert separation(again.certificate).worst == pytest.approx(separation(plan.certificate).worst)
+
+
+def test_lights_outside_of_what_cameras_frame_are_an_error(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    mission = ir.keyframes.mission
+    globe = next(group for group in mission.groups if group.name == "globe")
+    small = globe._replace(shape=globe.shape._replace(radius=4.0))  # type: ignore[union-attr]
+    less = mission._replace(groups=(small, *(g for g in mission.groups if g is not globe)))
+    verdict = judge(replace(ir, keyframes=ir.keyframes._replace(mission=less)), PassContext())
+    claim = next(c for c in verdict.certificate if c.constraint == "lights outside globe")
+    assert not claim.holds
+    assert "V057" in [d.code for d in verdict.diagnostics]
+
+
+def test_a_shot_waits_for_the_display_that_it_comes_after(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    (shot,) = ir.keyframes.mission.shots
+    end = next(p.end for p in ir.fleets[0].phases if p.shot == "dance")
+    later = timed(ir, shot._replace(timing=shot.timing._replace(after="dance")))
+    assert (later.timing.start, later.timing.after) == (end, None)
+    asked = timed(ir, shot._replace(timing=shot.timing._replace(start=7.0)))
+    assert asked.timing.start == 7.0
