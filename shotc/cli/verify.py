@@ -118,10 +118,10 @@ def _print_flights(report: FlightsReport) -> None:
         console.out(certificate_text(report.certificate))
     console.report(report.diagnostics, report.sources)
     for note in report.notes:
-        console.note(note)
+        console.out(note)
     if report.holds:
         hard = sum(claim.hard for claim in report.certificate)
-        console.note(f"what is judged holds: {hard} requirements proved")
+        console.out(f"what is judged holds: {hard} requirements proved")
 
 
 def _flights_document(report: FlightsReport) -> str:
@@ -140,7 +140,7 @@ def _print(report: PlanReport) -> None:
     console.report(report.diagnostics, report.sources)
     if report.plan is not None:
         hard = sum(claim.hard for claim in report.certificate)
-        console.note(f"the plan holds: {hard} requirements proved again")
+        console.out(f"the plan holds: {hard} requirements proved again")
 
 
 def _document(report: PlanReport) -> str:

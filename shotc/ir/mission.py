@@ -213,7 +213,7 @@ class Shot(NamedTuple):
     allow : what of ``spec.allow`` it may do untold, by name, by its own word or by that of the rules
     above : what the altitude of its camera counts from; None where it has none
     smoothing : seconds; see ``ir.smoothing``
-    focus : name of the target that the lens is focused on, None for the one that is framed
+    focus : name of the target that the lens is focused on, or a depth, m; None for the one that is framed
     photos : taken in place of a film, or None
     """
 
@@ -233,7 +233,7 @@ class Shot(NamedTuple):
     allow: tuple[str, ...] = ()
     above: Above | None = None
     smoothing: float = NORMAL_S
-    focus: str | None = None
+    focus: str | float | None = None
     photos: Photos | None = None
 
     @property

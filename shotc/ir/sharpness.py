@@ -1,7 +1,8 @@
 """How sharp a target is shown: by the depth of field, and by what moves while the shutter is open.
 
-The lens is focused on the centre of the shot's ``focus``, or of the target that it frames. During the
-exposure about an instant a point draws a line on the picture: motion blur is how far its ends are apart.
+The lens is focused on the centre of the shot's ``focus``, or so far away, or on the target that it frames.
+During the exposure about an instant a point draws a line on the picture: motion blur is how far its ends are
+apart.
 """
 
 from __future__ import annotations
@@ -68,6 +69,8 @@ def sharpness(mission: MissionIR, track: DroneTrajectory, shot: str, target: str
 def focused(mission: MissionIR, track: DroneTrajectory, shot: str, t: Array) -> Array:
     """Return the depth at which the lens is focused at times (M,), m; NaN where nothing is before it."""
     chosen = mission.shot(shot).focus
+    if isinstance(chosen, float):
+        return np.full(len(t), chosen)
     names = subjects(mission, track, shot) if chosen is None else (chosen,)
     depth = np.full(len(t), np.nan)
     for name in names:

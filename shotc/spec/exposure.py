@@ -10,6 +10,7 @@ from pydantic.json_schema import JsonSchemaValue
 from shotc.ir.photos import Photos
 from shotc.spec.faults import fault, unit_fault
 from shotc.spec.fieldtypes import FieldType
+from shotc.spec.places import NAME
 from shotc.spec.quantities import Quantity
 from shotc.units import NUMBER, QuantityError, clip, describe, parse_quantity
 
@@ -54,6 +55,31 @@ class ApertureType(FieldType):
             ],
             "description": "an f-number, such as f/2.8",
         }
+
+
+class FocusType(FieldType):
+    """What a lens is focused on: the name of a target, or a distance as ``60 m``."""
+
+    label = "Focus"
+    _distance = Quantity("FocusDistance", "length", 0.1, 1e5, noun="distance of focus")
+
+    def read(self, value: Any) -> str | float:
+        """Return the name, or the distance along the camera's axis, m; what reads as a length is one."""
+        try:
+            parse_quantity(value, "length")
+        except QuantityError:
+            if not isinstance(value, str) or re.match(r"\s*[+-]?[\d.]*\d\s+\S", value):
+                raise fault(
+                    "wrong-type",
+                    f"expected a target or a distance, got {describe(value)}",
+                    "write the name of a target, or a distance such as `60 m`",
+                ) from None
+            return str(NAME.read(value))
+        return self._distance.read(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """Return the two ways to write it."""
+        return {"anyOf": [NAME.reference(), *self._distance.schema()["anyOf"]]}
 
 
 class IntervalType(FieldType):

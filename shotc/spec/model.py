@@ -186,9 +186,10 @@ def _exactly(given: tuple[str, ...], absent: set[str]) -> JsonSchemaValue:
 
 def _no_mapping(value: object, known: Mapping[str, object]) -> PydanticCustomError:
     slug = "empty-value" if value is None else "wrong-type"
-    return fault(
-        slug, f"expected a mapping, got {describe(value)}", f"write a mapping with {', '.join(known)}"
-    )
+    rule = f"write a mapping with {', '.join(known)}"
+    if len(known) == 1 and isinstance(value, str | int | float) and not isinstance(value, bool):
+        rule = f"write `{{{next(iter(known))}: {clip(str(value))}}}`"
+    return fault(slug, f"expected a mapping, got {describe(value)}", rule)
 
 
 def _is(detail: InitErrorDetails, kind: str) -> bool:

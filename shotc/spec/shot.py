@@ -12,7 +12,7 @@ from pydantic_core import CoreSchema
 
 from shotc.ir.photos import Photos
 from shotc.spec.allow import Allowed
-from shotc.spec.exposure import IntervalType
+from shotc.spec.exposure import FocusType, IntervalType
 from shotc.spec.faults import fault, fault_at
 from shotc.spec.fields import (
     BoxOnScreen,
@@ -148,10 +148,10 @@ class ShotBase(Model):
     drone: Name = Field(description="name of the drone that films it, or auto")
     target: Name | None = Field(default=None, description="name of the target in the picture")
     timing: TimingSpec = section("auto, or any of start, after, duration")
-    focus: Name | None = Field(
+    focus: Annotated[str | float, FocusType()] | None = Field(
         default=None,
-        description="name of the target that the lens is focused on, for cameras with an aperture; the one "
-        "that is framed if silent",
+        description="name of the target that the lens is focused on, or a distance, for cameras with an "
+        "aperture; the target that is framed if silent",
     )
     composition: CompositionSet | None = Field(
         default=None,

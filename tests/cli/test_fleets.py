@@ -56,7 +56,7 @@ def test_verify_names_the_worst_drone_of_every_claim(run: Run, show: Path) -> No
         "and",
         "swarm-2",
     ]
-    assert "18 requirements proved again" in done.err
+    assert "18 requirements proved again" in done.out
     as_json = json.loads(run("verify", str(show), "--format", "json").out)
     assert as_json["holds"]
     assert as_json["certificate"][-1]["drones"] == ["swarm-1", "swarm-2"]

@@ -25,7 +25,7 @@ def plan(tmp_path: Path) -> Path:
 def held(run: Run, plan: Path, text: str) -> tuple[int, str]:
     plan.with_name("mission.yaml").write_text(text)
     done = run("verify", str(plan), "--against", str(plan.with_name("mission.yaml")))
-    return done.code, done.err
+    return done.code, done.out + done.err
 
 
 def test_the_plan_of_the_file_holds(run: Run, plan: Path) -> None:

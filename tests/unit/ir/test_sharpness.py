@@ -195,3 +195,26 @@ def test_shutters_are_written_as_photographers_do(written: str, seconds: float) 
     assert found == []
     assert mission.drones[0].optics.shutter == pytest.approx(seconds)
     assert mission.drones[0].optics.aperture == 5.6
+
+
+def test_a_lens_may_be_focused_on_a_distance():
+    at = plan(f"{LENS}, aperture: f/2.8", ", focus: 60 m")
+    assert {float(r["focus_m"]) for r in rows(at)} == {60.0}
+    disc = (0.085 / 2.8) * 0.085 * (60.0 - 11.0) / (60.0 - 0.085) / 11.0  # of the nearest point, at the end
+    assert worst(at, "blur disc") == pytest.approx(1e3 * disc, rel=0.02)
+    assert soft(f"{LENS}, aperture: f/2.8", ", focus: 60 m") == ["V061"]
+    assert soft(f"{LENS}, aperture: f/2.8") == []
+
+
+@pytest.mark.parametrize(
+    ("focus", "code", "told"),
+    [
+        ("60 s", "S007", "the name of a target, or a distance such as `60 m`"),
+        ("0 m", "S014", "give"),
+        ("nobody", "N001", ""),
+    ],
+)
+def test_a_focus_is_a_target_or_a_distance(focus, code, told):
+    (fault,) = compiled_text(text(f"{LENS}, aperture: f/2.8", f", focus: {focus}")).diagnostics
+    assert fault.code == code
+    assert told in (fault.help or "")

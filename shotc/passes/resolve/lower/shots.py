@@ -156,7 +156,7 @@ def _focus(spec: MissionSpec, shot: ShotBase, cast: Cast, path: KeyPath) -> list
     where = (*path, "focus")
     if shot.focus is None:
         return []
-    if shot.focus not in cast.targets:
+    if isinstance(shot.focus, str) and shot.focus not in cast.targets:
         return [unknown_target(cast.origins, where, shot.focus, cast.targets)]
     drone = spec.drones.get(shot.drone)
     if drone is None or drone.camera.aperture is not None:
