@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import inf, isfinite
 
 import numpy as np
 
@@ -17,11 +17,18 @@ from shotc.geom.pieces import Pieces, cut, join
 from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_channel, sup_outside
 from shotc.geom.solid_arrays.points import separation, signed_distance
 from shotc.geom.solids import Solid, convex_parts
+from shotc.geom.surface.distance import SurfaceBound
+from shotc.geom.surface.distance import inf_distance as surface_distance
+from shotc.geom.surface.ground import NoGround, height_at
+from shotc.geom.surface.height import inf_height, sup_height
 from shotc.ir.mission import MissionIR
+from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.origin import KeyPath
+from shotc.ir.rules import Rules
 from shotc.ir.sampling import beside
 from shotc.ir.show import Fleet
 from shotc.ir.target import Target
+from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, Worst, gap, held, less
 from shotc.passes.verify.fleets.space import nearest
@@ -126,26 +133,16 @@ def _airborne(flight: Flown) -> float:
 
 def _space(swarm: Swarm) -> Iterator[Found]:
     """Claim zones, the ground, heights and standing or moving targets."""
-    mission, radius = swarm.mission, swarm.fleet.radius
-    free, rules = swarm.free, swarm.mission.rules
+    mission, rules = swarm.mission, swarm.mission.rules
     for zone in mission.zones:
         name = f"zone {zone.name}"
         if zone.keep == "out":
             yield from _keep_out(swarm, Limit(name, 0.0, "m", zone.path, upper=False), zone.solid)
         else:
             yield _keep_in(swarm, Limit(name, 0.0, "m", zone.path, upper=False), zone.solid)
-    if len(free.pieces):
-        limit = Limit(
-            "ground clearance", rules.ground_clearance, "m", ("rules", "ground_clearance"), upper=False
-        )
-        low = inf_channel(free.pieces, 2, gap(rules.ground_clearance + radius))
-        owner = who(free, low.at, lambda p: p[:, 2], upper=False)
-        yield _told(swarm, limit, less(low, radius), owner)
-    most = rules.max_height
-    if most is not None and isfinite(most):
-        high = sup_channel(swarm.whole.pieces, 2, gap(most))
-        owner = who(swarm.whole, high.at, lambda p: p[:, 2], upper=True)
-        yield _told(swarm, Limit("height above ground", most, "m", ("rules", "max_height")), high, owner)
+    yield from _ground(swarm) if mission.terrain is None else _terrain(swarm, mission.terrain)
+    for mesh in mission.meshes:
+        yield from _beside(swarm, mesh)
     for target in mission.targets:
         path: KeyPath = ("rules", "target_clearance")
         limit = Limit(f"target {target.name}", rules.target_clearance, "m", path, upper=False)
@@ -153,6 +150,68 @@ def _space(swarm: Swarm) -> Iterator[Found]:
             yield from _keep_out(swarm, limit, target.kept_clear)
         else:
             yield _keep_from(swarm, limit, target)
+
+
+def _ground(swarm: Swarm) -> Iterator[Found]:
+    """Claim the height above flat ground."""
+    free, rules, radius = swarm.free, swarm.mission.rules, swarm.fleet.radius
+    if len(free.pieces):
+        low = inf_channel(free.pieces, 2, gap(rules.ground_clearance + radius))
+        owner = who(free, low.at, lambda p: p[:, 2], upper=False)
+        yield _told(swarm, _clearance(rules), less(low, radius), owner)
+    most = rules.max_height
+    if most is not None and isfinite(most):
+        high = sup_channel(swarm.whole.pieces, 2, gap(most))
+        owner = who(swarm.whole, high.at, lambda p: p[:, 2], upper=True)
+        yield _told(swarm, Limit("height above ground", most, "m", ("rules", "max_height")), high, owner)
+
+
+def _clearance(rules: Rules) -> Limit:
+    return Limit("ground clearance", rules.ground_clearance, "m", ("rules", "ground_clearance"), upper=False)
+
+
+def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[Found]:
+    """Claim the upright height above terrain, and the body's distance from it; beyond it nothing holds."""
+    free, rules, radius, ground = swarm.free, swarm.mission.rules, swarm.fleet.radius, terrain.ground
+
+    def above(p: Array) -> Array:
+        return p[:, 2] - height_at(ground, p[:, :2])
+
+    def told(limit: Limit, found: SurfaceBound | NoGround, bag: Bag, by: float) -> Found:
+        if isinstance(found, SurfaceBound):
+            return _told(swarm, limit, less(found, by), int(bag.owner[found.piece]))
+        never = inf if limit.upper else -inf
+        outside = who(bag, found.at, lambda p: np.nan_to_num(above(p), nan=never), upper=limit.upper)
+        return _told(swarm, limit, Bound(never, never, found.at), outside)
+
+    if len(free.pieces):
+        low = inf_height(free.pieces, ground, gap(rules.ground_clearance + radius))
+        yield told(_clearance(rules), low, free, radius)
+        near = surface_distance(free.pieces, ground.surface, gap(radius))
+        yield told(Limit("distance from terrain", 0.0, "m", terrain.path, upper=False), near, free, radius)
+    most = rules.max_height
+    if most is not None and isfinite(most) and len(swarm.whole.pieces):
+        high = sup_height(swarm.whole.pieces, ground, gap(most))
+        yield told(Limit("height above ground", most, "m", ("rules", "max_height")), high, swarm.whole, 0.0)
+
+
+def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[Found]:
+    """Claim the distance from a scene or from buildings; over its pad a body may be as near as it stands."""
+    least, body = swarm.mission.rules.obstacle_clearance, swarm.fleet.radius + mesh.spacing
+    name, pads = f"distance from {mesh.kind}", mesh.signed_distance(swarm.pads)
+    for bag, at_home in ((swarm.free, False), (swarm.upright, True)):
+        if not len(bag.pieces):
+            continue
+        worst, owner = Bound(inf, inf, 0.0), 0
+        for k in np.unique(bag.owner):
+            room = min(body, float(abs(pads[k]))) if at_home else body
+            found = surface_distance(bag.pieces.pick(bag.owner == k), mesh.surface, gap(room + least))
+            lack = less(Bound(-found.attained, -found.attained, found.at) if pads[k] < 0 else found, room)
+            if lack.proven < worst.proven:
+                worst, owner = lack, int(k)
+        limit = Limit(name, least, "m", ("rules", "obstacle_clearance"), upper=False)
+        own = Limit(f"{name} at home", 0.0, "m", mesh.path, upper=False)
+        yield _told(swarm, own if at_home else limit, worst, owner)
 
 
 def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[Found]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from io import BytesIO
+from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
@@ -110,9 +111,11 @@ def litchi_file(places: Places, curve: float = 0.0, mode: int = 0, speed: float 
     return "\n".join([*rows, ""]).encode()
 
 
-def verified(*files: tuple[str, bytes], text: str = MISSION, drones: Sequence[str] = ()) -> FlightsReport:
-    """What verification says of files against a mission's text."""
-    mission = MissionFile(text.encode(), "mission.yaml", None)
+def verified(
+    *files: tuple[str, bytes], text: str = MISSION, drones: Sequence[str] = (), folder: Path | None = None
+) -> FlightsReport:
+    """What verification says of files against a mission's text; folder : of the files that it names."""
+    mission = MissionFile(text.encode(), "mission.yaml", folder)
     return verify_flights([FlightFile(data, name) for name, data in files], mission, drones)
 
 
