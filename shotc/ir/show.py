@@ -174,6 +174,36 @@ class Picture(NamedTuple):
     size: Vec3 | None = None
 
 
+class PyroCue(NamedTuple):
+    """A product that burns on drones of a fleet.
+
+    time : when it is seen on the mission's clock, s; prefire : from its ignition to that, s
+    drones : numbers of those that carry it, from 1; product : its name
+    duration : s; clear : metres that all others stay away while it burns
+    pan : where it points, clockwise from the nose of the drone, rad; tilt : up positive, rad
+    """
+
+    time: float
+    drones: tuple[int, ...]
+    product: str
+    duration: float
+    clear: float
+    prefire: float
+    pan: float
+    tilt: float
+    path: KeyPath
+
+    @property
+    def ignition(self) -> float:
+        """When it is lit, s."""
+        return self.time - self.prefire
+
+    @property
+    def end(self) -> float:
+        """When it has burnt, s."""
+        return self.time + self.duration
+
+
 class Display(NamedTuple):
     """A shot of a fleet: pictures in their order.
 
@@ -190,6 +220,7 @@ class Display(NamedTuple):
     timing: Timing
     pace: float
     path: KeyPath
+    pyro: tuple[PyroCue, ...] = ()
 
     @property
     def start(self) -> float | None:

@@ -12,6 +12,7 @@ from shotc.ir.limits import Timing
 from shotc.ir.show import Display, Picture
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.pictures import FilesSpec, Frames, PictureSpec
+from shotc.kinds.pyro import MOST_CUES, PyroSpec, cues_of
 from shotc.kinds.sources import picture_of
 from shotc.spec.faults import fault
 from shotc.spec.fields import Name, Position
@@ -58,6 +59,9 @@ class DisplayShot(ShotBase):
         default=None,
         description="0 for the best picture from the viewpoint, .inf for the best volume; 0.5 if silent",
     )
+    pyro: tuple[PyroSpec, ...] = Field(
+        default=(), max_length=MOST_CUES, description="products that burn on its drones, and when"
+    )
 
 
 def expand(shot: DisplayShot, scene: Scene) -> Expansion:
@@ -66,11 +70,13 @@ def expand(shot: DisplayShot, scene: Scene) -> Expansion:
     written: tuple[FilesSpec | PictureSpec, ...] = (frames,) if isinstance(frames, FilesSpec) else frames
     pictures = [picture_of(spec, scene, i) for i, spec in enumerate(written)]
     wrong = [picture for picture in pictures if isinstance(picture, Diagnostic)]
+    burning = cues_of(shot.pyro, scene)
+    wrong = [*wrong, *burning.faults]
     faults = [*_unknown_fleet(shot, scene), *_useless(shot, scene), *_twice(shot, scene), *wrong]
     if faults:
         return Expansion.of(faults)
     shown = _display(shot, scene, tuple(p for p in pictures if isinstance(p, Picture)))
-    return Expansion(display=shown)
+    return Expansion(display=shown._replace(pyro=burning.cues))
 
 
 def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> Display:

@@ -16,6 +16,8 @@ from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify import judge
 from shotc.show.beside_cameras import timed
 from shotc.show.beside_cameras.airspace import airspace
+from shotc.show.emit.skyc import EMITTER as SKYC
+from tests.support import skyc_reader
 from tests.support.records import replace
 
 pytestmark = pytest.mark.slow
@@ -31,8 +33,10 @@ shots:
   - id: dance
     kind: display
     fleet: swarm
+    viewpoint: [0, -60, 2]
+    pyro: [{at: 47 s, drones: [2, 5], product: fountain, duration: 20 s, prefire: 0.5 s, clear: 0.9 m, pan: 90 deg}]
     frames:
-      - {sphere: {center: [0, 0, 30], radius: 6}, name: globe, hold: 14}
+      - {sphere: {center: [0, 0, 30], radius: 6}, name: globe, at: 45 s, hold: 14}
       - {cube: {center: [0, 0, 30], size: 14, heading: 20 deg}, name: block, hold: 4}
   - id: turn
     kind: orbit
@@ -136,6 +140,35 @@ def test_lights_outside_of_what_cameras_frame_are_an_error(plan: VerifiedIR) -> 
     claim = next(c for c in verdict.certificate if c.constraint == "lights outside globe")
     assert not claim.holds
     assert "V057" in [d.code for d in verdict.diagnostics]
+
+
+@pytest.mark.parametrize("drone", [2, 5])
+def test_who_is_near_a_product_that_burns_is_who_dense_samples_find(plan: VerifiedIR, drone: int) -> None:
+    ir, times = plan.trajectory, np.arange(46.5, 67.0, 0.01)
+    fleet = ir.fleets[0]
+    swarm = places(fleet.breaks, fleet.coef, times)
+    own, others = swarm[drone - 1], np.delete(swarm, drone - 1, axis=0)
+    sampled = {
+        "drones of swarm": np.linalg.norm(others - own, axis=2).min(),
+        "camera cam": np.linalg.norm(ir.drones[0].curve(times)[:, :3] - own, axis=1).min(),
+        "the audience": np.linalg.norm(own - (0.0, -60.0, 2.0), axis=1).min(),
+        "the ground": own[:, 2].min(),
+    }
+    name = f"swarm-{drone:02d}"
+    claims = {c.constraint: c for c in plan.certificate if name in c.drones}
+    for beside, least in sampled.items():
+        claim = claims[f"pyro fountain from {beside}"]
+        assert claim.holds
+        assert least - 0.06 <= claim.worst <= least + 1e-9
+        assert claim.method == "bounded"
+
+
+def test_the_show_file_fires_what_the_mission_says(plan: VerifiedIR) -> None:
+    drones = skyc_reader.read(SKYC.emit(plan).artifacts[0].data)["swarm"]["drones"]
+    programs = [drone["settings"].get("pyro") for drone in drones]
+    assert [k for k, program in enumerate(programs, 1) if program] == [2, 5]
+    payload = {"name": "fountain", "duration": 20.0, "prefireTime": 0.5, "yaw": 90.0, "pitch": -90.0}
+    assert programs[1] == {"version": 1, "events": [[46.5, 0, "1"]], "payloads": {"1": payload}}
 
 
 def test_a_shot_waits_for_the_display_that_it_comes_after(plan: VerifiedIR) -> None:

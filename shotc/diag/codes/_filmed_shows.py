@@ -57,6 +57,34 @@ NAMED: tuple[CodeInfo, ...] = (
     ),
 )
 
+_FIRED = _BALL.replace(
+    "    frames:\n",
+    "    pyro:\n"
+    "      - {at: 42 s, drones: [1], product: fountain, duration: 4 s, clear: 2 m}\n"
+    "      - {at: 47 s, drones: [1, 2], product: comet, duration: 1 s, clear: 2 m}\n"
+    "    frames:\n",
+)
+
+FIRED: tuple[CodeInfo, ...] = (
+    slip(
+        "D132",
+        "no-such-drone",
+        "a pyro cue is for a drone that the fleet does not have",
+        "`drones` of a cue are numbers of the fleet's drones, counted from 1 in the order of their pads.",
+        _FIRED,
+        ("drones: [1, 2]", "drones: [1, 20]"),
+    ),
+    slip(
+        "D133",
+        "two-products-at-once",
+        "a drone is to fire a product while another burns on it",
+        "A product is lit `prefire` seconds before it is seen, and burns for its `duration`. A drone carries several, one after "
+        "another.",
+        _FIRED,
+        ("at: 47 s", "at: 45 s"),
+    ),
+)
+
 STANDING: tuple[CodeInfo, ...] = (
     verified(
         57,
@@ -78,5 +106,15 @@ STANDING: tuple[CodeInfo, ...] = (
         ),
         (_BALL.replace("duration: 8", "duration: 20"), _BALL),
         severity=Severity.WARNING,
+    ),
+    verified(
+        59,
+        "too-near-to-pyro",
+        (
+            "somebody is too near to a product that burns, or its drone is not in the air",
+            "From ignition to its end, the drone that carries a product is `clear` of all other drones, cameras, the `viewpoint` "
+            "of the audience and the ground, at every instant, and it flies. The message says who comes how near, and when.",
+        ),
+        (_FIRED.replace("duration: 4 s, clear: 2 m", "duration: 4 s, clear: 20 m"), _FIRED),
     ),
 )

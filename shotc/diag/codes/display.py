@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes import flights, pictures
-from shotc.diag.codes._filmed_shows import NAMED
+from shotc.diag.codes._filmed_shows import FIRED, NAMED
 from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
@@ -336,4 +336,5 @@ CODES: tuple[CodeInfo, ...] = (
     *flights.CODES,
     *MUSICAL,
     *NAMED,
+    *FIRED,
 )

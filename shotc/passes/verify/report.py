@@ -85,6 +85,8 @@ RULES = {
     "reference off its composition": Rule("V024", help=REPLAN),
 }
 
+PYRO_HELP = "fire it at another moment or from other drones, or one that asks for less `clear`"
+
 STARTING = {
     "zone ": Rule("V007"),
     "target ": Rule("V010"),
@@ -92,6 +94,7 @@ STARTING = {
     "drift at ": Rule("V016", help=REPLAN),
     "separation ": Rule("V022"),
     "lights outside ": Rule("V057"),
+    "pyro ": Rule("V059", help=PYRO_HELP),
     "distance from scene": Rule("V052"),
     "distance from buildings": Rule("V052"),
 }

@@ -10,6 +10,7 @@ from shotc.passes.verify.fleets.cameras import from_cameras
 from shotc.passes.verify.fleets.displays import displays
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.motion import motion
+from shotc.passes.verify.fleets.pyro import pyro
 from shotc.passes.verify.fleets.shape import fleet_structure, shape
 from shotc.passes.verify.fleets.space import space
 
@@ -21,7 +22,8 @@ def fleet_claims(ir: TrajectoryIR, progress: Callable[[str], None]) -> list[Clai
     for flight in flights:
         progress(f"verify {flight.fleet.name}")
         claims += [*shape(flight), *motion(flight), *space(flight), *displays(flight, ir)]
-    return [*claims, *separations(flights), *from_parked(ir, flights), *from_cameras(flights, ir.drones)]
+    claims += [*separations(flights), *from_parked(ir, flights), *from_cameras(flights, ir.drones)]
+    return [*claims, *pyro(ir, flights)]
 
 
 __all__ = ["fleet_claims", "fleet_structure"]

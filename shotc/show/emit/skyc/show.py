@@ -18,9 +18,10 @@ from shotc.geom.solid_arrays.points import in_footprint
 from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.fleet import FleetTrajectory, Lights
 from shotc.ir.mission import MissionIR, Zone
-from shotc.ir.show import Fleet, drone_names
+from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.skyc.curve import DECIMALS, Curves, curves
+from shotc.show.emit.skyc.fireworks import programs_of
 
 Json = dict[str, Any]
 
@@ -52,7 +53,7 @@ def show_of(plan: VerifiedIR) -> Show:
     drones = [
         drone
         for flight, curve in zip(flights, flown, strict=True)
-        for drone in _drones(mission.fleet(flight.fleet), flight, curve)
+        for drone in _drones(mission, flight, curve)
     ]
     fences = [fence(zone.solid) for zone in kept if zone not in left]
     content: Json = {
@@ -83,14 +84,16 @@ def _turned(points: Array) -> list[list[float]]:
     return list((np.round(turned, DECIMALS) + 0.0).tolist())
 
 
-def _drones(fleet: Fleet, flight: FleetTrajectory, found: Curves) -> Iterator[Json]:
+def _drones(mission: MissionIR, flight: FleetTrajectory, found: Curves) -> Iterator[Json]:
+    fleet = mission.fleet(flight.fleet)
+    fired = programs_of(mission.displays, fleet.name, len(found.control))
     takeoff = int(found.millis[0])
     times = ((found.millis - takeoff) / 1e3).tolist()
     third = (found.control[:, :, 3] - found.control[:, :, 0]) / 3.0
     chord = np.stack([found.control[:, :, 0] + third, found.control[:, :, 3] - third], axis=2)
     straight = np.linalg.norm(found.control[:, :, 1:3] - chord, axis=-1).max(axis=-1) < STRAIGHT_M
-    for name, control, lines, code in zip(
-        drone_names(fleet), found.control, straight.tolist(), programs(flight.lights), strict=True
+    for name, control, lines, code, pyro in zip(
+        drone_names(fleet), found.control, straight.tolist(), programs(flight.lights), fired, strict=True
     ):
         turned = _turned(control)
         points = [[times[0], turned[0][0], []]]
@@ -111,6 +114,7 @@ def _drones(fleet: Fleet, flight: FleetTrajectory, found: Curves) -> Iterator[Js
                     "points": points,
                 },
                 "lights": {"version": 1, "data": b64encode(code).decode("ascii")},
+                **({} if pyro is None else {"pyro": pyro}),
             },
         }
 

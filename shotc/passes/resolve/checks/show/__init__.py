@@ -9,6 +9,7 @@ from shotc.ir.mission import MissionIR
 from shotc.passes.resolve.checks.show.clock import check_clock
 from shotc.passes.resolve.checks.show.pads import check_pads
 from shotc.passes.resolve.checks.show.pictures import check_pictures
+from shotc.passes.resolve.checks.show.pyro import check_pyro
 from shotc.spec.mission import MissionSpec
 
 
@@ -23,7 +24,7 @@ def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Di
         if display.fleet in fleets:
             faults += check_pictures(mission, display, fleets[display.fleet])
     if order:
-        faults += check_clock(mission)
+        faults += [*check_clock(mission), *check_pyro(mission)]
     return faults
 
 

@@ -1,0 +1,71 @@
+"""Pyrotechnics that drones of a fleet carry, as a display writes them."""
+
+from math import pi
+from typing import Annotated, NamedTuple
+
+from pydantic import Field
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.show import PyroCue
+from shotc.kinds.base import Scene
+from shotc.kinds.moments import moment
+from shotc.spec.fields import Angle, Duration, NonNegativeDuration, Pitch, PositiveLength
+from shotc.spec.fieldtypes import Integer, Text
+from shotc.spec.model import Model
+from shotc.spec.music import MomentSpec
+
+MOST_CUES = 500
+
+DroneNumber = Annotated[int, Integer("DroneNumber", 1, 20_000)]
+Product = Annotated[
+    str,
+    Text(
+        "Product",
+        r"^(?=.*\S)[^\x00-\x1f\x7f-\x9f\u2028\u2029]{1,80}$",
+        "wrong-length",
+        'give one line of at most 80 characters, such as "silver fountain 30 s"',
+    ),
+]
+
+
+class PyroSpec(Model):
+    """One product, fired from one drone or several at one moment."""
+
+    at: MomentSpec = Field(description="when it is seen: seconds, `{beat: 32}` or `{bar: 9}`")
+    drones: tuple[DroneNumber, ...] = Field(
+        min_length=1, max_length=1000, description="numbers of the fleet's drones that carry it, from 1"
+    )
+    product: Product = Field(description="what it is called on the list of products")
+    duration: Duration = Field(description="how long it burns")
+    clear: PositiveLength = Field(
+        description="how far all others stay away while it burns: drones, cameras, audience, ground"
+    )
+    prefire: NonNegativeDuration = Field(default=0.0, description="from its ignition to when it is seen")
+    pan: Angle = Field(default=0.0, description="where it points, clockwise from the nose of the drone")
+    tilt: Pitch = Field(default=-pi / 2, description="where it points, up positive; straight down if silent")
+
+
+class Cues(NamedTuple):
+    """The cues of a display, and what is wrong with others."""
+
+    cues: tuple[PyroCue, ...]
+    faults: tuple[Diagnostic, ...]
+
+
+def cues_of(specs: tuple[PyroSpec, ...], scene: Scene) -> Cues:
+    """Return the pyro cues of a display; those whose moment cannot be told are left out."""
+    cues: list[PyroCue] = []
+    faults: list[Diagnostic] = []
+    for i, spec in enumerate(specs):
+        path = (*scene.path, "pyro", i)
+        at = moment(spec.at, scene, (*path, "at"))
+        if isinstance(at, Diagnostic):
+            faults.append(at)
+        elif at is not None:
+            cues.append(PyroCue(at, *_product(spec), path))
+    return Cues(tuple(cues), tuple(faults))
+
+
+def _product(spec: PyroSpec) -> tuple[tuple[int, ...], str, float, float, float, float, float]:
+    """Return the fields of a cue between its time and its path."""
+    return spec.drones, spec.product, spec.duration, spec.clear, spec.prefire, spec.pan, spec.tilt

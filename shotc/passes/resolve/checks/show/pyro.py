@@ -1,0 +1,49 @@
+"""Pyro cues: drones that are there, no drone firing two at once, the audience far enough."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display
+from shotc.rounding import at_least
+
+
+def check_pyro(mission: MissionIR) -> list[Diagnostic]:
+    """Return what is wrong with the pyro cues of a mission's displays."""
+    fleets = {fleet.name: len(fleet.pads) for fleet in mission.fleets}
+    return [
+        fault
+        for display in mission.displays
+        if display.fleet in fleets
+        for fault in (*_absent(mission, display, fleets[display.fleet]), *_together(mission, display))
+    ]
+
+
+def _absent(mission: MissionIR, display: Display, count: int) -> Iterator[Diagnostic]:
+    for cue in display.pyro:
+        wrong = [(i, drone) for i, drone in enumerate(cue.drones) if drone > count]
+        if wrong:
+            index, drone = wrong[0]
+            label = mission.origins.value((*cue.path, "drones", index))
+            message = f"fleet `{display.fleet}` has {count} drones, and no drone {drone}"
+            yield Diagnostic("D132", message, (label,), help=f"give numbers from 1 to {count}")
+
+
+def _together(mission: MissionIR, display: Display) -> Iterator[Diagnostic]:
+    """Yield two cues that one drone fires while the other burns."""
+    for one, other in combinations(sorted(display.pyro, key=lambda cue: cue.ignition), 2):
+        both = sorted(set(one.drones) & set(other.drones))
+        if both and other.ignition < one.end:
+            labels = (
+                mission.origins.key((*other.path, "at")),
+                mission.origins.key((*one.path, "at"), "it burns still"),
+            )
+            message = f"drone {both[0]} fires `{other.product}` while its `{one.product}` burns"
+            note = f"that burns until {one.end:.2f} s, and this is lit at {other.ignition:.2f} s"
+            help_ = (
+                f"write `at: {at_least(one.end + other.prefire)} s` or later, or fire it from another drone"
+            )
+            yield Diagnostic("D133", message, labels, (note,), help_)

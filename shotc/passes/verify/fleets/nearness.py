@@ -1,0 +1,58 @@
+"""How near a curve comes to drones of a fleet, proved for every instant of a span."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import held_until, restrict
+from shotc.geom.pieces import Pieces
+from shotc.geom.proof import Bound, box_gap, inf_distance, norm
+from shotc.geom.solids import point
+from shotc.passes.verify.claims import gap
+
+POINT = point((0.0, 0.0, 0.0))
+BLOCK = 200
+"""Drones that are looked at together."""
+
+
+def nearest(one: Piecewise, breaks: Array, ctrl: Array, span: tuple[float, float], least: float) -> Bound:
+    """Bound the distance of a curve from the nearest of several, block by block, near pieces alone.
+
+    one : three channels, m; who has landed stands
+    breaks, ctrl : of the others, shape (Q + 1,) and Bernstein points (n, Q, k, 3)
+    span : mission times, s; least : the limit, m, which says how fine the bound has to be
+    """
+    start, end = span
+    own = held_until(one, end)
+    every = np.union1d(own.breaks, breaks)
+    cuts = np.concatenate([[start], every[(every > start) & (every < end)], [end]])
+    eye = restrict(own, cuts).ctrl
+    best = Bound(inf, inf, start)
+    for first in range(0, len(ctrl), BLOCK):
+        # All drones of the block as the channels of one curve, which is cut at the common breaks.
+        n, q, k, _ = ctrl[first : first + BLOCK].shape
+        whole = Piecewise(breaks, ctrl[first : first + BLOCK].transpose(1, 2, 0, 3).reshape(q, k, 3 * n))
+        cut = restrict(held_until(whole, end), cuts).ctrl.reshape(len(cuts) - 1, k, n, 3)
+        degree = max(one.degree, k - 1)
+        apart = _raised(eye, degree)[:, :, None] - _raised(cut, degree)
+        apart = apart.transpose(2, 0, 1, 3).reshape(-1, degree + 1, 3)
+        near = box_gap(apart, POINT) <= min(best.proven, float(norm(apart[:, 0]).min()))
+        if near.any():
+            spans = np.tile(cuts[:-1], n)[near], np.tile(cuts[1:], n)[near]
+            bound = inf_distance(Pieces(*spans, apart[near]), POINT, gap(least))
+            best = bound if bound.proven < best.proven else best
+    return best
+
+
+def _raised(ctrl: Array, degree: int) -> Array:
+    """Return the Bernstein points (P, k + 1, ...) of the same curves with a higher degree."""
+    while ctrl.shape[1] <= degree:
+        k = ctrl.shape[1]
+        share = (np.arange(k + 1) / k).reshape(1, -1, *[1] * (ctrl.ndim - 2))
+        before = np.concatenate([ctrl[:, :1], ctrl], axis=1)
+        after = np.concatenate([ctrl, ctrl[:, -1:]], axis=1)
+        ctrl = share * before + (1.0 - share) * after
+    return ctrl

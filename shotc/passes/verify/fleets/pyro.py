@@ -1,0 +1,99 @@
+"""Products that burn on drones: who comes how near to them, and whether the drone is in the air."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.geom.bspline import restrict
+from shotc.geom.proof import Bound
+from shotc.ir.parked import bodies, parked_fleets
+from shotc.ir.show import Display, PyroCue
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import Limit, Worst, held
+from shotc.passes.verify.fleets.flight import FleetFlight
+from shotc.passes.verify.fleets.nearness import nearest
+
+PYRO = "pyro "
+"""What constraints of pyro begin with."""
+
+
+def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
+    """Claim of every product that burns that all others, the audience and the ground are far enough."""
+    for flight in flights:
+        for display in (d for d in flight.mission.displays if d.fleet == flight.fleet.name):
+            for cue in display.pyro:
+                yield from _cue(ir, flights, _Burning(flight, display, cue))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Burning:
+    """One product on drones of a fleet, in the air."""
+
+    flight: FleetFlight
+    display: Display
+    cue: PyroCue
+
+    def claim(self, beside: str, bound: Bound, drone: int) -> Claim:
+        """Hold how near something comes to one of the drones against what is to be clear."""
+        name, path = f"{PYRO}{self.cue.product} from {beside}", (*self.cue.path, "clear")
+        limit = Limit(name, self.cue.clear, "m", path, upper=False, shot=self.display.id)
+        fleet = self.flight.fleet.name
+        return held(fleet, limit, Worst(bound.proven, bound.at, "bounded"), (self.flight.names[drone],))
+
+
+def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> Iterator[Claim]:
+    cue, flight = burns.cue, burns.flight
+    aloft = flight.free()
+    low, high = aloft[0][0], aloft[-1][1]
+    outside = max(low - cue.ignition, cue.end - high, 0.0)
+    name, path = f"{PYRO}{cue.product} outside the flight", (*cue.path, "at")
+    limit = Limit(name, 0.0, "s", path, shot=burns.display.id)
+    yield held(flight.fleet.name, limit, Worst(outside, cue.ignition, "exact"))
+    span = (max(cue.ignition, low), min(cue.end, high))
+    if span[0] < span[1]:
+        for number in cue.drones:
+            yield from _clear(ir, flights, burns, number - 1, span)
+
+
+def _clear(
+    ir: TrajectoryIR,
+    flights: Sequence[FleetFlight],
+    burns: _Burning,
+    drone: int,
+    span: tuple[float, float],
+) -> Iterator[Claim]:
+    """Claim how near everybody comes to one drone while its product burns."""
+    flight, least = burns.flight, burns.cue.clear
+    breaks = flight.track.breaks
+    own = Piecewise(breaks, flight.flown.ctrl[drone])
+    for what, times, others in _others(ir, flights, flight, drone):
+        if len(others):
+            yield burns.claim(what, nearest(own, times, others, span, least), drone)
+    if burns.display.viewpoint is not None:
+        eye = np.array(burns.display.viewpoint).reshape(1, 1, 1, 3)
+        yield burns.claim("the audience", nearest(own, breaks[[0, -1]], eye, span, least), drone)
+    cuts = np.concatenate([[span[0]], breaks[(breaks > span[0]) & (breaks < span[1])], [span[1]]])
+    heights = restrict(own, cuts).ctrl[:, :, 2].min(axis=1)
+    lowest = int(heights.argmin())
+    bound = Bound(float(heights[lowest]), float(heights[lowest]), float(cuts[lowest]))
+    yield burns.claim("the ground", bound, drone)
+
+
+def _others(
+    ir: TrajectoryIR, flights: Sequence[FleetFlight], flight: FleetFlight, drone: int
+) -> Iterator[tuple[str, Array, Array]]:
+    """Yield everybody but one drone: a name, breaks and Bernstein points as of ``nearest``."""
+    for fleet in flights:
+        ctrl = fleet.flown.ctrl
+        others = np.delete(ctrl, drone, axis=0) if fleet is flight else ctrl
+        yield f"drones of {fleet.fleet.name}", fleet.track.breaks, others
+    still = flight.track.breaks[[0, -1]]
+    for parked in parked_fleets(ir):
+        yield f"drones of {parked.name}", still, np.array(parked.pads).reshape(-1, 1, 1, 3)
+    for camera in bodies(ir):
+        curve = camera.curve.channels(0, 1, 2)
+        yield f"camera {camera.drone}", curve.breaks, curve.ctrl[None]

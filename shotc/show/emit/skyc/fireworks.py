@@ -1,0 +1,37 @@
+"""Pyro cues in a show file: an event a product and drone, each on a channel of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees
+from typing import Any
+
+from shotc.ir.show import Display, PyroCue
+
+
+def programs_of(displays: Sequence[Display], fleet: str, count: int) -> list[dict[str, Any] | None]:
+    """Return the pyro programme of every drone of a fleet, None of one that carries nothing."""
+    carried: list[list[PyroCue]] = [[] for _ in range(count)]
+    for display in displays:
+        for cue in display.pyro if display.fleet == fleet else ():
+            for number in cue.drones:
+                carried[number - 1].append(cue)
+    return [_program(sorted(cues, key=lambda cue: cue.ignition)) if cues else None for cues in carried]
+
+
+def _program(cues: Sequence[PyroCue]) -> dict[str, Any]:
+    """Return events [s of the ignition, channel from 0, product] and the products, by channel from 1."""
+    return {
+        "version": 1,
+        "events": [[round(cue.ignition, 3), k, str(k + 1)] for k, cue in enumerate(cues)],
+        "payloads": {
+            str(k + 1): {
+                "name": cue.product,
+                "duration": round(cue.duration, 3),
+                "prefireTime": round(cue.prefire, 3),
+                "yaw": round(degrees(cue.pan), 3),
+                "pitch": round(degrees(cue.tilt), 3),
+            }
+            for k, cue in enumerate(cues)
+        },
+    }
