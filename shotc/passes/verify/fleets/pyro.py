@@ -25,24 +25,20 @@ def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
     """Claim of every product that burns that all others, the audience and the ground are far enough."""
     for flight in flights:
         for display in (d for d in flight.mission.displays if d.fleet == flight.fleet.name):
-            for cue in display.pyro:
-                yield from _cue(ir, flights, _Burning(flight, display, cue))
+            for index, cue in enumerate(display.pyro):
+                yield from _cue(
+                    ir, flights, _Burning(flight, display, cue, f"{PYRO}{index + 1} {cue.product}")
+                )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Burning:
-    """One product on drones of a fleet, in the air."""
+    """One product on drones of a fleet, in the air; name : how claims call it."""
 
     flight: FleetFlight
     display: Display
     cue: PyroCue
-
-    def claim(self, beside: str, bound: Bound, drone: int) -> Claim:
-        """Hold how near something comes to one of the drones against what is to be clear."""
-        name, path = f"{PYRO}{self.cue.product} from {beside}", (*self.cue.path, "clear")
-        limit = Limit(name, self.cue.clear, "m", path, upper=False, shot=self.display.id)
-        fleet = self.flight.fleet.name
-        return held(fleet, limit, Worst(bound.proven, bound.at, "bounded"), (self.flight.names[drone],))
+    name: str
 
 
 def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> Iterator[Claim]:
@@ -50,37 +46,44 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
     aloft = flight.free()
     low, high = aloft[0][0], aloft[-1][1]
     outside = max(low - cue.ignition, cue.end - high, 0.0)
-    name, path = f"{PYRO}{cue.product} outside the flight", (*cue.path, "at")
-    limit = Limit(name, 0.0, "s", path, shot=burns.display.id)
+    path = (*cue.path, "at")
+    limit = Limit(f"{burns.name} outside the flight", 0.0, "s", path, shot=burns.display.id)
     yield held(flight.fleet.name, limit, Worst(outside, cue.ignition, "exact"))
     span = (max(cue.ignition, low), min(cue.end, high))
-    if span[0] < span[1]:
-        for number in cue.drones:
-            yield from _clear(ir, flights, burns, number - 1, span)
+    if span[0] >= span[1]:
+        return
+    worst: dict[str, tuple[Bound, str]] = {}
+    for number in cue.drones:
+        for what, bound in _distances(ir, flights, burns, number - 1, span):
+            if what not in worst or bound.proven < worst[what][0].proven:
+                worst[what] = bound, flight.names[number - 1]
+    for what, (bound, drone) in worst.items():
+        name, key = f"{burns.name} from {what}", (*cue.path, "clear")
+        limit = Limit(name, cue.clear, "m", key, upper=False, shot=burns.display.id)
+        yield held(flight.fleet.name, limit, Worst(bound.proven, bound.at, "bounded"), (drone,))
 
 
-def _clear(
+def _distances(
     ir: TrajectoryIR,
     flights: Sequence[FleetFlight],
     burns: _Burning,
     drone: int,
     span: tuple[float, float],
-) -> Iterator[Claim]:
-    """Claim how near everybody comes to one drone while its product burns."""
+) -> Iterator[tuple[str, Bound]]:
+    """Yield how near everybody comes to one drone while its product burns."""
     flight, least = burns.flight, burns.cue.clear
     breaks = flight.track.breaks
     own = Piecewise(breaks, flight.flown.ctrl[drone])
     for what, times, others in _others(ir, flights, flight, drone):
         if len(others):
-            yield burns.claim(what, nearest(own, times, others, span, least), drone)
+            yield what, nearest(own, times, others, span, least)
     if burns.display.viewpoint is not None:
         eye = np.array(burns.display.viewpoint).reshape(1, 1, 1, 3)
-        yield burns.claim("the audience", nearest(own, breaks[[0, -1]], eye, span, least), drone)
+        yield "the audience", nearest(own, breaks[[0, -1]], eye, span, least)
     cuts = np.concatenate([[span[0]], breaks[(breaks > span[0]) & (breaks < span[1])], [span[1]]])
     heights = restrict(own, cuts).ctrl[:, :, 2].min(axis=1)
     lowest = int(heights.argmin())
-    bound = Bound(float(heights[lowest]), float(heights[lowest]), float(cuts[lowest]))
-    yield burns.claim("the ground", bound, drone)
+    yield "the ground", Bound(float(heights[lowest]), float(heights[lowest]), float(cuts[lowest]))
 
 
 def _others(
