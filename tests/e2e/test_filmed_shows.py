@@ -35,7 +35,7 @@ shots:
     fleet: swarm
     viewpoint: [0, -60, 2]
     pyro:
-      - {at: 47 s, drones: [2, 5], product: fountain, duration: 20 s, prefire: 0.5 s, clear: 0.9 m, pan: 90 deg}
+      - {at: 47 s, drones: [2, 5], product: fountain, duration: 20, prefire: 0.5, clear: 0.9, pan: 90 deg}
     frames:
       - {sphere: {center: [0, 0, 30], radius: 6}, name: globe, at: 45 s, hold: 14}
       - {cube: {center: [0, 0, 30], size: 14, heading: 20 deg}, name: block, hold: 4}
