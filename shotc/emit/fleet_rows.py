@@ -18,6 +18,7 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.sampling import clock, light_colors, phase_index
 from shotc.ir.show import drone_names
+from shotc.spec.presets import SHOW_RATE
 
 NORTH = pi / 2
 """Yaw of every body, counter-clockwise from East."""
@@ -30,7 +31,9 @@ _NAME = "\0"
 
 def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str, str]]:
     """Yield every drone's name and its rows, lines without the last line break."""
-    t = clock(mission.rate, float(track.breaks[-1]))
+    # Beside cameras, which ask for a row a frame, a table of many drones stays a table that opens.
+    rate = min(mission.rate, SHOW_RATE) if mission.shots else mission.rate
+    t = clock(rate, float(track.breaks[-1]))
     names = drone_names(mission.fleet(track.fleet))
     form = _form(mission, track, t)
     colors = light_colors(track.lights, t)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from shotc.api import PlanOptions, compile_source, verify_plan
+from shotc.emit.csv_table import EMITTER
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.fleet_spline import places
@@ -18,9 +21,11 @@ from shotc.show.beside_cameras import timed
 from shotc.show.beside_cameras.airspace import airspace
 from shotc.show.emit.skyc import EMITTER as SKYC
 from tests.support import skyc_reader
+from tests.support.compiled import compiled
 from tests.support.records import replace
 
 pytestmark = pytest.mark.slow
+SPECS = Path(__file__).parents[2] / "specs"
 
 MISSION = """\
 shotc: 1
@@ -171,6 +176,16 @@ def test_the_show_file_fires_what_the_mission_says(plan: VerifiedIR) -> None:
     assert [k for k, program in enumerate(programs, 1) if program] == [2, 5]
     payload = {"name": "fountain", "duration": 20.0, "prefireTime": 0.5, "yaw": 90.0, "pitch": -90.0}
     assert programs[1] == {"version": 1, "events": [[46.5, 0, "1"]], "payloads": {"1": payload}}
+
+
+@pytest.mark.fuzz
+def test_the_show_in_layers_is_filmed_without_a_warning() -> None:
+    done = compiled(SPECS / "harbour-letters.yaml")
+    assert done.plan is not None
+    assert done.diagnostics == ()
+    rows = EMITTER.emit(done.plan).artifacts[0].data.splitlines()
+    times = [float(row.split(b",")[0]) for row in rows if row.split(b",")[1] == b"swarm-001"]
+    assert np.diff(times).min() == pytest.approx(0.2)  # beside cameras, which have 50 rows a second
 
 
 def test_a_shot_waits_for_the_display_that_it_comes_after(plan: VerifiedIR) -> None:
