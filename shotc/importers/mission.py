@@ -67,7 +67,8 @@ def _import_cameras(format: str, data: bytes, name: str, asked: Asked, *, strict
             said = told(name, notes, strict=strict)
             result = None if has_errors(said) else made.text
             return Imported(result, said, sources, 1, made.shots, made.keyframes, made.cameras)
-        found = Refused("I003", "it holds no take of two cameras or more, and a shot needs two", found.node)
+        message = "it holds no take of two cameras or more, and a shot needs two"
+        found = Refused("I003", message, found.node, "add a second camera, and import it again")
     message = f"`{name}` cannot be imported: {found.message}"
     wrong = Diagnostic(found.code, message, (label(name, found.node),), (), found.help)
     return Imported(None, (*told(name, notes, strict=False), wrong), sources)

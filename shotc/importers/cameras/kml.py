@@ -79,7 +79,7 @@ def footage(root: Node, asked: Asked, notes: Notes) -> Footage | Refused:
         message = f"it has {len(views)} cameras; at most {MOST_CAMERAS} are read"
         return Refused("I001", message, views[MOST_CAMERAS].node)
     if not views:
-        return Refused("I003", "it holds no camera that says where it is", root)
+        return Refused("I003", "it holds no camera that says where it is", root, RECORD)
     _lens(views, notes)
     ground = _ground(views, asked, notes)
     if isinstance(ground, Refused):
@@ -89,6 +89,11 @@ def footage(root: Node, asked: Asked, notes: Notes) -> Footage | Refused:
         Take(_name(tour), tour, tuple(_camera(view, origin, notes) for view in some)) for tour, some in found
     ]
     return Footage(root, without_far(takes, notes), origin)
+
+
+RECORD = (
+    "record a tour in Google Earth, or save placemarks with their views (Camera or LookAt), and import that"
+)
 
 
 def local(node: Node) -> str:

@@ -89,7 +89,10 @@ def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Compos
     if wide is None:
         return ""
     lens = at_least(degrees(wide), 1)
-    return f"film it from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
+    own = mission.drone(shot.drone).lens
+    zooms = own is not None and own.zooms and wide <= own.widest
+    first = "plan it with the refiner `ours`, which zooms there, or film it" if zooms else "film it"
+    return f"{first} from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
 
 
 def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None = None) -> Setting:
