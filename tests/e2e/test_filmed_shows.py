@@ -194,5 +194,8 @@ def test_a_shot_waits_for_the_display_that_it_comes_after(plan: VerifiedIR) -> N
     end = next(p.end for p in ir.fleets[0].phases if p.shot == "dance")
     later = timed(ir, shot._replace(timing=shot.timing._replace(after="dance")))
     assert (later.timing.start, later.timing.after) == (end, None)
+    assert timed(ir, shot).timing.start == ir.fleets[0].shown[0].start
+    second = timed(ir, shot, begun=ir.fleets[0].shown[0].start)  # its drone films the picture already
+    assert second.timing.start is None
     asked = timed(ir, shot._replace(timing=shot.timing._replace(start=7.0)))
     assert asked.timing.start == 7.0

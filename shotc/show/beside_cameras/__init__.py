@@ -7,6 +7,7 @@ of their own mission; the trajectory that is verified has the mission as it is w
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 from typing import ClassVar
 
 from shotc.ir.fleet import standing
@@ -32,17 +33,18 @@ class JoinFlights:
         return Outcome(joined)
 
 
-def timed(show: TrajectoryIR, shot: Shot) -> Shot:
+def timed(show: TrajectoryIR, shot: Shot, begun: float = -inf) -> Shot:
     """Return the shot of a camera with the times that the show gives it.
 
+    begun : the latest time, s, at which a shot of its drone before it begins, as far as that is known
     One that waits for a display begins when that has ended, one that films a picture by its name when it
-    stands, unless it says otherwise.
+    stands, unless it says otherwise, or its drone films that picture already.
     """
     timing = shot.timing
     ends = {phase.shot: phase.end for fleet in show.fleets for phase in fleet.phases if phase.shot}
     stands = standing(show.keyframes.mission, show.fleets, shot.subject)
     start, after = timing.start, timing.after
-    if start is None and after is None and stands is not None:
+    if start is None and after is None and stands is not None and stands.start > begun:
         start = stands.start
     if after is not None and after in ends:
         start, after = max(start or 0.0, ends[after]), None
@@ -53,7 +55,12 @@ def beside(show: TrajectoryIR) -> KeyframeIR:
     """Return what cameras are planned from: the mission with the airspace of its show kept out of."""
     mission = show.keyframes.mission
     zones = (zone for fleet in show.fleets for zone in airspace(mission, fleet))
-    shots = tuple(timed(show, shot) for shot in mission.shots)
-    by_id = {shot.id: shot for shot in shots}
+    by_id: dict[str, Shot] = {}
+    begun: dict[str, float] = {}
+    for written in mission.shots:
+        shot = timed(show, written, begun.get(written.drone, -inf))
+        by_id[shot.id] = shot
+        begun[shot.drone] = max(begun.get(shot.drone, -inf), shot.timing.start or -inf)
+    shots = tuple(by_id.values())
     placed = tuple(each._replace(shot=by_id[each.shot.id]) for each in show.keyframes.shots)
     return KeyframeIR(mission._replace(zones=(*mission.zones, *zones), shots=shots), placed)
