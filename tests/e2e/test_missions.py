@@ -30,7 +30,10 @@ SAID: dict[str, dict[str, list[tuple[str, int]]]] = {
     "runner": {"emit": [("E101", 1)]},
     "runner-three-cameras": {
         "plan": [("M008", 17), ("M008", 19), ("M008", 21)],
-        "emit": [("E107", 17), ("E107", 19), ("E107", 21)],
+        "emit": [
+            *(("E107", line) for line in (17, 19, 21)),
+            *(("E145", line) for line in (12, 12, 13)),
+        ],
     },
     "statue-moves": {"emit": [("E101", 1)]},
     "tower-fly-past": {"plan": [("V030", 19)]},

@@ -30,7 +30,7 @@ TOLD_IN_WORDS = {
     "N016": "a command of its own finds the target, or the author names it",
     "E101": "only the author knows where on earth it is",
     **dict.fromkeys(
-        ("E102", "E107", "E116", "E118", "E121", "E123"),
+        ("E102", "E107", "E116", "E118", "E121", "E123", "E145"),
         "it says what to do with the file, the mission is in order",
     ),
 }
