@@ -15,8 +15,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.earth import of_world
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.light_colors import light_colors
 from shotc.ir.mission import MissionIR
-from shotc.ir.sampling import clock, light_colors, phase_index
+from shotc.ir.sampling import clock, phase_index
 from shotc.ir.show import drone_names
 from shotc.spec.presets import SHOW_RATE
 
@@ -36,11 +37,10 @@ def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str
     t = clock(rate, float(track.breaks[-1]))
     names = drone_names(mission.fleet(track.fleet))
     form = _form(mission, track, t)
-    colors = light_colors(track.lights, t)
     for first in range(0, len(names), BATCH):
         some = slice(first, first + BATCH)
         numbers = _numbers(mission, track, (track.coef[some], t))
-        values = np.concatenate([numbers + 0.0, colors[some]], axis=2)  # no negative zeros
+        values = np.concatenate([numbers + 0.0, light_colors(track, t, some)], axis=2)  # no negative zeros
         for name, rows in zip(names[some], values, strict=True):
             yield name, form.replace(_NAME, _plain(name)) % tuple(rows.ravel().tolist())
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.keyframes import KeyframeIR
+from shotc.ir.light_layers import Layer, Look
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 
@@ -24,6 +25,7 @@ class Frame:
 
     points : shape (n, 3); colors : shape (n, 3), red, green, blue
     display : id of the shot; picture : index in it; index : of the frame in the picture
+    spare : how many of the goals, the last ones, are for drones that stay dark
     """
 
     display: str
@@ -31,6 +33,7 @@ class Frame:
     index: int
     points: Array
     colors: Colors
+    spare: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,10 +66,18 @@ class Shown:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lights:
-    """The drones' lights, linear between times and constant beyond; times (T,), colors (n, T, 3)."""
+    """The drones' lights, linear between times and constant beyond; times (T,), colors (n, T, 3).
+
+    looks : what is laid over the colours of each picture; of : which of them holds at each time, -1 for none
+    over : effects that are laid over all of that, the last on top
+    Of a fleet without effects all three are empty.
+    """
 
     times: Array
     colors: Colors
+    looks: tuple[Look, ...] = ()
+    of: tuple[int, ...] = ()
+    over: tuple[Layer, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,7 +17,6 @@ from shotc.geom.framing import Cameras, Frames, frames
 from shotc.geom.pieces import Mask
 from shotc.geom.track_array import rate_seen_from, seen_from
 from shotc.ir.bodies import moved, shapes
-from shotc.ir.fleet import Colors, Lights
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import hiders
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
@@ -45,16 +44,6 @@ def phase_index(phases: tuple[Phase, ...], t: Array) -> NDArray[np.intp]:
     """Return the index of the phase at each time; a boundary belongs to the phase that begins there."""
     starts = np.array([phase.start for phase in phases[1:]])
     return np.asarray(np.searchsorted(starts, t + SAME_TIME, side="right"))
-
-
-def light_colors(lights: Lights, t: Array) -> Colors:
-    """Return the colours of a fleet's lights at times (T,), to the nearest whole; shape (n, T, 3)."""
-    at = np.interp(t, lights.times, np.arange(len(lights.times)))
-    before = np.minimum(at.astype(np.intp), max(len(lights.times) - 2, 0))
-    after = np.minimum(before + 1, len(lights.times) - 1)
-    share = (at - before).astype(np.float32)[:, None]
-    colors = lights.colors[:, before] * (1.0 - share) + lights.colors[:, after] * share
-    return np.asarray(np.rint(colors), dtype=np.uint8)
 
 
 def subjects(mission: MissionIR, drone: DroneTrajectory, shot: str) -> tuple[str, ...]:

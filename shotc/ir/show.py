@@ -5,13 +5,12 @@ World frame W, metres, radians, seconds. A fleet's drones carry a light and no c
 
 from typing import Literal, NamedTuple
 
+from shotc.ir.effects import Color, Effect
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.origin import KeyPath
 
 MANY_DRONES = 2000
 """Drones of a show beyond which tables and recordings of it are made only where they are asked for."""
-
-Color = tuple[int, int, int]
 
 
 class Apart(NamedTuple):
@@ -154,6 +153,7 @@ class Picture(NamedTuple):
     transition : seconds to it from the picture before it, None for as fast as the pace allows
     hold : seconds that its last frame stands
     layers : in how many layers, one behind the other, a flat picture stands
+    effects : of its lights, the last on top
     transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
     proved
     at : when it stands on the mission's clock, s, or None where that follows from what is before it
@@ -172,6 +172,7 @@ class Picture(NamedTuple):
     at: float | None = None
     name: str | None = None
     size: Vec3 | None = None
+    effects: tuple[Effect, ...] = ()
 
 
 class PyroCue(NamedTuple):
@@ -210,6 +211,7 @@ class Display(NamedTuple):
     viewpoint : where the audience is, p_W, or None
     weight : the paper's c-bar: 0 is the best picture from the viewpoint, infinity the best volume
     timing : start is when its first picture stands; pace as of any shot
+    effects : of all its lights, over those of its pictures, the last on top
     """
 
     id: str
@@ -221,6 +223,12 @@ class Display(NamedTuple):
     pace: float
     path: KeyPath
     pyro: tuple[PyroCue, ...] = ()
+    effects: tuple[Effect, ...] = ()
+
+    @property
+    def every_effect(self) -> tuple[Effect, ...]:
+        """The effects of its pictures, then its own."""
+        return (*(effect for picture in self.pictures for effect in picture.effects), *self.effects)
 
     @property
     def start(self) -> float | None:

@@ -11,6 +11,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
 from shotc.ir.show import Display, Picture
 from shotc.kinds.base import Expansion, Kind, Scene
+from shotc.kinds.effect_stack import effects_of
+from shotc.kinds.effects import MOST_EFFECTS, DisplayEffectSpec
 from shotc.kinds.pictures import FilesSpec, Frames, PictureSpec
 from shotc.kinds.pyro import MOST_CUES, PyroSpec, cues_of
 from shotc.kinds.sources import picture_of
@@ -62,6 +64,9 @@ class DisplayShot(ShotBase):
     pyro: tuple[PyroSpec, ...] = Field(
         default=(), max_length=MOST_CUES, description="products that burn on its drones, and when"
     )
+    effects: tuple[DisplayEffectSpec, ...] = Field(
+        default=(), max_length=MOST_EFFECTS, description="of all its lights, over those of its frames"
+    )
 
 
 def expand(shot: DisplayShot, scene: Scene) -> Expansion:
@@ -69,14 +74,15 @@ def expand(shot: DisplayShot, scene: Scene) -> Expansion:
     frames = shot.frames
     written: tuple[FilesSpec | PictureSpec, ...] = (frames,) if isinstance(frames, FilesSpec) else frames
     pictures = [picture_of(spec, scene, i) for i, spec in enumerate(written)]
-    wrong = [picture for picture in pictures if isinstance(picture, Diagnostic)]
     burning = cues_of(shot.pyro, scene)
+    wrong = [fault for picture in pictures if isinstance(picture, list) for fault in picture]
     wrong = [*wrong, *burning.faults]
+    effects = effects_of(shot.effects, scene, (*scene.path, "effects"), len(pictures))
     faults = [*_unknown_fleet(shot, scene), *_useless(shot, scene), *_twice(shot, scene), *wrong]
-    if faults:
-        return Expansion.of(faults)
+    if faults or isinstance(effects, list):
+        return Expansion.of([*faults, *(effects if isinstance(effects, list) else ())])
     shown = _display(shot, scene, tuple(p for p in pictures if isinstance(p, Picture)))
-    return Expansion(display=shown._replace(pyro=burning.cues))
+    return Expansion(display=shown._replace(pyro=burning.cues, effects=effects))
 
 
 def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> Display:

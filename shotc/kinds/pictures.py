@@ -7,6 +7,7 @@ from pydantic import Field, GetCoreSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
+from shotc.kinds.effects import MOST_EFFECTS, FrameEffectSpec
 from shotc.spec.colors import LightColor
 from shotc.spec.faults import fault, read_each
 from shotc.spec.fields import (
@@ -161,6 +162,9 @@ class PictureSpec(Model):
         default=None,
         description="width, depth and height of the box about it that cameras frame, the depth along its "
         "heading: of what is named and no sphere, cube or torus",
+    )
+    effects: tuple[FrameEffectSpec, ...] = Field(
+        default=(), max_length=MOST_EFFECTS, description="of its lights, the last on top"
     )
 
 

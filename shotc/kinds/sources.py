@@ -6,6 +6,7 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
 from shotc.kinds.base import Scene
+from shotc.kinds.effect_stack import effects_of
 from shotc.kinds.moments import moment
 from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec, TransitionSpec
 
@@ -17,16 +18,30 @@ FONTS = (".ttf", ".otf", ".ttc")
 DRAWINGS = (".svg",)
 
 
-def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Picture | Diagnostic:
-    """Return one picture of a display, or the first thing that is wrong with it.
+def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Picture | list[Diagnostic]:
+    """Return one picture of a display, or what is wrong with it: of what it shows, the first thing.
 
     spec : a picture, or the files that a display gives in place of its list of pictures
     """
     if isinstance(spec, FilesSpec):
         path: KeyPath = (*scene.path, "frames")
         alone = _model(spec, scene, path)
-        return alone if isinstance(alone, Diagnostic) else Picture(alone, "volume", None, None, 0.0, path)
+        return [alone] if isinstance(alone, Diagnostic) else Picture(alone, "volume", None, None, 0.0, path)
     path = (*scene.path, "frames", index)
+    source = _drawable(spec, scene, path)
+    at = None if spec.at is None else moment(spec.at, scene, (*path, "at"))
+    effects = effects_of(spec.effects, scene, (*path, "effects"))
+    if isinstance(source, Diagnostic) or isinstance(at, Diagnostic) or isinstance(effects, list):
+        wrong = [one for one in (source, at) if isinstance(one, Diagnostic)]
+        return [*wrong, *(effects if isinstance(effects, list) else ())]
+    fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
+    change = spec.transition or TransitionSpec()
+    shown = Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
+    return shown._replace(at=at, name=spec.name, size=spec.size, effects=effects)
+
+
+def _drawable(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:
+    """Return what a picture shows, if it has the fill and the layers that are asked for."""
     source = _source(spec, scene, path)
     if isinstance(source, Diagnostic):
         return source
@@ -39,24 +54,7 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
         label = scene.origins.value((*path, "layers"))
         note = "only `text` and `svg` are flat"
         return Diagnostic("D026", "this picture has no layers", (label,), (note,), "remove `layers`")
-    fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
-    change = spec.transition or TransitionSpec()
-    at = None if spec.at is None else moment(spec.at, scene, (*path, "at"))
-    if isinstance(at, Diagnostic):
-        return at
-    return Picture(
-        source,
-        fill,
-        spec.color,
-        change.duration,
-        spec.hold,
-        path,
-        change.path,
-        spec.layers,
-        at,
-        spec.name,
-        spec.size,
-    )
+    return source
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

@@ -11,6 +11,7 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.ir.trajectory import TrajectoryIR
+from shotc.planfile.light_sanity import light_faults
 
 SAMPLES = 50_000_000
 """Ticks of the output clock that all drones of a fleet may have together."""
@@ -89,6 +90,7 @@ def _track(track: FleetTrajectory, mission: MissionIR, path: str) -> Iterator[Fa
         yield f"{path}.lights.colors", "does not have a colour for every drone and time"
     if (np.diff(track.lights.times) < 0).any():
         yield f"{path}.lights.times", "they do not rise"
+    yield from light_faults(track.lights, f"{path}.lights")
     pictures = {d.id: len(d.pictures) for d in mission.displays if d.fleet == fleet.name}
     for i, shown in enumerate(track.shown):
         if not 0 <= shown.picture < pictures.get(shown.display, 0):

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic.json_schema import JsonSchemaValue
 
-from shotc.ir.show import Color
+from shotc.ir.effects import Color
 from shotc.spec.faults import fault
 from shotc.spec.fieldtypes import FieldType, NamedOr
 from shotc.units import clip, describe

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
-from shotc.diag.codes import flights, pictures
+from shotc.diag.codes import flights, lights, pictures
 from shotc.diag.codes._filmed_shows import FIRED, NAMED
 from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._slips import slip
@@ -333,6 +333,7 @@ CODES: tuple[CodeInfo, ...] = (
         ("transition: 12, hold: 4, fill: surface}", "transition: 12, hold: 4, fill: surface, layers: 2}"),
     ),
     *pictures.CODES,
+    *lights.CODES,
     *flights.CODES,
     *MUSICAL,
     *NAMED,

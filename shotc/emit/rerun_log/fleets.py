@@ -17,7 +17,7 @@ from shotc.emit.rerun_log.show import fleet_plots, show_texts
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 
 RATE = 5.0
@@ -76,7 +76,7 @@ def _times(flight: FleetTrajectory) -> Array:
 
 def _lights(stream: Any, flight: FleetTrajectory, t: Array) -> None:
     at = np.moveaxis(places(flight.breaks, flight.coef, t), 1, 0).astype(np.float32)
-    colors = np.moveaxis(light_colors(flight.lights, t), 1, 0)
+    colors = np.moveaxis(light_colors(flight, t), 1, 0)
     colors = np.maximum(colors, np.where(colors.max(axis=-1, keepdims=True) < max(UNLIT), UNLIT, 0))
     colors = colors.astype(np.uint8)
     n = at.shape[1]

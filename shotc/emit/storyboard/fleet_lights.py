@@ -11,7 +11,7 @@ from shotc.emit.storyboard.camera_picture import Picture
 from shotc.emit.storyboard.canvas import Canvas, Color
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 
 RADIUS = 0.022
@@ -34,7 +34,7 @@ def lights_at(plan: VerifiedIR, time: float) -> FleetLights | None:
         return None
     at = [np.array([min(time, float(fleet.breaks[-1]))]) for fleet in fleets]
     where = [places(fleet.breaks, fleet.coef, t)[:, 0] for fleet, t in zip(fleets, at, strict=True)]
-    shine = [light_colors(fleet.lights, t)[:, 0] / 255.0 for fleet, t in zip(fleets, at, strict=True)]
+    shine = [light_colors(fleet, t)[:, 0] / 255.0 for fleet, t in zip(fleets, at, strict=True)]
     return FleetLights(np.concatenate(where), np.concatenate(shine))
 
 

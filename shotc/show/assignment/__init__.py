@@ -17,7 +17,8 @@ from shotc.diag.registry import has_errors
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.show.assignment.director import Director
-from shotc.show.assignment.order import Cast, cast_of
+from shotc.show.assignment.images import images_of
+from shotc.show.assignment.order import cast_of
 from shotc.show.assignment.song import song_faults
 
 
@@ -30,6 +31,9 @@ class AssignGoals:
     def run(self, ir: GoalIR, ctx: PassContext) -> Outcome[ShowIR]:
         """Give every drone its goals and every fleet its times."""
         mission = ir.keyframes.mission
+        images = images_of(mission)
+        if isinstance(images, list):
+            return Outcome(None, tuple(images))
         directors: list[Director] = []
         for goals in ir.fleets:
             ctx.progress(f"who goes where in fleet {goals.fleet}")
@@ -43,14 +47,19 @@ class AssignGoals:
         diagnostics += song_faults(mission, max(ends.values(), default=0.0))
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
-        fleets = tuple(director.trajectory() for director in directors)
-        stats = tuple(entry for director in directors for entry in _stats(director.cast, director))
+        made = [director.trajectory(images) for director in directors]
+        fleets = tuple(flight for flight, _ in made)
+        diagnostics += [d for _, told in made for d in told]
+        stats = tuple(
+            entry
+            for director, flight in zip(directors, fleets, strict=True)
+            for entry in _stats(director, flight)
+        )
         wanted = tuple(fleet.coef for fleet in fleets)
         return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats)), tuple(diagnostics))
 
 
-def _stats(cast: Cast, director: Director) -> list[tuple[str, float | str]]:
-    flight: FleetTrajectory = director.trajectory()
+def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float | str]]:
     name = flight.fleet
     return [
         (f"fleet {name} drones", float(len(flight.coef))),

@@ -13,7 +13,7 @@ from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
-from shotc.show.assignment.lights import lights
+from shotc.show.assignment.lights import Images, Standing, lights, with_effects
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import Cast, Scene
 from shotc.show.assignment.score import Motion, Score
@@ -70,14 +70,13 @@ class Director:
         """Return how many moves are on arcs."""
         return self.score.arcs
 
-    def trajectory(self) -> FleetTrajectory:
-        """Return the flight."""
+    def trajectory(self, images: Images) -> tuple[FleetTrajectory, list[Diagnostic]]:
+        """Return the flight with its lights, and what is to be said of their effects."""
         score = self.score
-        shown = [
-            (s.start, s.end, scene.colors) for s, scene in zip(score.shown, self.cast.scenes, strict=True)
-        ]
+        standing = list(map(Standing, self.cast.scenes, score.shown))
         dark = (score.phases[0].end, score.phases[-1].start)
-        return score.trajectory(self.fleet.name, lights(dark, shown))
+        lit, told = with_effects(lights(dark, standing), self.mission, standing, dark, images)
+        return score.trajectory(self.fleet.name, lit), told
 
     def _present(self, display: Display, scenes: tuple[Scene, ...], ready: float) -> None:
         """Write a display and the way to its first picture, which stands when it is to begin."""

@@ -6,9 +6,11 @@ from collections.abc import Sequence
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import spacing, straight_spacing, stretch
+from shotc.ir.effects import Effect
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display, Fleet, Picture, drone_names
+from shotc.kinds.files import FileFault
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Lack
@@ -132,3 +134,17 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Lac
         f"place its pictures {metres} m farther away from there, make them "
         f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones",
     )
+
+
+def never_seen(mission: MissionIR, effect: Effect, why: str) -> Diagnostic:
+    """Say that an effect lasts no time."""
+    label = mission.origins.value(effect.path)
+    whole = effect.over == "display"
+    help_ = "begin it earlier" if whole else "write `over: both`, or give the picture that time"
+    return Diagnostic("D099", "nobody will see this effect", (label,), (why,), help_)
+
+
+def bad_image(mission: MissionIR, effect: Effect, name: str, fault: FileFault) -> Diagnostic:
+    """Say that an image cannot be read."""
+    label = mission.origins.value((*effect.path, "image", "file"))
+    return Diagnostic("D100", f"image `{name}` cannot be read", (label,), (fault.message,), fault.help)

@@ -1,24 +1,173 @@
-"""The lights of a fleet: dark on the way up and down, each frame's colours while it stands, faded between."""
+"""The lights of a fleet: dark on the way up and down, each frame's colours while it stands, faded between.
+
+Effects of a picture are laid over its own colours, so that they come and go with these; effects of a way, of
+a stand or of a whole display are laid over all of that (``ir.light_layers``).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby
+from typing import NamedTuple
 
 import numpy as np
 
-from shotc.ir.fleet import Colors, Lights
+from shotc.diag.model import Diagnostic
+from shotc.ir.effects import Effect, Mark
+from shotc.ir.fleet import Lights, Shown
+from shotc.ir.light_layers import Layer, Look
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display
+from shotc.show.assignment import faults
+from shotc.show.assignment.layers import Stage, Times, layer_of
+from shotc.show.assignment.order import Scene
+from shotc.show.goals.footage import Frames
+
+Images = Mapping[str, Frames]
+"""The images of a mission's effects, by name."""
 
 
-def lights(dark: tuple[float, float], shown: Iterable[tuple[float, float, Colors]]) -> Lights:
-    """Return the programme.
+class Standing(NamedTuple):
+    """A frame and when it stands."""
+
+    scene: Scene
+    shown: Shown
+
+
+class _Stood(NamedTuple):
+    """A picture of a display: its frames, when it stands, and when the pictures beside it do."""
+
+    display: Display
+    number: int
+    frames: tuple[Standing, ...]
+    times: Times
+
+
+def lights(dark: tuple[float, float], standing: Sequence[Standing]) -> Lights:
+    """Return the programme without effects.
 
     dark : until when and from when on no light is lit, seconds
-    shown : (start, end, colours of shape (n, 3)) of every frame, in their order
+    standing : every frame, in their order
     """
-    rows: dict[float, Colors] = {}
-    for start, end, colors in shown:
-        rows[start] = rows[end] = colors
-    black = np.zeros_like(next(iter(rows.values())))
-    rows = {dark[0]: black, **rows, dark[1]: black}
+    rows = _rows(dark, standing)
+    black = np.zeros_like(standing[0].scene.colors)
     times = sorted(rows)
-    return Lights(np.array(times), np.stack([rows[t] for t in times], axis=1))
+    colors = [black if (found := rows[t]) is None else found.scene.colors for t in times]
+    return Lights(np.array(times), np.stack(colors, axis=1))
+
+
+def with_effects(
+    plain: Lights, mission: MissionIR, standing: Sequence[Standing], dark: tuple[float, float], images: Images
+) -> tuple[Lights, list[Diagnostic]]:
+    """Return the programme with the effects of its displays, and what is to be said of these."""
+    names = dict.fromkeys(one.shown.display for one in standing)
+    displays = [mission.display(name) for name in names]
+    if not any(display.every_effect for display in displays):
+        return plain, []
+    pictures = _pictures(displays, standing, dark)
+    told: list[Diagnostic] = []
+    looks: list[Look] = []
+    number: dict[tuple[str, int, int], int] = {}
+    over: list[Layer] = []
+    for seed, picture in enumerate(pictures):
+        layers, later = _of_picture(mission, picture, images, (seed, told))
+        over += later
+        for one in picture.frames:
+            number[one.shown.display, one.shown.picture, one.shown.index] = len(looks)
+            looks.append(Look(layers, one.scene.spare))
+    for display in displays:
+        over += _of_display(mission, display, pictures, images, told)
+    rows = _rows(dark, standing)
+    kept = (rows[t] for t in sorted(rows))
+    of = tuple(
+        -1 if one is None else number[one.shown.display, one.shown.picture, one.shown.index] for one in kept
+    )
+    return replace(plain, looks=tuple(looks), of=of, over=tuple(over)), told
+
+
+def _rows(dark: tuple[float, float], standing: Sequence[Standing]) -> dict[float, Standing | None]:
+    """Return what is shown by the times between which lights fade."""
+    rows: dict[float, Standing | None] = {dark[0]: None}
+    for one in standing:
+        rows[one.shown.start] = rows[one.shown.end] = one
+    return {**rows, dark[1]: None}
+
+
+def _pictures(
+    displays: Sequence[Display], standing: Sequence[Standing], dark: tuple[float, float]
+) -> list[_Stood]:
+    groups = [
+        tuple(group) for _, group in groupby(standing, key=lambda one: (one.shown.display, one.shown.picture))
+    ]
+    known = {display.id: display for display in displays}
+    found = []
+    for k, frames in enumerate(groups):
+        before = groups[k - 1][-1].shown.end if k else dark[0]
+        after = groups[k + 1][0].shown.start if k + 1 < len(groups) else dark[1]
+        first, last = frames[0].shown, frames[-1].shown
+        times = Times(before, first.start, last.end, after)
+        found.append(_Stood(known[first.display], first.picture, frames, times))
+    return found
+
+
+def _of_picture(
+    mission: MissionIR, picture: _Stood, images: Images, known: tuple[int, list[Diagnostic]]
+) -> tuple[tuple[Layer, ...], list[Layer]]:
+    """Return the effects that come and go with a picture's colours, and those that are laid over all."""
+    seed, told = known
+    stage = _stage(picture.display, [picture], images)
+    with_it: list[Layer] = []
+    over: list[Layer] = []
+    for k, effect in enumerate(picture.display.pictures[picture.number].effects):
+        t = picture.times
+        spans = {"transition": (t.away, t.start), "hold": (t.start, t.end), "both": (t.away, t.gone)}
+        span = spans[effect.over]
+        if span[1] <= span[0]:
+            told.append(faults.never_seen(mission, effect, _why(effect)))
+            continue
+        layer = layer_of(effect, stage, t, 100 * seed + k)
+        (with_it if effect.over == "both" else over).append(layer)
+    return tuple(with_it), over
+
+
+def _why(effect: Effect) -> str:
+    return "the picture is held for no time" if effect.over == "hold" else "there is no way to the picture"
+
+
+def _of_display(
+    mission: MissionIR,
+    display: Display,
+    pictures: Sequence[_Stood],
+    images: Images,
+    told: list[Diagnostic],
+) -> Iterator[Layer]:
+    mine = [picture for picture in pictures if picture.display is display]
+    first, last = mine[0].times, mine[-1].times
+    number = mission.displays.index(display)
+    for k, effect in enumerate(display.effects):
+        since = first.away if effect.since is None else _moment(effect.since, mine, until=False)
+        until = last.gone if effect.until is None else _moment(effect.until, mine, until=True)
+        until = min(until, last.gone)
+        if until <= since:
+            lasts = f"its last picture is gone {last.gone - first.start:.1f} s after the first one stands"
+            told.append(faults.never_seen(mission, effect, lasts))
+            continue
+        under = [p for p in mine if p.times.start < until and p.times.end > since] or mine
+        times = Times(since, since, until, until if effect.until is None else last.gone)
+        yield layer_of(effect, _stage(display, under, images), times, 10_000 * (number + 1) + k)
+
+
+def _moment(mark: Mark, pictures: Sequence[_Stood], *, until: bool) -> float:
+    """Return when a moment of a display is, seconds of mission time."""
+    if mark.picture is None:
+        assert mark.seconds is not None
+        return pictures[0].times.start + mark.seconds
+    times = next(p.times for p in pictures if p.number == mark.picture)
+    return times.end if until else times.start
+
+
+def _stage(display: Display, pictures: Sequence[_Stood], images: Images) -> Stage:
+    frames = [one.scene for picture in pictures for one in picture.frames]
+    places = np.concatenate([scene.shown for scene in frames])
+    return Stage(places, display.viewpoint, len(frames[0].places), images)

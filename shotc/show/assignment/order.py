@@ -18,11 +18,17 @@ DIGITS = 6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """A frame in the order of the drones; places, colors : shape (n, 3)."""
+    """A frame in the order of the drones; places, colors : shape (n, 3); spare : numbers of dark drones."""
 
     frame: Frame
     places: Array
     colors: Colors
+    spare: tuple[int, ...]
+
+    @property
+    def shown(self) -> Array:
+        """Return the places of the drones that show it, (k, 3)."""
+        return np.delete(self.places, self.spare, axis=0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,7 +54,8 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
     for frame in goals.frames:
         order = matched(last * scale, frame.points * scale)
         places = np.round(frame.points[order], DIGITS)
-        scenes.append(Scene(frame, places, frame.colors[order]))
+        spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
+        scenes.append(Scene(frame, places, frame.colors[order], tuple(spare)))
         last = places
     order = matched(last * scale, above * scale)
     return Cast(pads, above, tuple(scenes), above[order], pads[order])

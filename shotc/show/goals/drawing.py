@@ -12,7 +12,8 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.importers.xml_tree import Node, XmlFault, parse_xml
-from shotc.ir.show import Color, Drawing
+from shotc.ir.effects import Color
+from shotc.ir.show import Drawing
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.flat import FlatBody, Shape, chain, standing
 

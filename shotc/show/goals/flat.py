@@ -9,8 +9,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
+from shotc.ir.effects import Color
 from shotc.ir.fleet import Colors
-from shotc.ir.show import Color
 from shotc.show.geom.columns import (
     Columns,
     Numbers,

@@ -107,7 +107,8 @@ def _frame(task: Task, index: int, body: Body, layout: Layout) -> Frame:
     assert goals is not None
     colors = _colors(task.picture, body, goals.points)
     colors[goals.number :] = 0
-    return Frame(task.display.id, task.index, index, goals.points, colors)
+    spare = len(goals.points) - goals.number
+    return Frame(task.display.id, task.index, index, goals.points, colors, spare)
 
 
 def _colors(picture: Picture, body: Body, goals: Array) -> Colors:

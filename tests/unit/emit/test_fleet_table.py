@@ -19,7 +19,7 @@ from shotc.emit.csv_table import EMITTER
 from shotc.emit.mavlink import EMITTER as MAVLINK
 from shotc.emit.storyboard import EMITTER as STORYBOARD
 from shotc.ir.fleet import Lights
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import faded_colors
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.show_plans import PADS, STEP, display, fleet, mission, plan
 
@@ -97,11 +97,11 @@ def test_lights_fade_between_their_times() -> None:
 
 def test_lights_of_one_time_or_of_a_step_stand() -> None:
     one = Lights(np.array([3.0]), np.array([[[1, 2, 3]]], dtype=np.uint8))
-    np.testing.assert_array_equal(light_colors(one, np.array([0.0, 9.0])), [[[1, 2, 3]] * 2])
+    np.testing.assert_array_equal(faded_colors(one, np.array([0.0, 9.0])), [[[1, 2, 3]] * 2])
     step = Lights(
         np.array([1.0, 2.0, 2.0, 3.0]), np.array([[[9, 0, 0]] * 2 + [[0, 0, 9]] * 2], dtype=np.uint8)
     )
-    found = light_colors(step, np.array([1.0, 1.9, 2.1, 3.0]))
+    found = faded_colors(step, np.array([1.0, 1.9, 2.1, 3.0]))
     np.testing.assert_array_equal(found, [[[9, 0, 0]] * 2 + [[0, 0, 9]] * 2])
 
 

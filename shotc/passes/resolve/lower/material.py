@@ -8,11 +8,13 @@ from hashlib import sha256
 from pathlib import Path
 
 from shotc.diag.model import Diagnostic
+from shotc.ir.effects import Image
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.show import Display, Drawing, Lettering, Model, Picture
 from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
+from shotc.kinds.image_file import image_fault
 from shotc.kinds.svg import svg_fault
 from shotc.passes.resolve.lower.files import NOT_KEPT, read_file
 from shotc.show.labels import key_of
@@ -69,6 +71,9 @@ def _named(display: Display) -> Iterator[tuple[str, KeyPath]]:
     """Yield the files of a display, in its order, with where the mission names them."""
     for picture in display.pictures:
         yield from ((name, _where(picture)) for name in files_of(picture))
+    for effect in display.every_effect:
+        if isinstance(effect.paint, Image):
+            yield effect.paint.file, (*effect.path, "image", "file")
 
 
 def files_of(picture: Picture) -> tuple[str, ...]:
@@ -95,6 +100,8 @@ def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -
         return data
     if not data:
         return bad_file(origins, path, name, FileFault("the file is empty", None, "export it again"))
+    if name.lower().endswith((".png", ".gif")):
+        return _image(data, origins, name, path)
     wrong = svg_fault(data) if drawing else None
     if wrong is None:
         return data
@@ -103,3 +110,12 @@ def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -
     note = f"{name}, line {wrong.fault.line}"
     message = f"`{name}` is more than a drawing: {wrong.fault.message}"
     return Diagnostic("D022", message, (origins.value(path),), (note,), wrong.fault.help)
+
+
+def _image(data: bytes, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
+    wrong = image_fault(data)
+    if wrong is None:
+        return data
+    code, message = ("D101", "is too large") if wrong.size else ("D100", "cannot be read")
+    label, fault = origins.value(path), wrong.fault
+    return Diagnostic(code, f"image `{name}` {message}", (label,), (fault.message,), fault.help)

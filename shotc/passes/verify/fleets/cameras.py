@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.proof import norm
 from shotc.ir.fleet import Shown
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import lit_drones
 from shotc.ir.show import Display, kept_from_cameras
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Limit, Worst, held
@@ -39,7 +39,7 @@ def named_pictures(flight: FleetFlight, display: Display, shown: Sequence[Shown]
         if name is None:
             continue
         target = flight.mission.target(name)
-        lit = light_colors(flight.track.lights, np.array([stand.start]))[:, 0].any(axis=1)
+        lit = lit_drones(flight.track, np.array([stand.start]))[:, 0]
         away = flight.at(stand.start)[lit] - np.array(target.centre)
         out = max((target.shape.gap((float(x), float(y), float(z))) for x, y, z in away), default=0.0)
         path = (*display.pictures[stand.picture].path, "name")

@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.emit.audience import flight_of, picture_name
 from shotc.ir.fleet import FleetTrajectory, Shown
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import lit_drones
 from shotc.ir.show import Display
 from shotc.ir.trajectory import VerifiedIR
 
@@ -88,8 +88,8 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> t
 
 
 def lights(flight: FleetTrajectory, time: float) -> int:
-    """Return how many drones of a fleet shine at a time, seconds: those whose colour is not black."""
-    return int((light_colors(flight.lights, np.array([time]))[:, 0].max(axis=-1) > 0).sum())
+    """Return how many drones of a fleet show a picture at a time, seconds."""
+    return int(lit_drones(flight, np.array([time])).sum())
 
 
 def _evenly(count: int, most: int) -> list[int]:

@@ -12,7 +12,7 @@ from shotc.emit.audience import Audience
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Colors, FleetTrajectory
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import light_colors
 
 ZENITH, HORIZON = (0.012, 0.018, 0.045), (0.060, 0.078, 0.130)
 EARTH, FAR = (0.022, 0.026, 0.028), (0.050, 0.056, 0.058)
@@ -34,7 +34,7 @@ BLOOM, SPREAD = 5.0, 0.011
 def night(flight: FleetTrajectory, time: float, seen: Audience, size: tuple[int, int]) -> NDArray[np.uint8]:
     """Return the picture of a fleet at a time, shape (rows, columns, 3); size : columns, rows."""
     at = places(flight.breaks, flight.coef, np.array([time]))[:, 0]
-    colors = light_colors(flight.lights, np.array([time]))[:, 0]
+    colors = light_colors(flight, np.array([time]))[:, 0]
     light = _lights(at, colors, seen, size)
     light += BLOOM * gaussian_filter(light, (SPREAD * size[0], SPREAD * size[0], 0.0), truncate=3.0)
     picture = 1.0 - (1.0 - _backdrop(seen, size)) * np.exp(-light)

@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.geom.solid_arrays.points import in_convex
 from shotc.geom.solids import convex_hull
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import lit_drones
 from shotc.show.emit.contact_sheet.moments import Board
 
 NUMBER_IN = 0.095
@@ -53,7 +53,7 @@ def outlines(board: Board, sheet: Sheet) -> list[Array]:
     """Return the outline of each picture's lights on the page, (k, 2) inches, in the order of the sheet."""
     times = np.array([moment.time for moment in board.moments])
     at = sheet.place(places(board.flight.breaks, board.flight.coef, times))
-    lit = light_colors(board.flight.lights, times).max(axis=-1) > 0
+    lit = lit_drones(board.flight, times)
     corners = BODY_IN * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
     shapes = []
     for k in range(len(times)):

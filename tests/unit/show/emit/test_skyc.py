@@ -15,10 +15,10 @@ import pytest
 from shotc.emit.audience import ASPECT, audience
 from shotc.geom.fleet_spline import places
 from shotc.geom.solids import Cylinder
-from shotc.ir.sampling import light_colors
+from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.skyc import EMITTER
-from shotc.show.emit.skyc.show import program
+from shotc.show.emit.skyc.lights import program
 from tests.support import show_flights, skyc_reader
 from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
@@ -90,9 +90,9 @@ def test_it_takes_few_points_and_no_waiting() -> None:
 
 
 def test_lights_shine_as_planned() -> None:
-    lights = show_flights.plan().trajectory.fleets[0].lights
+    flight = show_flights.plan().trajectory.fleets[0]
     times = np.arange(0.0, 75.0, 0.25)
-    wanted = light_colors(lights, times)[0]
+    wanted = light_colors(flight, times)[0]
     code = b64decode(content()["swarm"]["drones"][0]["settings"]["lights"]["data"])
     found = np.array([color_at(code, t) for t in times])
     assert np.abs(found - wanted).max() <= 1.0

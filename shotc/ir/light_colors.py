@@ -1,0 +1,147 @@
+"""The colours of a fleet's lights at any time: those of its pictures, and the effects laid over them.
+
+A light without effects changes evenly between the times of its plan. With effects all is evaluated at
+moments 1/25 s apart, rounded to whole levels, and changes evenly between two of these. An effect is a pure
+function of a drone's number, its place and the time, so that any drones at any times can be asked for.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Array
+from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.fleet import Colors, FleetTrajectory, Lights
+from shotc.ir.light_layers import Layer
+from shotc.ir.light_paints import Levels, Spots, blended, painted
+
+BLOCK = 400_000
+"""Lights times moments that are evaluated at once: some 40 MB."""
+
+
+class _Rows(NamedTuple):
+    """Rows of a plan's colours about each time: the one before, the one after, and the share of that."""
+
+    before: NDArray[np.intp]
+    after: NDArray[np.intp]
+    share: Levels
+
+
+def light_colors(flight: FleetTrajectory, t: Array, some: slice = slice(None)) -> Colors:
+    """Return the colours of lights at times (T,), to the nearest whole; shape (n, T, 3).
+
+    some : of the fleet's drones, by their numbers
+    """
+    if not flight.lights.looks:
+        return faded_colors(flight.lights, t, some)
+    at = np.maximum(np.asarray(t, dtype=np.float64), 0.0) * LIGHT_RATE
+    # A time that is meant to be a moment is one.
+    at = np.where(np.abs(at - np.rint(at)) < 1e-6, np.rint(at), at)
+    first = np.floor(at).astype(np.intp)
+    share = (at - first).astype(np.float32)
+    ticks = np.unique(np.concatenate([first, first[share > 0] + 1]))
+    known = tick_colors(flight, ticks, some)
+    one, other = np.searchsorted(ticks, first), np.searchsorted(ticks, first + (share > 0))
+    if not share.any():
+        return known[:, one]
+    mixed = known[:, one] * (1.0 - share)[:, None] + known[:, other] * share[:, None]
+    return np.asarray(np.rint(mixed), dtype=np.uint8)
+
+
+def tick_colors(flight: FleetTrajectory, ticks: NDArray[np.intp], some: slice = slice(None)) -> Colors:
+    """Return the colours of lights with effects at moments, numbers of ``LIGHT_RATE``; shape (n, T, 3)."""
+    numbers = np.arange(len(flight.coef))[some]
+    found = np.empty((len(numbers), len(ticks), 3), dtype=np.uint8)
+    step = max(1, BLOCK // max(len(ticks), 1))
+    for i in range(0, len(numbers), step):
+        spots = Spots(numbers[i : i + step], ticks / LIGHT_RATE, flight.breaks, flight.coef)
+        found[i : i + step] = np.rint(np.clip(_stacked(flight.lights, spots), 0.0, 255.0))
+    return found
+
+
+def faded_colors(lights: Lights, t: Array, some: slice = slice(None)) -> Colors:
+    """Return the colours of lights without their effects at times (T,); shape (n, T, 3)."""
+    before, after, share = _rows(lights, t)
+    one, other = lights.colors[some][:, before], lights.colors[some][:, after]
+    return np.asarray(np.rint(one * (1.0 - share[:, None]) + other * share[:, None]), dtype=np.uint8)
+
+
+def shown_share(lights: Lights, t: Array, some: slice = slice(None)) -> Levels:
+    """Return how far each light belongs to a picture at times (T,), shape (n, T), 0 to 1.
+
+    It is 0 for a drone that a picture leaves dark, and before and after all pictures.
+    """
+    before, after, share = _rows(lights, t)
+    shown = np.ones((len(lights.colors), len(lights.times)), dtype=np.float32)
+    for k, look in enumerate(lights.of):
+        if look < 0:
+            shown[:, k] = 0.0
+        else:
+            shown[list(lights.looks[look].spare), k] = 0.0
+    return np.asarray(shown[some][:, before] * (1.0 - share) + shown[some][:, after] * share)
+
+
+def lit_drones(flight: FleetTrajectory, t: Array) -> NDArray[np.bool_]:
+    """Tell which drones show a picture at times (T,), or come to it or from it; shape (n, T).
+
+    Without effects they are those whose light is not black. Effects may darken a light for a moment.
+    """
+    if flight.lights.looks:
+        return shown_share(flight.lights, t) > 0.0
+    return np.asarray(faded_colors(flight.lights, t).any(axis=-1))
+
+
+def _rows(lights: Lights, t: Array) -> _Rows:
+    at = np.interp(t, lights.times, np.arange(len(lights.times)))
+    before = np.minimum(at.astype(np.intp), max(len(lights.times) - 2, 0))
+    after = np.minimum(before + 1, len(lights.times) - 1)
+    return _Rows(before, after, (at - before).astype(np.float32))
+
+
+def _stacked(lights: Lights, spots: Spots) -> Levels:
+    """Return the colours of spots, (n, T, 3): each picture's with its effects, faded; then those over all."""
+    before, after, share = _rows(lights, spots.times)
+    of = np.array(lights.of)
+    found = np.zeros((len(spots.numbers), len(spots.times), 3), dtype=np.float32)
+    lit = np.zeros(found.shape[:2], dtype=np.float32)
+    rows = lights.colors[spots.numbers]
+    for k, look in enumerate(lights.looks):
+        parts = ((1.0 - share) * (of[before] == k), share * (of[after] == k))
+        weight = (parts[0] + parts[1]).astype(np.float32)
+        when = np.flatnonzero(weight > 0)
+        if not len(when):
+            continue
+        one, other = (part[when, None] / weight[when, None] for part in parts)
+        colors = rows[:, before[when]] * one + rows[:, after[when]] * other
+        here = spots.at(when)
+        for layer in look.layers:
+            colors = _over(colors.astype(np.float32), layer, here, None)
+        kept = (~np.isin(spots.numbers, look.spare))[:, None] * weight[when]
+        found[:, when] += kept[..., None] * colors
+        lit[:, when] += kept
+    for layer in lights.over:
+        when = np.flatnonzero(_time_weight(layer, spots.times) > 0)
+        if len(when):
+            found[:, when] = _over(found[:, when], layer, spots.at(when), lit[:, when])
+    return found
+
+
+def _over(colors: Levels, layer: Layer, spots: Spots, lit: Levels | None) -> Levels:
+    """Return colours with a layer on them; lit : how far each light takes part, all if None."""
+    paint, weight = painted(layer.paint, spots)
+    weight = weight * (layer.opacity * _time_weight(layer, spots.times))
+    if lit is not None:
+        weight = weight * lit
+    there = blended(layer.blend, colors, paint)
+    return np.asarray(colors + np.asarray(weight, dtype=np.float32)[..., None] * (there - colors))
+
+
+def _time_weight(layer: Layer, t: Array) -> Levels:
+    """Return the weight of a layer at times (T,), 0 to 1."""
+    a, b, c, d = layer.span
+    rising = np.clip((t - a) / (b - a), 0.0, 1.0) if b > a else (t >= a)
+    falling = np.clip((d - t) / (d - c), 0.0, 1.0) if d > c else (t <= d)
+    return np.asarray(np.minimum(rising, falling), dtype=np.float32)

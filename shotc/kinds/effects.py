@@ -1,0 +1,145 @@
+"""Effects of lights as a mission writes them."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from shotc.ir.effects import LEAST_PERIOD, Blend, Fit, RampWay, Way
+from shotc.spec.colors import LightColor
+from shotc.spec.fields import Duration, NonNegativeDuration, Position, PositiveShare, RelativePath, Share
+from shotc.spec.fieldtypes import Integer
+from shotc.spec.model import Model, OneOf
+from shotc.spec.quantities import Quantity
+from shotc.spec.shorthand import QuantityModel
+
+MOST_COLORS = 32
+MOST_EFFECTS = 32
+"""Of one stack."""
+
+Period = Annotated[float, Quantity("LightPeriod", "duration", LEAST_PERIOD, noun="period of lights")]
+FrameNumber = Annotated[int, Integer("FrameNumber", 1, 500)]
+
+
+class FadeSpec(Model):
+    """All lights change to a colour, or from it."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("to",), ("from",))),)
+
+    to: LightColor | None = Field(default=None, description="the colour at its end, which then stays")
+    from_: LightColor | None = Field(default=None, alias="from", description="the colour at its beginning")
+    time: Duration | None = Field(
+        default=None, description="how long it takes: the last of the time for `to`, the first for `from`"
+    )
+
+
+class RampSpec(Model):
+    """Colours that run into each other."""
+
+    colors: tuple[LightColor, ...] = Field(
+        min_length=2, max_length=MOST_COLORS, description="two colours or more, in order"
+    )
+    at: tuple[Share, ...] | None = Field(
+        default=None, description="where each colour is, from 0 to 1; evenly spread if silent"
+    )
+    along: RampWay = Field(
+        default="up",
+        description="where it goes: an axis, right or left as the audience sees it, out from a middle or in, "
+        "by the drones' numbers (index), or by the time",
+    )
+    center: Position | None = Field(
+        default=None, description="from where `out` and `in` count; the picture's middle if silent"
+    )
+    period: Period | None = Field(
+        default=None, description="time in which the colours go once past every light; they stand if silent"
+    )
+
+
+class ChaseSpec(Model):
+    """A band of light that goes through the picture, over and over."""
+
+    color: LightColor = Field(default=(255, 255, 255), description="of the band")
+    along: Way = Field(default="right", description="where it goes, as of a ramp")
+    center: Position | None = Field(
+        default=None, description="from where `out` and `in` count; the picture's middle if silent"
+    )
+    period: Period = Field(description="time in which it goes once through the picture")
+    length: PositiveShare = Field(default=0.25, description="of the band, as a share of the picture")
+
+
+class SparkleSpec(Model):
+    """Lights that light up by chance, and go out again."""
+
+    color: LightColor = Field(default=(255, 255, 255), description="of a sparkle")
+    share: PositiveShare = Field(default=0.2, description="of the lights that do at any moment")
+    period: Period = Field(default=0.8, description="how long one takes to come and go")
+
+
+class ImageSpec(Model):
+    """A picture file, or a GIF that moves, thrown onto the lights from where the audience is."""
+
+    file: RelativePath = Field(description="a PNG or GIF file")
+    fit: Fit = Field(
+        default="cover",
+        description="it covers all lights, all of it lies within them (contain), or both (stretch)",
+    )
+    period: Period | None = Field(
+        default=None, description="time of all frames of a GIF, over and over; as the file says if silent"
+    )
+
+
+class MarkSpec(QuantityModel):
+    """A moment of a display."""
+
+    SHORT: ClassVar = ("seconds", Quantity("NonNegativeDuration", "duration", 0.0))
+    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("seconds",), ("frame",))),)
+
+    seconds: NonNegativeDuration | None = Field(default=None, description="after its first picture stands")
+    frame: FrameNumber | None = Field(
+        default=None, description="a picture by its number, from 1: from when it stands, or until it goes"
+    )
+
+
+class EffectSpec(Model):
+    """One effect, laid over what is below it."""
+
+    exclusive: ClassVar[tuple[OneOf, ...]] = (
+        OneOf((("fade",), ("ramp",), ("chase",), ("sparkle",), ("image",))),
+        OneOf(
+            (("fade",), ("fade_in",), ("fade_out",), ("fade_in", "fade_out")),
+            required=False,
+            help="a fade comes and goes by itself: give it a `time`",
+        ),
+    )
+
+    fade: FadeSpec | None = Field(default=None, description="all lights change to a colour, or from it")
+    ramp: RampSpec | None = Field(default=None, description="colours that run into each other")
+    chase: ChaseSpec | None = Field(default=None, description="a band of light that goes through the picture")
+    sparkle: SparkleSpec | None = Field(default=None, description="lights that light up by chance")
+    image: ImageSpec | None = Field(default=None, description="a PNG, or a GIF that moves")
+    blend: Blend = Field(
+        default="mix", description="how it goes with what is below it: in its place, or channel by channel"
+    )
+    opacity: Share = Field(default=1.0, description="how much of it is seen")
+    fade_in: NonNegativeDuration = Field(default=0.0, description="time in which it comes")
+    fade_out: NonNegativeDuration = Field(default=0.0, description="time in which it goes")
+
+
+class FrameEffectSpec(EffectSpec):
+    """One effect of a picture."""
+
+    over: Literal["both", "hold", "transition"] = Field(
+        default="both",
+        description="while the picture stands, on the way to it, or with its colours, which come and go on "
+        "the ways to it and from it",
+    )
+
+
+class DisplayEffectSpec(EffectSpec):
+    """One effect over all pictures of a display."""
+
+    from_: MarkSpec | None = Field(
+        default=None, alias="from", description="when it begins: seconds, or {frame: 2}; at once if silent"
+    )
+    until: MarkSpec | None = Field(
+        default=None, description="when it ends: seconds, or {frame: 3}; with the display if silent"
+    )

@@ -1,0 +1,121 @@
+"""Images that a mission names, by their bytes alone: are they PNG or GIF, whole, and no larger than is read.
+
+Nothing is decoded here, so that a file which would fill the memory is refused before it can.
+"""
+
+import zlib
+from struct import unpack_from
+from typing import NamedTuple
+
+from shotc.kinds.files import FileFault
+
+MOST_PIXELS = 25_000_000
+"""Of one frame."""
+MOST_FRAMES = 1500
+MOST_DECODED = 400_000_000
+"""Pixels of all frames."""
+
+_PNG = b"\x89PNG\r\n\x1a\n"
+_GIF = (b"GIF87a", b"GIF89a")
+_EXPORT = "export it again as PNG or GIF"
+
+
+class Wrong(NamedTuple):
+    """What is wrong with an image; size : whether it is too large, not damaged."""
+
+    fault: FileFault
+    size: bool = False
+
+
+def image_fault(data: bytes) -> Wrong | None:
+    """Return why a file cannot be thrown onto lights, or None."""
+    if data.startswith(_PNG):
+        found = _png(data)
+    elif data.startswith(_GIF):
+        found = _gif(data)
+    else:
+        return Wrong(FileFault("it is neither a PNG nor a GIF", None, _EXPORT))
+    return found if isinstance(found, Wrong) else _too_large(*found)
+
+
+def _too_large(width: int, height: int, frames: int) -> Wrong | None:
+    pixels = width * height
+    if not pixels or not frames:
+        return Wrong(FileFault("it has no pixels", None, _EXPORT))
+    if pixels > MOST_PIXELS:
+        share = (MOST_PIXELS / pixels) ** 0.5
+        small = f"{int(width * share)} x {int(height * share)}"
+        has = f"it has {width} x {height} pixels, {pixels / 1e6:.0f} million"
+        message = f"{has}; at most {MOST_PIXELS / 1e6:.0f} million are read"
+        help_ = f"scale it to {small} or less; lights show no more than a pixel each"
+        return Wrong(FileFault(message, None, help_), size=True)
+    most = min(MOST_FRAMES, MOST_DECODED // pixels)
+    if frames > most:
+        message = f"it has {frames} frames; of {width} x {height} pixels at most {most} are read"
+        help_ = f"thin it to {most} frames, or cut it into several effects"
+        if most < MOST_FRAMES:
+            help_ = f"scale it down, or thin it to {most} frames"
+        return Wrong(FileFault(message, None, help_), size=True)
+    return None
+
+
+def _cut(at: int, data: bytes) -> Wrong:
+    message = f"it is cut short, or damaged, at byte {at} of {len(data)}"
+    return Wrong(FileFault(message, None, "copy the file anew, or export it again"))
+
+
+def _png(data: bytes) -> tuple[int, int, int] | Wrong:
+    """Return width, height and frames of a PNG by its chunks (PNG, Third Edition, 5.3)."""
+    at, size, frames = len(_PNG), (0, 0), 1
+    while at + 12 <= len(data):
+        (length,) = unpack_from(">I", data, at)
+        kind, end = data[at + 4 : at + 8], at + 12 + length
+        if end > len(data) or zlib.crc32(data[at + 4 : end - 4]) != unpack_from(">I", data, end - 4)[0]:
+            return _cut(at, data)
+        if kind == b"IHDR" and length >= 8:
+            size = unpack_from(">II", data, at + 8)
+        if kind == b"acTL" and length >= 4:
+            (frames,) = unpack_from(">I", data, at + 8)
+        if kind == b"IEND":
+            return (*size, frames)
+        at = end
+    return _cut(at, data)
+
+
+def _gif(data: bytes) -> tuple[int, int, int] | Wrong:
+    """Return width, height and frames of a GIF by its blocks (GIF89a, 18 to 27)."""
+    if len(data) < 13:
+        return _cut(len(data), data)
+    width, height, packed = unpack_from("<HHB", data, 6)
+    at, frames = 13 + _colors(packed), 0
+    while at < len(data):
+        kind = data[at]
+        if kind == 0x3B:
+            return width, height, frames
+        if kind == 0x2C and at + 10 < len(data):
+            frames += 1
+            start = at + 11 + _colors(data[at + 9])
+        elif kind == 0x21:
+            start = at + 2
+        else:
+            return _cut(at, data)
+        end = _blocks(data, start)
+        if end is None:
+            # Many writers leave the last byte out; a frame that ends in its middle is another matter.
+            return _cut(at, data)
+        at = end
+    return (width, height, frames) if frames else _cut(at, data)
+
+
+def _colors(packed: int) -> int:
+    """Return how many bytes a table of colours has, by the byte that tells of it."""
+    return 3 << ((packed & 7) + 1) if packed & 0x80 else 0
+
+
+def _blocks(data: bytes, at: int) -> int | None:
+    """Return where a row of sub-blocks ends, None where the file does before."""
+    while at < len(data):
+        if not data[at]:
+            return at + 1
+        at += data[at] + 1
+    return None

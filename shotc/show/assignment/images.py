@@ -1,0 +1,28 @@
+"""The images of a mission's effects, read once each."""
+
+from __future__ import annotations
+
+from shotc.diag.model import Diagnostic
+from shotc.ir.effects import Image
+from shotc.ir.mission import MissionIR
+from shotc.kinds.files import FileFault
+from shotc.show.assignment import faults
+from shotc.show.goals.footage import Frames, read_frames
+
+
+def images_of(mission: MissionIR) -> dict[str, Frames] | list[Diagnostic]:
+    """Return the frames of every image, by its name, or what is wrong with those that cannot be read."""
+    files = dict(mission.files)
+    found: dict[str, Frames] = {}
+    wrong: dict[str, Diagnostic] = {}
+    lights = max((len(fleet.pads) for fleet in mission.fleets), default=0)
+    for effect in (effect for display in mission.displays for effect in display.every_effect):
+        if not isinstance(effect.paint, Image) or effect.paint.file in {*found, *wrong}:
+            continue
+        name = effect.paint.file
+        frames = read_frames(files[name], lights)
+        if isinstance(frames, FileFault):
+            wrong[name] = faults.bad_image(mission, effect, name, frames)
+        else:
+            found[name] = frames
+    return list(wrong.values()) or found

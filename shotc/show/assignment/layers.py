@@ -1,0 +1,183 @@
+"""One effect put into space and time: where it goes through a picture, and when it counts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.ir.effects import Chase, Effect, Fade, Image, Ramp, Sparkle, Way
+from shotc.ir.light_layers import (
+    Along,
+    Axis,
+    Band,
+    Footage,
+    Glints,
+    Gradient,
+    Layer,
+    Order,
+    Painted,
+    Radius,
+    Screen,
+    Tint,
+)
+from shotc.ir.limits import Vec3
+from shotc.show.goals.footage import Frames
+
+COMPASS: dict[Way, Vec3] = {
+    "up": (0.0, 0.0, 1.0),
+    "down": (0.0, 0.0, -1.0),
+    "east": (1.0, 0.0, 0.0),
+    "west": (-1.0, 0.0, 0.0),
+    "north": (0.0, 1.0, 0.0),
+    "south": (0.0, -1.0, 0.0),
+}
+FAR_M = 10_000.0
+"""How far south the eye of a display without a viewpoint is, metres: it sees along parallel lines, nearly."""
+LEAST_M = 1e-3
+"""Metres that a picture is large, at least, for what goes through it."""
+
+
+class Times(NamedTuple):
+    """When a picture is under way, stands, no longer does, and is no more; seconds.
+
+    Of an effect over a display, it begins, begins, ends, and a colour that it fades to is no more.
+    """
+
+    away: float
+    start: float
+    end: float
+    gone: float
+
+
+class Stage(NamedTuple):
+    """What effects go through: places (k, 3) of lit drones, the audience's eye, how many drones there are."""
+
+    places: Array
+    viewpoint: Vec3 | None
+    drones: int
+    images: Mapping[str, Frames]
+
+
+def layer_of(effect: Effect, stage: Stage, times: Times, seed: int) -> Layer:
+    """Return the layer of an effect; seed : that no other effect of the mission has."""
+    own = times._replace(start=times.away, end=times.start) if effect.over == "transition" else times
+    paint = _paint(effect, stage, own, seed)
+    return Layer(paint, effect.blend, effect.opacity, _span(effect, times))
+
+
+def _span(effect: Effect, times: Times) -> tuple[float, float, float, float]:
+    """Return when the layer comes and goes, as ``Layer.span``."""
+    away, start, end, gone = times
+    first, last = {"both": (away, gone), "transition": (away, start)}.get(effect.over, (start, end))
+    if isinstance(effect.paint, Fade):
+        return _fade(effect.paint, effect.over, times)
+    if effect.over == "both":
+        # It stands with its picture: it comes and goes while that stands.
+        rise = (start, start + effect.fade_in) if effect.fade_in else (first, first)
+        fall = (end - effect.fade_out, end) if effect.fade_out else (last, last)
+        return (*rise, *fall)
+    return (first, first + effect.fade_in, last - effect.fade_out, last)
+
+
+def _fade(fade: Fade, over: str, times: Times) -> tuple[float, float, float, float]:
+    away, start, end, gone = times
+    if over == "transition":
+        start, end, gone = away, start, start
+    elif over == "hold":
+        away, gone = start, end
+    length = end - start if fade.seconds is None else min(fade.seconds, end - start)
+    if fade.to:
+        return (end - length, end, gone, gone)
+    return (away, away, start, start + length)
+
+
+def _paint(effect: Effect, stage: Stage, times: Times, seed: int) -> Painted:
+    paint = effect.paint
+    if isinstance(paint, Fade):
+        return Tint(paint.color)
+    if isinstance(paint, Ramp):
+        return _gradient(paint, stage, times)
+    if isinstance(paint, Chase):
+        along = _along(paint.along, paint.center, stage)
+        return Band(paint.color, along, 1.0 / paint.period, times.start, paint.length)
+    if isinstance(paint, Sparkle):
+        return Glints(paint.color, paint.share, paint.period, seed)
+    return _footage(paint, stage, times)
+
+
+def _gradient(ramp: Ramp, stage: Stage, times: Times) -> Gradient:
+    along = None if ramp.along is None else _along(ramp.along, ramp.center, stage)
+    rate = 0.0 if ramp.period is None else 1.0 / ramp.period
+    if along is None:
+        # By the time the colours come in their order, not one behind the other.
+        rate = -rate if rate else -1.0 / max(times.end - times.start, 1e-9)
+    return Gradient(ramp.colors, ramp.at, along, rate, times.start, ramp.period is not None)
+
+
+def _along(way: Way, center: Vec3 | None, stage: Stage) -> Along:
+    if way == "index":
+        return Order(stage.drones)
+    low, high = stage.places.min(axis=0), stage.places.max(axis=0)
+    if way in ("out", "in"):
+        middle = (low + high) / 2.0 if center is None else np.array(center)
+        reach = float(np.linalg.norm(stage.places - middle, axis=1).max())
+        return Radius(_vec(middle), max(reach, LEAST_M), way == "in")
+    direction = COMPASS.get(way) or _seen(way, stage)
+    at = stage.places @ np.array(direction)
+    return Axis(direction, float(at.min()), max(float(at.max()), float(at.min()) + LEAST_M))
+
+
+def _seen(way: Way, stage: Stage) -> Vec3:
+    """Return the level direction of a word that the audience means."""
+    right, _, _ = _axes(stage)
+    level = np.array([-right[1], right[0], 0.0])
+    return _vec({"right": right, "left": -right, "away": level, "near": -level}[way])
+
+
+def _eye(stage: Stage) -> Array:
+    if stage.viewpoint is not None:
+        return np.array(stage.viewpoint)
+    middle = (stage.places.min(axis=0) + stage.places.max(axis=0)) / 2.0
+    return np.asarray(middle - np.array([0.0, FAR_M, 0.0]))
+
+
+def _axes(stage: Stage) -> tuple[Array, Array, Array]:
+    """Return right, up and forward of who looks at the middle of the picture."""
+    look = (stage.places.min(axis=0) + stage.places.max(axis=0)) / 2.0 - _eye(stage)
+    forward = look / max(float(np.linalg.norm(look)), 1e-9)
+    level = float(np.hypot(forward[0], forward[1]))
+    right = np.array([forward[1], -forward[0], 0.0]) / level if level > 1e-6 else np.array([1.0, 0.0, 0.0])
+    return right, np.cross(right, forward), forward
+
+
+def _footage(image: Image, stage: Stage, times: Times) -> Footage:
+    frames = stage.images[image.file]
+    ends = frames.ends
+    if image.period is not None:
+        ends = tuple(end * image.period / ends[-1] for end in ends)
+    return Footage(frames.rgba, frames.rows, frames.columns, ends, times.start, _screen(image, frames, stage))
+
+
+def _screen(image: Image, frames: Frames, stage: Stage) -> Screen:
+    """Return where the image is: about the middle of the lights as the audience sees them."""
+    right, up, forward = _axes(stage)
+    away = stage.places - _eye(stage)
+    depth = np.maximum(away @ forward, LEAST_M)
+    seen = np.stack([(away @ right) / depth, (away @ up) / depth], axis=1)
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    size = np.maximum(high - low, 1e-6)
+    if image.fit != "stretch":
+        shape = np.array([frames.columns * frames.wide, float(frames.rows)])
+        scales = size / shape
+        size = shape * float(scales.max() if image.fit == "cover" else scales.min())
+    left, bottom = ((low + high) / 2.0 - size / 2.0).tolist()
+    width, height = size.tolist()
+    return Screen(_vec(_eye(stage)), _vec(right), _vec(up), _vec(forward), left, bottom, width, height)
+
+
+def _vec(values: Array) -> Vec3:
+    x, y, z = (float(value) + 0.0 for value in values)
+    return (x, y, z)

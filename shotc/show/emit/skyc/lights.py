@@ -1,0 +1,145 @@
+"""The lights of a show file: programs of bytes that fade and set colours, in steps of 20 ms.
+
+Opcodes: 0 end, 4 set a colour for a time, 8 fade to a colour over a time; a time is a variable-length number
+of steps, seven bits a byte, the low ones first. A program begins at the show's first instant.
+
+Lights with effects change evenly between moments 40 ms apart, which are steps. Of these moments a program
+keeps those from which to the next one an even change stays near all that are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.fleet import Colors, FleetTrajectory, Lights
+from shotc.ir.light_colors import tick_colors
+
+STEP_S = 0.02
+"""Seconds of one step."""
+
+END, SET, FADE = 0x00, 0x04, 0x08
+
+TOLERANCE = 2.0
+"""Levels, of 255, by which a program may be off the lights of the plan in any channel, at any time."""
+
+MOMENTS = 100
+"""Moments of all drones that are evaluated at once."""
+
+
+def programs(flight: FleetTrajectory) -> Iterator[bytes]:
+    """Yield the program of every drone's light, in the order of their numbers."""
+    if not flight.lights.looks:
+        yield from _faded(flight.lights)
+        return
+    steps = round(1.0 / (LIGHT_RATE * STEP_S))
+    for ticks, colors in kept_moments(flight):
+        yield program((ticks * steps).tolist(), [bytes(color) for color in colors])
+
+
+def _faded(lights: Lights) -> Iterator[bytes]:
+    steps = np.maximum(np.round(lights.times / STEP_S).astype(int), 0).tolist()
+    for colors in lights.colors.tolist():
+        yield program(steps, [bytes(color) for color in colors])
+
+
+def kept_moments(flight: FleetTrajectory) -> Iterator[tuple[NDArray[np.intp], Colors]]:
+    """Yield of every drone the moments that are kept, numbers of ``LIGHT_RATE``, and its colours there."""
+    last = ceil(float(flight.breaks[-1]) * LIGHT_RATE)
+    thinning = _Thinning(tick_colors(flight, np.arange(1))[:, 0])
+    for first in range(1, last + 1, MOMENTS):
+        colors = tick_colors(flight, np.arange(first, min(first + MOMENTS, last + 1)))
+        for k in range(colors.shape[1]):
+            thinning.add(colors[:, k])
+    return thinning.kept()
+
+
+class _Thinning:
+    """Colours of n lights, moment by moment: which are kept.
+
+    A change that is even leaves each moment's colour by less than the tolerance if its slope is in a cone;
+    the cones of all moments since the last that was kept are cut with each other (swing-door trending,
+    Bristol 1990), and the slope to a moment that may be kept next is in all of them.
+    """
+
+    def __init__(self, colors: Colors) -> None:
+        n = len(colors)
+        self._tick = 0
+        self._since = np.zeros(n, dtype=np.intp)
+        self._from = colors.astype(np.float32)
+        self._last = colors
+        self._low = np.full((n, 3), -np.inf, dtype=np.float32)
+        self._high = np.full((n, 3), np.inf, dtype=np.float32)
+        self._kept: list[tuple[int, NDArray[np.intp], Colors]] = [(0, np.arange(n), colors)]
+
+    def add(self, colors: Colors) -> None:
+        """Add the colours of the next moment, (n, 3)."""
+        here = self._tick + 1
+        wanted = colors.astype(np.float32)
+        span = (here - self._since)[:, None].astype(np.float32)
+        slope = (wanted - self._from) / span
+        out = ((slope < self._low) | (slope > self._high)).any(axis=1)
+        if out.any():
+            self._keep(np.flatnonzero(out))
+            span[out] = 1.0
+            slope[out] = wanted[out] - self._from[out]
+        reach = np.float32(TOLERANCE) / span
+        self._low = np.maximum(self._low, slope - reach)
+        self._high = np.minimum(self._high, slope + reach)
+        self._tick, self._last = here, colors
+
+    def kept(self) -> Iterator[tuple[NDArray[np.intp], Colors]]:
+        """Yield of every light the moments that are kept and its colours there, the last one among them."""
+        if self._tick:
+            self._keep(np.arange(len(self._last)))
+        which = np.concatenate([which for _, which, _ in self._kept])
+        ticks = np.concatenate([np.full(len(which), tick) for tick, which, _ in self._kept])
+        colors = np.concatenate([colors for _, _, colors in self._kept])
+        order = np.argsort(which, kind="stable")
+        ends = np.searchsorted(which[order], np.arange(len(self._last) + 1))
+        for first, end in pairwise(ends.tolist()):
+            mine = order[first:end]
+            yield ticks[mine], colors[mine]
+
+    def _keep(self, which: NDArray[np.intp]) -> None:
+        self._kept.append((self._tick, which, self._last[which]))
+        self._since[which] = self._tick
+        self._from[which] = self._last[which]
+        self._low[which], self._high[which] = -np.inf, np.inf
+
+
+def program(steps: list[int], colors: list[bytes]) -> bytes:
+    """Return the program that has these colours, of three bytes, at these steps, which do not fall."""
+    code = bytearray()
+    now, color, stands, faded = 0, colors[0], 0, False
+    for step, wanted in zip(steps, colors, strict=True):
+        if wanted == color:
+            stands += step - now
+        else:
+            # A fade begins where what was before ends; a jump is a colour that is set.
+            if stands or not faded:
+                code += _order(SET, color, stands)
+            stands, faded = 0, step > now
+            if faded:
+                code += _order(FADE, wanted, step - now)
+        now, color = step, wanted
+    # Players go on along a last fade: a program ends with a colour that stands.
+    code += _order(SET, color, max(stands, 1))
+    return bytes([*code, END])
+
+
+def _order(what: int, color: bytes, steps: int) -> bytes:
+    return bytes([what, *color]) + _number(steps)
+
+
+def _number(value: int) -> bytes:
+    found = bytearray()
+    while value > 0x7F:
+        found.append(value & 0x7F | 0x80)
+        value >>= 7
+    return bytes([*found, value])
