@@ -31,7 +31,8 @@ def is_free(subject: Subject, condition: Condition, stages: Stages, references: 
     """Tell whether the lens of a shot is part of its problem.
 
     It is where it zooms, the condition frames targets, keyframes that nobody wrote ask for no lens, and there
-    is something to win: keyframes ask for different ones, or the convex path shows less than nodes ask for.
+    is something to win: keyframes ask for different ones, or the convex path shows less than nodes ask for
+    through a lens that has a wider end.
     """
     if condition.aims != "framing" or not subject.drone.zooms:
         return False
@@ -40,8 +41,12 @@ def is_free(subject: Subject, condition: Condition, stages: Stages, references: 
     pose = subject.leg.curve(stages.s)
     if _spread(subject, stages.s)[1].any():
         return True
+    assert subject.drone.lens is not None
+    widest = pose[:, HFOV].max() >= (1.0 - LEAST_SHARE) * subject.drone.lens.widest
+    if widest or condition.visibility == "none":
+        return False
     lacks = insides(subject, references, stages.s, pose[:, [0, 1, 2, CAM_YAW, CAM_PITCH]]) < references.inside
-    return condition.visibility != "none" and bool(lacks[references.whole > 0].any())
+    return bool(lacks[references.whole > 0].any())
 
 
 def lens_bounds(drone: Drone, given: Array) -> tuple[float, float]:

@@ -140,6 +140,7 @@ def test_the_lens_is_free_where_it_zooms_and_something_is_to_be_won():
     assert not free(lensed(arc()))  # one lens, and the whole tower is in it
     assert not free(arc())
     assert free(lensed(arc(), 22))  # the tower does not fit
+    assert not free(lensed(arc(), 22, widest=22.0))  # and no wider lens is there
 
 
 def test_a_lens_without_anything_to_win_is_the_one_that_is_given():
