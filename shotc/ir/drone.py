@@ -7,7 +7,7 @@ from shotc.geom.focal import FULL_FRAME_M, focal_length
 from shotc.ir.limits import Limits, Range, Vec3, reaches
 from shotc.ir.origin import KeyPath
 from shotc.ir.power import Power
-from shotc.ir.source import Autopilot
+from shotc.ir.source import ZOOM_COMMANDS, Autopilot
 
 SAME_LENS_RAD = radians(0.01)
 """By how much a field of view may be beyond those of a lens: it is rounding."""
@@ -126,6 +126,11 @@ class Drone(NamedTuple):
     def zooms(self) -> bool:
         """Tell whether its lens is known to zoom, so that a file may command its field of view."""
         return self.lens is not None and self.lens.zooms
+
+    @property
+    def zooms_unasked(self) -> bool:
+        """Tell whether a plan may zoom where the mission asks for one field of view: its files carry that."""
+        return self.zooms and self.autopilot in ZOOM_COMMANDS
 
     @property
     def lasts(self) -> str:

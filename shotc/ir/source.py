@@ -15,6 +15,9 @@ TAKES: dict[Autopilot, tuple[str, ...]] = {
 }
 """The emitters whose files each of them flies; the first is used where nothing is asked for."""
 
+ZOOM_COMMANDS: tuple[Autopilot, ...] = ("px4", "ardupilot", "pilot-2")
+"""Those whose mission files command the field of view of a lens that zooms."""
+
 
 def flown_by(autopilot: Autopilot, emit: tuple[str, ...]) -> tuple[str, ...]:
     """Return emitters with those in place whose files an autopilot flies, for those that others fly."""

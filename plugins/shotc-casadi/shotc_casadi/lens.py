@@ -32,7 +32,7 @@ def is_free(subject: Subject, condition: Condition, stages: Stages, references: 
 
     It is where it zooms, the condition frames targets, keyframes that nobody wrote ask for no lens, and there
     is something to win: keyframes ask for different ones, or the convex path shows less than nodes ask for
-    through a lens that has a wider end.
+    through a lens that has a wider end and that the drone's files zoom.
     """
     if condition.aims != "framing" or not subject.drone.zooms:
         return False
@@ -43,7 +43,7 @@ def is_free(subject: Subject, condition: Condition, stages: Stages, references: 
         return True
     assert subject.drone.lens is not None
     widest = pose[:, HFOV].max() >= (1.0 - LEAST_SHARE) * subject.drone.lens.widest
-    if widest or condition.visibility == "none":
+    if widest or condition.visibility == "none" or not subject.drone.zooms_unasked:
         return False
     lacks = insides(subject, references, stages.s, pose[:, [0, 1, 2, CAM_YAW, CAM_PITCH]]) < references.inside
     return bool(lacks[references.whole > 0].any())

@@ -109,6 +109,9 @@ def test_a_lens_with_nothing_to_win_and_one_that_does_not_zoom_stay():
     assert isinstance(subject.leg, ClockLeg)
     assert zoomed(subject, subject.leg) is not None
     assert zoomed(replace(subject, drone=subject.drone._replace(lens=None)), subject.leg) is None
+    past = subject_of(path_of(planned(PAST.format(camera=ZOOM.format(35))), "solve-path-qp"), "s")
+    assert zoomed(past, past.leg) is not None
+    assert zoomed(replace(past, drone=past.drone._replace(autopilot="dji-fly")), past.leg) is None
     same = KEYED.format(camera=ZOOM.format(70)).replace("29 deg", "70 deg")
     still = subject_of(path_of(planned(same), "solve-path-qp"), "s")
     assert zoomed(still, still.leg) is None

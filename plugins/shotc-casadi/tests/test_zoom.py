@@ -141,6 +141,10 @@ def test_the_lens_is_free_where_it_zooms_and_something_is_to_be_won():
     assert not free(arc())
     assert free(lensed(arc(), 22))  # the tower does not fit
     assert not free(lensed(arc(), 22, widest=22.0))  # and no wider lens is there
+    of = lensed(arc(), 22)
+    assert not free(of._replace(drone=of.drone._replace(autopilot="dji-fly")))  # nothing would zoom it there
+    of = lensed(arc(), 60, 50)
+    assert free(of._replace(drone=of.drone._replace(autopilot="dji-fly")))  # but this was asked for
 
 
 def test_a_lens_without_anything_to_win_is_the_one_that_is_given():

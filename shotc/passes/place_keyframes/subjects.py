@@ -89,8 +89,8 @@ def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Compos
     if wide is None:
         return ""
     lens = at_least(degrees(wide), 1)
-    own = mission.drone(shot.drone).lens
-    zooms = own is not None and own.zooms and wide <= own.widest
+    drone = mission.drone(shot.drone)
+    zooms = drone.zooms_unasked and drone.lens is not None and wide <= drone.lens.widest
     first = "plan it with the refiner `ours`, which zooms there, or film it" if zooms else "film it"
     return f"{first} from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
 

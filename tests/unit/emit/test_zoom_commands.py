@@ -14,12 +14,16 @@ import pytest
 
 from shotc.diag.registry import registry
 from shotc.emit.dji import EMITTER as DJI
+from shotc.emit.dji import FORMAT as WPML
 from shotc.emit.litchi import EMITTER as LITCHI
+from shotc.emit.litchi import FORMAT as TABLE
 from shotc.emit.mavlink import EMITTER as MAVLINK
+from shotc.emit.mavlink.dialect import DIALECTS
 from shotc.geom.bernstein import Piecewise
 from shotc.ir.drone import LensRange
 from shotc.ir.path import HFOV
 from shotc.ir.promise import Promise
+from shotc.ir.source import ZOOM_COMMANDS
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from tests.support.film_plans import orbit_mission
 from tests.support.mavlink_flights import Move, flight, plan, straight
@@ -197,3 +201,7 @@ def test_one_field_of_view_that_is_not_the_lens_as_it_stands_is_told() -> None:
     (told,) = emission.diagnostics
     assert told.code == "E105"
     assert "the field of view is 70.0 deg, the lens has 50.0 deg" in told.notes[0]
+
+
+def test_the_autopilots_that_are_said_to_zoom_are_those_whose_files_do():
+    assert set(ZOOM_COMMANDS) == {*DIALECTS, *WPML.zooms, *TABLE.zooms}

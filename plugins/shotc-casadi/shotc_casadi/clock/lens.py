@@ -85,7 +85,8 @@ def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
     pose = leg.curve(t)
     given = pose[:, HFOV]
     wanted = np.where(film, _wanted(subject, leg, t), given)
-    least = np.where(film, _least(subject, t, pose), 0.0)
+    unasked = subject.drone.zooms_unasked or not (wanted == given).all()
+    least = np.where(film, _least(subject, t, pose), 0.0) if unasked else np.zeros(len(t))
     low, high = lens_bounds(subject.drone, given)
     wanted, least = np.clip(wanted, low, high), np.minimum(least, high)
     if (wanted == given).all() and (least <= given * (1.0 + NARROW_SHARE)).all():
@@ -115,6 +116,8 @@ def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array) -> Array:
     """
     pose, keyed = leg.curve(t), subject.camera_task.keyed
     wanted = np.array(pose[:, HFOV])
+    if keyed is None and not subject.drone.zooms_unasked:
+        return wanted
     if keyed is None:
         factor = _factor(subject, t, pose)
         return 2.0 * np.arctan(np.tan(wanted / 2) * factor) if (factor != 1.0).any() else wanted
