@@ -32,7 +32,7 @@ from shotc.importers.flights.wpml import WAYLINES
 from shotc.importers.notes import label
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import drone_names
+from shotc.ir.show import drone_names, kept_from_cameras
 from shotc.ir.trajectory import Claim
 from shotc.lowering import lower_for_flights
 from shotc.source.file import SourceFile
@@ -160,9 +160,10 @@ def _proved(
     films = [found[drone.name] for drone in mission.drones if drone.name in found]
     try:
         tracks = [_aligned(keyframes, flown) for flown in films]
-        claims = [*waypoints_judged(mission, courses, keyframes)]
+        beside = _beside_pads(keyframes, swarms)
+        claims = [*waypoints_judged(mission, courses, beside)]
         away = frozenset(course.drone.name for course in courses)
-        claims += film.judged(keyframes, films, tracks, away)
+        claims += film.judged(beside, films, tracks, away)
     except Unread as stopped:  # a cell of a column that only films need
         return FlightsReport(False, (), (_refused(films[0].file, stopped.refused),), sources)
     for swarm in swarms:
@@ -178,6 +179,13 @@ def _proved(
     )
     certificate = tuple(each.claim for each in claims)
     return FlightsReport(not has_errors(diagnostics), certificate, diagnostics, sources, notes)
+
+
+def _beside_pads(keyframes: KeyframeIR, swarms: Sequence[Swarm]) -> KeyframeIR:
+    """Return the mission with the fleets alone that have no files, and so stand on their pads."""
+    flown = {swarm.fleet.name for swarm in swarms}
+    fleets = tuple(fleet for fleet in keyframes.mission.fleets if fleet.name not in flown)
+    return keyframes._replace(mission=keyframes.mission._replace(fleets=fleets))
 
 
 def _aligned(keyframes: KeyframeIR, flown: Flown) -> Aligned:
@@ -196,7 +204,8 @@ def _between(
         for swarm in swarms:
             yield apart_at_any_time(mission, course, swarm.fleet.name, swarm.whole.pieces)
     for swarm in swarms:
-        yield from film.beside_fleets(mission.rules.separation, films, swarm.flights)
+        least = kept_from_cameras(mission.rules.separation, swarm.fleet)
+        yield from film.beside_fleets(least, films, swarm.flights)
 
 
 def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> Course | Diagnostic:
