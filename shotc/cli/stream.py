@@ -11,6 +11,7 @@ import typer
 from shotc.cli import console
 from shotc.cli.console import known
 from shotc.cli.plans import PlanPath, prove
+from shotc.diag.registry import has_errors
 from shotc.plugins import not_installed
 from shotc.stream.clock import WallClock
 from shotc.stream.endings import as_interrupts
@@ -95,8 +96,9 @@ def _stream(
     with Session(report.plan, DOORS, WallClock(), console.note) as session:
         found = session.open(addresses, targets)
         aboard: list[Aboard] = []
-        if not found:
-            aboard, found = session.check()
+        if not has_errors(found):
+            aboard, judged = session.check()
+            found = [*found, *judged]
         console.report(found, report.sources)
         if console.exit_code(found):
             return console.EXIT_REJECTED

@@ -88,7 +88,7 @@ class Session:
         addresses : by drone; targets : by target
         """
         found = [*unplaced(self.mission, self._plan), *unheard(self.mission, addresses)]
-        if found:
+        if has_errors(found):
             return found
         for name, endpoint in addresses.items():
             autopilot = AUTOPILOTS[self.mission.drone(name).autopilot]
@@ -188,8 +188,16 @@ def cuts_of(track: DroneTrajectory) -> tuple[Cut, ...]:
 
 def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
     """Yield what keeps a plan from being sent to anybody."""
-    if plan.trajectory.fleets:
-        names = ", ".join(f"`{fleet.fleet}`" for fleet in plan.trajectory.fleets)
+    names = ", ".join(f"`{fleet.fleet}`" for fleet in plan.trajectory.fleets)
+    if names and plan.trajectory.drones:
+        yield Diagnostic(
+            "A034",
+            f"the cameras alone are streamed: the plan has the fleet {names}, too",
+            (mission.origins.key(("fleets",)),),
+            ("cameras stay out of the airspace of the show whenever either begins",),
+            "start the show when mission time 0 is told: its .skyc file has the same clock",
+        )
+    elif names:
         yield Diagnostic(
             "A030",
             f"a show is not streamed: the plan has the fleet {names}",

@@ -7,7 +7,10 @@ from types import SimpleNamespace
 
 import pytest
 
+from shotc.diag.registry import has_errors
+from shotc.stream.session import unplaced
 from tests.cli.conftest import Run
+from tests.support.records import replace
 from tests.support.show_plans import plan as show_plan
 from tests.support.stream.autopilot import PX4_HOLD, Script
 from tests.support.stream.plans import hop_plan, with_target
@@ -95,6 +98,15 @@ def test_a_show_is_not_streamed(run: Run, monkeypatch) -> None:
     done = run("stream", "plan.json")
     assert done.code == 1
     assert "error[A030]" in done.err
+
+
+def test_of_a_show_that_is_filmed_the_cameras_are_streamed() -> None:
+    filmed = replace(
+        hop_plan(), trajectory=replace(hop_plan().trajectory, fleets=show_plan().trajectory.fleets)
+    )
+    told = list(unplaced(filmed.trajectory.keyframes.mission, filmed))
+    assert [d.code for d in told] == ["A034"]
+    assert not has_errors(told)
 
 
 @pytest.mark.parametrize(

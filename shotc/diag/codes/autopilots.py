@@ -207,6 +207,14 @@ CODES: tuple[CodeInfo, ...] = (
         "`photos` of a shot are taken by MAVLink files. `shotc stream` tells cameras to begin and to end a recording, and "
         "nothing else.",
     ),
+    _warning(
+        34,
+        "show-not-sent",
+        "the cameras of a plan are streamed, and its show is not",
+        "Drones of shows carry their part of a show themselves, as a .skyc file, whose clock is that of the plan. Cameras stay out of the "
+        "airspace of the show from its take-off to its landing, so they are clear of it whenever either begins; what they film depends on both "
+        "clocks beginning together.",
+    ),
     _fault(
         32,
         "machine-takes-no-setpoints",
