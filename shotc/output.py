@@ -38,6 +38,7 @@ SHOWN = (
     "framing.csv",
     "storyboard.png",
     "contact-sheet.png",
+    "animatic.gif",
     "mission.rrd",
     "mission.glb",
     "mission.usda",

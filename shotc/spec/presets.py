@@ -35,7 +35,7 @@ SHOW_RATE = 5.0
 RUNS = 20  # of a rehearsal
 RISE = 10.0  # metres over its pad to which a fleet's drone rises before it goes anywhere
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
-SHOW_EMIT = ("csv", "skyc", "contact-sheet", "rerun")
+SHOW_EMIT = ("csv", "skyc", "contact-sheet", "animatic", "rerun")
 LARGE_OUTPUTS = ("csv", "rerun")
 """Outputs of a show that grow with drones and time both: some hundred kilobytes a drone."""
 DEFAULT_MODEL = "x500"

@@ -30,6 +30,7 @@ OUTPUTS = {
     "framing.csv",
     "lakeside-show.skyc",
     "contact-sheet.png",
+    "animatic.gif",
     "mission.rrd",
 }
 VELOCITY = ("vx_m_s", "vy_m_s", "vz_m_s")

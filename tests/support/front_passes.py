@@ -19,7 +19,7 @@ MODULES = (
     "lead", "lateral", "flyby", "follow_path", "framing", "display",
 )  # fmt: skip
 KINDS: dict[str, Kind] = {k.name: k for k in (import_module(f"shotc.kinds.{m}").KIND for m in MODULES)}
-EMITTERS = ("csv", "mavlink", "dji", "litchi", "storyboard", "rerun", "skyc", "contact-sheet")
+EMITTERS = ("csv", "mavlink", "dji", "litchi", "storyboard", "rerun", "skyc", "contact-sheet", "animatic")
 
 
 def loaded(text: str | bytes, folder: Path | None = None) -> tuple[LoadedMission | None, list[Diagnostic]]:

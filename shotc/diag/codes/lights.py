@@ -95,4 +95,14 @@ CODES: tuple[CodeInfo, ...] = (
         "400 million pixels. That is judged by its header, before anything is decoded. A fleet shows about as many "
         "pixels as it has drones: scale the image down.",
     ),
+    _file(
+        102,
+        "flashing-lights",
+        Severity.WARNING,
+        "the lights of a fleet flash more than three times in a second",
+        "Flashes of a large bright field can set off seizures in people with photosensitive epilepsy. WCAG 2.2, 2.3.1, "
+        "draws the line at three in any second: pairs of opposing changes of relative luminance by a tenth or more, the "
+        "darker below 0.8. The mean of a fleet's lights is judged. Slow the effect down, or lower its `opacity`; "
+        "sparkles, of which each light has its own time, are no flashes.",
+    ),
 )

@@ -17,6 +17,7 @@ from shotc.diag.registry import has_errors
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.show.assignment.director import Director
+from shotc.show.assignment.flashes import flashing
 from shotc.show.assignment.images import images_of
 from shotc.show.assignment.order import cast_of
 from shotc.show.assignment.song import song_faults
@@ -50,6 +51,7 @@ class AssignGoals:
         made = [director.trajectory(images) for director in directors]
         fleets = tuple(flight for flight, _ in made)
         diagnostics += [d for _, told in made for d in told]
+        diagnostics += [d for flight in fleets for d in flashing(mission, flight)]
         stats = tuple(
             entry
             for director, flight in zip(directors, fleets, strict=True)

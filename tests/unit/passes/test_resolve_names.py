@@ -110,5 +110,5 @@ def test_a_silent_mission_gets_the_emitters_that_suit_it() -> None:
         return emitters_of(MissionSpec.model_validate(yaml.safe_load(text)))
 
     assert emitters("orbit") == ("csv", "mavlink", "storyboard", "rerun")
-    assert emitters("display") == ("csv", "skyc", "contact-sheet", "rerun")
+    assert emitters("display") == ("csv", "skyc", "contact-sheet", "animatic", "rerun")
     assert emitters("display", "output: {emit: []}\n") == ()

@@ -299,10 +299,11 @@ def test_a_glb_needs_no_units(tmp_path: Path) -> None:
 
 def test_tables_and_recordings_of_large_shows_are_made_where_they_are_asked_for() -> None:
     small, large = (FLEET.replace("count: 60", f"count: {n}") for n in (60, 2001))
-    assert resolve(show(fleet=small)).emit == ("csv", "skyc", "contact-sheet", "rerun")
+    assert resolve(show(fleet=small)).emit == ("csv", "skyc", "contact-sheet", "animatic", "rerun")
     assert resolve(show(SPHERE.replace("radius: 15", "radius: 35"), fleet=large)).emit == (
         "skyc",
         "contact-sheet",
+        "animatic",
     )
     asked = show(fleet=large) + "output: {emit: [csv]}\n"
     assert resolve(asked).emit == ("csv",)

@@ -37,11 +37,11 @@ def night(flight: FleetTrajectory, time: float, seen: Audience, size: tuple[int,
     colors = light_colors(flight, np.array([time]))[:, 0]
     light = _lights(at, colors, seen, size)
     light += BLOOM * gaussian_filter(light, (SPREAD * size[0], SPREAD * size[0], 0.0), truncate=3.0)
-    picture = 1.0 - (1.0 - _backdrop(seen, size)) * np.exp(-light)
+    picture = 1.0 - (1.0 - backdrop(seen, size)) * np.exp(-light)
     return np.asarray(np.round(255.0 * picture), dtype=np.uint8)
 
 
-def _backdrop(seen: Audience, size: tuple[int, int]) -> Array:
+def backdrop(seen: Audience, size: tuple[int, int]) -> Array:
     """Return sky and ground; the horizon is where the eye's own height is."""
     columns, rows = size
     view = seen.view(columns / rows)

@@ -1,0 +1,99 @@
+"""Flashes of a whole fleet, which can set off seizures: counted as WCAG 2.2, 2.3.1, counts them.
+
+A flash is a pair of opposing changes of relative luminance by a tenth or more of the most there is, of which
+the darker is below 0.8. More than three in any second are too many. Judged by the mean of the lights, for
+what all of them do at once: lights that sparkle one by one are none.
+"""
+
+from __future__ import annotations
+
+from math import ceil
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.bernstein import Array
+from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.light_colors import tick_colors
+from shotc.ir.mission import MissionIR
+
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+"""Of red, green and blue light."""
+CHANGE, BRIGHT = 0.1, 0.8
+MOST = 3
+"""Flashes in any second."""
+LIGHTS = 200
+"""Lights of a fleet that are looked at, evenly by their numbers, at least; all of fewer."""
+MOMENTS = 500
+"""Evaluated at once."""
+
+
+class Flashes(NamedTuple):
+    """The most flashes in any second, and when that begins, seconds."""
+
+    number: int
+    time: float
+
+
+def flashing(mission: MissionIR, flight: FleetTrajectory) -> list[Diagnostic]:
+    """Return the warning of a fleet that flashes more than three times in a second."""
+    if not flight.lights.looks:
+        return []
+    worst = most_flashes(luminance(flight))
+    if worst.number <= MOST:
+        return []
+    shots = (p.shot for p in flight.phases if p.shot is not None and p.end > worst.time)
+    display = mission.display(next(shots, flight.shown[-1].display))
+    at = f"{int(worst.time // 60)}:{worst.time % 60:04.1f}"
+    return [
+        Diagnostic(
+            "D102",
+            f"the lights flash {worst.number} times in a second",
+            (mission.origins.value((*display.path, "id")),),
+            (
+                f"the second begins at {at}; all lights together are judged",
+                f"more than {MOST} flashes in a second can set off seizures (WCAG 2.3.1)",
+            ),
+            f"slow the effect to a period of {1.0 / MOST + 0.005:.2f} s or more, or lower its `opacity`",
+        )
+    ]
+
+
+def luminance(flight: FleetTrajectory) -> Array:
+    """Return the mean relative luminance of a fleet's lights moment by moment, 0 to 1."""
+    some = slice(None, None, max(1, len(flight.coef) // LIGHTS))
+    ticks = np.arange(ceil(float(flight.breaks[-1]) * LIGHT_RATE) + 1)
+    parts = [
+        tick_colors(flight, ticks[k : k + MOMENTS], some).mean(axis=0) for k in range(0, len(ticks), MOMENTS)
+    ]
+    return np.asarray(np.concatenate(parts) @ np.array(LUMINANCE) / 255.0)
+
+
+def most_flashes(levels: Array) -> Flashes:
+    """Return the most flashes in any second of a luminance, moment by moment."""
+    changes = _changes(levels)
+    best = Flashes(0, 0.0)
+    for k, first in enumerate(changes):
+        inside = sum(1 for other in changes[k:] if other < first + LIGHT_RATE)
+        if inside // 2 > best.number:
+            best = Flashes(inside // 2, first / LIGHT_RATE)
+    return best
+
+
+def _changes(levels: Array) -> list[int]:
+    """Return the moments at which changes that count are complete; each goes against the one before."""
+    found: list[int] = []
+    low = high = float(levels[0])
+    rising: bool | None = None
+    for k, level in enumerate(levels.tolist()):
+        low = low if rising else min(low, level)
+        high = high if rising is False else max(high, level)
+        if not rising and level >= low + CHANGE and low < BRIGHT:
+            rising, high = True, level
+            found.append(k)
+        elif rising is not False and level <= high - CHANGE and level < BRIGHT:
+            rising, low = False, level
+            found.append(k)
+    return found

@@ -1,0 +1,161 @@
+"""The frames of an animatic: lights of all fleets in a dark sky, few and small, one palette for all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from io import BytesIO
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+from scipy.ndimage import gaussian_filter
+
+from shotc.emit.audience import ASPECT, Audience, audience
+from shotc.emit.storyboard.frame import clock
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.light_colors import light_colors
+from shotc.ir.light_paints import Levels
+from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.contact_sheet.night import GLOW_M, backdrop
+
+WIDTH, HEIGHT = 480, 270
+RATE, MOST = 4.0, 180
+"""Frames a second, and of the whole film; a longer show has fewer a second, at its own pace all the same."""
+
+SPOT_PX, SPREAD_PX = 1.3, 7.0
+"""How wide a light is, and how far it spills over, as standard deviations."""
+LIGHT, BLOOM = 9.0, 5.0
+"""How strong both are, in a sky of which light takes a share that is exponential."""
+
+COARSE = 5
+"""Pixels in a row that share what spills over."""
+SAMPLES = 12
+"""Frames by which the palette is chosen."""
+BRIGHT, SKY_COLORS = 40, 40
+"""Level from which a pixel shows a light, and colours of the palette for all others."""
+DIM = 170
+"""Grey of the time."""
+
+
+def film(plan: VerifiedIR) -> bytes:
+    """Return the whole film as a GIF, which plays over and over."""
+    times, step = _times(plan)
+    pictures = list(_pictures(plan, times))
+    palette = _palette(pictures)
+    frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
+    stream = BytesIO()
+    frames[0].save(
+        stream, "GIF", save_all=True, append_images=frames[1:], duration=round(1000 * step), loop=0
+    )
+    return stream.getvalue()
+
+
+def _times(plan: VerifiedIR) -> tuple[Array, float]:
+    """Return the times of the frames, from the first light to the last, and from each to the next.
+
+    The latter in whole hundredths of a second, as GIF has it.
+    """
+    flights = plan.trajectory.fleets
+    seconds = np.arange(0.0, max(float(flight.breaks[-1]) for flight in flights) + 1.0)
+    lit = np.any([light_colors(flight, seconds).any(axis=(0, 2)) for flight in flights], axis=0)
+    shining = seconds[lit] if lit.any() else seconds
+    start, end = max(float(shining[0]) - 1.0, 0.0), float(shining[-1]) + 1.0
+    step = ceil(100.0 * max(1.0 / RATE, (end - start) / MOST)) / 100.0
+    return np.arange(start, end, step), step
+
+
+def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
+    """Yield a picture of each time, from where the audience of what is shown then, or next, looks."""
+    flights = plan.trajectory.fleets
+    marks = [-np.inf, *_ends(plan)[:-1], np.inf]
+    for display, (first, last) in zip(_shown(plan), pairwise(marks), strict=True):
+        these = times[(times > first) & (times <= last)]
+        if not len(these):
+            continue
+        seen = audience(plan, plan.trajectory.keyframes.mission.display(display), ASPECT)
+        sky = backdrop(seen, (WIDTH, HEIGHT)).astype(np.float32)
+        views = [_seen(flight, these, seen) for flight in flights]
+        for k, time in enumerate(these):
+            light = np.zeros((HEIGHT, WIDTH, 3), dtype=np.float32)
+            for spots, colors in views:
+                _add(light, spots[:, k], colors[:, k])
+            yield _picture(sky, light, float(time))
+
+
+def _shown(plan: VerifiedIR) -> list[str]:
+    """Return the displays in the order in which they begin."""
+    starts = {s.display: s.start for f in plan.trajectory.fleets for s in reversed(f.shown)}
+    return sorted(starts, key=lambda name: starts[name])
+
+
+def _ends(plan: VerifiedIR) -> list[float]:
+    ends = {s.display: s.end for f in plan.trajectory.fleets for s in f.shown}
+    return [ends[name] for name in _shown(plan)]
+
+
+def _seen(flight: FleetTrajectory, times: Array, seen: Audience) -> tuple[Array, Levels]:
+    """Return where lights are in the picture and how large (column, row, pixels), and how they shine.
+
+    Shapes (n, T, 3) both; pixels : radius of a light's glow, 0 for one that is not seen
+    """
+    away = places(flight.breaks, flight.coef, times) - np.array(seen.eye)
+    view = seen.view(WIDTH / HEIGHT)
+    u, v, depth = view.project((away[..., 0], away[..., 1], away[..., 2]))
+    inside = (depth > 0.5) & (np.abs(u) < 1.0) & (np.abs(v) < 1.0)
+    pixels = np.where(inside, GLOW_M / (np.maximum(depth, 0.5) * 2.0 * float(view.half_width)) * WIDTH, 0.0)
+    spots = np.stack([(u + 1.0) / 2.0 * WIDTH - 0.5, (1.0 - v) / 2.0 * HEIGHT - 0.5, pixels], axis=-1)
+    shine = light_colors(flight, times).astype(np.float32) / 255.0
+    return spots, shine
+
+
+def _add(light: Levels, spots: Array, colors: Levels) -> None:
+    """Add lights to a picture, each shared by the four pixels about it."""
+    shown = spots[:, 2] > 0
+    x, y, pixels = spots[shown].T
+    glow = colors[shown] * np.clip(pixels, 0.7, 2.0)[:, None].astype(np.float32) ** 2
+    column, row = np.floor(x).astype(np.intp), np.floor(y).astype(np.intp)
+    across, down = x - column, y - row
+    for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        share = (down if i else 1.0 - down) * (across if j else 1.0 - across)
+        at = np.clip(row + i, 0, HEIGHT - 1), np.clip(column + j, 0, WIDTH - 1)
+        np.add.at(light, at, glow * share[:, None].astype(np.float32))
+
+
+def _picture(sky: Levels, light: Levels, time: float) -> Image.Image:
+    spot = gaussian_filter(light, (SPOT_PX, SPOT_PX, 0.0), truncate=3.0)
+    coarse = light.reshape(HEIGHT // COARSE, COARSE, WIDTH // COARSE, COARSE, 3).mean(axis=(1, 3))
+    wide = gaussian_filter(coarse, (SPREAD_PX / COARSE, SPREAD_PX / COARSE, 0.0), truncate=3.0)
+    spread = np.stack([_wide(wide[..., k]) for k in range(3)], axis=-1)
+    shade = 1.0 - (1.0 - sky) * np.exp(-(LIGHT * spot + BLOOM * spread))
+    picture = Image.fromarray(np.asarray(np.round(255.0 * shade), dtype=np.uint8))
+    ImageDraw.Draw(picture).text((6, HEIGHT - 16), clock(time), fill=(DIM, DIM, DIM))
+    return picture
+
+
+def _wide(channel: Levels) -> NDArray[np.float32]:
+    """Return one channel of a coarse picture in full size."""
+    image = Image.fromarray(channel, "F").resize((WIDTH, HEIGHT), Image.Resampling.BILINEAR)
+    return np.asarray(image, dtype=np.float32)
+
+
+def _palette(pictures: list[Image.Image]) -> Image.Image:
+    """Return an image with the palette of all frames: most of it for lights, which few pixels show."""
+    chosen = pictures[:: max(1, len(pictures) // SAMPLES)]
+    pixels = np.concatenate([np.asarray(picture).reshape(-1, 3) for picture in chosen])
+    bright = pixels.max(axis=1) >= BRIGHT
+    found = [_colors(pixels[~bright], SKY_COLORS), _colors(pixels[bright], 256 - SKY_COLORS)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([level for colors in found for level in colors])
+    return palette
+
+
+def _colors(pixels: NDArray[np.uint8], count: int) -> list[int]:
+    """Return the colours, three levels each, that stand for pixels (n, 3); none where there are none."""
+    if not len(pixels):
+        return []
+    strip = Image.fromarray(pixels[None])
+    return strip.quantize(count, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).getpalette() or []
