@@ -17,8 +17,11 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
+from shotc.show.emit.skyc.lights import TOLERANCE, programs
 from tests.support import skyc_reader
+from tests.support.compiled import compiled
 
+SPECS = Path(__file__).parents[2] / "specs"
 GUIDE = (Path(shotc.__file__).parent / "docs" / "language.md").read_text(encoding="utf-8")
 MISSION = re.search(r"```yaml\n(shotc: 1\nmission: lantern.*?)```", GUIDE, re.DOTALL)
 
@@ -102,3 +105,19 @@ def test_effects_of_a_plan_that_mean_nothing_are_told(old: str, new: str, says: 
     assert count
     (found, *_) = read_plan(f'{text}"lights": {changed}'.encode(), "plan.json").diagnostics
     assert says in found.message
+
+
+@pytest.mark.fuzz
+def test_the_dense_show_of_the_tree_stands_at_its_separation_and_plays() -> None:
+    done = compiled(SPECS / "elbe-lights.yaml")
+    assert done.plan is not None
+    assert done.diagnostics == ()
+    (claim,) = (c for c in done.plan.certificate if c.constraint == "separation")
+    assert claim.holds
+    assert 1.45 <= claim.worst < 1.46
+    (flight,) = done.plan.trajectory.fleets
+    times = np.arange(0.0, flight.breaks[-1], 0.093)
+    wanted = light_colors(flight, times, slice(0, 3))
+    for drone, code in zip(wanted, programs(flight), strict=False):
+        found = np.array([skyc_reader.color_at(code, t) for t in times])
+        assert np.abs(found - drone).max() <= TOLERANCE + 0.51
