@@ -31,6 +31,7 @@ FLOWN = (
     "*-litchi.csv",
     "*-ned.csv",
     "*.skyc",
+    "*-csv.zip",
 )
 """What is flown from, or made into something that is."""
 
@@ -44,6 +45,7 @@ SHOWN = (
     "mission.usda",
     "*.kml",
     "*.tum",
+    "*.vviz",
 )
 """What else is written beside it."""
 

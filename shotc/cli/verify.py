@@ -59,9 +59,9 @@ def verify(
 
     Other files are held against a mission: its ground, zones, buildings, limits, drones and promises. These
     are read: .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz (DJI WPML), .csv (Litchi, or rows of
-    trajectories in the columns of our own trajectory.csv) and .skyc (Skybrush). Each flight is rebuilt as its
-    machine flies it, on every curve that the machine may take, and proved between its places. What a file
-    cannot tell, as waypoints have no clock, is named and not judged.
+    trajectories in the columns of our own trajectory.csv), .skyc and zipped CSV (Skybrush). Each flight is
+    rebuilt as its machine flies it, on every curve that the machine may take, and proved between its places.
+    What a file cannot tell, as waypoints have no clock, is named and not judged.
 
     Tables and shows name their drones. A file of waypoints is of the drone that it is named after
     (`cam1.kmz`; `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or of the one that --drone says.

@@ -32,9 +32,7 @@ _NAME = "\0"
 
 def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str, str]]:
     """Yield every drone's name and its rows, lines without the last line break."""
-    # Beside cameras, which ask for a row a frame, a table of many drones stays a table that opens.
-    rate = min(mission.rate, SHOW_RATE) if mission.shots else mission.rate
-    t = clock(rate, float(track.breaks[-1]))
+    t = clock(fleet_rate(mission), float(track.breaks[-1]))
     names = drone_names(mission.fleet(track.fleet))
     form = _form(mission, track, t)
     for first in range(0, len(names), BATCH):
@@ -43,6 +41,12 @@ def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str
         values = np.concatenate([numbers + 0.0, light_colors(track, t, some)], axis=2)  # no negative zeros
         for name, rows in zip(names[some], values, strict=True):
             yield name, form.replace(_NAME, _plain(name)) % tuple(rows.ravel().tolist())
+
+
+def fleet_rate(mission: MissionIR) -> float:
+    """Return how many rows a second tables have for a drone of a fleet."""
+    # Beside cameras, which ask for a row a frame, a table of many drones stays a table that opens.
+    return min(mission.rate, SHOW_RATE) if mission.shots else mission.rate
 
 
 def _form(mission: MissionIR, track: FleetTrajectory, t: Array) -> str:

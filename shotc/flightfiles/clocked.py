@@ -56,7 +56,8 @@ class Leeway:
 class Flown:
     """One drone's flight on the clock.
 
-    name : of the drone; curve : x, y, z, cubic, from 0 s; rows : of a table, None of a show
+    name : of the drone; curve : x, y, z, cubic, from 0 s; rows : of a table, None of a .skyc
+    show : whether the file is of a show, whose drones may have other names than the mission's
     at : gives the place in the file of a time
     """
 
@@ -66,6 +67,7 @@ class Flown:
     rows: Rows | None
     leeway: Leeway
     at: Callable[[float], Label]
+    show: bool = False
 
 
 def of_rows(rows: Rows, name: str, file: str, limits: Limits) -> Flown:
@@ -90,11 +92,18 @@ def of_rows(rows: Rows, name: str, file: str, limits: Limits) -> Flown:
         between,
     )
 
+    member = inside(file, rows)
+
     def at(when: float) -> Label:
         index = int(np.clip(np.searchsorted(time, when), 0, len(time) - 1))
-        return label(file, rows.node(index))._replace(text="up to this row")
+        return label(member, rows.node(index))._replace(text="up to this row")
 
-    return Flown(name, file, Piecewise(breaks, ctrl), rows, leeway, at)
+    return Flown(name, file, Piecewise(breaks, ctrl), rows, leeway, at, bool(rows.member))
+
+
+def inside(file: str, rows: Rows) -> str:
+    """Return how to show the file that rows stand in, which may be a member of an archive."""
+    return f"{file}/{rows.member}" if rows.member else file
 
 
 def _rate(rows: Rows) -> tuple[Array, Array]:
@@ -130,7 +139,9 @@ def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None)
         index = int(np.searchsorted(flight.breaks, when))
         return label(file, node)._replace(text=f"{flight.element}, up to key point {index}")
 
-    return Flown(flight.name, file, Piecewise(flight.breaks, flight.ctrl + shift), None, leeway, at)
+    return Flown(
+        flight.name, file, Piecewise(flight.breaks, flight.ctrl + shift), None, leeway, at, show=True
+    )
 
 
 def leaves(curve: Piecewise, pad: Array, pads: Array) -> tuple[float, float]:

@@ -154,7 +154,7 @@ def _by_pads(flights: Sequence[Flown], pads: dict[str, Vec3]) -> list[Flown]:
 def _on_its_pad(flight: Flown, pads: dict[str, Vec3]) -> Flown:
     away = np.linalg.norm(np.array(list(pads.values())) - flight.curve.ctrl[0, 0], axis=1)
     nearest = int(np.argmin(away))
-    stands = flight.rows is None and away[nearest] <= ON_PAD_M
+    stands = flight.show and away[nearest] <= ON_PAD_M
     return replace(flight, name=list(pads)[nearest]) if stands else flight
 
 

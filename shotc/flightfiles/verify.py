@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.flightfiles import film, tell
 from shotc.flightfiles.aligned import Aligned, aligned
-from shotc.flightfiles.clocked import Flown, leaves, of_rows, of_show
+from shotc.flightfiles.clocked import Flown, inside, leaves, of_rows, of_show
 from shotc.flightfiles.course import Course, course_of
 from shotc.flightfiles.judge import Found, apart_at_any_time
 from shotc.flightfiles.judge import judged as waypoints_judged
@@ -77,7 +77,7 @@ def verify_flights(
         faults.append(Diagnostic(NOBODY, text, help="give `--drone` once for every file, in their order"))
     if faults:
         return FlightsReport(False, (), tuple(faults), sources)
-    return _owned(asked.keyframes, reads, drones, sources)
+    return _with_members(_owned(asked.keyframes, reads, drones, sources), reads)
 
 
 def _filmed(reads: Sequence[Read]) -> dict[str, str]:
@@ -89,6 +89,20 @@ def _filmed(reads: Sequence[Read]) -> dict[str, str]:
 
 def _is_other(each: Read) -> bool:
     return isinstance(each.found, Waypoints | Refused)
+
+
+def _with_members(report: FlightsReport, reads: Sequence[Read]) -> FlightsReport:
+    """Return a report with the tables of archives that its diagnostics point into."""
+    labelled = {label.file for diagnostic in report.diagnostics for label in diagnostic.labels}
+    tables = {
+        inside(each.file, rows): rows
+        for each in reads
+        if isinstance(each.found, tuple) and not _is_other(each)
+        for rows in each.found
+        if isinstance(rows, Rows) and rows.member
+    }
+    more = {file: SourceFile(file, tables[file].text) for file in labelled.intersection(tables)}
+    return replace(report, sources={**report.sources, **more})
 
 
 def _owned(

@@ -1,14 +1,19 @@
-"""One member of a ZIP archive: any bytes in, its bytes or one fault out, and never more than is read."""
+"""Members of a ZIP archive: any bytes in, theirs or one fault out, and never more than is read."""
 
 from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from io import BytesIO
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
+from shotc.importers.notes import plain
+
 MAGIC = b"PK"
+BROKEN = (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, struct.error)
+"""What the reader of archives raises for bytes that are none."""
+OTHER_PACKING = "is packed in a way that these files are not"
 
 
 def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> bytes | str:
@@ -25,9 +30,37 @@ def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> 
                 return f"it is an archive without {what}"
             # Others may ask for any amount of memory; and no more is unpacked than is read.
             if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-                return "its document is packed in a way that these files are not"
+                return f"its document {OTHER_PACKING}"
             with archive.open(found) as stream:
                 inside = stream.read(most + 1)
-    except (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, struct.error) as fault:
+    except BROKEN as fault:
         return f"it is a broken archive: {fault}"
     return f"its document is larger than {most / 1e6:.0f} MB" if len(inside) > most else inside
+
+
+def members(data: bytes, wanted: Callable[[str], bool], most: int) -> Iterator[tuple[str, bytes] | str]:
+    """Yield the name and the bytes of every member whose name is wanted, or last why there are no more.
+
+    most : bytes of the archive, and of all members together, beyond which nothing is read
+    """
+    if len(data) > most:
+        yield f"the file is larger than {most / 1e6:.0f} MB"
+        return
+    left = most
+    try:
+        with ZipFile(BytesIO(data)) as archive:
+            for found in archive.infolist():
+                if not wanted(found.filename):
+                    continue
+                if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+                    yield f"`{plain(found.filename, 60)}` {OTHER_PACKING}"
+                    return
+                with archive.open(found) as stream:
+                    inside = stream.read(left + 1)
+                left -= len(inside)
+                if left < 0:
+                    yield f"what is in it is larger than {most / 1e6:.0f} MB"
+                    return
+                yield found.filename, inside
+    except BROKEN as fault:
+        yield f"it is a broken archive: {plain(str(fault), 80)}"

@@ -5,11 +5,11 @@ from pathlib import PurePath
 from shotc.importers.xml_tree import LARGEST
 
 WAYPOINTS = (".plan", ".waypoints", ".kmz", ".wpml", ".kml")
-TABLE, SHOW = ".csv", ".skyc"
-SUFFIXES = (*WAYPOINTS, TABLE, SHOW)
+TABLE, SHOW, TABLES = ".csv", ".skyc", ".zip"
+SUFFIXES = (*WAYPOINTS, TABLE, SHOW, TABLES)
 """Endings of names of flights, in small letters."""
 LARGEST_CLOCKED = 200_000_000
-"""Bytes of the largest table or show; of waypoints it is that of other importers."""
+"""Bytes of the largest table or show, and of an archive of tables; of waypoints that of other importers."""
 
 
 def suffix_of(name: str) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from shotc.importers.cameras.takes import Refused
-from shotc.importers.flights import items, litchi, skyc, wpml
-from shotc.importers.flights.names import SHOW, TABLE, largest, suffix_of
+from shotc.importers.flights import items, litchi, skyc, wpml, zipped
+from shotc.importers.flights.names import SHOW, TABLE, TABLES, largest, suffix_of
 from shotc.importers.flights.points import UNREADABLE, Unread, Waypoints, refuse
 from shotc.importers.flights.rows import Rows, rows
 from shotc.importers.xml_tree import Node, shown
@@ -25,8 +25,8 @@ class Read(NamedTuple):
 def read(data: bytes, name: str) -> Read:
     """Read any bytes as the file of a flight that their name says.
 
-    The lines of a ``.kmz`` are those of its waylines, and its name is shown with theirs. A table is Litchi's
-    where its first line has a latitude.
+    The lines of a ``.kmz`` are those of its waylines, and its name is shown with theirs; so is that of a
+    ``.zip`` with the table that is refused. A table is Litchi's where its first line has a latitude.
     """
     suffix = suffix_of(name)
     text = ""
@@ -36,6 +36,8 @@ def read(data: bytes, name: str) -> Read:
             refuse(UNREADABLE, message, Node("", 1, 1, wide=1))
         if suffix == SHOW:
             return Read(name, skyc.show(data), "")
+        if suffix == TABLES:
+            return Read(name, zipped.tables(data), "")
         if suffix in (".kmz", ".wpml", ".kml"):
             inside = wpml.text_of(data)
             text = shown(inside)
@@ -46,5 +48,7 @@ def read(data: bytes, name: str) -> Read:
             head = text.partition("\n")[0]
             return Read(name, litchi.waypoints(text) if "latitude" in head else rows(text), text)
         return Read(name, items.plan(data, name) if suffix == ".plan" else items.table(text), text)
+    except zipped.UnreadMember as stopped:
+        return Read(f"{name}/{stopped.member}", stopped.refused, stopped.text)
     except Unread as stopped:
         return Read(name, stopped.refused, text)

@@ -42,6 +42,7 @@ class Rows:
     drone : its name, empty where the table has no such column; numbers : the lines of its rows, from 1
     time : (N,), s; place : (N, 3), m; velocity : (N, 3), m/s, or None
     columns : places of all columns in a line; lines : the rows as they are
+    member : the file of an archive that they stand in, empty where they stand in a file of their own
     """
 
     drone: str
@@ -51,6 +52,15 @@ class Rows:
     velocity: Array | None
     columns: dict[str, int]
     lines: tuple[str, ...]
+    member: str = ""
+
+    @property
+    def text(self) -> str:
+        """Return the text that the rows stand in, without what is beside them."""
+        whole = [""] * self.numbers[-1]
+        for place, line in zip(self.numbers, self.lines, strict=True):
+            whole[place - 1] = line
+        return "\n".join(whole)
 
     def node(self, index: int) -> Node:
         """Return the line of a row."""
@@ -99,7 +109,7 @@ def rows(text: str) -> tuple[Rows, ...]:
     kept = [(i, line) for i, line in enumerate(lines[1:], 2) if line.strip()]
     numbers, body = [i for i, _ in kept], [line for _, line in kept]
     moves = all(name in columns for name in VELOCITY)
-    values = _numbers(body, numbers, [columns[c] for c in (TIME, *PLACE, *(VELOCITY if moves else ()))])
+    values = numbers_of(body, numbers, [columns[c] for c in (TIME, *PLACE, *(VELOCITY if moves else ()))])
     drones = [_cell(line, columns[DRONE]) for line in body] if DRONE in columns else [""] * len(body)
     found = tuple(
         Rows(
@@ -114,7 +124,7 @@ def rows(text: str) -> tuple[Rows, ...]:
         for name, index in _of_drones(drones).items()
     )
     for each in found:
-        _in_order(each)
+        check_order(each)
     if not found:
         refuse(BROKEN, "it has no row", start)
     return found
@@ -127,7 +137,7 @@ def _of_drones(names: Sequence[str]) -> dict[str, list[int]]:
     return found
 
 
-def _numbers(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) -> Array:
+def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) -> Array:
     """Return the numbers of some columns, (N, k); refuse the first cell that is none."""
     if not body:
         return np.zeros((0, len(columns)))
@@ -146,7 +156,8 @@ def _numbers(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) 
     refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1))
 
 
-def _in_order(found: Rows) -> None:
+def check_order(found: Rows) -> None:
+    """Refuse rows that are no flight: too few of them, or times that do not rise."""
     if len(found.time) < 2:
         refuse(BROKEN, "a drone has one row, and a flight takes two", found.node(0))
     if found.time[0] < 0.0:

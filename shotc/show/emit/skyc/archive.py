@@ -8,16 +8,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from io import BytesIO
-from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
+from zipfile import ZIP_STORED, ZipFile
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Zone
 from shotc.show.emit.skyc.show import MOST_DRONES
-
-EPOCH = (1980, 1, 1, 0, 0, 0)
-"""The date that every archive bears: the earliest there is."""
-
-READABLE = 0o644 << 16
+from shotc.show.emit.zip_parts import entry
 
 
 def archive(content: Mapping[str, object], assets: Mapping[str, bytes]) -> bytes:
@@ -25,18 +21,10 @@ def archive(content: Mapping[str, object], assets: Mapping[str, bytes]) -> bytes
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     stream = BytesIO()
     with ZipFile(stream, "w") as zipped:
-        zipped.writestr(_entry("show.json", ZIP_DEFLATED), text)
+        zipped.writestr(entry("show.json"), text)
         for name, data in assets.items():
-            zipped.writestr(_entry(name, ZIP_STORED), data)
+            zipped.writestr(entry(name, ZIP_STORED), data)
     return stream.getvalue()
-
-
-def _entry(name: str, method: int) -> ZipInfo:
-    entry = ZipInfo(name, EPOCH)
-    entry.compress_type = method
-    entry.create_system = 3  # not the system that it happens to be made on
-    entry.external_attr = READABLE
-    return entry
 
 
 def no_origin(mission: MissionIR) -> Diagnostic:

@@ -1,0 +1,144 @@
+"""Zipped CSV: a table a drone in one archive, as Skybrush writes it and reads it.
+
+A row is `Time [msec],x [m],y [m],z [m]`, with `Red,Green,Blue` or without; a line of that kind may stand
+above. x, y and z are taken as East, North and Up of the mission's origin, as our own files have them.
+"""
+
+from __future__ import annotations
+
+from pathlib import PurePosixPath
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.importers.archive import members
+from shotc.importers.cameras.places import number
+from shotc.importers.cameras.takes import Refused
+from shotc.importers.flights.names import LARGEST_CLOCKED
+from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, Unread, refuse
+from shotc.importers.flights.rows import MOST_ROWS, PLACE, Rows, check_order, numbers_of
+from shotc.importers.notes import plain
+from shotc.importers.xml_tree import Node, shown
+
+HEADS = ("time_msec", "time [msec]")
+"""How the line above the rows begins, in small letters, where there is one."""
+EXAMPLE = "Time [msec],x [m],y [m],z [m],Red,Green,Blue"
+MOST_TABLES = 20_000
+COLORS = ("red", "green", "blue")
+BRIGHTEST = 255
+EARLY_S, LANDED_M = 1.0, 0.5
+"""Seconds by which a table may end before the longest, and metres over its beginning up to which a drone that
+ends earlier has landed."""
+WHOLE = Node("", 1, 1, wide=1)
+
+
+class UnreadMember(Unread):
+    """Why a reader leaves one table of an archive; text : of the table."""
+
+    def __init__(self, refused: Refused, member: str, text: str) -> None:
+        super().__init__(refused)
+        self.member, self.text = member, text
+
+
+class _Table(NamedTuple):
+    name: str
+    text: str
+
+
+def tables(data: bytes) -> tuple[Rows, ...]:
+    """Return the rows of every drone, in the order in which their tables stand in the archive."""
+    found: dict[str, Rows] = {}
+    left = MOST_ROWS
+    for member in members(data, _is_table, LARGEST_CLOCKED):
+        if isinstance(member, str):
+            refuse(UNREADABLE, member, WHOLE)
+        table = _Table(plain(member[0], 80), shown(member[1]))
+        try:
+            rows = _rows(table, left, found)
+        except Unread as stopped:
+            raise UnreadMember(stopped.refused, table.name, table.text) from None
+        left -= len(rows.lines)
+        found[rows.drone] = rows
+    if not found:
+        help_ = f"give a ZIP with a CSV file for each drone, whose rows are `{EXAMPLE}`"
+        refuse(FOREIGN, "it is an archive without a CSV file", WHOLE, help_)
+    _all_land(tuple(found.values()))
+    return tuple(found.values())
+
+
+def colors_of(rows: Rows) -> NDArray[np.uint8] | None:
+    """Return the lights of a drone, shape (N, 3), None where its table has none."""
+    values = rows.values(*COLORS)
+    return None if values is None else values.astype(np.uint8)
+
+
+def _is_table(name: str) -> bool:
+    # Archives made on a Mac have a hidden twin of every file.
+    return name.lower().endswith(".csv") and not name.startswith("__MACOSX/")
+
+
+def _rows(table: _Table, left: int, others: dict[str, Rows]) -> Rows:
+    """Return the rows of one table; left : how many may still be read; others : by the names of drones."""
+    drone = PurePosixPath(table.name).stem
+    lines = table.text.splitlines()
+    if drone in others:
+        twin = others[drone].member
+        message = f"`{twin}` is the flight of a drone `{drone}`, too"
+        refuse(BROKEN, message, WHOLE, "give each drone one file, with a name of its own")
+    if not lines or "\0" in table.text[:1000]:
+        refuse(UNREADABLE, "it is no text" if lines else "it is empty", WHOLE)
+    first = _cells(lines[0])[0].lower()
+    head = first.startswith(HEADS)
+    if not head and number(first) is None:
+        wide = Node("", 1, 1, wide=len(lines[0]) or 1)
+        refuse(FOREIGN, "its first line is no row, and names no columns", wide, f"begin with `{EXAMPLE}`")
+    kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and not (head and i == 1)]
+    if not kept:
+        refuse(BROKEN, "it has no row", WHOLE)
+    if len(kept) > left:
+        refuse(UNREADABLE, f"the archive has more than {MOST_ROWS} rows, and no more are read", WHOLE)
+    return _numbered(drone, table.name, kept)
+
+
+def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> Rows:
+    numbers, body = [i for i, _ in kept], [line for _, line in kept]
+    shines = len(_cells(body[0])) > 4
+    columns = {"time": 0, **{name: k for k, name in enumerate(PLACE, 1)}}
+    if shines:
+        columns |= {name: k for k, name in enumerate(COLORS, 4)}
+    values = numbers_of(body, numbers, list(columns.values()))
+    rows = Rows(drone, tuple(numbers), values[:, 0] / 1e3, values[:, 1:4], None, columns, tuple(body), member)
+    check_order(rows)
+    if shines:
+        _check_colors(rows, values[:, 4:])
+    return rows
+
+
+def _cells(line: str) -> list[str]:
+    return [cell.strip().strip('"') for cell in line.split(",")]
+
+
+def _check_colors(rows: Rows, colors: NDArray[np.float64]) -> None:
+    """Refuse lights that are no whole numbers from 0 to 255."""
+    wrong = (colors < 0) | (colors > BRIGHTEST) | (colors != np.round(colors))
+    if wrong.any():
+        i, k = (int(index[0]) for index in np.nonzero(wrong))
+        message = f"{COLORS[k]} is {colors[i, k]:g}, and a light is a whole number from 0 to {BRIGHTEST}"
+        refuse(BROKEN, message, rows.node(i))
+
+
+def _all_land(found: tuple[Rows, ...]) -> None:
+    """Refuse a show in which the table of one drone ends in the air, before the others do."""
+    longest = max(found, key=lambda rows: float(rows.time[-1]))
+    end = float(longest.time[-1])
+    for rows in found:
+        above = float(rows.place[-1, 2] - rows.place[0, 2])
+        if rows.time[-1] < end - EARLY_S and above > LANDED_M:
+            last = rows.node(len(rows.lines) - 1)
+            message = (
+                f"it ends at {rows.time[-1]:g} s, {above:.1f} m over where it begins,"
+                f" and `{longest.member}` at {end:g} s"
+            )
+            help_ = "let all tables end at the same time, or where their drones have landed"
+            raise UnreadMember(Refused(BROKEN, message, last, help_), rows.member, rows.text)

@@ -1,0 +1,43 @@
+"""The drones of all fleets one after another, at times that all share: for files that have a part a drone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import Colors
+from shotc.ir.light_colors import light_colors
+from shotc.ir.show import drone_names
+from shotc.ir.trajectory import VerifiedIR
+
+BATCH = 250
+"""Drones that are evaluated at once, which bounds the memory that a file of many takes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sampled:
+    """One drone: its places (T, 3), metres, W, and the colours of its light (L, 3)."""
+
+    fleet: str
+    name: str
+    places: Array
+    colors: Colors
+
+
+def sampled(plan: VerifiedIR, times: Array, lit: Array) -> Iterator[Sampled]:
+    """Yield all drones; times : of places, s, shape (T,); lit : of colours, s, shape (L,)."""
+    mission = plan.trajectory.keyframes.mission
+    for flight in plan.trajectory.fleets:
+        names = drone_names(mission.fleet(flight.fleet))
+        for first in range(0, len(names), BATCH):
+            some = slice(first, first + BATCH)
+            at = places(flight.breaks, flight.coef[some], times)
+            for name, there, shone in zip(names[some], at, light_colors(flight, lit, some), strict=True):
+                yield Sampled(flight.fleet, name, there, shone)
+
+
+def count(plan: VerifiedIR) -> int:
+    """Return how many drones all fleets have."""
+    return sum(len(flight.coef) for flight in plan.trajectory.fleets)
