@@ -134,6 +134,8 @@ def _cell(
     box = Box(x + width + SLIT_IN, y, BIG, HEIGHT)
     _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
+    if board.flight.lights.looks:  # its lights change while it stands
+        canvas.text(box.x + 0.08, box.y + 0.07, clock(moment.time), Type(7.5, WHITE))
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
     )
