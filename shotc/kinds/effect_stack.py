@@ -113,7 +113,7 @@ def _of_ramp(spec: RampSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic
     if back is not None:
         ordered = ", ".join(f"{place:g}" for place in sorted(spec.at))
         message = f"the places of a ramp's colours go back, from {back[0]:g} to {back[1]:g}"
-        yield Diagnostic("D095", message, (label,), help=f"write them in order: [{ordered}]")
+        yield Diagnostic("D095", message, (label,), help=f"write them in order: `at: [{ordered}]`")
 
 
 def _of_chase(spec: ChaseSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic]:
@@ -122,9 +122,9 @@ def _of_chase(spec: ChaseSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnost
         return
     slower, longer = at_least(LEAST_PASS / spec.length), at_least(LEAST_PASS / spec.period)
     note = f"lights change {LIGHT_RATE:g} times a second, so {1e3 * LEAST_PASS:.0f} ms is the least"
-    help_ = f"give it a period of {slower} s"
+    help_ = f"write `period: {slower} s`"
     if float(longer) <= 1.0:
-        help_ += f", or a length of {longer}"
+        help_ += f", or `length: {longer}`"
     message = f"the band of this chase passes a light in {1e3 * lasts:.0f} ms"
     yield Diagnostic("D096", message, (scene.origins.value((*path, "period")),), (note,), help_)
 
@@ -141,14 +141,17 @@ def _of_marks(spec: DisplayEffectSpec, scene: Scene, path: KeyPath, pictures: in
         if mark is not None and mark.frame is not None and mark.frame > pictures:
             label = scene.origins.value((*path, key))
             message = f"there is no frame {mark.frame}: the display has {pictures}"
-            yield Diagnostic("D097", message, (label,), help=f"give a frame from 1 to {pictures}")
+            yield Diagnostic(
+                "D097", message, (label,), help=f"write `{key}: {{frame: {pictures}}}`, or an earlier frame"
+            )
     since, until = spec.from_, spec.until
     if since is None or until is None:
         return
     label = scene.origins.value((*path, "until"))
-    if None not in (since.seconds, until.seconds) and until.seconds <= since.seconds:  # type: ignore[operator]
+    if since.seconds is not None and until.seconds is not None and until.seconds <= since.seconds:
         message = f"the effect ends at {until.seconds:g} s, but begins at {since.seconds:g} s"
-        yield Diagnostic("D098", message, (label,), help=f"end it after {since.seconds:g} s")
-    elif None not in (since.frame, until.frame) and until.frame < since.frame:  # type: ignore[operator]
+        yield Diagnostic("D098", message, (label,), help=f"write `until: {since.seconds + 1:g} s`, or later")
+    elif since.frame is not None and until.frame is not None and until.frame < since.frame:
         message = f"the effect ends with frame {until.frame}, but begins with frame {since.frame}"
-        yield Diagnostic("D098", message, (label,), help=f"end it with frame {since.frame} or a later one")
+        help_ = f"write `until: {{frame: {since.frame}}}`, or a later frame"
+        yield Diagnostic("D098", message, (label,), help=help_)
