@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from shotc.passes.verify import judge
 from shotc.show.beside_cameras import timed
 from shotc.show.beside_cameras.airspace import airspace
 from shotc.show.emit.skyc import EMITTER as SKYC
+from shotc.show.emit.vviz import EMITTER as VVIZ
 from tests.support import skyc_reader
 from tests.support.compiled import compiled
 from tests.support.records import replace
@@ -176,6 +178,14 @@ def test_the_show_file_fires_what_the_mission_says(plan: VerifiedIR) -> None:
     assert [k for k, program in enumerate(programs, 1) if program] == [2, 5]
     payload = {"name": "fountain", "duration": 20.0, "prefireTime": 0.5, "yaw": 90.0, "pitch": -90.0}
     assert programs[1] == {"version": 1, "events": [[46.5, 0, "1"]], "payloads": {"1": payload}}
+
+
+def test_the_file_of_viewers_fires_it_too(plan: VerifiedIR) -> None:
+    drones = json.loads(VVIZ.emit(plan).artifacts[0].data)["performances"]
+    fired = {drone["id"]: drone["payloadDescription"][1:] for drone in drones}
+    assert [number for number, payloads in fired.items() if payloads] == [2, 5]
+    event = {"id": 1, "type": "Pyro", "eventTime": 46.5, "vdl": "fountain", "pan": 90.0, "tilt": 180.0}
+    assert fired[5] == [event]
 
 
 @pytest.mark.fuzz

@@ -9,8 +9,9 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Colors
 from shotc.ir.light_colors import light_colors
-from shotc.ir.show import drone_names
+from shotc.ir.show import PyroCue, drone_names
 from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.pyro_cues import carried
 
 BATCH = 250
 """Drones that are evaluated at once, which bounds the memory that a file of many takes."""
@@ -18,12 +19,13 @@ BATCH = 250
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampled:
-    """One drone: its places (T, 3), metres, W, and the colours of its light (L, 3)."""
+    """One drone: its places (T, 3), metres, W, the colours of its light (L, 3), and the products it fires."""
 
     fleet: str
     name: str
     places: Array
     colors: Colors
+    pyro: tuple[PyroCue, ...] = ()
 
 
 def sampled(plan: VerifiedIR, times: Array, lit: Array) -> Iterator[Sampled]:
@@ -31,11 +33,13 @@ def sampled(plan: VerifiedIR, times: Array, lit: Array) -> Iterator[Sampled]:
     mission = plan.trajectory.keyframes.mission
     for flight in plan.trajectory.fleets:
         names = drone_names(mission.fleet(flight.fleet))
+        fired = carried(mission.displays, flight.fleet, len(names))
         for first in range(0, len(names), BATCH):
             some = slice(first, first + BATCH)
             at = places(flight.breaks, flight.coef[some], times)
-            for name, there, shone in zip(names[some], at, light_colors(flight, lit, some), strict=True):
-                yield Sampled(flight.fleet, name, there, shone)
+            shone = light_colors(flight, lit, some)
+            for name, there, colors, cues in zip(names[some], at, shone, fired[some], strict=True):
+                yield Sampled(flight.fleet, name, there, colors, tuple(cues))
 
 
 def count(plan: VerifiedIR) -> int:

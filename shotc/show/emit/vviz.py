@@ -11,6 +11,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from math import degrees
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,7 +23,7 @@ from shotc.filenames import file_name
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors
 from shotc.ir.sampling import clock
-from shotc.ir.show import MANY_DRONES
+from shotc.ir.show import MANY_DRONES, PyroCue
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.sampled import Sampled, count, sampled
 
@@ -102,7 +103,22 @@ def _performance(plan: VerifiedIR, drone: Sampled, number: int) -> Json:
             "airframe": plan.trajectory.keyframes.mission.fleet(drone.fleet).model,
             "agentTraversal": _steps(millimetres),
         },
-        "payloadDescription": [{"id": 0, "type": "Light", "payloadActions": _actions(drone.colors)}],
+        "payloadDescription": [
+            {"id": 0, "type": "Light", "payloadActions": _actions(drone.colors)},
+            *(_fired(cue, k) for k, cue in enumerate(drone.pyro, 1)),
+        ],
+    }
+
+
+def _fired(cue: PyroCue, number: int) -> Json:
+    """Return the payload of a product: one event a payload; pan and tilt of nothing point up."""
+    return {
+        "id": number,
+        "type": "Pyro",
+        "eventTime": round(cue.ignition, 3),
+        "vdl": cue.product,
+        "pan": round(degrees(cue.pan), 3),
+        "tilt": round(90.0 - degrees(cue.tilt), 3),
     }
 
 

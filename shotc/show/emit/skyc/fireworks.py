@@ -7,16 +7,12 @@ from math import degrees
 from typing import Any
 
 from shotc.ir.show import Display, PyroCue
+from shotc.show.emit.pyro_cues import carried
 
 
 def programs_of(displays: Sequence[Display], fleet: str, count: int) -> list[dict[str, Any] | None]:
     """Return the pyro programme of every drone of a fleet, None of one that carries nothing."""
-    carried: list[list[PyroCue]] = [[] for _ in range(count)]
-    for display in displays:
-        for cue in display.pyro if display.fleet == fleet else ():
-            for number in cue.drones:
-                carried[number - 1].append(cue)
-    return [_program(sorted(cues, key=lambda cue: cue.ignition)) if cues else None for cues in carried]
+    return [_program(cues) if cues else None for cues in carried(displays, fleet, count)]
 
 
 def _program(cues: Sequence[PyroCue]) -> dict[str, Any]:
