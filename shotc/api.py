@@ -24,6 +24,7 @@ from shotc.ir.passes import PassContext, silent
 from shotc.ir.show import MANY_DRONES
 from shotc.ir.source import Autopilot, MissionSource
 from shotc.lowering import lower, lower_kept, with_autopilot, with_smoothing
+from shotc.passes.resolve.checks.timing import waits_longer
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.pipeline import (
     ASSIGN,
@@ -179,8 +180,11 @@ def _lower_both(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, c
     shown = _lower_show(keyframes, SHOW, setting, options, ctx)
     if shown.value is None or options.stop_after == shown.reports[-1].name:
         return shown
-    from shotc.show.beside_cameras import beside
+    from shotc.show.beside_cameras import beside, too_early
 
+    early = [waits_longer(keyframes.mission, shot, end) for shot, end in too_early(shown.value)]
+    if early:
+        return shown._replace(value=None, diagnostics=(*shown.diagnostics, *early))
     passes = passes_of(BESIDE_SHOW, setting._replace(show=shown.value))
     filmed = run_refined(passes, beside(shown.value), ctx, setting.seat, options.stop_after)
     diagnostics = (*shown.diagnostics, *filmed.diagnostics)

@@ -95,8 +95,8 @@ def covered_by_parts(mission: MissionIR, before: NamedParts, target: str, eyes: 
 
 def _alone(mission: MissionIR, others: Sequence[DroneTrajectory]) -> bool:
     """Tell whether a mission has nothing that could cover its only target."""
-    zones = any(zone.keep == "out" for zone in mission.zones)
-    return not (zones or others or mission.meshes or mission.terrain or len(mission.targets) > 1)
+    around = mission.opaque_zones or others or mission.meshes or mission.terrain
+    return not (around or len(mission.targets) > 1)
 
 
 class _Thing(NamedTuple):
@@ -140,9 +140,8 @@ def _things(
     mission: MissionIR, others: Sequence[DroneTrajectory], filmed: Target, boards: Billboards, t: Array
 ) -> Iterator[_Thing]:
     """Yield what may cover a target; boards : what its outline is within in each frame."""
-    for zone in mission.zones:
-        if zone.keep == "out":
-            yield _Thing(f"zone {zone.name}", near_solid(boards, zone.solid), partial(_by_solid, zone.solid))
+    for zone in mission.opaque_zones:
+        yield _Thing(f"zone {zone.name}", near_solid(boards, zone.solid), partial(_by_solid, zone.solid))
     one = mission.one_with(filmed.name)
     for other in mission.targets:
         if other.name not in one:

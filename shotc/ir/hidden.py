@@ -103,7 +103,7 @@ def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Itera
     width = target.shape_at(t).half_width(across)
     aside = (across[0] * width, across[1] * width)
     points = [(x, y, z), (x + aside[0], y + aside[1], z), (x - aside[0], y - aside[1], z)]
-    solids = [(z.name, z.solid) for z in mission.zones if z.keep == "out"]
+    solids = [(z.name, z.solid) for z in mission.opaque_zones]
     one = mission.one_with(name)
     others = (o for o in mission.targets if o.name not in one and not _parts_of_one(o, target, t))
     solids += [(o.name, o.solid_at(t)) for o in others]

@@ -303,6 +303,14 @@ class MissionIR(NamedTuple):
         return tuple(drone for drone in self.drones if drone.name not in filming)
 
     @property
+    def opaque_zones(self) -> tuple[Zone, ...]:
+        """The keep-out zones that hide what is behind them: those of the world.
+
+        The airspace of a show, which cameras know as zones of the fleet, is air, and holds what they film.
+        """
+        return tuple(zone for zone in self.zones if zone.keep == "out" and zone.path[0] == "world")
+
+    @property
     def wind_taken(self) -> float:
         """The speed, m/s, that a wind from any side takes off what drones fly; 0 where it is known whence."""
         return self.wind if self.wind_toward is None else 0.0

@@ -32,9 +32,8 @@ def hiders(
     """
     filmed = mission.target(target)
     centres = np.array(filmed.centre) + moved(filmed, t)
-    for zone in mission.zones:
-        if zone.keep == "out":
-            yield f"zone {zone.name}", hidden(eyes, centres, (zone.solid,))
+    for zone in mission.opaque_zones:
+        yield f"zone {zone.name}", hidden(eyes, centres, (zone.solid,))
     one = mission.one_with(target)
     for other in mission.targets:
         if other.name not in one:

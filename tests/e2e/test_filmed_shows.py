@@ -18,7 +18,7 @@ from shotc.ir.passes import PassContext
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify import judge
-from shotc.show.beside_cameras import timed
+from shotc.show.beside_cameras import beside, timed, too_early
 from shotc.show.beside_cameras.airspace import airspace
 from shotc.show.emit.skyc import EMITTER as SKYC
 from shotc.show.emit.vviz import EMITTER as VVIZ
@@ -147,7 +147,29 @@ def test_lights_outside_of_what_cameras_frame_are_an_error(plan: VerifiedIR) -> 
     verdict = judge(replace(ir, keyframes=ir.keyframes._replace(mission=less)), PassContext())
     claim = next(c for c in verdict.certificate if c.constraint == "lights outside globe")
     assert not claim.holds
-    assert "V057" in [d.code for d in verdict.diagnostics]
+    (told,) = (d for d in verdict.diagnostics if d.code == "V057")
+    assert told.help is not None
+    assert f"{2 * claim.worst:.3f} m more for each length of its `size`" in told.help
+
+
+def test_the_airspace_keeps_cameras_out_and_hides_nothing(plan: VerifiedIR) -> None:
+    mission = beside(plan.trajectory).mission
+    assert {zone.name for zone in mission.zones} == {"airspace of swarm"}
+    assert mission.opaque_zones == ()
+
+
+def test_a_shot_that_cannot_wait_for_its_display_is_told_when_that_ends(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    (shot,) = ir.keyframes.mission.shots
+    end = next(p.end for p in ir.fleets[0].phases if p.shot == "dance")
+
+    def starting(start: float) -> TrajectoryIR:
+        asked = shot._replace(timing=shot.timing._replace(start=start, after="dance"))
+        mission = ir.keyframes.mission._replace(shots=(asked,))
+        return replace(ir, keyframes=ir.keyframes._replace(mission=mission))
+
+    assert [(late.id, at) for late, at in too_early(starting(end - 0.1))] == [("turn", end)]
+    assert list(too_early(starting(end))) == []
 
 
 def test_who_is_near_a_product_that_burns_is_who_dense_samples_find(plan: VerifiedIR) -> None:
@@ -164,8 +186,8 @@ def test_who_is_near_a_product_that_burns_is_who_dense_samples_find(plan: Verifi
         "the ground": carry[..., 2].min(),
     }
     claims = {c.constraint: c for c in plan.certificate}
-    for beside, least in sampled.items():
-        claim = claims[f"pyro 1 fountain from {beside}"]
+    for other, least in sampled.items():
+        claim = claims[f"pyro 1 fountain from {other}"]
         assert claim.holds
         assert claim.drones[0] in ("swarm-02", "swarm-05")
         assert least - 0.06 <= claim.worst <= least + 1e-9

@@ -87,6 +87,9 @@ def _on_a_way(claim: Claim, code: str, phase: Phase | None) -> str:
 
 
 def _in_space(claim: Claim, code: str) -> str:
+    if code == "V057":
+        more = measure(2.0 * claim.worst, claim.unit)
+        return f"write {more} more for each length of its `size`; then plan again"
     lack, worst = measure(abs(claim.worst - claim.limit), claim.unit), enough(claim)
     if code == "V022" and claim.drones:
         return f"draw larger or move slower, or ask for {lack} less `separation`; then plan again"

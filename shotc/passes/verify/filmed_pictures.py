@@ -30,12 +30,13 @@ def _astray(ir: TrajectoryIR, phase: Phase) -> Diagnostic | None:
         return None
     parts = [f"{at_least(early)} s before it stands"] if early > ON_TIME_S else []
     parts += [f"{at_least(late)} s after it has left"] if late > ON_TIME_S else []
-    origins, picture = mission.origins, mission.display(stand.display).pictures[stand.picture]
+    origins, pictures = mission.origins, mission.display(stand.display).pictures
+    picture, later = pictures[stand.picture], pictures[stand.picture + 1 :]
     help_ = f"give the shot `duration: {plain(stand.end - stand.start)}` or less"
     if early > ON_TIME_S:
         help_ = "leave out the start of the shot: it begins when the picture stands"
-    elif stand.end > stand.start:
-        help_ += f", or the picture `hold: {at_least(picture.hold + late)}`"
+    elif stand.end > stand.start and all(p.at is None for p in later):
+        help_ += f", or the picture `hold: {at_least(phase.end - stand.start)}`"
     return Diagnostic(
         "V058",
         f"shot `{shot.id}` films `{shot.subject}` {' and '.join(parts)}",

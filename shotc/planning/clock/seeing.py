@@ -50,7 +50,7 @@ class Way(NamedTuple):
 def ways_of(task: Task) -> tuple[Way, ...]:
     """Return the ways between keyframes that may be led for the one target that both ends show."""
     mission, shot, start = task.mission, task.shot, task.clock.start
-    hides = mission.meshes or mission.terrain or any(zone.keep == "out" for zone in mission.zones)
+    hides = mission.meshes or mission.terrain or mission.opaque_zones
     if not hides or not is_keyed(shot) or shot.ideal is None or shot.ideal.placed or hidden_on_purpose(shot):
         return ()
     found = []
@@ -85,7 +85,7 @@ def _led(task: Task, target: Target, times: Array, places: Array) -> Course:
 def _watched(mission: MissionIR, target: Target, times: Array) -> Watched:
     """Return a target at times as larger than it is, and what that stands may hide it."""
     surfaces = tuple(surface for _, surface in surfaces_before(mission, target.name))
-    zones = tuple(zone.solid for zone in mission.zones if zone.keep == "out")
+    zones = tuple(zone.solid for zone in mission.opaque_zones)
     centres = np.array(target.centre) + moved(target, times) + np.array([0.0, 0.0, 0.5 * ABOUT_M])
     size = (target.radius + ABOUT_M, target.height + ABOUT_M)
     return Watched(centres, np.ones(len(times), dtype=bool), *size, surfaces, zones)

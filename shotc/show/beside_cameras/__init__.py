@@ -6,6 +6,7 @@ of their own mission; the trajectory that is verified has the mission as it is w
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 from typing import ClassVar
@@ -16,6 +17,9 @@ from shotc.ir.mission import Shot
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.beside_cameras.airspace import airspace
+
+ON_TIME_S = 1e-3
+"""Seconds by which a shot may begin early."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +45,7 @@ def timed(show: TrajectoryIR, shot: Shot, begun: float = -inf) -> Shot:
     stands, unless it says otherwise, or its drone films that picture already.
     """
     timing = shot.timing
-    ends = {phase.shot: phase.end for fleet in show.fleets for phase in fleet.phases if phase.shot}
+    ends = _ends(show)
     stands = standing(show.keyframes.mission, show.fleets, shot.subject)
     start, after = timing.start, timing.after
     if start is None and after is None and stands is not None and stands.start > begun:
@@ -49,6 +53,20 @@ def timed(show: TrajectoryIR, shot: Shot, begun: float = -inf) -> Shot:
     if after is not None and after in ends:
         start, after = max(start or 0.0, ends[after]), None
     return shot._replace(timing=timing._replace(start=start, after=after))
+
+
+def too_early(show: TrajectoryIR) -> Iterator[tuple[Shot, float]]:
+    """Yield the shots whose `start` comes before the end of the display that they wait for, and that, s."""
+    ends = _ends(show)
+    for shot in show.keyframes.mission.shots:
+        start, end = shot.timing.start, ends.get(shot.timing.after or "", 0.0)
+        if start is not None and start < end - ON_TIME_S:
+            yield shot, end
+
+
+def _ends(show: TrajectoryIR) -> dict[str, float]:
+    """Return when each display ends, s."""
+    return {phase.shot: phase.end for fleet in show.fleets for phase in fleet.phases if phase.shot}
 
 
 def beside(show: TrajectoryIR) -> KeyframeIR:

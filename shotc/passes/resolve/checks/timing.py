@@ -259,9 +259,7 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
     label = timing_label(mission, shot)
     remedy = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
     if start < waits - SLACK:
-        note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
-        message = f"shot `{shot.id}` starts at {start:.1f} s, before the shot it waits for has ended"
-        return [Diagnostic("K007", message, (label,), (note,), remedy)]
+        return [waits_longer(mission, shot, waits, there)]
     if before.shot is not None and start < before.time - SLACK:
         note = f"`{before.shot.id}` ends at {before.time:.1f} s at the earliest; this starts at {start:.1f} s"
         message = f"shots `{before.shot.id}` and `{shot.id}` of drone `{shot.drone}` overlap"
@@ -271,6 +269,19 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
     note = f"from {origin} it takes at least {at_least(there - before.time, 1)} s to its first keyframe"
     message = f"drone `{shot.drone}` cannot be in place for shot `{shot.id}` at {start:.1f} s"
     return [Diagnostic("K008", message, (label,), (note,), remedy)]
+
+
+def waits_longer(mission: MissionIR, shot: Shot, waits: float, there: float = 0.0) -> Diagnostic:
+    """Say that a shot starts before what it waits for has ended.
+
+    waits : s, when that has ended at the earliest; there : when its drone can be in place at the earliest
+    """
+    note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
+    message = (
+        f"shot `{shot.id}` starts at {shot.timing.start or 0.0:.1f} s, before the shot it waits for has ended"
+    )
+    remedy = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
+    return Diagnostic("K007", message, (timing_label(mission, shot),), (note,), remedy)
 
 
 def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnostic]:

@@ -11,6 +11,7 @@ from shotc.ir.origin import OriginMap
 from shotc.ir.show import Box, Model, Picture, Sphere, Torus
 from shotc.ir.target import Target
 from shotc.spec.mission import MissionSpec
+from shotc.spec.shot import NO_DRONE
 
 if TYPE_CHECKING:
     from shotc.geom.shapes import BodyShape
@@ -37,6 +38,16 @@ def named_pictures(
             if made is None:
                 faults.append(_without_size(cast.origins, picture))
     return found, faults
+
+
+def unread_names(spec: MissionSpec, displays: "Iterable[Display]") -> Mapping[str, None]:
+    """Return the names of pictures of displays that are wrong otherwise: a shot that films one is not."""
+    read = {display.id for display in displays}
+    wrong = (shot for shot in spec.shots if shot.drone == NO_DRONE and shot.id not in read)
+    # Frames are of the kind's own model; those of an animation alone have no names.
+    frames = (frame for shot in wrong for frame in getattr(shot, "frames", ()))
+    names = (getattr(frame, "name", None) for frame in frames)
+    return {name: None for name in names if name is not None}
 
 
 def _room(spec: MissionSpec, display: "Display") -> float:

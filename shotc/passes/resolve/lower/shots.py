@@ -16,7 +16,7 @@ from shotc.ir.target import Target
 from shotc.kinds import moving
 from shotc.kinds.base import Expansion, Kind, Scene, unknown_target
 from shotc.passes.resolve.lower.foreign import expanded
-from shotc.passes.resolve.lower.named_pictures import named_pictures
+from shotc.passes.resolve.lower.named_pictures import named_pictures, unread_names
 from shotc.spec.heights import Altitude
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import NO_DRONE, ShotBase
@@ -61,7 +61,7 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
     """Expand every shot; one without a drone of its own is checked with what ``spare`` makes and left out."""
     displays, diagnostics, deferred = _expand_displays(spec, cast, spare)
     pictures, wrong = named_pictures(spec, displays, cast)
-    cast = cast._replace(targets={**cast.targets, **pictures})
+    cast = cast._replace(targets={**unread_names(spec, displays), **cast.targets, **pictures})
     diagnostics += wrong
     shots: list[Shot] = []
     for i, written in enumerate(spec.shots):

@@ -12,7 +12,7 @@ from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.passes.resolve.checks.motion import least_travel
-from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST
+from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST, waits_longer
 from shotc.rounding import at_least
 from shotc.show.geom.shape import bounds
 from shotc.show.labels import key_of, moments, transition_label, word_of
@@ -106,8 +106,20 @@ def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[
 
 def least_display(display: Display, limits: Limits) -> float:
     """Return the least seconds from a display's first picture, standing, to the end of its last."""
-    begin = display.start or 0.0
+    begin = _begin(display, limits) or 0.0
     return _shown(display, begin, limits)[0] - begin
+
+
+def _begin(display: Display, limits: Limits) -> float | None:
+    """Return when a display begins, at the latest where only a later picture has a time; None without any."""
+    if display.start is not None:
+        return display.start
+    before = 0.0
+    for one, other in pairwise(display.pictures):
+        before += one.hold + _animation(one) + _change(one, other, limits)
+        if other.at is not None:
+            return other.at - before
+    return None
 
 
 def _animation(picture: Picture) -> float:
@@ -187,6 +199,10 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
         ends[display.id], late = _shown(display, begin, limits)
         faults += [_late(mission, found) for found in late[:1]]
         free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
+    for shot in mission.shots:
+        waits = ends.get(shot.timing.after or "", 0.0)
+        if shot.timing.start is not None and shot.timing.start < waits - SLACK:
+            faults.append(waits_longer(mission, shot, waits))
     return faults
 
 
@@ -204,6 +220,8 @@ def _early(mission: MissionIR, display: Display, last: _Free, there: float, wait
         why = f"`{display.timing.after}`, for which it waits, ends at {at_least(waits, 1)} s at the earliest"
     message = f"display `{display.id}` cannot stand at {start:.1f} s"
     help_ = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
+    if display.pictures[0].at is not None:
+        help_ = f"{moments(mission, max(there, waits))}; {EARLIEST}"
     return Diagnostic("D020", message, (label,), (why,), help_)
 
 
@@ -226,7 +244,7 @@ def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     limits = fleet.limits
     pictures = sum(least_display(d, limits) for d in shown)
     changes = sum(_change(a.pictures[-1], b.pictures[0], limits) for a, b in pairwise(shown))
-    first, last = shown[0].start, shown[-1].start
+    first, last = _begin(shown[0], limits), _begin(shown[-1], limits)
     if first is not None and last is not None:
         between = last - first + least_display(shown[-1], limits)
     else:

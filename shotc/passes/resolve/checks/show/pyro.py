@@ -18,8 +18,8 @@ def check_pyro(mission: MissionIR) -> list[Diagnostic]:
         fault
         for display in mission.displays
         if display.fleet in fleets
-        for fault in (*_absent(mission, display, fleets[display.fleet]), *_together(mission, display))
-    ]
+        for fault in (*_absent(mission, display, fleets[display.fleet]), *_twice(mission, display))
+    ] + [fault for fleet in fleets for fault in _together(mission, fleet)]
 
 
 def _absent(mission: MissionIR, display: Display, count: int) -> Iterator[Diagnostic]:
@@ -32,9 +32,25 @@ def _absent(mission: MissionIR, display: Display, count: int) -> Iterator[Diagno
             yield Diagnostic("D132", message, (label,), help=f"give numbers from 1 to {count}")
 
 
-def _together(mission: MissionIR, display: Display) -> Iterator[Diagnostic]:
-    """Yield two cues that one drone fires while the other burns."""
-    for one, other in combinations(sorted(display.pyro, key=lambda cue: cue.ignition), 2):
+def _twice(mission: MissionIR, display: Display) -> Iterator[Diagnostic]:
+    """Yield a cue that has one drone fire its product twice."""
+    for cue in display.pyro:
+        first = {drone: i for i, drone in reversed(list(enumerate(cue.drones)))}
+        again = next((i for i, drone in enumerate(cue.drones) if first[drone] < i), None)
+        if again is not None:
+            drones, drone = (*cue.path, "drones"), cue.drones[again]
+            labels = (
+                mission.origins.value((*drones, again)),
+                mission.origins.value((*drones, first[drone]), "here, too"),
+            )
+            message = f"drone {drone} fires two `{cue.product}` at once"
+            yield Diagnostic("D133", message, labels, help="name every drone of the cue once")
+
+
+def _together(mission: MissionIR, fleet: str) -> Iterator[Diagnostic]:
+    """Yield two cues, of any displays of a fleet, that one drone fires while the other burns."""
+    cues = [cue for display in mission.displays if display.fleet == fleet for cue in display.pyro]
+    for one, other in combinations(sorted(cues, key=lambda cue: cue.ignition), 2):
         both = sorted(set(one.drones) & set(other.drones))
         if both and other.ignition < one.end:
             labels = (
