@@ -90,10 +90,14 @@ Paint = Fade | Ramp | Chase | Sparkle | Image
 
 
 class Mark(NamedTuple):
-    """A moment of a display: seconds after its first picture stands, or a picture of it, from 0."""
+    """A moment of a display: seconds after its first picture stands, a picture of it, from 0, or a time, s.
+
+    time : on the mission's clock, where a beat of the music says it
+    """
 
     seconds: float | None
     picture: int | None
+    time: float | None = None
 
 
 class Effect(NamedTuple):

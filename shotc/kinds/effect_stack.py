@@ -28,7 +28,9 @@ from shotc.kinds.effects import (
     MarkSpec,
     RampSpec,
 )
+from shotc.kinds.moments import moment
 from shotc.rounding import at_least
+from shotc.spec.music import MomentSpec
 
 IMAGES = (".png", ".gif")
 
@@ -51,9 +53,11 @@ def effects_of(
 
 def _effect(spec: EffectSpec, scene: Scene, path: KeyPath) -> Effect:
     over = spec.over if isinstance(spec, FrameEffectSpec) else "display"
-    since, until = (
-        (_mark(spec.from_), _mark(spec.until)) if isinstance(spec, DisplayEffectSpec) else (None, None)
-    )
+    since, until = None, None
+    if isinstance(spec, DisplayEffectSpec):
+        since, until = (
+            _mark(mark, scene, (*path, key)) for key, mark in (("from", spec.from_), ("until", spec.until))
+        )
     paint = _paint(spec, scene)
     return Effect(paint, spec.blend, spec.opacity, spec.fade_in, spec.fade_out, over, since, until, path)
 
@@ -83,10 +87,18 @@ def _center(place: Place | None, scene: Scene) -> Vec3 | None:
     return None if place is None else scene.place(place)
 
 
-def _mark(spec: MarkSpec | None) -> Mark | None:
+def _mark(spec: MarkSpec | None, scene: Scene, path: KeyPath) -> Mark | None:
+    """Return a moment; one on a beat that is not known is told by ``_of_marks`` and is none here."""
     if spec is None:
         return None
+    if spec.beat is not None or spec.bar is not None:
+        time = moment(_on_beat(spec), scene, path)
+        return Mark(None, None, time) if isinstance(time, float) else None
     return Mark(spec.seconds, None if spec.frame is None else spec.frame - 1)
+
+
+def _on_beat(spec: MarkSpec) -> MomentSpec:
+    return MomentSpec.model_construct(time=None, beat=spec.beat, bar=spec.bar)
 
 
 def _faults(spec: EffectSpec, scene: Scene, path: KeyPath, pictures: int) -> Iterator[Diagnostic]:
@@ -138,6 +150,10 @@ def _of_image(spec: ImageSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnost
 
 def _of_marks(spec: DisplayEffectSpec, scene: Scene, path: KeyPath, pictures: int) -> Iterator[Diagnostic]:
     for key, mark in (("from", spec.from_), ("until", spec.until)):
+        if mark is not None and (mark.beat is not None or mark.bar is not None):
+            time = moment(_on_beat(mark), scene, (*path, key))
+            if isinstance(time, Diagnostic):
+                yield time
         if mark is not None and mark.frame is not None and mark.frame > pictures:
             label = scene.origins.value((*path, key))
             message = f"there is no frame {mark.frame}: the display has {pictures}"

@@ -9,6 +9,7 @@ from shotc.spec.colors import LightColor
 from shotc.spec.fields import Duration, NonNegativeDuration, Position, PositiveShare, RelativePath, Share
 from shotc.spec.fieldtypes import Integer
 from shotc.spec.model import Model, OneOf
+from shotc.spec.music import Bar, Beat
 from shotc.spec.quantities import Quantity
 from shotc.spec.shorthand import QuantityModel
 
@@ -91,9 +92,15 @@ class MarkSpec(QuantityModel):
     """A moment of a display."""
 
     SHORT: ClassVar = ("seconds", Quantity("NonNegativeDuration", "duration", 0.0))
-    exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("seconds",), ("frame",))),)
+    exclusive: ClassVar[tuple[OneOf, ...]] = (
+        OneOf((("seconds",), ("frame",), ("beat",), ("bar",), ("bar", "beat"))),
+    )
 
     seconds: NonNegativeDuration | None = Field(default=None, description="after its first picture stands")
+    beat: Beat | None = Field(
+        default=None, description="a beat of the music, counted from 1; beside `bar`, in that bar"
+    )
+    bar: Bar | None = Field(default=None, description="a bar of the music, counted from 1")
     frame: FrameNumber | None = Field(
         default=None, description="a picture by its number, from 1: from when it stands, or until it goes"
     )

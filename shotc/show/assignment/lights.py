@@ -160,6 +160,8 @@ def _of_display(
 
 def _moment(mark: Mark, pictures: Sequence[_Stood], *, until: bool) -> float:
     """Return when a moment of a display is, seconds of mission time."""
+    if mark.time is not None:
+        return mark.time
     if mark.picture is None:
         assert mark.seconds is not None
         return pictures[0].times.start + mark.seconds

@@ -37,6 +37,8 @@ shots:
       - {sphere: {center: [0, 0, 40], radius: 6}, at: {beat: 2}, hold: 2}
       - {sphere: {center: [0, 0, 44], radius: 8}, at: {bar: 2, beat: 2}, transition: 6}
       - {sphere: {center: [0, 0, 40], radius: 6}, at: 65 s, hold: 3}
+    effects:
+      - {sparkle: {color: gold}, from: {beat: 2}, until: {bar: 2, beat: 2}}
 """
 BEATS = "# a label track\n5.5\t5.5\tone\n15.25\t15.25\ttwo\n20\n25,three\n31.125\n44\n"
 
@@ -72,6 +74,11 @@ def test_every_drone_stands_on_the_beat(plan: VerifiedIR) -> None:
     assert flight.shown[0].end == pytest.approx(51.125 - 6.0)
     claim = next(c for c in plan.certificate if c.constraint == "error of moment")
     assert claim.worst < 1e-6
+
+
+def test_effects_begin_and_end_on_beats(plan: VerifiedIR) -> None:
+    (layer,) = plan.trajectory.fleets[0].lights.over
+    assert (layer.span[0], layer.span[-1]) == pytest.approx((35.25, 51.125))
 
 
 def test_a_plan_whose_picture_stands_off_its_beat_is_refused(plan: VerifiedIR) -> None:
