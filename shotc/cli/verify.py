@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -16,9 +16,12 @@ from shotc.cli.inputs import read_mission
 from shotc.cli.plans import bytes_of, prove
 from shotc.diag.render.json import render
 from shotc.importers.flights.names import SUFFIXES, is_flight, largest
+from shotc.units import QuantityError, parse_quantity
 
 if TYPE_CHECKING:  # the base install has no numpy
+    from shotc.collective import Return
     from shotc.flightfiles.verify import FlightsReport
+    from shotc.ir.trajectory import VerifiedIR
 
 
 class Format(StrEnum):
@@ -43,6 +46,17 @@ DroneOption = Annotated[
         "--drone", metavar="NAME", help="Whose flight a file is; once for every file, in their order."
     ),
 ]
+AbortOption = Annotated[
+    str | None,
+    typer.Option(
+        "--abort-every",
+        metavar="TIME",
+        help="Of a show: prove a collective return from every multiple of a time, such as 1s.",
+    ),
+]
+
+LEAST_ABORT_S = 0.1
+"""Shortest time between two collective returns, seconds: a show of ten minutes has 6000."""
 
 
 def verify(
@@ -50,6 +64,7 @@ def verify(
     format: FormatOption = Format.TEXT,
     against: AgainstOption = None,
     drone: DroneOption = None,
+    abort_every: AbortOption = None,
 ) -> None:
     """Prove a plan again, or prove a flight that any tool may have written.
 
@@ -66,6 +81,10 @@ def verify(
     Tables and shows name their drones. A file of waypoints is of the drone that it is named after
     (`cam1.kmz`; `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or of the one that --drone says.
 
+    With --abort-every 1s a show can be called off at every second: all drones of a fleet brake along their
+    common way, go over their pads, any of them, and land. Each of these returns is proved as the plan is:
+    separation, limits, zones, ground and endurance. The exit status is 1 where some second has no return.
+
     Prints the certificate: for every claim what was asked, the worst that happens, when, and how that is
     known. Of a plan, and of a flight from elsewhere:
 
@@ -76,17 +95,52 @@ def verify(
         shotc verify a.plan b.csv --against pair.yaml --drone cam1 --drone cam2
     """
     mission = None if against is None else MissionFile(*read_mission(against))
+    every = None if abort_every is None else _seconds(abort_every)
+    if every is not None and any(is_flight(file.name) for file in files):
+        raise typer.BadParameter("collective returns are of plans", param_hint="--abort-every")
     if any(is_flight(file.name) for file in files):
         _verify_flights(files, mission, drone or (), format)
     if len(files) > 1 or drone:
         endings = ", ".join(SUFFIXES)
         raise typer.BadParameter(f"several files, or --drone, are for flights ({endings})", param_hint="FILE")
     report = prove(files[0], mission)
+    returns: Sequence[Return] | None = None
+    if every is not None and report.plan is not None:
+        returns, report = _returns(report.plan, report, every)
     if format is Format.JSON:
-        console.out(_document(report))
+        console.out(_document(report, returns))
     else:
         _print(report)
+        if returns is not None and every is not None:
+            from shotc.cli.returns import returns_text
+
+            console.note(returns_text(returns, every))
     raise typer.Exit(console.exit_code(report.diagnostics))
+
+
+def _seconds(text: str) -> float:
+    """Read a time, seconds."""
+    try:
+        seconds = parse_quantity(float(text) if text.replace(".", "", 1).isdigit() else text, "duration")
+    except QuantityError as fault:
+        raise typer.BadParameter(f"{fault.message}; {fault.help}", param_hint="--abort-every") from None
+    if seconds < LEAST_ABORT_S:
+        raise typer.BadParameter(f"give {LEAST_ABORT_S} s or more", param_hint="--abort-every")
+    return seconds
+
+
+def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequence[Return], PlanReport]:
+    """Return the collective returns of a plan, and the report with what is wrong with them."""
+    if not plan.trajectory.fleets or plan.trajectory.drones:
+        text = "collective returns are of shows, and of those without drones that film"
+        raise typer.BadParameter(text, param_hint="--abort-every")
+    from shotc.collective import collective_returns
+    from shotc.collective.faults import no_return
+
+    with console.Progress() as progress:
+        returns = collective_returns(plan, every, progress)
+    faults = tuple(no_return(plan.trajectory.keyframes.mission, returns))
+    return returns, report._replace(diagnostics=(*report.diagnostics, *faults))
 
 
 def _verify_flights(
@@ -143,9 +197,13 @@ def _print(report: PlanReport) -> None:
         console.out(f"the plan holds: {hard} requirements proved again")
 
 
-def _document(report: PlanReport) -> str:
+def _document(report: PlanReport, returns: Sequence[Return] | None) -> str:
     from shotc.planfile.codec import encode
 
     document = json.loads(render(report.diagnostics, report.sources))
-    found = {"holds": report.plan is not None, "certificate": encode(report.certificate)}
+    found: dict[str, Any] = {"holds": report.plan is not None, "certificate": encode(report.certificate)}
+    if returns is not None:
+        from shotc.cli.returns import returns_document
+
+        found["returns"] = returns_document(returns)
     return json.dumps(found | document, indent=2)

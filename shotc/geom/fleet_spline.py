@@ -13,6 +13,9 @@ from shotc.geom.bernstein import Array
 
 DEGREE = 3
 
+NEAR_S = 0.02
+"""Seconds to the next break at which the rest of a spline begins there instead."""
+
 
 def knots(breaks: Array) -> Array:
     """Return the knots of the splines over breaks of shape (P + 1,); shape (P + 7,), for P + 3 points."""
@@ -25,6 +28,29 @@ def centres(breaks: Array) -> Array:
     """Return the time that each control point stands for (its Greville abscissa), shape (P + 3,)."""
     t = knots(breaks)
     return np.asarray((t[1:-3] + t[2:-2] + t[3:-1]) / 3.0)
+
+
+def rest_of(breaks: Array, coef: Array, time: float) -> tuple[Array, Array]:
+    """Return the breaks and the control points of the same splines from a time on, exactly.
+
+    A break that comes less than ``NEAR_S`` later is where they begin instead. What is new are the first
+    control points: the blossom of the first piece at the knots that count there.
+    """
+    k = int(np.clip(np.searchsorted(breaks, time + NEAR_S, side="right") - 1, 0, len(breaks) - 2))
+    left = np.concatenate([[max(time, float(breaks[k]))], breaks[k + 1 :]])
+    old, new = knots(breaks)[k:], knots(left)
+    # The knots of the fourth point are others, too, where one piece is left.
+    first = [_blossom(old, coef[:, k : k + 4], new[j + 1 : j + 4]) for j in range(4)]
+    return left, np.concatenate([np.stack(first, axis=1), coef[:, k + 4 :]], axis=1)
+
+
+def _blossom(t: Array, points: Array, at: Array) -> Array:
+    """Return the blossom of a piece, shape (n, 3); t : its knots from the first, points : shape (n, 4, 3)."""
+    for degree, u in zip((1, 2, 3), at, strict=True):
+        low, high = t[degree:4], t[4 : 8 - degree]
+        share = ((u - low) / (high - low))[None, :, None]
+        points = (1.0 - share) * points[:, :-1] + share * points[:, 1:]
+    return np.asarray(points[:, 0])
 
 
 def differences(breaks: Array, order: int) -> Array:

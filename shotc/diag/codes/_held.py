@@ -49,6 +49,18 @@ HELD: tuple[CodeInfo, ...] = (
         ),
     ),
     verified(
+        63,
+        "no-return",
+        (
+            "a show cannot be called off at some time",
+            "`shotc verify PLAN --abort-every 1s` has every fleet come home from every second of its show: it brakes along its "
+            "common way, goes over its pads and lands. Each return is proved as a plan is, and where the way over the pads has no "
+            "room the fleet goes on to its next stop and turns there, or goes back as it came. Here all three break a "
+            "limit of the mission, which the note names with its value: often the endurance, late in a show. Give the fleet more "
+            "room, time or distance, and plan again.",
+        ),
+    ),
+    verified(
         44,
         "path-left-untold",
         (

@@ -13,6 +13,7 @@ from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
+from shotc.show.assignment.home import come_home
 from shotc.show.assignment.lights import Images, Standing, lights, with_effects
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import Cast, Scene
@@ -55,12 +56,7 @@ class Director:
         """Bring the fleet home; return what is wrong with its times."""
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
-        limits = self.fleet.limits
-        cast, score = self.cast, self.score
-        score.move(cast.over, self.mover.move(score.places, cast.over, 1.0, None))
-        score.phase("return")
-        score.move(cast.ends, fastest(cast.ends - score.places, limits, 1.0))
-        score.phase("land")
+        come_home(self.score, self.mover, (self.cast.over, self.cast.ends))
         if not self._found and self.score.clock - self.waited > self.fleet.endurance:
             self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
         return [*self._found, *self.mover.faults]

@@ -48,8 +48,7 @@ class Cast:
 def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
     """Match every frame with the one before it, by squared distance where heights are stretched."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
-    pads = np.round(np.array(fleet.pads), DIGITS)
-    above = np.round(pads + np.array([0.0, 0.0, fleet.rise]), DIGITS)
+    pads, above = places_at_home(fleet)
     scenes, last = [], above
     for frame in goals.frames:
         order = matched(last * scale, frame.points * scale)
@@ -57,5 +56,18 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
         scenes.append(Scene(frame, places, frame.colors[order], tuple(spare)))
         last = places
-    order = matched(last * scale, above * scale)
-    return Cast(pads, above, tuple(scenes), above[order], pads[order])
+    return Cast(pads, above, tuple(scenes), *way_down(fleet, last))
+
+
+def places_at_home(fleet: Fleet) -> tuple[Array, Array]:
+    """Return the pads of a fleet and the places to which its drones rise, shape (n, 3) each."""
+    pads = np.round(np.array(fleet.pads), DIGITS)
+    return pads, np.round(pads + np.array([0.0, 0.0, fleet.rise]), DIGITS)
+
+
+def way_down(fleet: Fleet, places: Array) -> tuple[Array, Array]:
+    """Return where over its pads each drone comes down, and on which, from places of shape (n, 3)."""
+    scale = np.array([1.0, 1.0, stretch(fleet.apart)])
+    pads, above = places_at_home(fleet)
+    order = matched(places * scale, above * scale)
+    return above[order], pads[order]

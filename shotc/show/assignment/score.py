@@ -22,15 +22,25 @@ Motion = Move | ArcMove
 
 
 class Score:
-    """The flight of a fleet while it is written; places : where it begins, shape (n, 3)."""
+    """The flight of a fleet while it is written.
 
-    def __init__(self, places: Array) -> None:
+    places : where it begins, shape (n, 3); start : when, seconds
+    """
+
+    def __init__(self, places: Array, start: float = 0.0) -> None:
         self.places = places
         self.phases: list[Phase] = []
         self.shown: list[Shown] = []
         self.arcs = 0
         self._points = [places, places, places]
-        self._breaks = [0.0]
+        self._breaks = [start]
+
+    @staticmethod
+    def after(breaks: Array, coef: Array) -> Score:
+        """Return a flight that goes on where a spline ends in a stop; breaks, coef as of FleetTrajectory."""
+        score = Score(coef[:, -1])
+        score._points, score._breaks = list(np.moveaxis(coef, 1, 0)), breaks.tolist()
+        return score
 
     @property
     def clock(self) -> float:
@@ -49,6 +59,13 @@ class Score:
         self.places = places
         self.arcs += isinstance(move, ArcMove)
 
+    def retrace(self, breaks: Array, coef: Array, slower: float = 1.0) -> None:
+        """Go a flight between two stops back, from its end, in so many times the time."""
+        self._points += list(np.moveaxis(coef[:, -4::-1], 1, 0))
+        origin, passed = self.clock, slower * (breaks[-1] - breaks[-2::-1])
+        self._breaks += [round(origin + seconds, 9) for seconds in passed.tolist()]
+        self.places = coef[:, 0]
+
     def animate(self, frames: Sequence[Array], period: float) -> list[float]:
         """Show frames one after another, the last one at a stop; return the time of each.
 
@@ -63,7 +80,7 @@ class Score:
 
     def phase(self, name: PhaseName, shot: str | None = None) -> None:
         """Call what was written since the last phase by a name."""
-        start = self.phases[-1].end if self.phases else 0.0
+        start = self.phases[-1].end if self.phases else self._breaks[0]
         self.phases.append(Phase(name, shot, start, self.clock))
 
     def trajectory(self, fleet: str, lights: Lights) -> FleetTrajectory:

@@ -16,9 +16,10 @@ from shotc.geom.bernstein import Array
 from shotc.geom.proof import norm
 from shotc.geom.separation import Nearest, closest, closest_between
 from shotc.geom.solids import point
+from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.parked import parked, parked_fleets
-from shotc.ir.show import Apart, drone_names, stricter
+from shotc.ir.show import Apart, Fleet, drone_names, stricter
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, Worst, gap, held
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
@@ -31,12 +32,13 @@ def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
         if len(flight.names) > 1:
             apart = flight.fleet.apart
             nearest = closest(flight.track.breaks, flight.track.coef, apart)
-            yield _claim((flight, flight.names), "separation", apart, nearest)
+            yield claim_apart(flight.mission, (flight.fleet, flight.names), "separation", (apart, nearest))
     for one, other in combinations(flights, 2):
         apart = stricter(one.fleet.apart, other.fleet.apart)
         first, second = one.track, other.track
         nearest = closest_between(first.breaks, first.coef, second.breaks, second.coef, apart)
-        yield _claim((one, other.names), f"separation from {other.fleet.name}", apart, nearest)
+        name = f"separation from {other.fleet.name}"
+        yield claim_apart(one.mission, (one.fleet, other.names), name, (apart, nearest))
 
 
 def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
@@ -53,20 +55,27 @@ def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Cl
         found_near = closest_between(
             flight.track.breaks, flight.track.coef, np.array([0.0, 1.0]), pads, apart
         )
-        yield _claim((flight, names), f"separation from {fleet.name}", apart, found_near)
+        name = f"separation from {fleet.name}"
+        yield claim_apart(flight.mission, (flight.fleet, names), name, (apart, found_near))
 
 
 def _away(pad: Array, places: Array) -> Array:
     return norm(places - pad)
 
 
-def _claim(of: tuple[FleetFlight, tuple[str, ...]], name: str, apart: Apart, nearest: Nearest) -> Claim:
-    one, others = of
-    limit = Limit(name, apart.across, "m", _path(one), upper=False)
+def claim_apart(
+    mission: MissionIR, of: tuple[Fleet, tuple[str, ...]], name: str, found: tuple[Apart, Nearest]
+) -> Claim:
+    """Claim how near the drones of a fleet come to others; of : the fleet, and the names of the others.
+
+    found : what they are to keep, and how near they come
+    """
+    (one, others), (apart, nearest) = of, found
+    limit = Limit(name, apart.across, "m", _path(mission, one), upper=False)
     worst = Worst(nearest.proven, nearest.time, "bounded", nearest.position)
-    return held(one.fleet.name, limit, worst, (one.names[nearest.first], others[nearest.second]))
+    return held(one.name, limit, worst, (drone_names(one)[nearest.first], others[nearest.second]))
 
 
-def _path(flight: FleetFlight) -> KeyPath:
-    own, origins = flight.key("separation"), flight.mission.origins
+def _path(mission: MissionIR, fleet: Fleet) -> KeyPath:
+    own, origins = (*fleet.path, "separation"), mission.origins
     return own if own in origins.keys or own in origins.values else ("rules", "separation")

@@ -84,6 +84,13 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
     yield of_drone(flight, endurance, (float(airborne[longest]), float(ends[1])), longest)
 
 
+def landed(flight: FleetFlight) -> Claim:
+    """Claim that a flight ends on the pads."""
+    end = np.array([float(flight.track.breaks[-1])])
+    away = norm(flight.at(float(end[0])) - flight.ends)[:, None]
+    return _farthest(flight, Limit("distance from home", AT_HOME_M, "m", flight.key("layout")), away, end)
+
+
 def _farthest(flight: FleetFlight, limit: Limit, values: Array, times: Array) -> Claim:
     """Hold the largest of values (n, m) at m times against a limit."""
     drone, k = np.unravel_index(int(np.argmax(values)), values.shape)

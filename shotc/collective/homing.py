@@ -1,0 +1,179 @@
+"""How one fleet comes to its pads from any time of its flight, and what is proved of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.collective.braking import Course
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_pieces import rates
+from shotc.geom.fleet_spline import DEGREE, rest_of
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.limits import Limits
+from shotc.ir.trajectory import Claim, TrajectoryIR
+from shotc.passes.verify.claims import Limit, Worst, held
+from shotc.passes.verify.fleets.apart import from_parked, separations
+from shotc.passes.verify.fleets.flight import FleetFlight
+from shotc.passes.verify.fleets.motion import motion
+from shotc.passes.verify.fleets.shape import landed
+from shotc.passes.verify.fleets.space import space
+from shotc.show.assignment.home import come_home
+from shotc.show.assignment.moves import Mover
+from shotc.show.assignment.order import way_down
+from shotc.show.assignment.score import Score
+from shotc.show.geom.windows import windows
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FleetReturn:
+    """The return of one fleet from one time of its show.
+
+    rest : when it has stopped, seconds
+    over : when it is over its pads; down : when it has landed
+    track : what it flies that is not planned, from rest on or with its braking; None where it is on its pads,
+        or on its way to them as planned
+    claims : what is proved of that
+    """
+
+    fleet: str
+    rest: float
+    over: float
+    down: float
+    track: FleetTrajectory | None
+    claims: tuple[Claim, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Tell whether it can be flown."""
+        return all(claim.holds for claim in self.claims)
+
+
+class Homing:
+    """Finds the returns of one fleet of a plan."""
+
+    def __init__(self, ir: TrajectoryIR, flight: FleetTrajectory) -> None:
+        self.ir, self.flight, mission = ir, flight, ir.keyframes.mission
+        self.fleet = mission.fleet(flight.fleet)
+        self._course = Course(flight.breaks, flight.coef)
+        self._mover = Mover(mission, self.fleet)
+        still = (np.diff(flight.coef, axis=1) == 0.0).all(axis=(0, 2))
+        self._stops = np.flatnonzero(still[:-1] & still[1:])
+        self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
+        self._homeward = next(phase.start for phase in flight.phases if phase.name == "return")
+        self._same = all(target.track is None for target in mission.targets)
+        self._known: dict[int, FleetReturn] = {}
+
+    def at(self, time: float) -> FleetReturn:
+        """Return how the fleet comes home from a time on: the first way that holds, or the quickest."""
+        name, end = self.flight.fleet, float(self.flight.breaks[-1])
+        if time <= self._lifted:
+            return FleetReturn(name, time, time, time, None, ())
+        if time >= self._homeward:
+            over = self.flight.phases[-1].start
+            return FleetReturn(name, time, max(time, over), max(time, end), None, ())
+        tried: list[FleetReturn] = []
+        for found in self._ways(time):
+            way = replace(found, claims=(*found.claims, self._endurance(found.down)))
+            if way.holds:
+                return way
+            tried.append(way)
+        return tried[0]
+
+    def flown(self, time: float, way: FleetReturn) -> tuple[Array, Array]:
+        """Return all that the fleet flies from the time of a return on, breaks and control points."""
+        planned = rest_of(self.flight.breaks, self.flight.coef, time)
+        if way.track is None:
+            return planned
+        if float(way.track.breaks[0]) <= time:
+            return way.track.breaks, way.track.coef
+        breaks, coef = planned
+        count = int(np.searchsorted(breaks, way.rest)) + 1
+        return (
+            np.concatenate([breaks[:count], way.track.breaks[1:]]),
+            np.concatenate([coef[:, : count + DEGREE - 1], way.track.coef[:, DEGREE:]], axis=1),
+        )
+
+    def _ways(self, time: float) -> Iterator[FleetReturn]:
+        """Yield the ways home: straight from where it brakes, from where it stops next, and as it came."""
+        breaks = self.flight.breaks
+        stop = int(self._stops[np.searchsorted(breaks[self._stops], time)])
+        rest = float(breaks[stop])
+        before = breaks[self._stops] <= time
+        standing = before.any() and stop - int(self._stops[before][-1]) == 1
+        if standing:
+            rest = time
+        else:
+            braked = self._course.braked(time, rest, self.fleet.limits)
+            if braked is not None:
+                score = Score.after(braked.breaks, braked.coef)
+                yield self._judged(score, float(braked.breaks[-1]))
+        yield self._from_stop(stop, rest)
+        yield self._as_it_came(stop, rest)
+
+    def _from_stop(self, stop: int, time: float) -> FleetReturn:
+        """Return the way home from a stop, which is proved once where nothing around it moves."""
+        known = self._known.get(stop)
+        if known is None or not self._same:
+            known = self._judged(Score(self._at_stop(stop), time), time)
+            self._known[stop] = known
+        return _later(known, time - known.rest)
+
+    def _judged(self, score: Score, rest: float) -> FleetReturn:
+        """Return the way home of a fleet that rests, with its proof."""
+        come_home(score, self._mover, way_down(self.fleet, score.places))
+        return self._proved(score, rest)
+
+    def _as_it_came(self, stop: int, time: float) -> FleetReturn:
+        """Return the way home through all that was flown up to a stop, in which nothing can be met."""
+        coef, breaks = self.flight.coef, self.flight.breaks
+        flown = [w for w in windows(coef) if w.last <= stop]
+        score = Score(self._at_stop(stop), time)
+        for k, window in reversed(list(enumerate(flown))):
+            if k == 0:
+                score.phase("return")
+            own, ctrl = window.breaks(breaks), coef[:, window.points]
+            score.retrace(own, ctrl, _slower(own, ctrl, self.fleet.limits))
+        score.phase("land")
+        return self._proved(score, time)
+
+    def _proved(self, score: Score, rest: float) -> FleetReturn:
+        track = score.trajectory(self.flight.fleet, self.flight.lights)
+        over, down = track.phases[-1].start, track.phases[-1].end
+        flight = FleetFlight.of(self.ir.keyframes.mission, track)
+        claims = (
+            *motion(flight),
+            *space(flight),
+            *separations([flight]),
+            *from_parked(self.ir, [flight]),
+            landed(flight),
+        )
+        return FleetReturn(self.flight.fleet, rest, over, down, track, claims)
+
+    def _endurance(self, down: float) -> Claim:
+        limit = Limit("endurance", self.fleet.endurance, "s", (*self.fleet.path, "endurance"))
+        return held(self.fleet.name, limit, Worst(down - self._lifted, down, "exact"))
+
+    def _at_stop(self, stop: int) -> Array:
+        return self.flight.coef[:, stop]
+
+
+def _slower(breaks: Array, coef: Array, limits: Limits) -> float:
+    """Return how many times as long a flight takes back, for what climbed descends."""
+    up = rates(breaks, coef, 1)[..., 2]
+    return max(1.0, float(up.max()) / limits.descent, -float(up.min()) / limits.climb)
+
+
+def _later(known: FleetReturn, by: float) -> FleetReturn:
+    """Return the same return at another time."""
+    if by == 0.0 or known.track is None:
+        return known
+    claims = tuple(c if c.time is None else replace(c, time=c.time + by) for c in known.claims)
+    track = replace(
+        known.track,
+        breaks=known.track.breaks + by,
+        phases=tuple(replace(p, start=p.start + by, end=p.end + by) for p in known.track.phases),
+    )
+    return FleetReturn(known.fleet, known.rest + by, known.over + by, known.down + by, track, claims)
