@@ -114,7 +114,7 @@ def verify(
         if returns is not None and every is not None:
             from shotc.cli.returns import returns_text
 
-            console.note(returns_text(returns, every))
+            console.out(returns_text(returns, every))
     raise typer.Exit(console.exit_code(report.diagnostics))
 
 

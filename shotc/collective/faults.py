@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 from shotc.collective import Return
 from shotc.diag.model import Diagnostic
-from shotc.ir.measures import measure, told_apart
+from shotc.ir.measures import told_apart
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.report import limit_label, side_of
+from shotc.rounding import at_least
 
 
 class _Broken(NamedTuple):
@@ -56,7 +57,7 @@ def _told(mission: MissionIR, row: Sequence[tuple[Return, Claim]]) -> Diagnostic
 
 
 def _help(claim: Claim) -> str:
-    lack = measure(abs(claim.worst - claim.limit), claim.unit)
+    lack = f"{at_least(abs(claim.worst - claim.limit))} {claim.unit}"
     if claim.constraint == "endurance":
         return f"show all until then {lack} sooner, or raise `endurance` by {lack} if the battery has it"
     if claim.drones and claim.constraint.startswith("separation from"):

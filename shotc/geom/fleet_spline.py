@@ -33,9 +33,12 @@ def centres(breaks: Array) -> Array:
 def rest_of(breaks: Array, coef: Array, time: float) -> tuple[Array, Array]:
     """Return the breaks and the control points of the same splines from a time on, exactly.
 
+    breaks : shape (P + 1,); coef : shape (n, P + 3, 3). From their end on everybody stands, for a second.
     A break that comes less than ``NEAR_S`` later is where they begin instead. What is new are the first
     control points: the blossom of the first piece at the knots that count there.
     """
+    if time >= breaks[-1]:
+        return np.array([time, time + 1.0]), np.repeat(places(breaks, coef, breaks[-1:]), DEGREE + 1, axis=1)
     k = int(np.clip(np.searchsorted(breaks, time + NEAR_S, side="right") - 1, 0, len(breaks) - 2))
     left = np.concatenate([[max(time, float(breaks[k]))], breaks[k + 1 :]])
     old, new = knots(breaks)[k:], knots(left)
