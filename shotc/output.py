@@ -46,6 +46,7 @@ SHOWN = (
     "*.kml",
     "*.tum",
     "*.vviz",
+    "*-report.html",
 )
 """What else is written beside it."""
 

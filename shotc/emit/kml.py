@@ -61,7 +61,7 @@ def document(mission: MissionIR, origin: GeoOrigin, drone: DroneTrajectory) -> b
     """Return the KML document of one drone."""
     root = Element(f"{{{KML}}}kml")
     folder = SubElement(root, f"{{{KML}}}Document")
-    _text(folder, KML, "name", f"{mission.name}: {drone.drone}")
+    text_element(folder, KML, "name", f"{mission.name}: {drone.drone}")
     _path(folder, origin, drone)
     for number, phase in enumerate(drone.phases):
         if phase.shot is not None:
@@ -96,33 +96,36 @@ def _path(folder: Element, origin: GeoOrigin, drone: DroneTrajectory) -> None:
     end = drone.curve.end
     times = np.linspace(drone.curve.start, end, max(2, round((end - drone.curve.start) / STEP_S) + 1))
     mark = SubElement(folder, f"{{{KML}}}Placemark")
-    _text(mark, KML, "name", "flight path")
+    text_element(mark, KML, "name", "flight path")
     line = SubElement(mark, f"{{{KML}}}LineString")
-    _text(line, KML, "altitudeMode", "absolute")
+    text_element(line, KML, "altitudeMode", "absolute")
     places = of_world(drone.curve(times)[:, :3], origin).tolist()
-    _text(line, KML, "coordinates", " ".join(f"{lon:.9f},{lat:.9f},{alt:.4f}" for lat, lon, alt in places))
+    text_element(
+        line, KML, "coordinates", " ".join(f"{lon:.9f},{lat:.9f},{alt:.4f}" for lat, lon, alt in places)
+    )
 
 
 def _tour(folder: Element, origin: GeoOrigin, drone: DroneTrajectory, phase: Phase, ident: str) -> None:
     times = np.linspace(phase.start, phase.end, max(2, round((phase.end - phase.start) / STEP_S) + 1))
     states = drone.curve(times)
     tour = SubElement(folder, f"{{{GX}}}Tour", {"id": ident})
-    _text(tour, KML, "name", str(phase.shot))
+    text_element(tour, KML, "name", str(phase.shot))
     playlist = SubElement(tour, f"{{{GX}}}Playlist")
     for index, (state, place) in enumerate(zip(states, of_world(states[:, :3], origin), strict=True)):
         leg = SubElement(playlist, f"{{{GX}}}FlyTo", {"id": f"{ident}-{index}"})
-        _text(leg, GX, "duration", f"{times[index] - times[index - 1] if index else 0.0:.6f}")
-        _text(leg, GX, "flyToMode", "smooth" if index else "bounce")
+        text_element(leg, GX, "duration", f"{times[index] - times[index - 1] if index else 0.0:.6f}")
+        text_element(leg, GX, "flyToMode", "smooth" if index else "bounce")
         camera = SubElement(leg, f"{{{KML}}}Camera")
-        _text(camera, GX, "horizFov", f"{degrees(state[HFOV]):.6f}")
-        _text(camera, KML, "longitude", f"{place[1]:.9f}")
-        _text(camera, KML, "latitude", f"{place[0]:.9f}")
-        _text(camera, KML, "altitude", f"{place[2]:.4f}")
-        _text(camera, KML, "heading", f"{degrees((pi / 2 - state[CAM_YAW]) % (2 * pi)):.6f}")
-        _text(camera, KML, "tilt", f"{90 + degrees(state[CAM_PITCH]):.6f}")
-        _text(camera, KML, "roll", "0")
-        _text(camera, KML, "altitudeMode", "absolute")
+        text_element(camera, GX, "horizFov", f"{degrees(state[HFOV]):.6f}")
+        text_element(camera, KML, "longitude", f"{place[1]:.9f}")
+        text_element(camera, KML, "latitude", f"{place[0]:.9f}")
+        text_element(camera, KML, "altitude", f"{place[2]:.4f}")
+        text_element(camera, KML, "heading", f"{degrees((pi / 2 - state[CAM_YAW]) % (2 * pi)):.6f}")
+        text_element(camera, KML, "tilt", f"{90 + degrees(state[CAM_PITCH]):.6f}")
+        text_element(camera, KML, "roll", "0")
+        text_element(camera, KML, "altitudeMode", "absolute")
 
 
-def _text(parent: Element, namespace: str, tag: str, text: str) -> None:
+def text_element(parent: Element, namespace: str, tag: str, text: str) -> None:
+    """Add an element of a text to its parent."""
     SubElement(parent, f"{{{namespace}}}{tag}").text = text

@@ -53,6 +53,20 @@ _SKYC_CODES = (
     ),
 )
 
+_SITE_CODES = (
+    CodeInfo(
+        "E130",
+        "site-needs-origin",
+        Severity.WARNING,
+        "the map of the site is skipped, because the mission has no world.origin",
+        "Pads, zones and the hull of the flight stand on a map by latitudes and longitudes, which count from "
+        "`world.origin`. All other outputs are written.",
+        "",
+        "",
+        "other",
+    ),
+)
+
 _FILE_CODES = (
     CodeInfo(
         "E001",
@@ -145,6 +159,7 @@ CODES: tuple[CodeInfo, ...] = (
     *_FILE_CODES,
     *WAYPOINTS,
     *_SKYC_CODES,
+    *_SITE_CODES,
     *_VIEW_CODES,
     CodeInfo(
         "E901",

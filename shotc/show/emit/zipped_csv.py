@@ -14,13 +14,13 @@ import numpy as np
 
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.fleet_rows import fleet_rate
+from shotc.emit.zip_parts import archive_parts
 from shotc.filenames import file_name
 from shotc.geom.bernstein import Array
 from shotc.ir.sampling import clock
 from shotc.ir.show import MANY_DRONES
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.sampled import count, sampled
-from shotc.show.emit.zip_parts import archive_parts
 
 HEADER = "Time [msec],x [m],y [m],z [m],Red,Green,Blue"
 ROW = "%d,%.3f,%.3f,%.3f,%d,%d,%d"

@@ -11,9 +11,9 @@ from io import BytesIO
 from zipfile import ZIP_STORED, ZipFile
 
 from shotc.diag.model import Diagnostic
+from shotc.emit.zip_parts import entry
 from shotc.ir.mission import MissionIR, Zone
 from shotc.show.emit.skyc.show import MOST_DRONES
-from shotc.show.emit.zip_parts import entry
 
 
 def archive(content: Mapping[str, object], assets: Mapping[str, bytes]) -> bytes:

@@ -1,0 +1,28 @@
+"""<mission>-report.html: what is proved of a flight, on one page for who has to allow it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from shotc.emit.base import Artifact, Emission
+from shotc.emit.report.page import page
+from shotc.filenames import file_name
+from shotc.ir.trajectory import VerifiedIR
+
+
+@dataclass(frozen=True, slots=True)
+class ReportEmitter:
+    """Writes one file without anything outside of it; the same plan gives the same bytes."""
+
+    name: ClassVar[str] = "report"
+    summary: ClassVar[str] = "<mission>-report.html: every limit with its proved worst value, for authorities"
+    api: ClassVar[int] = 1
+
+    def emit(self, plan: VerifiedIR) -> Emission:
+        """Return the report."""
+        name = file_name(plan.trajectory.keyframes.mission.name)
+        return Emission((Artifact(f"{name}-report.html", page(plan).encode()),))
+
+
+EMITTER = ReportEmitter()
