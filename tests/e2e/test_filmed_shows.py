@@ -194,6 +194,17 @@ def test_who_is_near_a_product_that_burns_is_who_dense_samples_find(plan: Verifi
         assert claim.method == "bounded"
 
 
+def test_what_burns_on_the_ground_is_led_into_the_air(plan: VerifiedIR) -> None:
+    ir = plan.trajectory
+    (display,) = ir.keyframes.mission.displays
+    late = display._replace(pyro=tuple(cue._replace(time=cue.time + 1000.0) for cue in display.pyro))
+    mission = ir.keyframes.mission._replace(displays=(late,))
+    verdict = judge(replace(ir, keyframes=ir.keyframes._replace(mission=mission)), PassContext())
+    (told,) = (d for d in verdict.diagnostics if d.code == "V059")
+    assert told.help is not None
+    assert told.help.startswith("have it burn between take-off and landing")
+
+
 def test_the_show_file_fires_what_the_mission_says(plan: VerifiedIR) -> None:
     drones = skyc_reader.read(SKYC.emit(plan).artifacts[0].data)["swarm"]["drones"]
     programs = [drone["settings"].get("pyro") for drone in drones]

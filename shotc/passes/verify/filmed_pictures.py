@@ -33,8 +33,8 @@ def _astray(ir: TrajectoryIR, phase: Phase) -> Diagnostic | None:
     origins, pictures = mission.origins, mission.display(stand.display).pictures
     picture, later = pictures[stand.picture], pictures[stand.picture + 1 :]
     help_ = f"give the shot `duration: {plain(stand.end - stand.start)}` or less"
-    if early > ON_TIME_S:
-        help_ = "leave out the start of the shot: it begins when the picture stands"
+    if early > ON_TIME_S or phase.start >= stand.end > stand.start:
+        help_ = "leave out `start` and `after` of the shot: it begins when the picture stands"
     elif stand.end > stand.start and all(p.at is None for p in later):
         help_ += f", or the picture `hold: {at_least(phase.end - stand.start)}`"
     return Diagnostic(

@@ -86,6 +86,7 @@ RULES = {
 }
 
 PYRO_HELP = "fire it at another moment or from other drones, or one that asks for less `clear`"
+ALOFT_HELP = "have it burn between take-off and landing: give it another `at`, or a shorter `duration`"
 
 STARTING = {
     "zone ": Rule("V007"),
@@ -101,6 +102,7 @@ STARTING = {
 
 ENDING = {
     PASSED: Rule("V035"),
+    " outside the flight": Rule("V059", help=ALOFT_HELP),
     " in frame": Rule("V019"),
     " screen error": Rule("V020"),
     " size smallest": Rule("V021"),
