@@ -21,9 +21,10 @@ from shotc.ir.trajectory import Claim, VerifiedIR
 
 WAYS = {
     "bounded": "proved at every instant",
-    "exact": "computed at all places where it can be worst",
+    "exact": "computed exactly",
     "sampled": "looked at at every sample",
 }
+GLUE = "\N{NO-BREAK SPACE}"
 Row = Sequence[str]
 
 
@@ -184,7 +185,7 @@ def _claim(claim: Claim) -> Row:
         claim.constraint,
         asked,
         worst if isfinite(claim.worst) else "no value",
-        "" if claim.time is None else f"{claim.time:.1f} s",
+        "" if claim.time is None else f"{claim.time:.1f}{GLUE}s",
         f"{WAYS[claim.method]}{who}",
     )
 
