@@ -161,7 +161,7 @@ class PictureSpec(Model):
     size: Size3 | None = Field(
         default=None,
         description="width, depth and height of the box about it that cameras frame, the depth along its "
-        "heading: of what is named and no sphere, cube or torus",
+        "heading; where it is named, and no sphere, cube or torus, which have their own if silent",
     )
     effects: tuple[FrameEffectSpec, ...] = Field(
         default=(), max_length=MOST_EFFECTS, description="of its lights, the last on top"

@@ -24,7 +24,6 @@ from shotc.importers.xml_tree import Node, shown
 HEADS = ("time_msec", "time [msec]")
 """How the line above the rows begins, in small letters, where there is one."""
 EXAMPLE = "Time [msec],x [m],y [m],z [m],Red,Green,Blue"
-MOST_TABLES = 20_000
 COLORS = ("red", "green", "blue")
 BRIGHTEST = 255
 EARLY_S, LANDED_M = 1.0, 0.5
@@ -65,12 +64,6 @@ def tables(data: bytes) -> tuple[Rows, ...]:
         refuse(FOREIGN, "it is an archive without a CSV file", WHOLE, help_)
     _all_land(tuple(found.values()))
     return tuple(found.values())
-
-
-def colors_of(rows: Rows) -> NDArray[np.uint8] | None:
-    """Return the lights of a drone, shape (N, 3), None where its table has none."""
-    values = rows.values(*COLORS)
-    return None if values is None else values.astype(np.uint8)
 
 
 def _is_table(name: str) -> bool:

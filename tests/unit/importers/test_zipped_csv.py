@@ -128,9 +128,6 @@ def test_what_we_write_is_read_and_holds() -> None:
     assert report.holds, report.diagnostics
     assert {claim.subject for claim in report.certificate} == {"swarm"}
     assert "separation" in {claim.constraint for claim in report.certificate}
-    (first, *_) = read(file.data, file.name).found
-    colors = reader.colors_of(first)
-    assert colors[[0, -1]].tolist() == [[255, 255, 255], [255, 128, 0]]
 
 
 def test_drones_of_other_names_are_those_on_whose_pads_they_stand() -> None:

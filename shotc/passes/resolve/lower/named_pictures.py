@@ -64,11 +64,12 @@ def _body(picture: Picture, room: float) -> "tuple[Vec3, BodyShape] | None":
     room : metres beyond the picture, on each side
     """
     source, more = picture.source, 2.0 * room
-    if isinstance(source, Sphere):
-        return source.centre, CylinderShape(source.radius + room, 2.0 * source.radius + more)
     if picture.size is not None and source.centre is not None:
         width, depth, height = picture.size
-        return source.centre, BoxShape(depth + more, width + more, height + more, _ahead(source.heading))
+        ahead = NORTH if isinstance(source, Sphere) else _ahead(source.heading)
+        return source.centre, BoxShape(depth + more, width + more, height + more, ahead)
+    if isinstance(source, Sphere):
+        return source.centre, CylinderShape(source.radius + room, 2.0 * source.radius + more)
     if isinstance(source, Box):
         width, depth, height = source.size
         return source.centre, BoxShape(depth + more, width + more, height + more, _ahead(source.heading))
@@ -80,6 +81,9 @@ def _body(picture: Picture, room: float) -> "tuple[Vec3, BodyShape] | None":
             2.0 * depth + more, 2.0 * rim + more, 2.0 * up + more, _ahead(source.heading)
         )
     return None
+
+
+NORTH = (0.0, 1.0)
 
 
 def _ahead(heading: float) -> tuple[float, float]:
