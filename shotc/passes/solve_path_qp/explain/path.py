@@ -36,6 +36,8 @@ FARTHER = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0)
 """Distances at which it is, in units of what the pad is short of."""
 NUDGE = 0.02
 """Metres added to that, since the place is told to centimetres."""
+FAR_M = (2.0, 5.0, 10.0, 20.0, 40.0, 80.0)
+"""Distances at which it is looked for, metres, where none of those will do."""
 
 _WAY = {"over": "down", "under": "up"}
 
@@ -89,13 +91,14 @@ def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnosti
 def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
     """Name the nearest pad found from which a drone can rise, round its own; lack : metres it is short of."""
     x, y, z = drone.home
-    for share, k in product(FARTHER, range(ROUND)):
-        way, angle = share * lack + NUDGE, 2.0 * pi * k / ROUND
+    ways = (*(share * lack + NUDGE for share in FARTHER), *FAR_M)
+    for way, k in product(ways, range(ROUND)):
+        angle = 2.0 * pi * k / ROUND
         there = drone._replace(home=(round(x + way * sin(angle), 2), round(y + way * cos(angle), 2), z))
         free = transit_point(flight_space(mission, there), pad_space(mission, there), there)
         if not isinstance(free, PadBlocked):
             return f"move home to {_point(np.array(there.home))}, {way:.2f} m away"
-    return f"move home, {at_least(lack)} m at least"
+    return f"move home by more than {FAR_M[-1]:.0f} m"
 
 
 def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:

@@ -101,6 +101,16 @@ def test_a_pad_that_cannot_be_left_says_why(zones, home, words):
     assert any(d.code == "Q002" and words in d.message for d in outcome.diagnostics)
 
 
+def test_a_pad_deep_under_something_is_led_out_from_under_it():
+    roof = out("roof", block((-12, 12), (-72, -48), (4, 30)))
+    frames = shot([free(0, (0, 0, 8)), free(1, (9, 0, 8))])
+    blocked = solve(mission(roof, targets=(), home=(0.0, -60.0, 0.0)), frames)
+    help_ = next(d.help for d in blocked.diagnostics if d.code == "Q002")
+    x, y, z = (float(c) for c in help_.split("[")[1].split("]")[0].split(","))
+    assert max(abs(x), abs(y + 60)) >= 12.5
+    assert solve(mission(roof, targets=(), home=(x, y, z)), frames).value is not None
+
+
 def test_all_drones_faults_are_told_in_one_run():
     made = mission(targets=(), home=(0.0, -90.0, 0.0))
     made = replace(made, zones=(inside("field", FIELD), out("box", block((-5, 5), (-5, 5), (0, 70)))))
