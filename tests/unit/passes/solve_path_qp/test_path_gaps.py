@@ -102,7 +102,7 @@ def test_a_pad_that_cannot_be_left_says_why(zones, home, words):
 
 
 def test_a_pad_deep_under_something_is_led_out_from_under_it():
-    roof = out("roof", block((-12, 12), (-72, -48), (4, 30)))
+    roof = out("roof", block((-12, 12), (-72, -48), (2, 30)))
     frames = shot([free(0, (0, 0, 8)), free(1, (9, 0, 8))])
     blocked = solve(mission(roof, targets=(), home=(0.0, -60.0, 0.0)), frames)
     help_ = next(d.help for d in blocked.diagnostics if d.code == "Q002")
