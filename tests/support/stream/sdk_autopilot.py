@@ -67,7 +67,8 @@ class SdkAutopilot:
 
     def run(self, now):
         """Take in what has come, and tell what is told all the time."""
-        with suppress(BlockingIOError):
+        # What was sent before anybody listened comes back as refused.
+        with suppress(BlockingIOError, ConnectionRefusedError):
             while True:
                 self._sdk.pass_received_raw_bytes(self._socket.recv(65536))
         if now - self._beat >= 0.9:
