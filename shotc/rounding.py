@@ -50,6 +50,12 @@ def _decimal(steps: int, digits: int) -> float:
     return steps / 10**digits if digits >= 0 else float(steps * 10**-digits)
 
 
+def as_minutes(seconds: float) -> str:
+    """Write a time as minutes, seconds and tenths."""
+    tenths = round(seconds * 10)
+    return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
+
+
 def exposure(seconds: float) -> str:
     """Write a time of exposure as photographers do, with at most four digits."""
     return f"1/{1 / seconds:.4g} s" if seconds < 0.5 else f"{seconds:g} s"

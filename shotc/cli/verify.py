@@ -121,7 +121,7 @@ def verify(
 def _seconds(text: str) -> float:
     """Read a time, seconds."""
     try:
-        seconds = parse_quantity(float(text) if text.replace(".", "", 1).isdigit() else text, "duration")
+        seconds = parse_quantity(float(text) if text.replace(".", "", 1).isdecimal() else text, "duration")
     except QuantityError as fault:
         raise typer.BadParameter(f"{fault.message}; {fault.help}", param_hint="--abort-every") from None
     if seconds < LEAST_ABORT_S:

@@ -35,10 +35,8 @@ from itertools import combinations
 import numpy as np
 
 from shotc.collective.homing import FleetReturn, Homing
-from shotc.geom.separation import closest_between
-from shotc.ir.show import drone_names, stricter
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
-from shotc.passes.verify.fleets.apart import claim_apart
+from shotc.passes.verify.fleets.apart import between
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,9 +97,6 @@ def _between(
     mission, claims = ir.keyframes.mission, []
     flown = [homing.flown(time, way) for homing, way in zip(homings, fleets, strict=True)]
     for i, j in combinations(range(len(fleets)), 2):
-        one, other = mission.fleet(fleets[i].fleet), mission.fleet(fleets[j].fleet)
-        apart = stricter(one.apart, other.apart)
-        nearest = closest_between(*flown[i], *flown[j], apart)
-        name = f"separation from {other.name}"
-        claims.append(claim_apart(mission, (one, drone_names(other)), name, (apart, nearest)))
+        pair = mission.fleet(fleets[i].fleet), mission.fleet(fleets[j].fleet)
+        claims.append(between(mission, pair, flown[i], flown[j]))
     return claims

@@ -16,7 +16,7 @@ from shotc.rounding import at_least
 
 
 class _Broken(NamedTuple):
-    """A return that does not hold, and the claim that it breaks by most; of several, of the first fleet."""
+    """A return, and the first of the claims that it breaks; None where it holds."""
 
     found: Return
     claim: Claim | None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,7 +24,7 @@ from shotc.show.assignment.home import come_home
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import way_down
 from shotc.show.assignment.score import Score
-from shotc.show.geom.windows import windows
+from shotc.show.geom.windows import at_rest, windows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,6 +51,10 @@ class FleetReturn:
         return all(claim.holds for claim in self.claims)
 
 
+_Way = Callable[[int, float], FleetReturn]
+"""Makes a return from a break at which the fleet stops, and the time from which it flies it, s."""
+
+
 class Homing:
     """Finds the returns of one fleet of a plan."""
 
@@ -59,12 +63,11 @@ class Homing:
         self.fleet = mission.fleet(flight.fleet)
         self._course = Course(flight.breaks, flight.coef)
         self._mover = Mover(mission, self.fleet)
-        still = (np.diff(flight.coef, axis=1) == 0.0).all(axis=(0, 2))
-        self._stops = np.flatnonzero(still[:-1] & still[1:])
+        self._stops = at_rest(flight.coef)
         self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
         self._homeward = next(phase.start for phase in flight.phases if phase.name == "return")
         self._same = all(target.track is None for target in mission.targets)
-        self._known: dict[int, FleetReturn] = {}
+        self._known: dict[tuple[_Way, int], FleetReturn] = {}
 
     def at(self, time: float) -> FleetReturn:
         """Return how the fleet comes home from a time on: the first way that holds, or the quickest."""
@@ -110,16 +113,19 @@ class Homing:
             if braked is not None:
                 score = Score.after(braked.breaks, braked.coef)
                 yield self._judged(score, float(braked.breaks[-1]))
-        yield self._from_stop(stop, rest)
-        yield self._as_it_came(stop, rest)
+        yield self._once(self._from_stop, stop, rest)
+        yield self._once(self._as_it_came, stop, rest)
+
+    def _once(self, way: _Way, stop: int, time: float) -> FleetReturn:
+        """Return a way home from a stop, which is proved once where nothing around it moves."""
+        known = self._known.get((way, stop))
+        if known is None or not self._same:
+            known = self._known[way, stop] = way(stop, time)
+        return _moved(known, time)
 
     def _from_stop(self, stop: int, time: float) -> FleetReturn:
-        """Return the way home from a stop, which is proved once where nothing around it moves."""
-        known = self._known.get(stop)
-        if known is None or not self._same:
-            known = self._judged(Score(self._at_stop(stop), time), time)
-            self._known[stop] = known
-        return _later(known, time - known.rest)
+        """Return the way home straight from a stop."""
+        return self._judged(Score(self._at_stop(stop), time), time)
 
     def _judged(self, score: Score, rest: float) -> FleetReturn:
         """Return the way home of a fleet that rests, with its proof."""
@@ -166,14 +172,18 @@ def _slower(breaks: Array, coef: Array, limits: Limits) -> float:
     return max(1.0, float(up.max()) / limits.descent, -float(up.min()) / limits.climb)
 
 
-def _later(known: FleetReturn, by: float) -> FleetReturn:
-    """Return the same return at another time."""
-    if by == 0.0 or known.track is None:
+def _moved(known: FleetReturn, time: float) -> FleetReturn:
+    """Return the same return from another time of rest."""
+    if time == known.rest or known.track is None:
         return known
-    claims = tuple(c if c.time is None else replace(c, time=c.time + by) for c in known.claims)
+    claims = tuple(c if c.time is None else replace(c, time=c.time - known.rest + time) for c in known.claims)
     track = replace(
         known.track,
-        breaks=known.track.breaks + by,
-        phases=tuple(replace(p, start=p.start + by, end=p.end + by) for p in known.track.phases),
+        breaks=known.track.breaks - known.rest + time,
+        phases=tuple(
+            replace(p, start=p.start - known.rest + time, end=p.end - known.rest + time)
+            for p in known.track.phases
+        ),
     )
-    return FleetReturn(known.fleet, known.rest + by, known.over + by, known.down + by, track, claims)
+    over, down = known.over - known.rest + time, known.down - known.rest + time
+    return FleetReturn(known.fleet, time, over, down, track, claims)

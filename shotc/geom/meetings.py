@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import restrict
+from shotc.geom.bspline import held_until, restrict
 from shotc.geom.nearest_pair import Bag, Index, NearestPair
 from shotc.geom.proof import norm
 from shotc.geom.separation import Nearest
@@ -131,14 +131,10 @@ def _slabs(flights: Sequence[Piecewise]) -> _Slabs:
 
 def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
     """Return a curve that stands before its beginning and after its end."""
-    breaks, ctrl = [curve.breaks], [curve.ctrl]
     if curve.start > begin:
-        breaks.insert(0, np.array([begin]))
-        ctrl.insert(0, np.repeat(curve.ctrl[:1, :1], 4, axis=1))
-    if curve.end < end:
-        breaks.append(np.array([end]))
-        ctrl.append(np.repeat(curve.ctrl[-1:, -1:], 4, axis=1))
-    return Piecewise(np.concatenate(breaks), np.concatenate(ctrl))
+        still = np.repeat(curve.ctrl[:1, :1], curve.degree + 1, axis=1)
+        curve = Piecewise(np.insert(curve.breaks, 0, begin), np.concatenate([still, curve.ctrl]))
+    return held_until(curve, end)
 
 
 def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:

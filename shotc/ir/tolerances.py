@@ -11,5 +11,8 @@ OFF_LINE = 0.01
 ON_PLACE = 1e-3
 """Metres (radians, for the camera) within which a keyframe is met and a hold stands still."""
 
+ON_TIME_S = 1e-3
+"""Seconds within which a duration, a start or a keyframe's time is met."""
+
 BOW_SHARE = 0.25
 """Share of the way between two generated keyframes that a path may bow out between them."""

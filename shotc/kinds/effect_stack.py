@@ -28,9 +28,8 @@ from shotc.kinds.effects import (
     MarkSpec,
     RampSpec,
 )
-from shotc.kinds.moments import moment
+from shotc.kinds.moments import on_beat
 from shotc.rounding import at_least
-from shotc.spec.music import MomentSpec
 
 IMAGES = (".png", ".gif")
 
@@ -46,20 +45,15 @@ def effects_of(
     faults: list[Diagnostic] = []
     for i, spec in enumerate(specs):
         where = (*path, i)
-        faults += _faults(spec, scene, where, pictures)
-        found.append(_effect(spec, scene, where))
+        faults += _faults(spec, scene, where)
+        span = _span(spec, scene, where, pictures) if isinstance(spec, DisplayEffectSpec) else (None, None)
+        if isinstance(span, list):
+            faults += span
+            continue
+        over = spec.over if isinstance(spec, FrameEffectSpec) else "display"
+        paint = _paint(spec, scene)
+        found.append(Effect(paint, spec.blend, spec.opacity, spec.fade_in, spec.fade_out, over, *span, where))
     return faults or tuple(found)
-
-
-def _effect(spec: EffectSpec, scene: Scene, path: KeyPath) -> Effect:
-    over = spec.over if isinstance(spec, FrameEffectSpec) else "display"
-    since, until = None, None
-    if isinstance(spec, DisplayEffectSpec):
-        since, until = (
-            _mark(mark, scene, (*path, key)) for key, mark in (("from", spec.from_), ("until", spec.until))
-        )
-    paint = _paint(spec, scene)
-    return Effect(paint, spec.blend, spec.opacity, spec.fade_in, spec.fade_out, over, since, until, path)
 
 
 def _paint(spec: EffectSpec, scene: Scene) -> Paint:
@@ -87,29 +81,13 @@ def _center(place: Place | None, scene: Scene) -> Vec3 | None:
     return None if place is None else scene.place(place)
 
 
-def _mark(spec: MarkSpec | None, scene: Scene, path: KeyPath) -> Mark | None:
-    """Return a moment; one on a beat that is not known is told by ``_of_marks`` and is none here."""
-    if spec is None:
-        return None
-    if spec.beat is not None or spec.bar is not None:
-        time = moment(_on_beat(spec), scene, path)
-        return Mark(None, None, time) if isinstance(time, float) else None
-    return Mark(spec.seconds, None if spec.frame is None else spec.frame - 1)
-
-
-def _on_beat(spec: MarkSpec) -> MomentSpec:
-    return MomentSpec.model_construct(time=None, beat=spec.beat, bar=spec.bar)
-
-
-def _faults(spec: EffectSpec, scene: Scene, path: KeyPath, pictures: int) -> Iterator[Diagnostic]:
+def _faults(spec: EffectSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic]:
     if spec.ramp is not None:
         yield from _of_ramp(spec.ramp, scene, (*path, "ramp"))
     if spec.chase is not None:
         yield from _of_chase(spec.chase, scene, (*path, "chase"))
     if spec.image is not None:
         yield from _of_image(spec.image, scene, (*path, "image"))
-    if isinstance(spec, DisplayEffectSpec):
-        yield from _of_marks(spec, scene, path, pictures)
 
 
 def _of_ramp(spec: RampSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic]:
@@ -148,22 +126,41 @@ def _of_image(spec: ImageSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnost
         yield Diagnostic("D011", message, (scene.origins.value((*path, "file")),), help=help_)
 
 
-def _of_marks(spec: DisplayEffectSpec, scene: Scene, path: KeyPath, pictures: int) -> Iterator[Diagnostic]:
-    for key, mark in (("from", spec.from_), ("until", spec.until)):
-        if mark is not None and (mark.beat is not None or mark.bar is not None):
-            time = moment(_on_beat(mark), scene, (*path, key))
-            if isinstance(time, Diagnostic):
-                yield time
-        if mark is not None and mark.frame is not None and mark.frame > pictures:
-            label = scene.origins.value((*path, key))
-            message = f"there is no frame {mark.frame}: the display has {pictures}"
-            yield Diagnostic(
-                "D097", message, (label,), help=f"write `{key}: {{frame: {pictures}}}`, or an earlier frame"
-            )
-    since, until = spec.from_, spec.until
+def _span(
+    spec: DisplayEffectSpec, scene: Scene, path: KeyPath, pictures: int
+) -> tuple[Mark | None, Mark | None] | list[Diagnostic]:
+    """Return when an effect begins and ends, None where nothing says it, or all that is wrong with it."""
+    written = (("from", spec.from_), ("until", spec.until))
+    marks = [_mark(mark, scene, (*path, key), pictures) for key, mark in written]
+    faults = [mark for mark in marks if isinstance(mark, Diagnostic)]
+    faults += _backwards(spec.from_, spec.until, scene, (*path, "until"))
+    since, until = (mark if isinstance(mark, Mark) else None for mark in marks)
+    return faults or (since, until)
+
+
+def _mark(spec: MarkSpec | None, scene: Scene, path: KeyPath, pictures: int) -> Mark | Diagnostic | None:
+    """Return a moment, or what is wrong with it; None where its beats cannot be used."""
+    if spec is None:
+        return None
+    if spec.beat is not None or spec.bar is not None:
+        time = on_beat(spec.beat, spec.bar, scene, path)
+        return Mark(None, None, time) if isinstance(time, float) else time
+    if spec.frame is None:
+        return Mark(spec.seconds, None)
+    if spec.frame <= pictures:
+        return Mark(None, spec.frame - 1)
+    message = f"there is no frame {spec.frame}: the display has {pictures}"
+    help_ = f"write `{path[-1]}: {{frame: {pictures}}}`, or an earlier frame"
+    return Diagnostic("D097", message, (scene.origins.value(path),), help=help_)
+
+
+def _backwards(
+    since: MarkSpec | None, until: MarkSpec | None, scene: Scene, path: KeyPath
+) -> Iterator[Diagnostic]:
+    """Yield what is wrong where an effect ends before it begins; path : of its end."""
     if since is None or until is None:
         return
-    label = scene.origins.value((*path, "until"))
+    label = scene.origins.value(path)
     if since.seconds is not None and until.seconds is not None and until.seconds <= since.seconds:
         message = f"the effect ends at {until.seconds:g} s, but begins at {since.seconds:g} s"
         yield Diagnostic("D098", message, (label,), help=f"write `until: {since.seconds + 1:g} s`, or later")

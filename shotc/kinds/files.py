@@ -85,12 +85,26 @@ def _rows(
     return tuple(rows)
 
 
-def _text(data: bytes) -> str | FileFault:
+def utf8_text(data: bytes, help_: str = "") -> str | FileFault:
+    """Return the text of a file, without a byte order mark, or the line of what is no UTF-8."""
     try:
-        text = data.decode("utf-8-sig")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        return FileFault("the file is not UTF-8 text", data[: error.start].count(b"\n") + 1)
-    if "\0" in text:
+        return FileFault("the file is not UTF-8 text", data[: error.start].count(b"\n") + 1, help_)
+
+
+def finite(word: str) -> float | None:
+    """Return a number, or None where a word is none, is not finite, or is one to Python alone."""
+    try:
+        value = float(word)
+    except ValueError:
+        return None
+    return value if isfinite(value) and "_" not in word else None
+
+
+def _text(data: bytes) -> str | FileFault:
+    text = utf8_text(data)
+    if isinstance(text, str) and "\0" in text:
         return FileFault("the file holds a NUL byte", text[: text.index("\0")].count("\n") + 1)
     return text
 

@@ -12,17 +12,20 @@ def moment(spec: MomentSpec, scene: Scene, path: KeyPath) -> float | Diagnostic 
 
     path : where the moment is written
     """
-    if spec.time is not None:
-        return spec.time
+    return spec.time if spec.time is not None else on_beat(spec.beat, spec.bar, scene, path)
+
+
+def on_beat(beat: float | None, bar: float | None, scene: Scene, path: KeyPath) -> float | Diagnostic | None:
+    """Return when a beat falls, as ``moment`` does; beside a bar it is counted in that bar."""
     music = scene.music
     if music is not None and music.unread:
         return None
     per_bar = 4 if music is None else music.per_bar
-    if spec.bar is None:
-        assert spec.beat is not None
-        beat, key = spec.beat, "beat"
+    if bar is None:
+        assert beat is not None
+        key = "beat"
     else:
-        beat, key = beat_of_bar(spec.bar, spec.beat or 1.0, per_bar), "bar"
+        beat, key = beat_of_bar(bar, beat or 1.0, per_bar), "bar"
     label = scene.origins.value((*path, key))
     if music is None or not music.has_beats:
         note = "the mission has no `music`" if music is None else "its `music` says nothing of beats"

@@ -20,7 +20,7 @@ from shotc.spec.fields import (
     RelativePath,
     Size3,
 )
-from shotc.spec.fieldtypes import FieldType, Integer, Text
+from shotc.spec.fieldtypes import FieldType, Integer, one_line
 from shotc.spec.model import Model, OneOf
 from shotc.spec.music import MomentSpec
 from shotc.spec.quantities import Quantity
@@ -31,16 +31,7 @@ MOST_PICTURES = 500
 
 Layers = Annotated[int, Integer("Layers", 1, 4)]
 
-# One line that shows something: no control characters, no line ends.
-Letters = Annotated[
-    str,
-    Text(
-        "LineOfText",
-        r"^(?=.*\S)[^\x00-\x1f\x7f-\x9f\u2028\u2029]{1,100}$",
-        "wrong-length",
-        'give one line of at most 100 characters, such as "SHOTC"',
-    ),
-]
+Letters = Annotated[str, one_line("LineOfText", 100, "SHOTC")]
 
 
 class SphereSpec(Model):

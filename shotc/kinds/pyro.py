@@ -10,22 +10,14 @@ from shotc.ir.show import PyroCue
 from shotc.kinds.base import Scene
 from shotc.kinds.moments import moment
 from shotc.spec.fields import Angle, Duration, NonNegativeDuration, Pitch, PositiveLength
-from shotc.spec.fieldtypes import Integer, Text
+from shotc.spec.fieldtypes import Integer, one_line
 from shotc.spec.model import Model
 from shotc.spec.music import MomentSpec
 
 MOST_CUES = 500
 
 DroneNumber = Annotated[int, Integer("DroneNumber", 1, 20_000)]
-Product = Annotated[
-    str,
-    Text(
-        "Product",
-        r"^(?=.*\S)[^\x00-\x1f\x7f-\x9f\u2028\u2029]{1,80}$",
-        "wrong-length",
-        'give one line of at most 80 characters, such as "silver fountain 30 s"',
-    ),
-]
+Product = Annotated[str, one_line("Product", 80, "silver fountain 30 s")]
 
 
 class PyroSpec(Model):
@@ -62,10 +54,16 @@ def cues_of(specs: tuple[PyroSpec, ...], scene: Scene) -> Cues:
         if isinstance(at, Diagnostic):
             faults.append(at)
         elif at is not None:
-            cues.append(PyroCue(at, *_product(spec), path))
+            cue = PyroCue(
+                time=at,
+                drones=spec.drones,
+                product=spec.product,
+                duration=spec.duration,
+                clear=spec.clear,
+                prefire=spec.prefire,
+                pan=spec.pan,
+                tilt=spec.tilt,
+                path=path,
+            )
+            cues.append(cue)
     return Cues(tuple(cues), tuple(faults))
-
-
-def _product(spec: PyroSpec) -> tuple[tuple[int, ...], str, float, float, float, float, float]:
-    """Return the fields of a cue between its time and its path."""
-    return spec.drones, spec.product, spec.duration, spec.clear, spec.prefire, spec.pan, spec.tilt

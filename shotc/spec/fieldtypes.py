@@ -105,6 +105,13 @@ class Text(FieldType):
         return {"type": "string", "pattern": self.pattern, "description": self.rule}
 
 
+def one_line(label: str, most: int, example: str) -> Text:
+    """Return the type of one line of text that shows something: no control characters, no line ends."""
+    pattern = rf"^(?=.*\S)[^\x00-\x1f\x7f-\x9f\u2028\u2029]{{1,{most}}}$"
+    rule = f'give one line of at most {most} characters, such as "{example}"'
+    return Text(label, pattern, "wrong-length", rule)
+
+
 class TextOrNumber(Text):
     """Text that may be a whole number, such as an id; kept as text."""
 

@@ -45,7 +45,7 @@ def test_json_has_every_return(run: Run, plan: Path) -> None:
     assert all(r["holds"] and r["landed"] >= r["time"] for r in found)
 
 
-@pytest.mark.parametrize("text", ["0 s", "2 m", "often"])
+@pytest.mark.parametrize("text", ["0 s", "2 m", "often", "²"])
 def test_what_is_no_time_is_a_usage_error(run: Run, plan: Path, text: str) -> None:
     done = run("verify", str(plan), "--abort-every", text)
     assert (done.code, "--abort-every" in done.err) == (2, True)

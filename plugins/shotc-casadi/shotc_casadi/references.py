@@ -207,6 +207,6 @@ def fields_of_view(subject: Subject, s: Array, q: Array | None = None) -> tuple[
 
     q : x, y, z, yaw, pitch of a camera there, and its field of view where that is not the convex path's
     """
-    own = q is not None and q.shape[1] > LENS
-    half = np.tan((q[:, LENS] if own and q is not None else subject.leg.curve(s)[:, HFOV]) / 2)
+    wide = subject.leg.curve(s)[:, HFOV] if q is None or q.shape[1] <= LENS else q[:, LENS]
+    half = np.tan(wide / 2)
     return half, half / subject.drone.aspect

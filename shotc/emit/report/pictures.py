@@ -8,9 +8,9 @@ from math import floor, log10
 import numpy as np
 
 from shotc.emit.report.nearness import Nearness
-from shotc.emit.site import corners_of
 from shotc.emit.site.volumes import Outline, Volumes
 from shotc.geom.bernstein import Array
+from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.mission import MissionIR
 
 WIDTH, MAP_HEIGHT, PLOT_HEIGHT = 680.0, 460.0, 190.0
@@ -21,7 +21,7 @@ LEFT, RIGHT, BOTTOM, TOP = 46.0, 12.0, 30.0, 12.0
 def site_map(mission: MissionIR, found: Volumes) -> str:
     """Return the map: volumes, zones, pads and audiences, North up, with a scale."""
     seats = [display.viewpoint for display in mission.displays if display.viewpoint is not None]
-    zones = [(zone, corners_of(zone.solid)) for zone in mission.zones]
+    zones = [(zone, ground_plan(zone.solid)) for zone in mission.zones]
     risk = found.risk.corners
     seen = np.concatenate([risk, *(np.array([seat[:2]]) for seat in seats)])
     low, high = seen.min(axis=0), seen.max(axis=0)

@@ -21,14 +21,13 @@ from shotc.emit.zip_parts import archive_parts
 from shotc.filenames import file_name
 from shotc.geom.bernstein import Array
 from shotc.geom.earth import of_world
-from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
 
 MOST_NAMED = 500
 """Pads of a fleet that are marks of their own; of more one mark holds all, which the viewer bears."""
-SIDES = 48
 STYLES = {
     "flight": ("ffb4e07a", "667ae0b4"),
     "contingency": ("ff00a5ff", "3300a5ff"),
@@ -119,19 +118,8 @@ def _volumes(folder: Element, origin: GeoOrigin, found: Volumes) -> None:
 def _zones(folder: Element, mission: MissionIR, origin: GeoOrigin) -> None:
     for zone in mission.zones:
         words = "stay inside" if zone.keep == "in" else "keep out"
-        outline = Outline(corners_of(zone.solid), zone.solid.top)
+        outline = Outline(ground_plan(zone.solid), zone.solid.top)
         _polygon(_mark(folder, f"zone {zone.name}", zone.keep, words), origin, outline)
-
-
-def corners_of(solid: Solid) -> Array:
-    """Return the corners of a solid on the map, (k, 2); a circle is a polygon about it."""
-    if not isinstance(solid, Cylinder):
-        return np.array(solid.points)
-    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
-    reach = solid.radius / np.cos(np.pi / SIDES)
-    return np.asarray(
-        np.array(solid.centre) + reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1), dtype=float
-    )
 
 
 def _polygon(mark: Element, origin: GeoOrigin, outline: Outline, *, flat: bool = False) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from shotc.geom.bernstein import Array
+from shotc.geom.solid_arrays.rings import ring
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import TrajectoryIR
 
@@ -92,9 +93,7 @@ def _stopping(speed: float, limits: Limits) -> float:
 
 def widened(corners: Array, margin: float) -> Array:
     """Return the hull of points (n, 2) with a margin about it, counter-clockwise, (k, 2); never narrower."""
-    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
-    ring = margin / np.cos(np.pi / SIDES) * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    points = (_outermost(corners)[:, None] + ring).reshape(-1, 2)
+    points = (_outermost(corners)[:, None] + ring(margin, SIDES)).reshape(-1, 2)
     return np.asarray(points[ConvexHull(points).vertices])
 
 

@@ -22,6 +22,7 @@ from shotc.geom.camera import heading_of
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Composition, MissionIR, frozen
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.rounding import as_minutes
 
 LINE = 0.165
 """Height of a line of a caption, inches."""
@@ -70,12 +71,6 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
 def caption_height(width: float) -> float:
     """Return the height of the caption under a picture in a cell of some width, inches."""
     return 0.24 + (3 if width > WIDE else 4) * LINE
-
-
-def clock(seconds: float) -> str:
-    """Return a time as minutes, seconds and tenths."""
-    tenths = round(seconds * 10)
-    return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def compass(yaw: float) -> str:
@@ -188,7 +183,7 @@ def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, los
     base = box.y - 0.2
     canvas.disc((box.x + 0.095, base + 0.045), 0.095, INK, "none", 0)
     canvas.text(box.x + 0.095, base + 0.043, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
-    canvas.text(box.x + 0.26, base, clock(moment.time), Type(9.5, INK, bold=True))
+    canvas.text(box.x + 0.26, base, as_minutes(moment.time), Type(9.5, INK, bold=True))
     canvas.text(box.right, base, compass(float(pose[CAM_YAW])), Type(9.5, INK, bold=True, across="right"))
     facts = [f"pitch {round(degrees(pose[CAM_PITCH])):+d}°", f"hfov {degrees(pose[HFOV]):.0f}°"]
     away = [float(np.linalg.norm(np.subtract(mission.target(t).centre, pose[:3]))) for t in moment.targets]

@@ -23,14 +23,14 @@ from shotc.emit.palette import (
 from shotc.emit.screen import ScreenSummary, certified, percent
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
-from shotc.emit.storyboard.frame import Cell, caption_height, clock, draw_frame
+from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.map import draw_map
 from shotc.ir.coverage import HALF_SHARE
 from shotc.ir.measures import SHARES
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import Claim, VerifiedIR
-from shotc.rounding import at_least
+from shotc.rounding import as_minutes, at_least
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
 HEADING, FOOTING, BAND, LINE = 1.40, 0.85, 0.60, 0.18
@@ -119,8 +119,8 @@ def _heading(
     facts = [
         drones,
         f"{len(boards)} shot{'' if len(boards) == 1 else 's'}",
-        f"{clock(total)} in the air",
-        f"{clock(filmed)} filmed",
+        f"{as_minutes(total)} in the air",
+        f"{as_minutes(filmed)} filmed",
     ]
     if camera is not None:
         facts.append(f"camera {degrees(camera.hfov):.0f}° hfov, {_ratio(camera.aspect)}")
@@ -242,7 +242,7 @@ def _told(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
 def _facts(board: ShotBoard) -> list[str]:
     facts = [board.shot.kind]
     facts += [board.shot.subject] if board.shot.subject else []
-    facts += [f"{clock(board.start)} to {clock(board.end)} ({board.end - board.start:.1f} s)"]
+    facts += [f"{as_minutes(board.start)} to {as_minutes(board.end)} ({board.end - board.start:.1f} s)"]
     facts += [f"composition {board.composition}"] if board.composition else []
     if board.total is None and len(board.moments) > 1:
         facts.append(f"{len(board.moments)} moments")
@@ -267,7 +267,9 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
     whole, lost = certified(certificate), not_promised(certificate)
     parts = []
     if whole.error is not None and whole.time is not None:
-        parts.append(f"Worst screen error {at_least(whole.error, 3)} ({whole.shot}, {clock(whole.time)})")
+        parts.append(
+            f"Worst screen error {at_least(whole.error, 3)} ({whole.shot}, {as_minutes(whole.time)})"
+        )
     if lost:
         parts.append(f"not promised: {', '.join(lost)}")
     elif whole.in_frame is not None:

@@ -157,7 +157,7 @@ class _Job:
             for number, block in zip(named, blocks, strict=True)
         )
         route = route_of(joined([self.form.read(a.data) for a in artifacts]), self.geo)
-        legs = tuple(legs_of(route, s, FINE).position for s in self.form.shapes)
+        legs = tuple(s.samples(route, FINE) for s in self.form.shapes)
         return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
 
     def _watched(self, stations: list[Station]) -> list[Place | None]:
@@ -167,10 +167,11 @@ class _Job:
             inside = [i for i, s in enumerate(stations) if each.first <= s.first and s.last <= each.last]
             target, at = self.track.subject[each.first : each.last + 1], [stations[i].first for i in inside]
             east, north, _ = (target[0] - self.track.poses.position[at]).T
-            off = np.angle(np.exp(1j * (np.arctan2(north, east) - self.track.poses.cam_yaw[at])))
+            off = wrapped(np.arctan2(north, east) - self.track.poses.cam_yaw[at])
             if np.ptp(target, axis=0).max() < SAME_PLACE and np.abs(off).max(initial=0.0) < STRAIGHT:
                 place = self.geo.places(target[:1])[0]
-                found = [place if i in inside else before for i, before in enumerate(found)]
+                for i in inside:
+                    found[i] = place
         return found
 
     def emission(self, written: _Written) -> Emission:

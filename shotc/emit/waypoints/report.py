@@ -20,13 +20,12 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.owners import Owner
 from shotc.ir.path import HFOV
-from shotc.ir.source import TAKES, Autopilot
+from shotc.ir.source import TAKES, ZOOM_COMMANDS, Autopilot
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least, exposure
 
 ZOOM_LEAST = np.radians(0.1)
 PROMISED = "E122"  # of a zoom that is not carried where framing is promised
-COMMANDED = ("px4", "ardupilot", "pilot-2")  # machines whose files zoom a lens that is known to
 UNKNOWN_LENS = (
     "say what the camera carries, as `camera: {zoom: [24 mm, 70 mm]}`, or film the shot with the field of"
     " view of the drone"
@@ -133,7 +132,7 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
         off = float(edge(hfov, drone.hfov).max())
         low, high = degrees(hfov.min()), degrees(hfov.max())
         wanted = f"from {low:.1f} deg to {high:.1f} deg" if high - low > 0.1 else f"{high:.1f} deg"
-        unknown = drone.lens is None and drone.autopilot in COMMANDED
+        unknown = drone.lens is None and drone.autopilot in ZOOM_COMMANDS
         code, words = "E105", f"the mission file of {flight.drone} does not carry the zoom of shot {shot.id}"
         promised = off > WORST and _promises(shot)
         if promised:

@@ -10,6 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
 from shotc.kinds.elevation.srtm import WGS84
+from shotc.kinds.files import finite
 
 NEEDED = ("ncols", "nrows")
 CORNERS = (("xllcorner", "xllcenter"), ("yllcorner", "yllcenter"))
@@ -74,7 +75,7 @@ def _header(lines: list[str]) -> Header | TerrainFault:
             return _complete(values, number)
         if name in values:
             return TerrainFault("format", f"`{words[0]}` stands twice in the header", number)
-        value = _number(words[1]) if len(words) == 2 else None
+        value = finite(words[1]) if len(words) == 2 else None
         if value is None:
             return TerrainFault("format", f"`{line.strip()[:40]}` is not a name and a number", number)
         values[name] = value
@@ -129,7 +130,7 @@ def _word_by_word(body: list[str], skipped: int, shape: tuple[int, int]) -> Arra
     values: list[float] = []
     for number, line in enumerate(body, skipped + 1):
         for word in line.split():
-            value = _number(word)
+            value = finite(word)
             if value is None:
                 help_ = "decimals have a point"
                 return TerrainFault("number", f"`{word[:30]}` is not a height", number, help_)
@@ -138,11 +139,3 @@ def _word_by_word(body: list[str], skipped: int, shape: tuple[int, int]) -> Arra
         message = f"it has {len(values)} heights; its header says {shape[0]} rows of {shape[1]}"
         return TerrainFault("truncated", message)
     return np.array(values).reshape(shape)
-
-
-def _number(word: str) -> float | None:
-    try:
-        value = float(word)
-    except ValueError:
-        return None
-    return value if np.isfinite(value) and "_" not in word else None

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from shotc.geom.vec import Vec2
-from shotc.kinds.files import FileFault
+from shotc.kinds.files import FileFault, utf8_text
 from shotc.kinds.footprints.tags import Tags, name_of
 
 MOST_FEATURES = 200_000
@@ -76,10 +76,11 @@ def read_geojson(data: bytes) -> Collection | FileFault:
 
 
 def _parsed(data: bytes) -> Any:
+    text = utf8_text(data, _EXPORT)
+    if isinstance(text, FileFault):
+        return text
     try:
-        return json.loads(data.decode("utf-8-sig"), parse_constant=_constant)
-    except UnicodeDecodeError as error:
-        return FileFault("the file is not UTF-8 text", data[: error.start].count(b"\n") + 1, _EXPORT)
+        return json.loads(text, parse_constant=_constant)
     except json.JSONDecodeError as error:
         return FileFault(f"it is not JSON, {error.msg[:1].lower()}{error.msg[1:]}", error.lineno, _EXPORT)
     except RecursionError:

@@ -23,7 +23,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
-from shotc.ir.tolerances import BOW_SHARE
+from shotc.ir.tolerances import BOW_SHARE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, gap
 from shotc.passes.verify.explained import (
@@ -35,7 +35,6 @@ from shotc.passes.verify.explained import (
     for_the_picture,
     in_the_way,
 )
-from shotc.passes.verify.shots import ON_TIME_S
 
 UNREPORTED_M = 0.25
 """Metres that a path may leave generated keyframes without a word: planning tells from 0.1 m on, twice."""

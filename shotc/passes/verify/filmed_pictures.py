@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from shotc.diag.model import Diagnostic
 from shotc.ir.fleet import standing
 from shotc.ir.phases import Phase
+from shotc.ir.tolerances import ON_TIME_S
 from shotc.ir.trajectory import TrajectoryIR
-from shotc.passes.verify.shots import ON_TIME_S
 from shotc.rounding import at_least, plain
 
 

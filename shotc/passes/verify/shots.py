@@ -17,7 +17,7 @@ from shotc.ir.mission import Shot
 from shotc.ir.path import HFOV, Z
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
-from shotc.ir.tolerances import ON_PLACE
+from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
 from shotc.passes.verify.explained import (
@@ -29,9 +29,6 @@ from shotc.passes.verify.explained import (
     in_the_way,
 )
 from shotc.planning.framing.moments import placed_at
-
-ON_TIME_S = 1e-3
-"""Seconds within which a duration, a start or a keyframe's time is met."""
 
 UNREPORTED_M = 1.0
 """Metres that a shot on its own clock may leave its ideal without a word: planning tells from 0.5 m on."""

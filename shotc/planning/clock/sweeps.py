@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from math import cos, pi
 
 import numpy as np
 
+from shotc.geom.solid_arrays.rings import ring
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_hull
 from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import FreeSpace, Obstacle
@@ -42,7 +42,5 @@ def _swept(what: Moving, span: tuple[float, float]) -> Solid:
     middle, bottom, top = 0.5 * (low + high), part.bottom + float(low[2]), part.top + float(high[2])
     if np.linalg.norm(high - low) < STILL_M:
         return Cylinder((float(middle[0]), float(middle[1])), part.radius + STILL_M, bottom, top)
-    turn = 2 * pi * np.arange(CORNERS) / CORNERS
-    rim = part.radius / cos(pi / CORNERS) * np.column_stack([np.cos(turn), np.sin(turn)])
-    corners = (at[:, None, :2] + rim).reshape(-1, 2)
+    corners = (at[:, None, :2] + ring(part.radius, CORNERS)).reshape(-1, 2)
     return Prism(convex_hull(tuple((float(x), float(y)) for x, y in corners)), bottom, top)

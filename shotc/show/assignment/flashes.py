@@ -7,6 +7,7 @@ what all of them do at once: lights that sparkle one by one are none.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from math import ceil
 from typing import NamedTuple
 
@@ -18,6 +19,7 @@ from shotc.ir.effects import LIGHT_RATE
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.light_colors import tick_colors
 from shotc.ir.mission import MissionIR
+from shotc.rounding import as_minutes
 
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 """Of red, green and blue light."""
@@ -46,14 +48,13 @@ def flashing(mission: MissionIR, flight: FleetTrajectory) -> list[Diagnostic]:
         return []
     shots = (p.shot for p in flight.phases if p.shot is not None and p.end > worst.time)
     display = mission.display(next(shots, flight.shown[-1].display))
-    at = f"{int(worst.time // 60)}:{worst.time % 60:04.1f}"
     return [
         Diagnostic(
             "D102",
             f"the lights flash {worst.number} times in a second",
             (mission.origins.value((*display.path, "id")),),
             (
-                f"the second begins at {at}; all lights together are judged",
+                f"the second begins at {as_minutes(worst.time)}; all lights together are judged",
                 f"more than {MOST} flashes in a second can set off seizures (WCAG 2.3.1)",
             ),
             f"slow the effect to a period of {1.0 / MOST + 0.005:.2f} s or more, or lower its `opacity`",
@@ -76,7 +77,7 @@ def most_flashes(levels: Array) -> Flashes:
     changes = _changes(levels)
     best = Flashes(0, 0.0)
     for k, first in enumerate(changes):
-        inside = sum(1 for other in changes[k:] if other < first + LIGHT_RATE)
+        inside = bisect_left(changes, first + LIGHT_RATE) - k
         if inside // 2 > best.number:
             best = Flashes(inside // 2, first / LIGHT_RATE)
     return best

@@ -68,16 +68,21 @@ def layer_of(effect: Effect, stage: Stage, times: Times, seed: int) -> Layer:
     return Layer(paint, effect.blend, effect.opacity, _span(effect, times))
 
 
+def counts(effect: Effect, times: Times) -> tuple[float, float]:
+    """Return when an effect begins and ends to count, seconds."""
+    away, start, end, gone = times
+    return {"both": (away, gone), "transition": (away, start)}.get(effect.over, (start, end))
+
+
 def _span(effect: Effect, times: Times) -> tuple[float, float, float, float]:
     """Return when the layer comes and goes, as ``Layer.span``."""
-    away, start, end, gone = times
-    first, last = {"both": (away, gone), "transition": (away, start)}.get(effect.over, (start, end))
+    first, last = counts(effect, times)
     if isinstance(effect.paint, Fade):
         return _fade(effect.paint, effect.over, times)
     if effect.over == "both":
         # It stands with its picture: it comes and goes while that stands.
-        rise = (start, start + effect.fade_in) if effect.fade_in else (first, first)
-        fall = (end - effect.fade_out, end) if effect.fade_out else (last, last)
+        rise = (times.start, times.start + effect.fade_in) if effect.fade_in else (first, first)
+        fall = (times.end - effect.fade_out, times.end) if effect.fade_out else (last, last)
         return (*rise, *fall)
     return (first, first + effect.fade_in, last - effect.fade_out, last)
 

@@ -20,7 +20,7 @@ from shotc.ir.light_layers import Layer, Look
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display
 from shotc.show.assignment import faults
-from shotc.show.assignment.layers import Stage, Times, layer_of
+from shotc.show.assignment.layers import Stage, Times, counts, layer_of
 from shotc.show.assignment.order import Scene
 from shotc.show.goals.footage import Frames
 
@@ -120,13 +120,11 @@ def _of_picture(
     with_it: list[Layer] = []
     over: list[Layer] = []
     for k, effect in enumerate(picture.display.pictures[picture.number].effects):
-        t = picture.times
-        spans = {"transition": (t.away, t.start), "hold": (t.start, t.end), "both": (t.away, t.gone)}
-        span = spans[effect.over]
-        if span[1] <= span[0]:
+        first, last = counts(effect, picture.times)
+        if last <= first:
             told.append(faults.never_seen(mission, effect, _why(effect)))
             continue
-        layer = layer_of(effect, stage, t, 100 * seed + k)
+        layer = layer_of(effect, stage, picture.times, 100 * seed + k)
         (with_it if effect.over == "both" else over).append(layer)
     return tuple(with_it), over
 

@@ -15,11 +15,9 @@ from shotc.ir.fleet import standing
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import Shot
 from shotc.ir.passes import Outcome, PassContext
+from shotc.ir.tolerances import ON_TIME_S
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.beside_cameras.airspace import airspace
-
-ON_TIME_S = 1e-3
-"""Seconds by which a shot may begin early."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from shotc.emit.fleet_rows import BATCH
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Colors
@@ -12,9 +13,6 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.show import PyroCue, drone_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.pyro_cues import carried
-
-BATCH = 250
-"""Drones that are evaluated at once, which bounds the memory that a file of many takes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
@@ -32,15 +33,18 @@ class Window:
         return breaks[self.first : self.last + 1]
 
 
+def at_rest(coef: Array) -> NDArray[np.intp]:
+    """Return the breaks at which all drones stop; coef : shape (n, P + 3, 3)."""
+    still = (np.diff(coef, axis=1) == 0.0).all(axis=(0, 2))
+    return np.flatnonzero(still[:-1] & still[1:])
+
+
 def windows(coef: Array) -> list[Window]:
     """Return the stretches in which anybody moves; coef : shape (n, P + 3, 3)."""
-    still = (np.diff(coef, axis=1) == 0.0).all(axis=(0, 2))
-    stops = np.flatnonzero(still[:-1] & still[1:])
-    return [Window(int(a), int(b)) for a, b in pairwise(stops) if b - a > 1]
+    return [Window(int(a), int(b)) for a, b in pairwise(at_rest(coef)) if b - a > 1]
 
 
 def stops(coef: Array) -> list[int]:
     """Return the breaks at which a fleet stops, the first of each stretch that it stands."""
-    still = (np.diff(coef, axis=1) == 0.0).all(axis=(0, 2))
-    at = np.flatnonzero(still[:-1] & still[1:])
+    at = at_rest(coef)
     return [int(b) for k, b in enumerate(at) if k == 0 or b - at[k - 1] > 1]

@@ -10,7 +10,7 @@ from shotc.emit.screen import certified, guide_lines, percent, screen_tracks, su
 from shotc.emit.storyboard import DPI, EMITTER, frame, page
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.content import shot_boards
-from shotc.emit.storyboard.frame import clock, compass, metres
+from shotc.emit.storyboard.frame import compass, metres
 from shotc.emit.storyboard.furniture import LOWER_FIRST, corner, round_length
 from shotc.emit.storyboard.labels import Label, free_room
 from shotc.emit.storyboard.page import WIDTH, headline, layout, not_promised
@@ -20,6 +20,7 @@ from shotc.geom.camera import yaw_of
 from shotc.geom.shapes import CylinderShape
 from shotc.ir.mission import Composition
 from shotc.ir.trajectory import Claim, VerifiedIR
+from shotc.rounding import as_minutes
 from tests.support.film_plans import dense_plan, orbit_plan
 from tests.support.records import replace
 
@@ -208,7 +209,7 @@ def test_of_targets_that_overlap_the_nearer_one_is_painted_last(
 
 
 def test_words() -> None:
-    assert [clock(t) for t in (0.0, 59.96, 61.25, 3600.0)] == ["0:00.0", "1:00.0", "1:01.2", "60:00.0"]
+    assert [as_minutes(t) for t in (0.0, 59.96, 61.25, 3600.0)] == ["0:00.0", "1:00.0", "1:01.2", "60:00.0"]
     assert [compass(yaw_of(h * pi / 180)) for h in (0, 44.6, 180, 337.6, 359.7)] == [
         "000° N",
         "045° NE",

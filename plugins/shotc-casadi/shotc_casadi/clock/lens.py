@@ -31,6 +31,7 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.clock.curve import filmed
 from shotc_casadi.clock.references import ClockSubject, seen_at
+from shotc_casadi.clock.shown import cropped_on_purpose
 from shotc_casadi.lens import SAME_SHARE, lens_bounds
 
 # Weights: mean squares over the film, of shares of the field of view.
@@ -84,7 +85,7 @@ def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
     film = (t >= leg.start - SAME_S) & (t <= leg.end + SAME_S)
     pose = leg.curve(t)
     given = pose[:, HFOV]
-    wanted = np.where(film, _wanted(subject, leg, t), given)
+    wanted = np.where(film, _wanted(subject, leg, t, pose), given)
     unasked = subject.drone.zooms_unasked or not (wanted == given).all()
     least = np.where(film, _least(subject, t, pose), 0.0) if unasked else np.zeros(len(t))
     low, high = lens_bounds(subject.drone, given)
@@ -107,14 +108,14 @@ def _bound(subject: ClockSubject, t: Array) -> Mask:
     return bound
 
 
-def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array) -> Array:
+def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Array:
     """Return the fields of view near which the lens stays, rad, shape (N + 1,).
 
     Between keyframes of one target and different lenses those at which its size goes evenly, by its
     logarithm, from the one to the other; where sizes are asked for, and missed, those that have them; else
     what the lens is given.
     """
-    pose, keyed = leg.curve(t), subject.camera_task.keyed
+    keyed = subject.camera_task.keyed
     wanted = np.array(pose[:, HFOV])
     if keyed is None and not subject.drone.zooms_unasked:
         return wanted
@@ -138,9 +139,9 @@ def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array) -> Array:
 def _factor(subject: ClockSubject, t: Array, pose: Array) -> Array:
     """Return by which the picture is to be wider for the sizes asked for, in the mean of all, (N + 1,)."""
     off = []
-    for j, one in enumerate(subject.framed):
+    for one in subject.framed:
         asked = np.array([one.asked(float(u) - subject.leg.start).size or np.nan for u in t])
-        _, _, low, high = _outline(subject, one, t, pose, j)
+        _, _, low, high = _outline(subject, one, t, pose)
         off.append(np.log(0.5 * (high - low) / asked))
     known = np.isfinite(off)
     mean = np.where(known, off, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
@@ -153,11 +154,10 @@ def _least(subject: ClockSubject, t: Array, pose: Array) -> Array:
     Of one subject the camera keeps the place on screen, about which its outline shrinks then.
     """
     factor = np.zeros(len(t))
-    for j, one in enumerate(subject.framed):
-        sizes = (one.size, *(setpoint.size for setpoint in one.setpoints))
-        if any(size is not None and size > 1.0 for size in sizes):
+    for one in subject.framed:
+        if cropped_on_purpose(one):
             continue
-        box = np.array(_outline(subject, one, t, pose, j))
+        box = np.array(_outline(subject, one, t, pose))
         middle = np.zeros((2, len(t))) if subject.together else _places(subject, one, t)
         for axis, edge, inwards in ((0, 0, -1.0), (0, 1, 1.0), (1, 2, -1.0), (1, 3, 1.0)):
             room = viewpoint.EDGE_SHARE - inwards * middle[axis]
@@ -178,14 +178,15 @@ def _places(subject: ClockSubject, one: PlacedSubject, t: Array) -> Array:
 
 
 def _outline(
-    subject: ClockSubject, one: PlacedSubject, t: Array, pose: Array, which: int
+    subject: ClockSubject, one: PlacedSubject, t: Array, pose: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Return left, right, low and high of a subject's outline at times, half frames; NaN for behind."""
-    offset = (seen_at(subject, t)[:, which] - pose[:, :3]).T
+    target = subject.mission.target(one.target)
+    offset = (np.array([target.at(float(u)) for u in t]) - pose[:, :3]).T
     yaw, pitch, half = pose[:, CAM_YAW], pose[:, CAM_PITCH], np.tan(pose[:, HFOV] / 2)
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / subject.drone.aspect)
     x, y, z = offset
-    return shapes(subject.mission.target(one.target), t).bounds(camera, (x, y, z))
+    return shapes(target, t).bounds(camera, (x, y, z))
 
 
 def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:

@@ -10,6 +10,7 @@ import numpy as np
 from shotc.plugin_api.refiner import (
     ClockLeg,
     DroneTrajectory,
+    PlacedSubject,
     coverage,
     flights,
     keeps_a_place,
@@ -67,7 +68,7 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
     """
     ideal, failed = subject.placed.shot.ideal, plain.solution.status != "solved" or plain.gap is not None
     follows = subject.watched is not None and subject.camera_task.keyed is None and not subject.together
-    if failed or not follows or ideal is None or ideal.placed or _cropped_on_purpose(subject):
+    if failed or not follows or ideal is None or ideal.placed or cropped_on_purpose(subject.framed[0]):
         return None
     before = plain.leg or subject.leg
     if shown(subject, before).cropped <= SLACK_SHARE:
@@ -79,8 +80,8 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
     return refined if fewer and as_whole(subject, before, refined.leg) else None
 
 
-def _cropped_on_purpose(subject: ClockSubject) -> bool:
-    one = subject.framed[0]
+def cropped_on_purpose(one: PlacedSubject) -> bool:
+    """Tell whether a subject is asked for at a size at which not all of it is in the picture."""
     sizes = (one.size, *(setpoint.size for setpoint in one.setpoints))
     return any(size is not None and size > 1.0 for size in sizes)
 

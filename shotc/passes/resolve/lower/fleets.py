@@ -50,12 +50,12 @@ def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, .
         limits=limits_of(preset, written.limits, spec.world.wind.speed),
         radius=written.radius or preset.radius,
         endurance=written.endurance or preset.endurance,
-        apart=_apart(written, spec.rules.separation),
+        apart=apart_of(written, spec.rules.separation),
         path=("fleets", name),
     )
 
 
-def _apart(written: FleetSpec, separation: float) -> Apart:
+def apart_of(written: FleetSpec, separation: float) -> Apart:
     """Return how far the drones stay apart: as the fleet says, or else as the mission's rules do."""
     own = written.separation
     if own is None:

@@ -1,6 +1,5 @@
 """The music of a mission lowered: its beats as times, and the bytes of its song."""
 
-from math import isfinite
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -8,7 +7,7 @@ from shotc.ir.music import Music
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
-from shotc.kinds.files import FileFault
+from shotc.kinds.files import FileFault, finite, utf8_text
 from shotc.passes.resolve.lower.files import Files, read_file
 from shotc.spec.load import LoadedMission
 from shotc.spec.music import MOST_BEATS, MusicSpec
@@ -109,16 +108,15 @@ def read_beats(data: bytes) -> tuple[float, ...] | FileFault:
 
     Lines that are empty or begin with # are passed over. Audacity separates the columns of labels by tabs.
     """
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        return FileFault("the file is not UTF-8 text", data[: error.start].count(b"\n") + 1)
+    text = utf8_text(data)
+    if isinstance(text, FileFault):
+        return text
     times: list[float] = []
     for number, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.startswith("#"):
             continue
         word = line.replace("\t", " ").replace(",", " ").split()[0] if line.strip(" \t,") else ""
-        time = _number(word)
+        time = finite(word)
         if time is None or not 0.0 <= time <= 1e5:
             return FileFault(f"`{word[:20]}` is no time of a beat", number, "begin each line with seconds")
         if times and time <= times[-1]:
@@ -130,11 +128,3 @@ def read_beats(data: bytes) -> tuple[float, ...] | FileFault:
     return (
         tuple(times) if times else FileFault("the file has no beat", None, "write a beat a line, in seconds")
     )
-
-
-def _number(word: str) -> float | None:
-    try:
-        value = float(word)
-    except ValueError:
-        return None
-    return value if isfinite(value) and "_" not in word else None

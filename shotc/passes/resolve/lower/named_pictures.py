@@ -10,6 +10,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.origin import OriginMap
 from shotc.ir.show import Box, Model, Picture, Sphere, Torus
 from shotc.ir.target import Target
+from shotc.passes.resolve.lower.fleets import apart_of
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import NO_DRONE
 
@@ -52,10 +53,8 @@ def unread_names(spec: MissionSpec, displays: "Iterable[Display]") -> Mapping[st
 
 def _room(spec: MissionSpec, display: "Display") -> float:
     """Return how far lights may stand outside what they show, m: half of what they are apart at least."""
-    fleet = spec.fleets.get(display.fleet)
-    written = None if fleet is None else fleet.separation
-    least = spec.rules.separation if written is None else written.horizontal + written.margin
-    return 0.5 * least
+    fleet, least = spec.fleets.get(display.fleet), spec.rules.separation
+    return 0.5 * (least if fleet is None else apart_of(fleet, least).across)
 
 
 def _body(picture: Picture, room: float) -> "tuple[Vec3, BodyShape] | None":

@@ -59,7 +59,16 @@ class Shots(NamedTuple):
 
 def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> Shots:
     """Expand every shot; one without a drone of its own is checked with what ``spare`` makes and left out."""
-    displays, diagnostics, deferred = _expand_displays(spec, cast, spare)
+    diagnostics: list[Diagnostic] = []
+    deferred: list[Deferred] = []
+    displays: list[Display] = []
+    for i, written in enumerate(spec.shots):
+        if written.drone == NO_DRONE:
+            expansion = _expand(spec, written, cast, spare(), ("shots", i))
+            diagnostics += expansion.diagnostics
+            deferred += expansion.deferred
+            displays += [] if expansion.display is None else [expansion.display]
+    # Cameras may film the pictures of any display by their names.
     pictures, wrong = named_pictures(spec, displays, cast)
     cast = cast._replace(targets={**unread_names(spec, displays), **cast.targets, **pictures})
     diagnostics += wrong
@@ -79,22 +88,6 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
             shots.append(_shot(spec, written, expansion, path))
     found = tuple(target for target in pictures.values() if target is not None)
     return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred), found)
-
-
-def _expand_displays(
-    spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]
-) -> "tuple[list[Display], list[Diagnostic], list[Deferred]]":
-    """Expand the shots of fleets, whose pictures cameras may film."""
-    displays: list[Display] = []
-    diagnostics: list[Diagnostic] = []
-    deferred: list[Deferred] = []
-    for i, written in enumerate(spec.shots):
-        if written.drone == NO_DRONE:
-            expansion = _expand(spec, written, cast, spare(), ("shots", i))
-            diagnostics += expansion.diagnostics
-            deferred += expansion.deferred
-            displays += [] if expansion.display is None else [expansion.display]
-    return displays, diagnostics, deferred
 
 
 def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:

@@ -32,13 +32,24 @@ def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
         if len(flight.names) > 1:
             apart = flight.fleet.apart
             nearest = closest(flight.track.breaks, flight.track.coef, apart)
-            yield claim_apart(flight.mission, (flight.fleet, flight.names), "separation", (apart, nearest))
+            yield _claim(flight.mission, (flight.fleet, flight.names), "separation", (apart, nearest))
     for one, other in combinations(flights, 2):
-        apart = stricter(one.fleet.apart, other.fleet.apart)
-        first, second = one.track, other.track
-        nearest = closest_between(first.breaks, first.coef, second.breaks, second.coef, apart)
-        name = f"separation from {other.fleet.name}"
-        yield claim_apart(one.mission, (one.fleet, other.names), name, (apart, nearest))
+        yield between(one.mission, (one.fleet, other.fleet), _spline(one), _spline(other))
+
+
+Spline = tuple[Array, Array]
+"""Breaks and control points of a fleet's flight."""
+
+
+def between(mission: MissionIR, fleets: tuple[Fleet, Fleet], flown: Spline, beside: Spline) -> Claim:
+    """Claim the separation of every drone of a fleet from every drone of another one.
+
+    flown, beside : what the first fleet flies, and the second one, over the same mission times
+    """
+    one, other = fleets
+    apart = stricter(one.apart, other.apart)
+    found = apart, closest_between(*flown, *beside, apart)
+    return _claim(mission, (one, drone_names(other)), f"separation from {other.name}", found)
 
 
 def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
@@ -50,20 +61,19 @@ def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Cl
         bound = nearest(flight.flown.bag(), point((float(pad[0]), float(pad[1]), float(pad[2]))), gap(least))
         yield bounded(flight, limit, bound, partial(_away, pad))
     for flight, fleet in product(flights, parked_fleets(ir)):
-        apart, names = stricter(flight.fleet.apart, fleet.apart), drone_names(fleet)
         pads = np.repeat(np.array(fleet.pads)[:, None], 4, axis=1)
-        found_near = closest_between(
-            flight.track.breaks, flight.track.coef, np.array([0.0, 1.0]), pads, apart
-        )
-        name = f"separation from {fleet.name}"
-        yield claim_apart(flight.mission, (flight.fleet, names), name, (apart, found_near))
+        yield between(flight.mission, (flight.fleet, fleet), _spline(flight), (np.array([0.0, 1.0]), pads))
+
+
+def _spline(flight: FleetFlight) -> Spline:
+    return flight.track.breaks, flight.track.coef
 
 
 def _away(pad: Array, places: Array) -> Array:
     return norm(places - pad)
 
 
-def claim_apart(
+def _claim(
     mission: MissionIR, of: tuple[Fleet, tuple[str, ...]], name: str, found: tuple[Apart, Nearest]
 ) -> Claim:
     """Claim how near the drones of a fleet come to others; of : the fleet, and the names of the others.

@@ -24,8 +24,8 @@ def from_cameras(flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajecto
         breaks, eye = flight.track.breaks, camera.curve.channels(0, 1, 2)
         span = (0.0, max(eye.end, float(breaks[-1])))
         bound = nearest(eye, breaks, flight.flown.ctrl, span, least)
-        at = camera.curve(np.clip(bound.at, camera.curve.start, camera.curve.end))[:3]
-        drone = int(norm(flight.at(min(bound.at, float(flight.track.breaks[-1]))) - at).argmin())
+        at = camera.curve(bound.at)[:3]
+        drone = int(norm(flight.at(bound.at) - at).argmin())
         place = (float(at[0]), float(at[1]), float(at[2]))
         limit = Limit(f"separation from {camera.drone}", least, "m", ("rules", "separation"), upper=False)
         worst = Worst(bound.proven, bound.at, "bounded", place)

@@ -17,12 +17,11 @@ from shotc.ir.fleet import Shown
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display
-from shotc.ir.tolerances import ON_PLACE
+from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Limit, Worst, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
-from shotc.passes.verify.shots import ON_TIME_S
 
 
 def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:

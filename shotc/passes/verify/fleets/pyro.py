@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import restrict
+from shotc.geom.pieces import cut
 from shotc.geom.proof import Bound
 from shotc.ir.parked import bodies, parked_fleets
 from shotc.ir.show import Display, PyroCue
@@ -80,10 +80,10 @@ def _distances(
     if burns.display.viewpoint is not None:
         eye = np.array(burns.display.viewpoint).reshape(1, 1, 1, 3)
         yield "the audience", nearest(own, breaks[[0, -1]], eye, span, least)
-    cuts = np.concatenate([[span[0]], breaks[(breaks > span[0]) & (breaks < span[1])], [span[1]]])
-    heights = restrict(own, cuts).ctrl[:, :, 2].min(axis=1)
+    burning = cut(own, *span)
+    heights = burning.ctrl[:, :, 2].min(axis=1)
     lowest = int(heights.argmin())
-    yield "the ground", Bound(float(heights[lowest]), float(heights[lowest]), float(cuts[lowest]))
+    yield "the ground", Bound(float(heights[lowest]), float(heights[lowest]), float(burning.low[lowest]))
 
 
 def _others(

@@ -13,13 +13,13 @@ from PIL import Image, ImageDraw
 from scipy.ndimage import gaussian_filter
 
 from shotc.emit.audience import ASPECT, Audience, audience
-from shotc.emit.storyboard.frame import clock
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.light_colors import light_colors
 from shotc.ir.light_paints import Levels
 from shotc.ir.trajectory import VerifiedIR
+from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.night import GLOW_M, backdrop
 
 WIDTH, HEIGHT = 480, 270
@@ -132,7 +132,7 @@ def _picture(sky: Levels, light: Levels, time: float) -> Image.Image:
     spread = np.stack([_wide(wide[..., k]) for k in range(3)], axis=-1)
     shade = 1.0 - (1.0 - sky) * np.exp(-(LIGHT * spot + BLOOM * spread))
     picture = Image.fromarray(np.asarray(np.round(255.0 * shade), dtype=np.uint8))
-    ImageDraw.Draw(picture).text((6, HEIGHT - 16), clock(time), fill=(DIM, DIM, DIM))
+    ImageDraw.Draw(picture).text((6, HEIGHT - 16), as_minutes(time), fill=(DIM, DIM, DIM))
     return picture
 
 

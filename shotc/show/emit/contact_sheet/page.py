@@ -9,11 +9,11 @@ import numpy as np
 from shotc.emit.audience import ASPECT, Audience, audience
 from shotc.emit.palette import FAINT, INK, QUIET, WHITE
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
-from shotc.emit.storyboard.frame import clock
 from shotc.emit.storyboard.furniture import round_length
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.trajectory import VerifiedIR
+from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
 from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
 from shotc.show.emit.contact_sheet.night import night
@@ -65,7 +65,7 @@ def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
     fleets = ", ".join(f"{len(flight.coef)} drones of {flight.fleet}" for flight in plan.trajectory.fleets)
     pictures = sum(len(display.pictures) for display in mission.displays)
     end = max(float(flight.breaks[-1]) for flight in plan.trajectory.fleets)
-    facts = [fleets, f"{pictures} picture{'' if pictures == 1 else 's'}", f"{clock(end)} in the air"]
+    facts = [fleets, f"{pictures} picture{'' if pictures == 1 else 's'}", f"{as_minutes(end)} in the air"]
     text = "   ·   ".join(facts)
     canvas.write(MARGIN, height - 1.04, text, Type(11, QUIET), WIDTH - 2 * MARGIN)
 
@@ -93,7 +93,7 @@ def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
     x = MARGIN + canvas.write(MARGIN, base, board.display.id, Type(15, INK, bold=True), 4.0) + 0.22
     first, last = board.span
     facts = [f"{len(board.flight.coef)} drones of {board.flight.fleet}"]
-    facts.append(f"{clock(first)} to {clock(last)} ({last - first:.1f} s)")
+    facts.append(f"{as_minutes(first)} to {as_minutes(last)} ({last - first:.1f} s)")
     if board.total > len(board.moments):
         facts.append(f"{len(board.moments)} of {board.total} frames")
     text = "  ·  ".join(facts)
@@ -130,20 +130,20 @@ def _cell(
     for i, time in enumerate(moment.way):
         box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
         _sky(canvas, box, (board.flight, time), (wide, how[1]))
-        canvas.text(box.x + 0.05, box.y + 0.05, clock(time), Type(7.5, WHITE))
+        canvas.text(box.x + 0.05, box.y + 0.05, as_minutes(time), Type(7.5, WHITE))
     box = Box(x + width + SLIT_IN, y, BIG, HEIGHT)
     _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
     if board.flight.lights.looks:  # its lights change while it stands
-        canvas.text(box.x + 0.08, box.y + 0.07, clock(moment.time), Type(7.5, WHITE))
+        canvas.text(box.x + 0.08, box.y + 0.07, as_minutes(moment.time), Type(7.5, WHITE))
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
     )
     number(canvas, (box.x + NUMBER_IN, y - 0.15), board.moments.index(moment))
     canvas.write(box.x + 2 * NUMBER_IN + 0.07, y - 0.19, name, Type(10, INK, bold=True), 0.55 * BIG - 0.26)
-    stands = clock(moment.start)
+    stands = as_minutes(moment.start)
     if moment.end - moment.start >= 1.0:
-        stands = f"{clock(moment.start)} to {clock(moment.end)}"
+        stands = f"{as_minutes(moment.start)} to {as_minutes(moment.end)}"
     text = f"{stands}  ·  {lights(board.flight, moment.time)} of {len(board.flight.coef)} lights"
     canvas.text(box.right, y - 0.19, text, Type(8.5, QUIET, across="right"))
     if moment.way:

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import View
 from shotc.geom.focal import focal_length
 from shotc.geom.solid_arrays.points import in_footprint
-from shotc.geom.solids import Cylinder, Solid
+from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import drone_names
@@ -56,7 +56,7 @@ def show_of(plan: VerifiedIR) -> Show:
         for flight, curve in zip(flights, flown, strict=True)
         for drone in _drones(mission, flight, curve)
     ]
-    fences = [fence(zone.solid) for zone in kept if zone not in left]
+    fences = [np.pad(ground_plan(zone.solid), ((0, 0), (0, 1))) for zone in kept if zone not in left]
     content: Json = {
         "version": 1,
         "meta": {
@@ -197,20 +197,3 @@ def _limits(mission: MissionIR, highest: float) -> Json:
         "maxVelocityZUp": max(fleet.limits.climb for fleet in fleets),
         "minDistance": min(min(f.apart.horizontal, f.apart.vertical) for f in fleets),
     }
-
-
-SIDES = 48
-
-
-def fence(solid: Solid) -> Array:
-    """Return the corners of a solid's outline on the ground, counter-clockwise, shape (k, 3).
-
-    A circle is a polygon about it: what stays in the zone stays in the fence.
-    """
-    if isinstance(solid, Cylinder):
-        turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
-        reach = solid.radius / np.cos(np.pi / SIDES)
-        flat = np.array(solid.centre) + reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    else:
-        flat = np.array(solid.points)
-    return np.concatenate([flat, np.zeros((len(flat), 1))], axis=1)

@@ -96,12 +96,11 @@ def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[
     """Return when a display that begins at a time ends at the earliest, and its pictures that are late."""
     clock, late = begin, []
     for before, after in pairwise(display.pictures):
-        clock += before.hold + _animation(before) + _change(before, after, limits)
+        clock += _stand(before) + _change(before, after, limits)
         if after.at is not None and after.at < clock - SLACK:
             late.append(_Late(after, before, clock))
         clock = max(clock, after.at or 0.0)
-    last = display.pictures[-1]
-    return clock + last.hold + _animation(last), late
+    return clock + _stand(display.pictures[-1]), late
 
 
 def least_display(display: Display, limits: Limits) -> float:
@@ -116,17 +115,18 @@ def _begin(display: Display, limits: Limits) -> float | None:
         return display.start
     before = 0.0
     for one, other in pairwise(display.pictures):
-        before += one.hold + _animation(one) + _change(one, other, limits)
+        before += _stand(one) + _change(one, other, limits)
         if other.at is not None:
             return other.at - before
     return None
 
 
-def _animation(picture: Picture) -> float:
+def _stand(picture: Picture) -> float:
+    """Return how long a picture stands at least: its animation, and its hold, seconds."""
     source = picture.source
     if isinstance(source, Model) and source.period is not None:
-        return (len(source.files) - 1) * source.period
-    return 0.0
+        return picture.hold + (len(source.files) - 1) * source.period
+    return picture.hold
 
 
 def _before(displays: Sequence[Display]) -> dict[str, Display | None]:

@@ -1,4 +1,4 @@
-"""Pyro cues: drones that are there, no drone firing two at once, the audience far enough."""
+"""Pyro cues: drones that are there, and no drone that fires two at once."""
 
 from __future__ import annotations
 

@@ -1,0 +1,27 @@
+"""Circles and the ground plans of solids as polygons."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.solids import Cylinder, Solid
+
+SIDES = 48
+"""Of the polygon that is drawn for a circle."""
+
+
+def ring(radius: float, sides: int = SIDES) -> Array:
+    """Return the corners of a regular polygon about a circle, counter-clockwise from East, (sides, 2), m."""
+    turn = 2.0 * np.pi * np.arange(sides) / sides
+    return np.asarray(radius / np.cos(np.pi / sides) * np.stack([np.cos(turn), np.sin(turn)], axis=-1))
+
+
+def ground_plan(solid: Solid) -> Array:
+    """Return the corners of a solid's footprint, counter-clockwise, shape (k, 2), metres.
+
+    A circle is a polygon about it: what stays inside a zone stays inside its corners.
+    """
+    if isinstance(solid, Cylinder):
+        return np.array(solid.centre) + ring(solid.radius)
+    return np.array(solid.points)
