@@ -141,6 +141,9 @@ class Model(NamedTuple):
     up: Literal["x", "y", "z"] | None = None
 
 
+Easing = Literal["ease-in-out", "linear", "ease-in", "ease-out"]
+"""How the speed of a move runs: slow at both ends, even, slow at its beginning, or slow at its end."""
+
 Source = Sphere | Box | Torus | Lettering | Drawing | Model
 
 
@@ -155,7 +158,7 @@ class Picture(NamedTuple):
     layers : in how many layers, one behind the other, a flat picture stands
     effects : of its lights, the last on top
     transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
-    proved
+    proved; easing : how their speed runs
     at : when it stands on the mission's clock, s, or None where that follows from what is before it
     name : what shots of cameras call it, or None
     size : width, depth and height of the box about it that they frame, metres; None where its shape says that
@@ -173,6 +176,7 @@ class Picture(NamedTuple):
     name: str | None = None
     size: Vec3 | None = None
     effects: tuple[Effect, ...] = ()
+    easing: Easing = "ease-in-out"
 
 
 class PyroCue(NamedTuple):

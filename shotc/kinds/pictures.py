@@ -7,6 +7,7 @@ from pydantic import Field, GetCoreSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
+from shotc.ir.show import Easing
 from shotc.kinds.effects import MOST_EFFECTS, FrameEffectSpec
 from shotc.spec.colors import LightColor
 from shotc.spec.faults import fault, read_each
@@ -112,6 +113,11 @@ class TransitionSpec(QuantityModel):
         default="auto",
         description="straight lines, or arcs on which pictures may be as dense as the separation allows; "
         "straight where that is proved if silent",
+    )
+    easing: Easing = Field(
+        default="ease-in-out",
+        description="how the speed runs: slow at both ends and as fast as can be, as even as can be "
+        "(linear), slow at its beginning (ease-in) or at its end (ease-out)",
     )
 
 

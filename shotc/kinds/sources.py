@@ -37,7 +37,7 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
     fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
     change = spec.transition or TransitionSpec()
     shown = Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
-    return shown._replace(at=at, name=spec.name, size=spec.size, effects=effects)
+    return shown._replace(at=at, name=spec.name, size=spec.size, effects=effects, easing=change.easing)
 
 
 def _drawable(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

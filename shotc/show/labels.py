@@ -31,6 +31,12 @@ def transition_label(mission: MissionIR, picture: Picture) -> Label:
     return mission.origins.value(longer if longer in mission.origins.values else path)
 
 
+def transition_key(mission: MissionIR, picture: Picture) -> str:
+    """Return the key under which the mission says how long the way to a picture takes."""
+    longer = (*picture.path, "transition", "duration")
+    return "duration" if longer in mission.origins.values else "transition"
+
+
 def moments(mission: MissionIR, earliest: float) -> str:
     """Say when a picture may stand at the earliest, in seconds and in beats."""
     possible, music = at_least(earliest), mission.music

@@ -14,7 +14,7 @@ from shotc.kinds.files import FileFault
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Lack
-from shotc.show.labels import moments, transition_label
+from shotc.show.labels import moments, transition_key, transition_label
 
 UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
 
@@ -22,12 +22,13 @@ UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^
 def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, way: float) -> Diagnostic:
     """Return D080: a transition is asked to be shorter than the limits allow; way : of whom it binds, m."""
     origins, name = mission.origins, drone_names(fleet)[least.drone]
+    eased = "" if picture.easing == "ease-in-out" else f" with `easing: {picture.easing}`"
     limit = getattr(fleet.limits, least.limit)
     shortest = at_least(least.duration)
     return Diagnostic(
         "D080",
         f"the transition is given {plain(picture.transition or 0.0)} s, but {shortest} s is the shortest "
-        "possible",
+        f"possible{eased}",
         (
             transition_label(mission, picture),
             origins.value((*fleet.path, "limits", least.limit), "what binds"),
@@ -36,8 +37,8 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, 
             f"`{name}` has {way:.1f} m to go, and its {least.limit} is at most {limit:.2f} "
             f"{UNITS[least.limit]}",
         ),
-        f"give it `transition: {shortest}`, leave it out to have it as fast as the pace allows, or bring the "
-        "pictures nearer",
+        f"give it `{transition_key(mission, picture)}: {shortest}`, leave it out to have it as fast as the "
+        "pace allows, or bring the pictures nearer",
     )
 
 

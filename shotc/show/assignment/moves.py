@@ -41,10 +41,11 @@ class Mover:
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
         """Return the fastest move; picture : to which, None for the way home."""
         limits, path = self.fleet.limits, "auto" if picture is None else picture.transition_path
+        easing = "ease-in-out" if picture is None else picture.easing
         least = tuple(nearest_pair(places * self._scale) for places in (here, there))
         whole = ball(self.fleet.apart)
         if path == "straight" or (path == "auto" and straight_enough(Gaps(*(d / whole for d in least)))):
-            return fastest(there - here, limits, pace)
+            return fastest(there - here, limits, pace, easing)
         kept = whole * (1.0 + MARGIN_SHARE)
         if self.fleet.apart.shape == "ellipsoid":
             # What stands as near as it may, such as on pads, has no share to spare.
@@ -54,7 +55,7 @@ class Mover:
             gaps = Gaps(1.0, 1.0)  # asked for: a quarter of an ellipse is outside, too
 
         def about(pivot: Array) -> ArcMove:
-            return fastest_arc((here, there), pivot, gaps, limits, pace)
+            return fastest_arc((here, there), pivot, gaps, limits, pace, easing)
 
         move, lack = led((here, there), self._heights, self._room, about)
         if lack.metres > ROUNDING_M and not self.faults:

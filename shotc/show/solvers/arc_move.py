@@ -18,6 +18,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
+from shotc.ir.show import Easing
 from shotc.show.geom.arcs import Gaps, angles, least_share, pushed_out, way
 from shotc.show.solvers.move import LEAST_PIECE_S, LIMIT_SHARE, TICK_S, WORTH_RATIO, family
 
@@ -69,8 +70,15 @@ class ArcMove:
         return [self.pivot + a * away + b * there for a, b in self.ctrl[3:-3]]
 
 
-def fastest_arc(ends: tuple[Array, Array], pivot: Array, gaps: Gaps, limits: Limits, pace: float) -> ArcMove:
-    """Return the shortest move found, every limit times ``pace`` kept by all drones.
+def fastest_arc(
+    ends: tuple[Array, Array],
+    pivot: Array,
+    gaps: Gaps,
+    limits: Limits,
+    pace: float,
+    easing: Easing = "ease-in-out",
+) -> ArcMove:
+    """Return the shortest move of an easing found, every limit times ``pace`` kept by all drones.
 
     ends : places before and after, shape (n, 3) each; pivot : the point c, shape (3,)
     gaps : least distances before and after, in the metric of the fleet
@@ -79,7 +87,7 @@ def fastest_arc(ends: tuple[Array, Array], pivot: Array, gaps: Gaps, limits: Lim
     busy = drones.busiest()
     found: Array | None = None
     for corner in CORNERS:
-        found = _shortest(busy, gaps, corner)
+        found = _shortest(busy, gaps, corner, easing)
         if min(gaps) >= 1.0 or least_share(found, gaps) >= 1.0 - 1e-9:
             break
     assert found is not None
@@ -90,14 +98,16 @@ def fastest_arc(ends: tuple[Array, Array], pivot: Array, gaps: Gaps, limits: Lim
     return ArcMove(found, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
 
 
-def _shortest(busy: _Drones, gaps: Gaps, corner: float) -> Array:
+def _shortest(busy: _Drones, gaps: Gaps, corner: float, easing: Easing) -> Array:
     """Return the control points of (a, b), shape (K, 2), with which the drones are there first."""
     line = way(gaps, corner)
     at = _when(busy, line)
     share = np.linspace(0.0, 1.0, len(line))
     best, found = inf, np.zeros((0, 2))
     for pieces in PIECES:
-        shapes = family(pieces)[0][::EVERY]
+        shapes = family(pieces, easing)[0][::EVERY]
+        if not len(shapes):
+            continue
         along = np.interp(shapes, at, share)
         ctrl = np.stack([np.interp(along, share, line[:, k]) for k in range(2)], axis=-1)
         ctrl = pushed_out(ctrl, gaps)

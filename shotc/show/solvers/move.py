@@ -4,19 +4,23 @@ Everybody goes straight from x_i to g_i as x_i + s(t) (g_i - x_i), so a bound on
 on every drone. s is the cubic B-spline of ``geom.fleet_spline`` over even pieces; its differences bound its
 derivatives at every instant. Its control points are samples of a profile whose third derivative is
 piecewise constant (seven stretches); of a family of these, and of numbers of pieces, the one is taken that
-is done first: for a shape the least length of a piece is in closed form.
+is done first: for a shape the least length of a piece is in closed form. The easing that a mission asks for
+says which family: at what share of its time a move may have sped up, and begins to slow down.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
+from shotc.ir.show import Easing
 
 PIECES = (8, 12, 16, 20, 32)
 """Numbers of pieces that a move may have."""
@@ -32,6 +36,15 @@ LIMIT_SHARE = 0.999
 
 TICK_S = 1e-6
 """Lengths of pieces are whole numbers of it, seconds, where nobody asked for a length."""
+
+EVEN_SHARE = 0.85
+"""Mean speed of a linear move as a share of its greatest, at least."""
+LONG_SHARES = (0.6, 0.65, 0.7, 0.75, 0.8)
+"""Shares of its time in which a move speeds up (ease-in) or slows down (ease-out) slowly."""
+SHORT_SHARES = (0.1, 0.15, 0.2)
+"""Shares of its time in which it then slows down, or has sped up."""
+JERK_SHARES = (0.25, 0.5, 0.75, 1.0)
+"""Shares of either in which the acceleration sets in and goes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,12 +107,17 @@ class _Ceilings:
             )
 
 
-def fastest(ways: Array, limits: Limits, pace: float) -> Move:
-    """Return the shortest move, every limit times ``pace`` kept by all drones; ways : g - x, shape (n, 3)."""
+def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> Move:
+    """Return the shortest move of an easing, every limit times ``pace`` kept by all drones.
+
+    ways : g - x, shape (n, 3), metres
+    """
     ceilings = _Ceilings.of(ways, limits, pace)
     best: tuple[float, Array] | None = None
     for pieces in PIECES:
-        shapes, steps = family(pieces)
+        shapes, steps = family(pieces, easing)
+        if not len(shapes):
+            continue
         least = np.maximum(_least_pieces(steps, ceilings), LEAST_PIECE_S)
         # Of those that are as fast, the smoothest.
         k = int(np.where(least <= 1.001 * least.min(), steps[:, 2], inf).argmin())
@@ -151,24 +169,48 @@ def _steps(shapes: Array) -> Array:
     return np.stack([np.abs(np.diff(shapes, n, axis=1)).max(axis=1) for n in (1, 2, 3)], axis=1)
 
 
+class _Ramps(NamedTuple):
+    """Shares of the time of a profile in which it speeds up and slows down, and of either of these the share
+    in which its acceleration sets in and goes.
+    """
+
+    up: float
+    down: float
+    up_jerk: float
+    down_jerk: float
+
+
 @cache
-def family(pieces: int) -> tuple[Array, Array]:
-    """Return shapes of control points, shape (M, pieces + 3), and their largest differences, (M, 3)."""
+def family(pieces: int, easing: Easing = "ease-in-out") -> tuple[Array, Array]:
+    """Return shapes of control points, shape (M, pieces + 3), and their largest differences, (M, 3).
+
+    There are none of an easing for which so many pieces are too few.
+    """
     # The profile begins one piece late and ends one early, and rests outside: three equal points at each end.
     at = np.clip((np.arange(pieces + 3) - 2.0) / (pieces - 2.0), 0.0, 1.0)
-    shares = np.linspace(0.0, 1.0, 15)
-    shapes = np.array([_profile(at, ramp, jerk) for ramp in shares[1:] for jerk in shares[1:]])
-    return shapes, _steps(shapes)
+    shares = np.linspace(0.0, 1.0, 15)[1:].tolist()
+    if easing in ("ease-in", "ease-out"):
+        every = [_Ramps(*r) for r in product(LONG_SHARES, SHORT_SHARES, JERK_SHARES, JERK_SHARES)]
+    else:
+        every = [_Ramps(0.5 * ramp, 0.5 * ramp, jerk, jerk) for ramp, jerk in product(shares, shares)]
+    shapes = np.array([_profile(at, ramps) for ramps in every])
+    if easing == "ease-out":
+        shapes = 1.0 - shapes[:, ::-1]
+    steps = _steps(shapes)
+    if easing == "linear":
+        even = pieces * steps[:, 0] * EVEN_SHARE <= 1.0
+        shapes, steps = shapes[even], steps[even]
+    return shapes, steps
 
 
-def _profile(at: Array, ramp: float, jerk: float) -> Array:
-    """Return s of seven stretches of constant third derivative at shares of its time.
-
-    ramp : share of the first half in which it speeds up; jerk : share of that in which that sets in and out
-    """
-    up, in_ = 0.5 * ramp, 0.25 * ramp * jerk
-    ends = np.array([in_, up - in_, up, 1.0 - up, 1.0 - up + in_, 1.0 - in_])
-    signs = np.array([1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0])
+def _profile(at: Array, ramps: _Ramps) -> Array:
+    """Return s of seven stretches of constant third derivative at shares of its time."""
+    up, down = ramps.up, ramps.down
+    in_, out = 0.5 * up * ramps.up_jerk, 0.5 * down * ramps.down_jerk
+    ends = np.array([in_, up - in_, up, 1.0 - down, 1.0 - down + out, 1.0 - out])
+    # Both ramps reach one speed: the third derivative of the first counts as 1.
+    back = (up - in_) * in_ / ((down - out) * out)
+    signs = np.array([1.0, 0.0, -1.0, 0.0, -back, 0.0, back])
     jumps = np.diff(signs)
     late = np.maximum(at[:, None] - ends, 0.0)
     s = (signs[0] * at**3 + (late**3 * jumps).sum(axis=1)) / 6.0

@@ -40,3 +40,15 @@ def test_the_way_is_straight_where_that_is_proved_and_nothing_else_is_asked(
     move = mover.move(sheet(before, 20.0), sheet(after, 60.0), 1.0, asked)
     assert isinstance(move, ArcMove) == arc
     assert not mover.faults
+
+
+@pytest.mark.parametrize("path", ["straight", "arc"])
+def test_a_picture_is_come_to_by_its_easing(path: str) -> None:
+    plain = picture(Sphere((0.0, 0.0, 60.0), 5.0))._replace(transition_path=path)  # type: ignore[arg-type]
+    swarm = fleet(30, ROUND)
+    times = []
+    for easing in ("ease-in-out", "ease-in"):
+        asked = plain._replace(easing=easing)  # type: ignore[arg-type]
+        mover = Mover(show(display(asked), swarm).mission, swarm)
+        times.append(mover.move(sheet(3.0, 20.0), sheet(3.0, 60.0), 1.0, asked).duration)
+    assert times[1] > 1.2 * times[0]  # whoever speeds up slowly arrives later

@@ -13,7 +13,7 @@ from shotc.geom.separation import closest
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.limits import Timing
 from shotc.ir.passes import Outcome, PassContext
-from shotc.ir.show import Apart
+from shotc.ir.show import Apart, Easing
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.assignment import AssignGoals
 from shotc.show.separation import KeepApart
@@ -137,16 +137,19 @@ def _with_display(ir: GoalIR, shown: object) -> GoalIR:
     return GoalIR(ir.keyframes._replace(mission=mission), ir.fleets, ir.stats)
 
 
-def test_a_transition_that_is_too_short_names_the_shortest() -> None:
+@pytest.mark.parametrize("easing", ["ease-in-out", "linear"])
+def test_a_transition_that_is_too_short_names_the_shortest(easing: Easing) -> None:
     ir = morph(20)
     shown = ir.keyframes.mission.displays[0]
 
     def asked(seconds: float) -> Outcome[ShowIR]:
-        pictures = (shown.pictures[0], shown.pictures[1]._replace(transition=seconds), shown.pictures[2])
+        second = shown.pictures[1]._replace(transition=seconds, easing=easing)
+        pictures = (shown.pictures[0], second, shown.pictures[2])
         return AssignGoals().run(_with_display(ir, shown._replace(pictures=pictures)), CONTEXT)
 
     (found,) = asked(0.5).diagnostics
     assert found.code == "D080"
+    assert found.message.endswith("with `easing: linear`" if easing == "linear" else "possible")
     shortest = float(found.help.split("transition: ")[1].split("`")[0])
     assert asked(shortest).value is not None
     assert asked(shortest - 0.02).value is None

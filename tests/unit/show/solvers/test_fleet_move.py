@@ -5,8 +5,23 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shotc.show.solvers.move import LIMIT_SHARE, PIECES, WORTH_RATIO, fastest, least_piece, least_pieces
+from shotc.geom.bernstein import Array
+from shotc.ir.show import Easing
+from shotc.show.geom.arcs import Gaps
+from shotc.show.solvers.arc_move import ArcMove, fastest_arc
+from shotc.show.solvers.move import (
+    EVEN_SHARE,
+    LIMIT_SHARE,
+    PIECES,
+    WORTH_RATIO,
+    Move,
+    fastest,
+    least_piece,
+    least_pieces,
+)
 from tests.support.fleet_scenes import LIMITS
+
+EASINGS: tuple[Easing, ...] = ("ease-in-out", "linear", "ease-in", "ease-out")
 
 
 @pytest.mark.parametrize("pieces", [3, 5, 20])
@@ -25,3 +40,62 @@ def test_a_move_takes_hardly_longer_than_any_shape_of_any_number_of_pieces(far: 
     shortest = min(pieces * least_piece(pieces, ways, LIMITS) for pieces in PIECES)
     assert move.duration <= 1.002 * WORTH_RATIO * shortest
     assert move.duration >= far / (LIMIT_SHARE * LIMITS.speed)
+
+
+def speeds(move: Move) -> Array:
+    """Control points of s' over the time of the move: what is between them lies in their hull."""
+    return np.asarray(np.diff(move.s) * move.pieces)
+
+
+@pytest.mark.parametrize("far", [2.0, 20.0, 200.0])
+@pytest.mark.parametrize("easing", EASINGS)
+def test_a_move_speeds_up_once_and_slows_down_once_as_its_easing_says(easing: Easing, far: float) -> None:
+    ways = np.array([[far, 0.0, 0.0], [0.0, 0.3 * far, 0.1 * far]])
+    move = fastest(ways, LIMITS, 1.0, easing)
+    assert (move.s[:3] == 0.0).all()
+    assert (move.s[-3:] == 1.0).all()
+    rate = speeds(move)
+    up = np.diff(rate)
+    turns = np.flatnonzero(np.abs(up) > 1e-9)
+    assert (np.diff(np.sign(up[turns])) <= 0.0).all()  # up, then down, never up again
+    half = float(np.interp(0.5 * (move.pieces + 2), np.arange(move.pieces + 3), move.s))
+    # Of CSS: cubic-bezier(0.42, 0, 1, 1) is at 0.315 half-way, and ease-out at 0.685.
+    low, high = {"ease-in": (0.25, 0.38), "ease-out": (0.62, 0.75)}.get(easing, (0.499, 0.501))
+    assert low <= half <= high
+    if easing == "linear":
+        assert rate.max() <= 1.0 / EVEN_SHARE
+    assert move.duration >= fastest(ways, LIMITS, 1.0).duration / WORTH_RATIO
+    for way in ways:
+        shares = [np.abs(np.diff(move.s, k)).max() / move.piece**k for k in (1, 2, 3)]
+        across = float(np.hypot(*way[:2]))
+        assert shares[0] * across <= LIMITS.speed
+        assert shares[0] * way[2] <= LIMITS.climb
+        assert shares[1] * np.linalg.norm(way) <= LIMITS.usable_acceleration
+        assert shares[2] * np.linalg.norm(way) <= LIMITS.jerk
+
+
+def test_slow_at_the_end_is_slow_at_the_beginning_flown_back() -> None:
+    ways = np.array([[30.0, 0.0, 0.0]])
+    one, other = (fastest(ways, LIMITS, 1.0, easing) for easing in ("ease-in", "ease-out"))
+    assert one.piece == other.piece
+    assert np.allclose(one.s, 1.0 - other.s[::-1], atol=1e-12)
+
+
+def test_arcs_are_flown_by_the_easing() -> None:
+    # Two level sheets, as dense as they may be, one turned by a right angle and matched that way.
+    sheet = np.array([[1.5 * (k % 6 - 2.5), 1.5 * (k // 6 - 2.5), 0.0] for k in range(36)])
+    ends = sheet, sheet[:, [1, 0, 2]] * np.array([-1.0, 1.0, 1.0])
+
+    def share(easing: Easing) -> float:
+        """How much of the quarter turn is flown after half of the time."""
+        move = fastest_arc(ends, np.zeros(3), Gaps(1.0, 1.0), LIMITS, 1.0, easing)
+        assert isinstance(move, ArcMove)
+        at = 0.5 * (move.pieces + 2)
+        a, b = (np.interp(at, np.arange(move.pieces + 3), move.ctrl[:, k]) for k in range(2))
+        return float(np.arctan2(b, a) / (np.pi / 2))
+
+    first, even, both, last = map(share, ("ease-in", "linear", "ease-in-out", "ease-out"))
+    assert even == pytest.approx(0.5, abs=0.02)
+    assert both == pytest.approx(0.5, abs=0.02)
+    assert first < 0.4
+    assert last > 0.6
