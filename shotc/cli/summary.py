@@ -264,7 +264,9 @@ def _on_pads(plan: VerifiedIR) -> Iterator[str]:
     """Name the drones and fleets that the plan does not fly, and how near those come that it does."""
     ir = plan.trajectory
     names = [f"{track.drone} films nothing and stands on its pad" for track in parked(ir)]
-    names += [f"fleet {fleet.name} shows nothing and stands on its pads" for fleet in parked_fleets(ir)]
+    names += [
+        f"{fleet.kind} {fleet.name} shows nothing and stands on its pads" for fleet in parked_fleets(ir)
+    ]
     who = [*(track.drone for track in parked(ir)), *(fleet.name for fleet in parked_fleets(ir))]
     for name, text in zip(who, names, strict=True):
         near = [claim for claim in plan.certificate if claim.constraint == APART + name]

@@ -32,7 +32,7 @@ from shotc.importers.flights.wpml import WAYLINES
 from shotc.importers.notes import label
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import drone_names, kept_from_cameras
+from shotc.ir.show import drone_names, kept_from_cameras, whole_fleets
 from shotc.ir.trajectory import Claim
 from shotc.lowering import lower_for_flights
 from shotc.source.file import SourceFile
@@ -168,8 +168,7 @@ def _proved(
     mission = keyframes.mission
     swarms = [
         Swarm.of(mission, fleet, tuple(found[name] for name in drone_names(fleet)))
-        for fleet in mission.fleets
-        if drone_names(fleet)[0] in found
+        for fleet in whole_fleets(f for f in mission.fleets if drone_names(f)[0] in found)
     ]
     films = [found[drone.name] for drone in mission.drones if drone.name in found]
     try:
@@ -197,8 +196,8 @@ def _proved(
 
 def _beside_pads(keyframes: KeyframeIR, swarms: Sequence[Swarm]) -> KeyframeIR:
     """Return the mission with the fleets alone that have no files, and so stand on their pads."""
-    flown = {swarm.fleet.name for swarm in swarms}
-    fleets = tuple(fleet for fleet in keyframes.mission.fleets if fleet.name not in flown)
+    flown = {flight.name for swarm in swarms for flight in swarm.flights}
+    fleets = tuple(fleet for fleet in keyframes.mission.fleets if drone_names(fleet)[0] not in flown)
     return keyframes._replace(mission=keyframes.mission._replace(fleets=fleets))
 
 

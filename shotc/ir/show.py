@@ -3,6 +3,7 @@
 World frame W, metres, radians, seconds. A fleet's drones carry a light and no camera.
 """
 
+from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
 from shotc.ir.effects import Color, Effect
@@ -44,9 +45,23 @@ def stricter(one: Apart, other: Apart) -> Apart:
     return Apart(shape, max(one.across, other.across), max(one.upright, other.upright), 0.0)
 
 
-class Fleet(NamedTuple):
-    """Drones of one model that draw together.
+class FleetGroup(NamedTuple):
+    """Which drones of a fleet draw together, where it has groups.
 
+    of : name of the fleet; name : of the group, empty for the drones that are in none
+    numbers : of its drones in the fleet, from 1, rising; total : drones of the fleet
+    """
+
+    of: str
+    name: str
+    numbers: tuple[int, ...]
+    total: int
+
+
+class Fleet(NamedTuple):
+    """Drones of one model that draw together: a fleet, or a group of one.
+
+    name : of a group ``fleet/group``; the drones of a fleet that are in no group have the fleet's
     pads : p_WB of every drone at rest, in the order of their numbers
     rise : metres above its pad to which each drone rises, straight up, before it goes anywhere
     radius : of the body sphere, m; endurance : s
@@ -61,6 +76,57 @@ class Fleet(NamedTuple):
     endurance: float
     apart: Apart
     path: KeyPath
+    group: FleetGroup | None = None
+
+    @property
+    def kind(self) -> str:
+        """Whether it is a fleet, or the drones of one that are in no group, or a group."""
+        return "group" if self.group is not None and self.group.name else "fleet"
+
+    @property
+    def words(self) -> str:
+        """What messages call it."""
+        return f"{self.kind} `{self.name}`"
+
+    @property
+    def key(self) -> KeyPath:
+        """Where the mission says which drones it has; ``path`` is where it says all else of them."""
+        if self.group is None or not self.group.name:
+            return self.path
+        return (*self.path, "groups", self.group.name)
+
+    @property
+    def numbers(self) -> tuple[int, ...]:
+        """The numbers of its drones, from 1, in the order of its pads."""
+        return tuple(range(1, len(self.pads) + 1)) if self.group is None else self.group.numbers
+
+
+def group_name(fleet: str, group: str | None) -> str:
+    """Return the name of a group of a fleet; names of the language have no slash."""
+    return fleet if group is None else f"{fleet}/{group}"
+
+
+def fleet_name(name: str) -> str:
+    """Return the name of the fleet that a group is of, or its own of a fleet."""
+    return name.partition("/")[0]
+
+
+def whole_fleets(fleets: Iterable[Fleet]) -> tuple[Fleet, ...]:
+    """Return fleets whose groups are put together again, those of them that there are."""
+    parts: dict[str, list[Fleet]] = {}
+    for fleet in fleets:
+        parts.setdefault(fleet_name(fleet.name), []).append(fleet)
+    return tuple(_joined(name, found) for name, found in parts.items())
+
+
+def _joined(name: str, parts: list[Fleet]) -> Fleet:
+    group = parts[0].group
+    if group is None:
+        return parts[0]
+    pads = sorted((n, pad) for part in parts for n, pad in zip(part.numbers, part.pads, strict=True))
+    numbers = tuple(number for number, _ in pads)
+    whole = None if len(pads) == group.total else FleetGroup(name, "", numbers, group.total)
+    return parts[0]._replace(name=name, pads=tuple(pad for _, pad in pads), group=whole)
 
 
 def kept_from_cameras(separation: float, fleet: Fleet) -> float:
@@ -248,6 +314,27 @@ class Display(NamedTuple):
 
 
 def drone_names(fleet: Fleet) -> tuple[str, ...]:
-    """Return the names of a fleet's drones, in the order of their numbers: ``swarm-001`` and on."""
-    digits = len(str(len(fleet.pads)))
-    return tuple(f"{fleet.name}-{i:0{digits}d}" for i in range(1, len(fleet.pads) + 1))
+    """Return the names of a fleet's drones, in the order of their numbers: ``swarm-001`` and on.
+
+    Those of a group have the names and the numbers of the fleet.
+    """
+    digits = len(str(len(fleet.pads) if fleet.group is None else fleet.group.total))
+    name = fleet_name(fleet.name)
+    return tuple(f"{name}-{i:0{digits}d}" for i in fleet.numbers)
+
+
+def rows_of(fleet: Fleet, cue: PyroCue) -> tuple[int, ...]:
+    """Return the rows, from 0, of the drones of a fleet or a group that a cue is for."""
+    row = {number: i for i, number in enumerate(fleet.numbers)}
+    return tuple(row[number] for number in cue.drones)
+
+
+def spans(numbers: Iterable[int]) -> str:
+    """Write numbers that rise as ranges: ``1-20, 75``."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][1] + 1:
+            runs[-1][1] = number
+        else:
+            runs.append([number, number])
+    return ", ".join(str(a) if a == b else f"{a}-{b}" for a, b in runs)

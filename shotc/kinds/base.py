@@ -4,7 +4,7 @@ A kind reads everything it may read from its ``Scene`` and gives an ``Expansion`
 kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours come the same way.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from shotc.diag.model import Diagnostic
@@ -109,7 +109,7 @@ class Scene(NamedTuple):
     origin : of W on the earth, if the mission gives one; geodetic positions need it
     read : bytes of a file that the mission names under a key path, or what is wrong with it
     match : names of the files that a pattern under a key path stands for, 2 before 10, or what is wrong
-    pace : of the mission's rules; fleets : their names
+    pace : of the mission's rules; fleets : the names of their groups, by name
     ground : z of the ground at x and y, metres
     music : of the mission, or None
     """
@@ -124,7 +124,7 @@ class Scene(NamedTuple):
     read: Callable[[str, KeyPath], bytes | Diagnostic]
     match: Callable[[str, KeyPath], tuple[str, ...] | Diagnostic]
     pace: float
-    fleets: tuple[str, ...] = ()
+    fleets: Mapping[str, Collection[str]] = {}
     ground: GroundHeight = flat
     music: Music | None = None
 

@@ -9,7 +9,7 @@ from pydantic.json_schema import JsonSchemaValue
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Timing
-from shotc.ir.show import Display, Picture
+from shotc.ir.show import Display, Picture, group_name
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.effect_stack import effects_of
 from shotc.kinds.effects import MOST_EFFECTS, DisplayEffectSpec
@@ -55,6 +55,7 @@ class DisplayShot(ShotBase):
     kind: Literal["display"] = Field(description="what sort of shot it is")
     drone: Name = Field(default=NO_DRONE, description="not for a display: it has a fleet")
     fleet: Name = Field(description="name of the fleet that draws")
+    group: Name | None = Field(default=None, description="name of the group of that fleet that draws alone")
     frames: Frames = Field(description="what it draws: pictures in order, or the files of an animation")
     viewpoint: Position | None = Field(default=None, description="where the audience is")
     viewpoint_weight: Annotated[float, WeightType()] | None = Field(
@@ -89,7 +90,7 @@ def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> 
     weight = BALANCED if shot.viewpoint_weight is None else shot.viewpoint_weight
     return Display(
         id=shot.id,
-        fleet=shot.fleet,
+        fleet=group_name(shot.fleet, shot.group),
         pictures=pictures,
         viewpoint=None if shot.viewpoint is None else scene.place(shot.viewpoint),
         weight=inf if shot.viewpoint is None else weight,
@@ -101,10 +102,24 @@ def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> 
 
 def _unknown_fleet(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
     if shot.fleet in scene.fleets:
+        yield from _unknown_group(shot, scene)
         return
     help_ = nearest(shot.fleet, dict.fromkeys(scene.fleets)) if scene.fleets else "define it under `fleets`"
     label = scene.origins.value((*scene.path, "fleet"))
     yield Diagnostic("N003", f"unknown fleet `{shot.fleet}`", (label,), help=help_)
+
+
+def _unknown_group(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
+    known = scene.fleets[shot.fleet]
+    if shot.group is None or shot.group in known:
+        return
+    help_ = (
+        nearest(shot.group, known)
+        if known
+        else f"give it drones, as `groups: {{{shot.group}: 1-20}}` of the fleet"
+    )
+    label = scene.origins.value((*scene.path, "group"))
+    yield Diagnostic("N020", f"fleet `{shot.fleet}` has no group `{shot.group}`", (label,), help=help_)
 
 
 def _useless(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:

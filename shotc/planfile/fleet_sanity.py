@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import isfinite
 
 import numpy as np
 
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import Display, Fleet, Model, Picture
+from shotc.ir.show import Display, Fleet, FleetGroup, Model, Picture, group_name
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.planfile.light_sanity import light_faults
 
@@ -27,10 +28,13 @@ def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
     mission = ir.keyframes.mission
     for i, fleet in enumerate(mission.fleets):
         yield from _fleet(fleet, f"mission.fleets[{i}]")
-    names = {fleet.name for fleet in mission.fleets}
+    drones = {fleet.name: set(fleet.numbers) for fleet in mission.fleets}
     for i, display in enumerate(mission.displays):
-        if display.fleet not in names:
+        if display.fleet not in drones:
             yield f"mission.displays[{i}].fleet", f"there is no fleet `{display.fleet}`"
+        for k, cue in enumerate(display.pyro):
+            if not drones.get(display.fleet, set()).issuperset(cue.drones):
+                yield f"mission.displays[{i}].pyro[{k}].drones", f"not all are drones of `{display.fleet}`"
         yield from _display(display, f"mission.displays[{i}]")
     for i, track in enumerate(ir.fleets):
         yield from _track(track, mission, f"fleets[{i}]")
@@ -51,6 +55,16 @@ def _fleet(fleet: Fleet, path: str) -> Iterator[Fault]:
             yield f"{path}.{name}", f"{value:g} is negative"
     if not 0 < len(fleet.pads) <= LARGEST_FLEET:
         yield f"{path}.pads", f"there are {len(fleet.pads)}, 1 to {LARGEST_FLEET} are possible"
+    if fleet.group is not None:
+        yield from _group(fleet, fleet.group, f"{path}.group")
+
+
+def _group(fleet: Fleet, group: FleetGroup, path: str) -> Iterator[Fault]:
+    if fleet.name != group_name(group.of, group.name or None):
+        yield f"{path}.name", f"the group is called `{group.name}`, and the fleet `{fleet.name}`"
+    rising = all(a < b for a, b in pairwise((0, *group.numbers, group.total + 1)))
+    if len(group.numbers) != len(fleet.pads) or not rising:
+        yield f"{path}.numbers", f"they are not {len(fleet.pads)} numbers that rise from 1 to {group.total}"
 
 
 def _display(display: Display, path: str) -> Iterator[Fault]:

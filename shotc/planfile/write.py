@@ -102,6 +102,7 @@ def _used(mission: MissionIR, certificate: tuple[Claim, ...]) -> Iterator[KeyPat
         paths += [element.path for element in named]
     for shown in (mission.fleets, mission.displays):
         paths += [element.path for element in shown]
+    paths += [fleet.key for fleet in mission.fleets]
     paths += [keyframe.path for shot in mission.shots for keyframe in shot.keyframes]
     for path in paths:
         for end in range(1, len(path) + 1):

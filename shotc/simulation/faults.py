@@ -33,7 +33,7 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
     end = max((track.curve.end for track in ir.drones), default=0.0)
     taken = mission.wind_taken
     carried = [(f"drone `{d.name}`", d.limits.speed + taken, d.path) for d in mission.drones]
-    carried += [(f"fleet `{f.name}`", f.limits.speed + mission.wind, f.path) for f in mission.fleets]
+    carried += [(f.words, f.limits.speed + mission.wind, f.path) for f in mission.fleets]
     for name, most, path in carried:
         if wind >= most:
             yield Diagnostic(

@@ -5,10 +5,12 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from shotc.spec import presets
+from shotc.spec.drone_numbers import DroneNumbers
 from shotc.spec.drones import LimitsSpec, ModelName
 from shotc.spec.fields import (
     Count,
     Duration,
+    Name,
     NonNegativeLength,
     PositiveLength,
     RelativePath,
@@ -75,6 +77,15 @@ class FleetSpec(Model):
     separation: SeparationSpec | None = Field(
         default=None, description="how far apart they stay, one distance or several; the rules' if silent"
     )
+    groups: dict[Name, DroneNumbers] = Field(
+        default={}, description="numbers of drones that draw apart from the rest of the fleet, by group"
+    )
     rise: PositiveLength = Field(
         default=presets.RISE, description="how far each rises, straight up, before it goes anywhere"
     )
+
+
+def in_no_group(fleet: FleetSpec) -> tuple[int, ...]:
+    """Return the numbers of the drones of a fleet that are in none of its groups; they rise."""
+    taken = {number for numbers in fleet.groups.values() for number in numbers}
+    return tuple(number for number in range(1, fleet.count + 1) if number not in taken)

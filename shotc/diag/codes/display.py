@@ -5,6 +5,7 @@ from __future__ import annotations
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes import flights, lights, pictures
 from shotc.diag.codes._filmed_shows import FIRED, NAMED
+from shotc.diag.codes._grouped import GROUPED
 from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._slips import slip
 from shotc.diag.model import Severity
@@ -294,8 +295,8 @@ CODES: tuple[CodeInfo, ...] = (
             "D023",
             "idle-fleet",
             "a fleet shows nothing",
-            "No display names the fleet, so it stays on its pads, and others keep clear of it. Give it a display, or "
-            "remove it.",
+            "No display names the fleet, or the group of one, or the drones that are in no group. They stay on their pads, and "
+            "others keep clear of them. Give them a display, or remove them.",
             _TWO,
             ("fleet: other", "fleet: swarm"),
             ("center: [-40, 0, 40]", "center: [0, 0, 40]"),
@@ -338,4 +339,5 @@ CODES: tuple[CodeInfo, ...] = (
     *MUSICAL,
     *NAMED,
     *FIRED,
+    *GROUPED,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._grouped import UNKNOWN
 from shotc.diag.codes._identified import IDENTIFIED
 from shotc.diag.codes._obstacles import FILES
 from shotc.diag.codes._slips import slip
@@ -133,4 +134,5 @@ CODES: tuple[CodeInfo, ...] = (
     ),
     *FILES,
     *IDENTIFIED,
+    *UNKNOWN,
 )

@@ -124,7 +124,7 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Lac
     far = straight_spacing(fleet.apart)
     return Diagnostic(
         "D089",
-        f"fleet `{fleet.name}` swells into {what} {to}: {metres} m are missing",
+        f"{fleet.words} swells into {what} {to}: {metres} m are missing",
         (where, beside),
         (
             "on arcs a fleet is up to 1.42 times as wide half-way as its wider picture; it was led over and "

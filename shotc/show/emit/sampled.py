@@ -3,41 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from shotc.emit.fleet_rows import BATCH
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
-from shotc.ir.fleet import Colors
+from shotc.ir.fleet import Colors, FleetTrajectory
 from shotc.ir.light_colors import light_colors
+from shotc.ir.mission import MissionIR
 from shotc.ir.show import PyroCue, drone_names
 from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.numbered import by_number
 from shotc.show.emit.pyro_cues import carried
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampled:
-    """One drone: its places (T, 3), metres, W, the colours of its light (L, 3), and the products it fires."""
+    """One drone: its places (T, 3), metres, W, the colours of its light (L, 3), and the products it fires.
+
+    number : from 1, among those of all fleets that fly
+    """
 
     fleet: str
     name: str
     places: Array
     colors: Colors
     pyro: tuple[PyroCue, ...] = ()
+    number: int = 1
 
 
 def sampled(plan: VerifiedIR, times: Array, lit: Array) -> Iterator[Sampled]:
-    """Yield all drones; times : of places, s, shape (T,); lit : of colours, s, shape (L,)."""
+    """Yield all drones by their numbers; times : of places, lit : of colours, s, shape (T,) and (L,)."""
     mission = plan.trajectory.keyframes.mission
-    for flight in plan.trajectory.fleets:
-        names = drone_names(mission.fleet(flight.fleet))
-        fired = carried(mission.displays, flight.fleet, len(names))
-        for first in range(0, len(names), BATCH):
-            some = slice(first, first + BATCH)
-            at = places(flight.breaks, flight.coef[some], times)
-            shone = light_colors(flight, lit, some)
-            for name, there, colors, cues in zip(names[some], at, shone, fired[some], strict=True):
-                yield Sampled(flight.fleet, name, there, colors, tuple(cues))
+    flights = {f.fleet: _sampled(mission, f, times, lit) for f in plan.trajectory.fleets}
+    for number, drone in by_number(mission, flights):
+        yield replace(drone, number=number)
+
+
+def _sampled(mission: MissionIR, flight: FleetTrajectory, times: Array, lit: Array) -> Iterator[Sampled]:
+    fleet = mission.fleet(flight.fleet)
+    names, fired = drone_names(fleet), carried(mission.displays, fleet)
+    for first in range(0, len(names), BATCH):
+        some = slice(first, first + BATCH)
+        at = places(flight.breaks, flight.coef[some], times)
+        shone = light_colors(flight, lit, some)
+        for name, there, colors, cues in zip(names[some], at, shone, fired[some], strict=True):
+            yield Sampled(flight.fleet, name, there, colors, tuple(cues))
 
 
 def count(plan: VerifiedIR) -> int:

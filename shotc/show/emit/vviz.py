@@ -62,9 +62,10 @@ def _parts(plan: VerifiedIR) -> Iterator[bytes]:
     times, frames = clock(PLACES_HZ, end), clock(COLORS_HZ, end)
     head = _dumped({**_head(plan), "performances": []})
     yield head.removesuffix("]}").encode()
-    for number, drone in enumerate(sampled(plan, times, frames), 1):
-        comma = "," if number > 1 else ""
-        yield f"{comma}{_dumped(_performance(plan, drone, number))}".encode()
+    comma = ""
+    for drone in sampled(plan, times, frames):
+        yield f"{comma}{_dumped(_performance(plan, drone))}".encode()
+        comma = ","
     yield b"]}\n"
 
 
@@ -92,11 +93,11 @@ def _tags(plan: VerifiedIR) -> list[Json]:
     return [{"time": time, "tagType": "EffectStart", "tagID": name} for time, name in shown]
 
 
-def _performance(plan: VerifiedIR, drone: Sampled, number: int) -> Json:
+def _performance(plan: VerifiedIR, drone: Sampled) -> Json:
     millimetres = np.round(1e3 * drone.places[:, [0, 2, 1]]).astype(np.int64)
     home = [value / 1e3 for value in millimetres[0].tolist()]
     return {
-        "id": number,
+        "id": drone.number,
         "agentDescription": {
             **dict(zip(("homeX", "homeY", "homeZ"), home, strict=True)),
             "homeH": NORTH_DEG,

@@ -96,9 +96,9 @@ def fleets_meet(
     x, y, z = nearest.position
     return Diagnostic(
         "D087",
-        f"fleets `{fleets[0].name}` and `{fleets[1].name}` come within {nearest.attained:.2f} m of each "
+        f"{fleets[0].words} and {fleets[1].words} come within {nearest.attained:.2f} m of each "
         f"other at {nearest.time:.2f} s, and {across:.2f} m is the least",
-        tuple(mission.origins.key(fleet.path) for fleet in fleets),
+        tuple(mission.origins.key(fleet.key) for fleet in fleets),
         (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
         f"{_in_turn(*flights)}, or bring their pads and pictures farther apart",
     )

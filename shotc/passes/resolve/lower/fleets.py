@@ -8,13 +8,13 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.limits import Vec3
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Apart, Fleet
+from shotc.ir.show import Apart, Fleet, FleetGroup, group_name
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.world import Put, becalmed, beyond_model, limits_of
-from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec
+from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec, in_no_group
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS
 
@@ -33,11 +33,51 @@ def fleets_of(spec: MissionSpec, put: Put, files: Files) -> tuple[tuple[Fleet, .
             continue
         fleet = _fleet(name, written, spec, pads)
         wrong = [*becalmed("fleet", fleet, spec.world.wind.speed, files.origins), *_touching(fleet, files)]
-        wrong += beyond_model("fleet", written, path, files.origins)
+        wrong += [*beyond_model("fleet", written, path, files.origins), *_not_grouped(written, path, files)]
         faults += wrong
         if not has_errors(wrong):
-            fleets.append(fleet)
+            fleets += _grouped(fleet, written)
     return tuple(fleets), faults
+
+
+def _grouped(fleet: Fleet, written: FleetSpec) -> list[Fleet]:
+    """Return the fleet, or, where it has groups, the drones that are in none, and each group by itself."""
+    if not written.groups:
+        return [fleet]
+    rest = in_no_group(written)
+    parts = [("", rest)] if rest else []
+    return [_part(fleet, name, numbers) for name, numbers in (*parts, *written.groups.items())]
+
+
+def _part(fleet: Fleet, name: str, numbers: tuple[int, ...]) -> Fleet:
+    return fleet._replace(
+        name=group_name(fleet.name, name or None),
+        pads=tuple(fleet.pads[number - 1] for number in numbers),
+        group=FleetGroup(fleet.name, name, numbers, len(fleet.pads)),
+    )
+
+
+def _not_grouped(written: FleetSpec, path: KeyPath, files: Files) -> list[Diagnostic]:
+    """Return the groups that name drones which the fleet does not have, or which are in another group."""
+    faults: list[Diagnostic] = []
+    group_of: dict[int, str] = {}
+    for name, numbers in written.groups.items():
+        label = files.origins.value((*path, "groups", name))
+        if numbers[-1] > written.count:
+            labels = (label, files.origins.value((*path, "count"), "the count"))
+            message = f"fleet `{path[-1]}` has {written.count} drones, and no drone {numbers[-1]}"
+            help_ = f"give numbers from 1 to {written.count}, or write `count: {numbers[-1]}`"
+            faults.append(Diagnostic("D135", message, labels, help=help_))
+        shared = [number for number in numbers if number in group_of]
+        if shared:
+            other = group_of[shared[0]]
+            labels = (label, files.origins.value((*path, "groups", other), "and here"))
+            message = f"drone {shared[0]} of fleet `{path[-1]}` is in groups `{other}` and `{name}`"
+            notes = (f"they share {len(shared)} drones",) if len(shared) > 1 else ()
+            help_ = "a drone flies one show: leave it out of one of them"
+            faults.append(Diagnostic("D134", message, labels, notes, help_))
+        group_of |= {number: group_of.get(number, name) for number in numbers}
+    return faults
 
 
 def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, ...]) -> Fleet:
@@ -74,7 +114,7 @@ def _touching(fleet: Fleet, files: Files) -> list[Diagnostic]:
     if path not in files.origins.keys and ("rules", "separation") not in files.origins.keys:
         label = files.origins.key(fleet.path)
     note = f"their centres may come within {least:.2f} m, and each body has a radius of {fleet.radius:.2f} m"
-    message = f"two drones of fleet `{fleet.name}` may touch"
+    message = f"two drones of {fleet.words} may touch"
     return [Diagnostic("D003", message, (label,), (note,), f"ask for {bodies:.2f} m or more either way")]
 
 

@@ -8,7 +8,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.shapes import BoxShape, CylinderShape
 from shotc.ir.limits import Vec3
 from shotc.ir.origin import OriginMap
-from shotc.ir.show import Box, Model, Picture, Sphere, Torus
+from shotc.ir.show import Box, Model, Picture, Sphere, Torus, fleet_name
 from shotc.ir.target import Target
 from shotc.passes.resolve.lower.fleets import apart_of
 from shotc.spec.mission import MissionSpec
@@ -53,7 +53,7 @@ def unread_names(spec: MissionSpec, displays: "Iterable[Display]") -> Mapping[st
 
 def _room(spec: MissionSpec, display: "Display") -> float:
     """Return how far lights may stand outside what they show, m: half of what they are apart at least."""
-    fleet, least = spec.fleets.get(display.fleet), spec.rules.separation
+    fleet, least = spec.fleets.get(fleet_name(display.fleet)), spec.rules.separation
     return 0.5 * (least if fleet is None else apart_of(fleet, least).across)
 
 

@@ -102,7 +102,7 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
         read=cast.read,
         match=cast.match,
         pace=spec.rules.pace,
-        fleets=tuple(spec.fleets),
+        fleets={name: fleet.groups for name, fleet in spec.fleets.items()},
         ground=cast.ground,
         music=cast.music,
     )

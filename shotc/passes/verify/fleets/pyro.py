@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import Bound
 from shotc.ir.parked import bodies, parked_fleets
-from shotc.ir.show import Display, PyroCue
+from shotc.ir.show import Display, PyroCue, rows_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, Worst, held
 from shotc.passes.verify.fleets.flight import FleetFlight
@@ -53,10 +53,10 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
     if span[0] >= span[1]:
         return
     worst: dict[str, tuple[Bound, str]] = {}
-    for number in cue.drones:
-        for what, bound in _distances(ir, flights, burns, number - 1, span):
+    for row in rows_of(flight.fleet, cue):
+        for what, bound in _distances(ir, flights, burns, row, span):
             if what not in worst or bound.proven < worst[what][0].proven:
-                worst[what] = bound, flight.names[number - 1]
+                worst[what] = bound, flight.names[row]
     for what, (bound, drone) in worst.items():
         name, key = f"{burns.name} from {what}", (*cue.path, "clear")
         limit = Limit(name, cue.clear, "m", key, upper=False, shot=burns.display.id)

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from math import degrees
 from typing import Any
 
-from shotc.ir.show import Display, PyroCue
+from shotc.ir.show import Display, Fleet, PyroCue
 from shotc.show.emit.pyro_cues import carried
 
 
-def programs_of(displays: Sequence[Display], fleet: str, count: int) -> list[dict[str, Any] | None]:
+def programs_of(displays: Sequence[Display], fleet: Fleet) -> list[dict[str, Any] | None]:
     """Return the pyro programme of every drone of a fleet, None of one that carries nothing."""
-    return [_program(cues) if cues else None for cues in carried(displays, fleet, count)]
+    return [_program(cues) if cues else None for cues in carried(displays, fleet)]
 
 
 def _program(cues: Sequence[PyroCue]) -> dict[str, Any]:

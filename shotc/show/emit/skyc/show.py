@@ -20,6 +20,7 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
+from shotc.show.emit.numbered import by_number
 from shotc.show.emit.skyc.curve import DECIMALS, Curves, curves
 from shotc.show.emit.skyc.fireworks import programs_of
 from shotc.show.emit.skyc.lights import programs
@@ -51,11 +52,8 @@ def show_of(plan: VerifiedIR) -> Show:
     control = np.concatenate([curve.control.reshape(-1, 3) for curve in flown])
     kept = [zone for zone in mission.zones if zone.keep == "in"]
     left = tuple(zone for zone in kept if not in_footprint(zone.solid, control[:, :2]).all())
-    drones = [
-        drone
-        for flight, curve in zip(flights, flown, strict=True)
-        for drone in _drones(mission, flight, curve)
-    ]
+    made = {f.fleet: list(_drones(mission, f, curve)) for f, curve in zip(flights, flown, strict=True)}
+    drones = [drone for _, drone in by_number(mission, made)]
     fences = [np.pad(ground_plan(zone.solid), ((0, 0), (0, 1))) for zone in kept if zone not in left]
     content: Json = {
         "version": 1,
@@ -87,7 +85,7 @@ def _turned(points: Array) -> list[list[float]]:
 
 def _drones(mission: MissionIR, flight: FleetTrajectory, found: Curves) -> Iterator[Json]:
     fleet = mission.fleet(flight.fleet)
-    fired = programs_of(mission.displays, fleet.name, len(found.control))
+    fired = programs_of(mission.displays, fleet)
     takeoff = int(found.millis[0])
     times = ((found.millis - takeoff) / 1e3).tolist()
     third = (found.control[:, :, 3] - found.control[:, :, 0]) / 3.0

@@ -6,11 +6,15 @@ from collections.abc import Iterator
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
+from shotc.ir.show import Fleet, group_name
 from shotc.passes.resolve.checks.show.clock import check_clock
 from shotc.passes.resolve.checks.show.pads import check_pads
 from shotc.passes.resolve.checks.show.pictures import check_pictures
 from shotc.passes.resolve.checks.show.pyro import check_pyro
+from shotc.spec.fleets import in_no_group
 from shotc.spec.mission import MissionSpec
+
+SHOWN = 4  # groups of a fleet that a help names
 
 
 def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Diagnostic]:
@@ -19,7 +23,7 @@ def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Di
     order : whether to judge the times; they need displays whose names and waits all stand
     """
     fleets = {fleet.name: fleet for fleet in mission.fleets}
-    faults = [*_idle(mission, spec), *check_pads(mission)]
+    faults = [*_idle(mission, spec), *_nobody_left(mission, spec), *check_pads(mission)]
     for display in mission.displays:
         if display.fleet in fleets:
             faults += check_pictures(mission, display, fleets[display.fleet])
@@ -30,13 +34,46 @@ def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Di
 
 def _idle(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
     """Yield the fleets that no display names."""
-    used = {getattr(shot, "fleet", None) for shot in spec.shots} - {None}
-    if not used <= spec.fleets.keys():  # a name is unknown, which is told, and may be meant for any of them
+    shown = [shot for shot in spec.shots if hasattr(shot, "fleet")]
+    used = {group_name(shot.fleet, getattr(shot, "group", None)) for shot in shown}
+    known = {group_name(name, group) for name, f in spec.fleets.items() for group in (None, *f.groups)}
+    if not used <= known:  # a name is unknown, which is told, and may be meant for any of them
         return
     for fleet in mission.fleets:
         if fleet.name not in used:
-            label = mission.origins.key(fleet.path)
-            message = f"fleet `{fleet.name}` shows nothing"
-            note = "it stays on its pads, and others keep clear of it"
-            help_ = "remove it, or name it as the `fleet` of a display"
-            yield Diagnostic("D023", message, (label,), (note,), help_)
+            yield _shows_nothing(mission, fleet)
+
+
+def _shows_nothing(mission: MissionIR, fleet: Fleet) -> Diagnostic:
+    label, group = mission.origins.key(fleet.key), fleet.group
+    message = f"{fleet.words} shows nothing"
+    note = "it stays on its pads, and others keep clear of it"
+    help_ = "remove it, or name it as the `fleet` of a display"
+    if group is not None:
+        note = "its drones stay on their pads, and others keep clear of them"
+        help_ = f"remove it, or write `group: {group.name}` in a display"
+    if group is not None and not group.name:
+        some = f"{len(fleet.pads)} of {group.total} drones of {fleet.words}"
+        message = f"{some} are in no group, and show nothing"
+        note = "they stay on their pads, and others keep clear of them"
+        help_ = f"put them into a group, or name `{fleet.name}` as the `fleet` of a display without a `group`"
+    return Diagnostic("D023", message, (label,), (note,), help_)
+
+
+def _nobody_left(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
+    """Yield displays of all drones of a fleet that are in no group, where every one is in a group."""
+    for display in mission.displays:
+        fleet = spec.fleets.get(display.fleet)
+        if fleet is not None and not in_no_group(fleet):
+            labels = (
+                mission.origins.value((*display.path, "fleet")),
+                mission.origins.key(("fleets", display.fleet, "groups"), "its groups"),
+            )
+            note = "without a `group`, the drones draw that are in none"
+            some = " or ".join(f"`group: {name}`" for name in list(fleet.groups)[:SHOWN])
+            help_ = (
+                f"write {some}; for a picture by all, give each group a display with its part of it, and all "
+                "the same `start`"
+            )
+            message = f"every drone of fleet `{display.fleet}` is in a group, and `{display.id}` names none"
+            yield Diagnostic("D136", message, labels, (note,), help_)

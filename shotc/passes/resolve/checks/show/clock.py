@@ -261,7 +261,7 @@ def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
         f"its pictures with the ways between take at least {at_least(flight, 1)} s, its endurance is "
         f"{fleet.endurance:.1f} s"
     )
-    message = f"the displays of fleet `{fleet.name}` take longer than it can stay in the air"
+    message = f"the displays of {fleet.words} take longer than it can stay in the air"
     yield Diagnostic(
         "D021", message, labels, (note,), "shorten holds and transitions, or cut the show in two"
     )

@@ -11,7 +11,7 @@ from shotc.geom.apart import spacing
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Apart, Fleet
+from shotc.ir.show import Apart, Fleet, whole_fleets
 from shotc.passes.resolve.checks.home import take_off_room
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.rounding import at_least, up
@@ -24,6 +24,7 @@ FARTHEST, MANY = 60, 400  # metres up to which a free place is looked for, and d
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
     """Yield what is wrong with the pads of each fleet, and between those of different ones."""
+    mission = mission._replace(fleets=whole_fleets(mission.fleets))
     spaced: list[Fleet] = []
     for fleet in mission.fleets:
         crowded = _crowded(mission, fleet)
@@ -49,10 +50,10 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     help_ = wider(mission, fleet, max(spacing(fleet.apart), 2 * fleet.radius))
     if away < 2 * fleet.radius:
         note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"
-        message = f"drones of fleet `{fleet.name}` stand inside each other"
+        message = f"drones of {fleet.words} stand inside each other"
         return Diagnostic("D002", message, (_layout(mission, fleet),), (note,), help_)
     note = f"{which}; the fleet's separation asks for {_asked(fleet.apart)}"
-    message = f"the pads of fleet `{fleet.name}` are too near to each other"
+    message = f"the pads of {fleet.words} are too near to each other"
     return Diagnostic("D001", message, (_layout(mission, fleet),), (note,), help_)
 
 
@@ -135,7 +136,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     z = fleet.pads[low][2]
     if z < -UNEVEN:
         note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
-        message = f"fleet `{fleet.name}` stands underground"
+        message = f"{fleet.words} stands underground"
         higher = _shifted(fleet, (0.0, 0.0, up(-z)))
         help_ = f"raise the layout by {at_least(-z)} m{_anchored(mission, fleet, higher)}"
         yield Diagnostic("D006", message, (label,), (note,), help_)
@@ -154,7 +155,7 @@ def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnosti
     if not lacking:
         return None
     worst = min(lacking, key=lambda i: rooms[i])
-    who = f"{len(lacking)} of {len(fleet.pads)} drones of fleet `{fleet.name}`"
+    who = f"{len(lacking)} of {len(fleet.pads)} drones of {fleet.words}"
     if obstacle.inside:
         message = f"{who} do not rise inside keep-in zone `{obstacle.owner.name}`"
     else:
@@ -226,7 +227,7 @@ def _low_rise(
         f"body radius of {fleet.radius:.2f} m need z = {floor_ + fleet.radius:.2f}"
     )
     labels = (label, mission.origins.key(path, what)) if path in mission.origins.keys else (label,)
-    message = f"fleet `{fleet.name}` does not rise high enough to fly"
+    message = f"{fleet.words} does not rise high enough to fly"
     yield Diagnostic(
         "D007", message, labels, (note,), f"write `rise: {at_least(fleet.rise + lacks)} m` or more"
     )

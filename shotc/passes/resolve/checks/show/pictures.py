@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import floor, inf
 
-from shotc.diag.model import Diagnostic
+from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
 from shotc.geom.solids import signed_distance
 from shotc.ir.limits import Vec3
@@ -71,13 +71,13 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
     word = word_of(picture)
     notes = (
         f"goals are {spacing(fleet.apart):.2f} m apart at least, as the separation asks for",
-        f"no more than {floor(most)} fit {where} this {word}, and fleet `{fleet.name}` has {count}",
+        f"no more than {floor(most)} fit {where} this {word}, and {fleet.words} has {count}",
     )
     factor = growth(picture, fleet.apart, count)
     larger = enlarged(picture, factor, mission.rules.over_ground(fleet.radius))
     labels = (
         mission.origins.key(key_of(picture)),
-        mission.origins.value((*fleet.path, "count"), "the fleet"),
+        _counted(mission, fleet),
     )
     help_ = (
         f"make it at least {at_least(factor, 1)} times as large "
@@ -85,6 +85,13 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
         "drones or fewer, or a smaller separation"
     )
     yield Diagnostic("D018", f"{count} drones do not fit {where} this {word}", labels, notes, help_)
+
+
+def _counted(mission: MissionIR, fleet: Fleet) -> Label:
+    """Return a label on what says how many drones there are."""
+    if fleet.key != fleet.path:
+        return mission.origins.value(fleet.key, "the group")
+    return mission.origins.value((*fleet.path, "count"), "the fleet")
 
 
 def _too_low(

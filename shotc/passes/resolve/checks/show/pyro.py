@@ -7,13 +7,13 @@ from itertools import combinations
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import Display
+from shotc.ir.show import Display, Fleet, spans
 from shotc.rounding import at_least
 
 
 def check_pyro(mission: MissionIR) -> list[Diagnostic]:
     """Return what is wrong with the pyro cues of a mission's displays."""
-    fleets = {fleet.name: len(fleet.pads) for fleet in mission.fleets}
+    fleets = {fleet.name: fleet for fleet in mission.fleets}
     return [
         fault
         for display in mission.displays
@@ -22,14 +22,20 @@ def check_pyro(mission: MissionIR) -> list[Diagnostic]:
     ] + [fault for fleet in fleets for fault in _together(mission, fleet)]
 
 
-def _absent(mission: MissionIR, display: Display, count: int) -> Iterator[Diagnostic]:
+def _absent(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
+    numbers = set(fleet.numbers)
     for cue in display.pyro:
-        wrong = [(i, drone) for i, drone in enumerate(cue.drones) if drone > count]
+        wrong = [(i, drone) for i, drone in enumerate(cue.drones) if drone not in numbers]
         if wrong:
             index, drone = wrong[0]
-            label = mission.origins.value((*cue.path, "drones", index))
-            message = f"fleet `{display.fleet}` has {count} drones, and no drone {drone}"
-            yield Diagnostic("D132", message, (label,), help=f"give numbers from 1 to {count}")
+            labels = [mission.origins.value((*cue.path, "drones", index))]
+            message = f"{fleet.words} has {len(numbers)} drones, and no drone {drone}"
+            help_ = f"give numbers from 1 to {len(numbers)}"
+            if fleet.group is not None:
+                message = f"drone {drone} is not among the {len(numbers)} of {fleet.words}"
+                labels.append(mission.origins.value(fleet.key, "its drones"))
+                help_ = f"give their numbers in the fleet: {spans(fleet.numbers)}"
+            yield Diagnostic("D132", message, tuple(labels), help=help_)
 
 
 def _twice(mission: MissionIR, display: Display) -> Iterator[Diagnostic]:

@@ -1,0 +1,67 @@
+"""N020, D134 on: groups of a fleet, which draw apart from the rest of it."""
+
+from __future__ import annotations
+
+from shotc.diag.code_info import CodeInfo
+from shotc.diag.codes._slips import slip
+
+_GROUPED = """\
+shotc: 1
+mission: grouped
+fleets:
+  swarm:
+    count: 40
+    layout: {grid: {spacing: 4, origin: [0, 0, 0]}}
+    groups: {fireworks: 1-8, ring: [9-24, 40]}
+shots:
+  - {id: ball, kind: display, fleet: swarm, frames: [{sphere: {center: [0, 60, 40], radius: 9}, hold: 9}]}
+  - {id: halo, kind: display, fleet: swarm, group: ring, frames: [{cube: {center: [60, 0, 40], size: 18}, hold: 9}]}
+  - id: rain
+    kind: display
+    fleet: swarm
+    group: fireworks
+    frames: [{cube: {center: [0, -60, 30], size: 12}, hold: 9}]
+"""
+
+UNKNOWN: tuple[CodeInfo, ...] = (
+    slip(
+        "N020",
+        "unknown-group",
+        "a display is of a group that its fleet does not have",
+        "`group` of a display refers to a key under `groups` of its fleet. Its pictures, its effects and its pyro cues are all of "
+        "that group, so nothing is judged of them. The nearest known name is proposed. Mend the name, or give the fleet the group.",
+        _GROUPED,
+        ("group: fireworks", "group: firework"),
+    ),
+)
+
+GROUPED: tuple[CodeInfo, ...] = (
+    slip(
+        "D134",
+        "drone-in-two-groups",
+        "a drone of a fleet is in two groups",
+        "Each group has a flight of its own, from its pads to its pads, so a drone is in one group at most. Those that are in none "
+        "draw together in displays without a `group`.",
+        _GROUPED,
+        ("ring: [9-24, 40]", "ring: [8-24, 40]"),
+    ),
+    slip(
+        "D135",
+        "group-beyond-count",
+        "a group names a drone that its fleet does not have",
+        "`groups` are numbers of the fleet's drones, counted from 1 in the order of their pads: row by row in a grid, clockwise from "
+        "the north on a circle, row by row in a file.",
+        _GROUPED,
+        ("ring: [9-24, 40]", "ring: [9-24, 41]"),
+    ),
+    slip(
+        "D136",
+        "nobody-left",
+        "a display is of the drones in no group, and every drone is in one",
+        "Without a `group`, a display is drawn by those drones of its fleet that are in no group. Where each is in one, nobody is "
+        "left to draw it. Name a group. A picture by several groups is several displays, each with its part of the picture, that "
+        "start at the same time.",
+        _GROUPED,
+        ("ring: [9-24, 40]", "ring: 9-40"),
+    ),
+)
