@@ -12,7 +12,7 @@ PYTEST := OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadgroup --no-loadscope-r
 # Tests start many processes: all but the first find the modules compiled.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup demo test test-fast fuzz check lint type fmt layers platforms gen gen-check bless bench mutants papers build clean
+.PHONY: help setup demo test test-all test-fast fuzz check lint type fmt layers platforms gen gen-check bless bench mutants papers build clean
 
 help: ## List the tasks
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 14
@@ -35,16 +35,19 @@ demo: $(STAMP) ## Plan a real mission and say where to look at it
 	$(BIN)/shotc plan specs/westerhever-lighthouse.yaml
 	@echo "  look      out/westerhever-lighthouse/storyboard.png, or play it: $(BIN)/shotc view out/westerhever-lighthouse/plan.json"
 
-test: $(STAMP) ## Run every test
+test: $(STAMP) ## Run the tests that are not marked long, in five minutes
+	$(PYTEST) -m "not long and not fuzz"
+
+test-all: $(STAMP) ## Run every test
 	$(PYTEST)
 
-test-fast: $(STAMP) ## Run the tests that are not marked slow, in a minute
-	$(PYTEST) -m "not slow and not fuzz"
+test-fast: $(STAMP) ## Run the tests that are marked neither slow nor long, in a minute
+	$(PYTEST) -m "not slow and not long and not fuzz"
 
 fuzz: $(STAMP) ## Plan 300 drawn missions, run the long cases, and every property test with new random numbers
 	CI= FUZZ=1 $(PYTEST) -m "fuzz or hypothesis"
 
-check: lint type layers gen-check platforms test build ## Everything, as CI runs it
+check: lint type layers gen-check platforms test-all build ## Everything, as CI runs it
 
 lint: $(STAMP) ## Lint and formatting
 	$(BIN)/ruff check .

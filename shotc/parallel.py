@@ -55,9 +55,9 @@ def as_done(work: Callable[[S], T], items: Sequence[S], hands: Hands) -> Iterato
         yield from (work(item) for item in items)
         return
     with pool_of(workers) as pool:
-        with uninterrupted():
-            waiting = [pool.submit(work, item) for item in items]
         try:
+            with uninterrupted():
+                waiting = [pool.submit(work, item) for item in items]
             yield from (each.result() for each in as_completed(waiting))
         except BrokenExecutor:
             raise Lost from None

@@ -59,6 +59,7 @@ def conditions(mission: str, *refiners: str) -> list[Condition]:
     return list(report.comparison.conditions)
 
 
+@pytest.mark.long
 def test_each_refiner_is_a_row_whether_it_keeps_promises_breaks_them_or_fails(
     run: Run, yard: Path, install: Install
 ) -> None:

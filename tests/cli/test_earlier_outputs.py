@@ -17,6 +17,7 @@ NOTE = (
 )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("options", "folder"), [(("-o", "there"), "there"), ((), "out/look")])
 def test_a_plan_that_fails_names_what_an_earlier_one_left(
     run: Run, tmp_path: Path, options: tuple[str, ...], folder: str

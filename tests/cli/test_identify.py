@@ -66,7 +66,7 @@ def test_the_mission_in_specs_is_what_is_made_of_the_one_with_boxes(run: Run, tm
     assert (tmp_path / "quay-identified.yaml").read_bytes() == (QUAY / "quay-identified.yaml").read_bytes()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_mission_in_specs_plans_without_a_warning() -> None:
     done = compiled(QUAY / "quay-identified.yaml")
     assert done.diagnostics == ()

@@ -24,6 +24,7 @@ def files(good: Path, folder: Path, *flags: str) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+@pytest.mark.long
 def test_jobs_do_not_change_the_files(good: Path, tmp_path: Path) -> None:
     emit = ("--emit", "storyboard,csv,rerun")
     alone = files(good, tmp_path / "one", "--jobs", "1", *emit)
@@ -34,6 +35,7 @@ def test_jobs_do_not_change_the_files(good: Path, tmp_path: Path) -> None:
     assert alone == together
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("jobs", ["0", "-1", "two"])
 def test_jobs_are_a_number(good: Path, jobs: str) -> None:
     done = subprocess.run([*PLAN, str(good), "--jobs", jobs], check=False, capture_output=True, text=True)
@@ -41,6 +43,7 @@ def test_jobs_are_a_number(good: Path, jobs: str) -> None:
     assert "--jobs" in done.stderr
 
 
+@pytest.mark.long
 @LINUX
 @pytest.mark.parametrize("wait", [0.0, 0.2, 0.4])
 def test_an_interrupt_ends_the_workers_too(good: Path, tmp_path: Path, wait: float) -> None:

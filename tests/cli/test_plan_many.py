@@ -150,7 +150,7 @@ def test_the_death_of_a_process_is_noticed() -> None:
     assert done.stdout == "lost\n", done.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="interrupts are sent to a group of processes")
 def test_an_interrupt_ends_a_batch_at_once_and_the_next_goes_on(missions: Path, tmp_path: Path) -> None:
     (missions / "below" / "b.yaml").write_text(GOOD.replace("mission: look", "mission: second"))
@@ -186,7 +186,7 @@ with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_cluster_plans_the_same(missions: Path, tmp_path: Path) -> None:
     """In a process of its own: a cluster leaves threads, and where there are threads nothing may fork."""
     pytest.importorskip("distributed")

@@ -164,7 +164,7 @@ def test_a_refiner_is_told_where_it_broke_the_mission(run: Run, yard: Path, inst
     assert not (yard.parent / "out").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", NEVER)
 @pytest.mark.timeout(60)
 @POSIX
@@ -177,7 +177,7 @@ def test_a_refiner_that_takes_forever_is_stopped(run: Run, good: Path, install: 
     assert "error[R004]: refiner `slow` of package odd-maker was stopped after 1.5 s" in done.err
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @POSIX
 @pytest.mark.timeout(60)
 def test_what_a_refiner_started_ends_with_it(run: Run, good: Path, install: Install) -> None:
@@ -212,7 +212,7 @@ def test_a_refiner_that_takes_forever_keeps_the_convex_path_where_it_may(
     assert "was stopped after 1 s" in done.err
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_refiner_in_time_makes_the_same_plan_in_its_own_process(
     run: Run, yard: Path, install: Install
 ) -> None:
@@ -238,7 +238,7 @@ ENDS = {
 }
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ENDS)
 @POSIX
 def test_however_a_refiner_s_process_ends_it_is_told(
@@ -259,7 +259,7 @@ def test_a_deadline_is_a_time(run: Run, good: Path, seconds: str) -> None:
     assert "--deadline" in done.err
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @POSIX
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize("flags", [[], ["--deadline", "600"]], ids=["here", "there"])

@@ -87,6 +87,7 @@ def document(folder: str = "out"):
     return json.loads((Path(folder) / "simulate.json").read_text())
 
 
+@pytest.mark.long
 def test_a_film_is_flown_and_written(run: Run, given) -> None:
     done = run("simulate", given(asking()), "--seeds", "3", "--gusts", "0.5", "--wind", "2")
     assert done.code == 0
@@ -109,6 +110,7 @@ def test_a_film_is_flown_and_written(run: Run, given) -> None:
     assert np.linalg.norm(off, axis=1).max() == pytest.approx(course["farthest"], abs=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_the_same_seed_gives_the_same_bytes_however_many_processes_fly(run: Run, given, monkeypatch) -> None:
     monkeypatch.setattr("shotc.simulation.runs.BLOCK", 2)
@@ -163,6 +165,7 @@ def test_gusts_that_nobody_flies_in_leave_numbers_finite(run: Run, given) -> Non
     assert "NaN" not in Path("out/simulate.json").read_text()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_a_mission_is_planned_and_flown_in_its_own_wind(run: Run) -> None:
     Path("walker.yaml").write_text(WALKER)
@@ -224,6 +227,7 @@ def test_options_that_mean_nothing_are_mistakes_of_usage(run: Run, given, option
     assert run("simulate", given(walk()), *options).code == 2
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_a_drone_that_plans_anew_is_told_of_and_one_that_cannot_is_refused(run: Run, given) -> None:
     done = run("simulate", given(walk()), "--loop", "replan", "--seeds", "2")
@@ -248,6 +252,7 @@ def show(given) -> str:
     return given(plan())
 
 
+@pytest.mark.long
 def test_fleets_are_flown_and_their_strays_told(run: Run, show: str) -> None:
     done = run("simulate", show, "--seeds", "2")
     assert done.code == 0
@@ -258,6 +263,7 @@ def test_fleets_are_flown_and_their_strays_told(run: Run, show: str) -> None:
     assert {path.name for path in Path("out").iterdir()} == {"simulate.json", "simulate.png"}
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_gusts_take_from_the_separation(run: Run, show: str) -> None:
     def near(*more: str) -> list[float]:
@@ -280,6 +286,7 @@ def test_a_show_says_that_it_feels_no_steady_wind_and_refuses_one_above_its_spee
     assert "carries fleet `swarm` away" in done.err
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(
     ("margin", "verdict"),
@@ -295,6 +302,7 @@ def test_the_margin_is_judged(run: Run, given, margin: float, verdict: str) -> N
         assert 2 * farthest <= proposed <= 2 * farthest + 0.1
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_drones_nearer_than_asked_are_told(run: Run, given) -> None:
     tight = fleet(PADS)._replace(apart=Apart("ellipsoid", 3.9, 3.9, 0.0))

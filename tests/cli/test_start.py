@@ -62,6 +62,7 @@ def test_check_loads_nothing_that_prints_plans_emits_or_makes_schemas(checked):
     assert not [name for name in checked for start in late if name == start or name.startswith(f"{start}.")]
 
 
+@pytest.mark.long
 def test_the_help_of_all_commands_needs_the_base_install_only():
     code, modules = start("--help")
     assert (code, modules & set(OPTIONAL)) == (0, set())

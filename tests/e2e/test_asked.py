@@ -22,6 +22,7 @@ def times_reached(planned: Planned) -> dict[tuple[str, int], float]:
     return {(k.shot, k.index): k.time for track in planned.tracks.values() for k in track.keyframes}
 
 
+@pytest.mark.long
 def test_durations_and_starts_are_met(plan: Plan, path: Path) -> None:
     planned = plan(path)
     flown = phases(planned)
@@ -35,6 +36,7 @@ def test_durations_and_starts_are_met(plan: Plan, path: Path) -> None:
             assert phase.start >= flown[timing.after].end - 1e-9
 
 
+@pytest.mark.long
 def test_rows_of_a_shot_are_those_between_its_ends(plan: Plan, path: Path) -> None:
     planned = plan(path)
     for shot, phase in phases(planned).items():

@@ -115,6 +115,7 @@ def test_the_mission_itself_is_good(folder: Path, capsys: pytest.CaptureFixture[
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.long
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize("command", ["check", "plan"])
 @pytest.mark.parametrize("name", BAD)

@@ -111,6 +111,7 @@ def errors(found: tuple[Diagnostic, ...]) -> list[tuple[str, int]]:
     return [(d.code, d.labels[0].span.line) for d in found if registry()[d.code].severity is Severity.ERROR]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("bad", BAD.values(), ids=BAD)
 def test_it_is_an_error_on_its_line_and_there_is_no_plan(tmp_path: Path, bad: Bad) -> None:
     text = written(bad, tmp_path)
@@ -137,6 +138,7 @@ def test_the_fix_of_heights_that_disagree_works(
     assert check_source(text.replace(old.encode(), new.encode()), "m.yaml", tmp_path).diagnostics == ()
 
 
+@pytest.mark.long
 def test_a_scene_in_millimetres_is_told_with_its_size_and_its_fix_works(tmp_path: Path) -> None:
     text = written(BAD["statue in millimetres"], tmp_path)
     told = check_source(text, "m.yaml", tmp_path).diagnostics

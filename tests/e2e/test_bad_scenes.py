@@ -30,6 +30,7 @@ BAD = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("world", "data", "code", "line"), BAD.values(), ids=BAD)
 def test_it_is_told_where_it_is_written_and_nothing_is(tmp_path, world, data, code, line):
     Path(tmp_path / ("a.geojson" if world == BUILDINGS else "a.ply")).write_bytes(data)

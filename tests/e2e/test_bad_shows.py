@@ -115,6 +115,7 @@ def test_the_mission_itself_is_good(capsys: pytest.CaptureFixture[str]) -> None:
     assert app.run(["plan", "bad.yaml", "--stop-after", "place-goals"]) == 0, capsys.readouterr().err
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BAD)
 def test_it_is_refused(home: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     bad = BAD[name]

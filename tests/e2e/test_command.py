@@ -46,12 +46,12 @@ def content(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_plan_is_written_where_it_says(planned: Path) -> None:
     assert set(content(planned / "out" / "small")) == TABLES
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_results_go_to_the_output_stream(place: Path) -> None:
     result = run(*PLAN, "small.yaml", "-o", "there", folder=place)
     assert (result.code, result.err) == (0, "")
@@ -61,7 +61,7 @@ def test_results_go_to_the_output_stream(place: Path) -> None:
     assert "\x1b" not in result.out
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_mission_comes_from_standard_input(place: Path) -> None:
     result = run(*PLAN, "-", "-o", "piped", folder=place, stdin=SMALL.encode())
     assert (result.code, result.err) == (0, "")
@@ -81,7 +81,7 @@ def test_a_rejected_mission_writes_nothing(place: Path) -> None:
     assert content(place / "out" / "small") == before
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -101,7 +101,7 @@ def test_usage_errors(planned: Path, arguments: list[str]) -> None:
     assert result.err.endswith("try `shotc plan --help`\n")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("moment", ["shotc.passes.place_keyframes", "clarabel", "matplotlib", "1", "4"])
 def test_an_interrupt_leaves_the_old_files(place: Path, moment: str) -> None:
     """While loading, while solving, while drawing, while writing the first file and the last one."""
@@ -113,7 +113,7 @@ def test_an_interrupt_leaves_the_old_files(place: Path, moment: str) -> None:
     assert content(place / "out" / "small") == before
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("emit", ["csv", "rerun"])
 def test_a_full_disk_leaves_the_old_files(place: Path, emit: str) -> None:
     before = content(place / "out" / "small")
@@ -133,7 +133,7 @@ def test_a_full_disk_leaves_the_old_files(place: Path, emit: str) -> None:
     assert content(place / "out" / "small") == before
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("output", ["taken", "/proc/nowhere"])
 def test_a_folder_that_cannot_be_written(place: Path, output: str) -> None:
     (place / "taken").write_text("a file")
@@ -143,7 +143,7 @@ def test_a_folder_that_cannot_be_written(place: Path, output: str) -> None:
     assert (place / "taken").read_text() == "a file"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_reader_that_leaves_early_is_no_error(place: Path) -> None:
     with subprocess.Popen(
         [*SHOTC, *PLAN, "small.yaml", "-o", "there"],
@@ -160,7 +160,7 @@ def test_a_reader_that_leaves_early_is_no_error(place: Path) -> None:
     assert set(content(place / "there")) == TABLES
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "library", ["clarabel", "matplotlib", SOLVERS], ids=["clarabel", "matplotlib", "all"]
 )
@@ -176,7 +176,7 @@ def test_planning_without_its_libraries_says_what_to_install(planned: Path, libr
     assert not (planned / "none").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_planning_without_toppra_gives_a_plan_that_is_proved(place: Path) -> None:
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": "toppra"}
     result = run(*PLAN, "small.yaml", "-o", "there", folder=place, env=env)
@@ -187,7 +187,7 @@ def test_planning_without_toppra_gives_a_plan_that_is_proved(place: Path) -> Non
     assert seen.stdout.strip() == b"None"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("arguments", [["verify"], ["emit"], ["diff", "out/small"]], ids=lambda a: a[0])
 def test_reading_a_plan_without_libraries_says_what_to_install(planned: Path, arguments: list[str]) -> None:
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": SOLVERS}
@@ -196,7 +196,7 @@ def test_reading_a_plan_without_libraries_says_what_to_install(planned: Path, ar
     assert {report.code for report in result.reports} == {"P004"}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_an_output_without_its_library_is_left_out(place: Path) -> None:
     (place / "small.yaml").write_text(SMALL.replace("[csv]", "[rerun, csv]"))
     env = {"PYTHONPATH": SURROUNDINGS, "TEST_HIDE": "rerun"}
@@ -208,7 +208,7 @@ def test_an_output_without_its_library_is_left_out(place: Path) -> None:
     assert set(content(place / "there")) == TABLES
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments", [["check", "small.yaml"], ["list", "kinds"], ["explain", "K004"]], ids=" ".join
 )
@@ -238,7 +238,7 @@ def test_check_loads_no_heavy_module(planned: Path) -> None:
     assert done.stdout == "0 []\n"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["json", "sarif", "github", "concise"])
 def test_reports_for_machines(place: Path, name: str) -> None:
     (place / "wrong.yaml").write_text(WRONG)
@@ -254,7 +254,7 @@ def test_reports_for_machines(place: Path, name: str) -> None:
         assert result.out.startswith("wrong.yaml:8:")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_no_colour_where_none_is_wanted(place: Path) -> None:
     (place / "wrong.yaml").write_text(WRONG)
     for env in ({"NO_COLOR": "1", "FORCE_COLOR": "1"}, {}):

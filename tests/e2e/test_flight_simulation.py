@@ -83,6 +83,7 @@ def fly(rows, gust):
     return position, flown, looked
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("gust", [0.0, 1.0], ids=["still air", "gusts"])
 def test_a_lagging_quadrotor_stays_on_the_trajectory(flight, gust):
     planned, _, rows = flight

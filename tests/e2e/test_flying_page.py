@@ -17,6 +17,7 @@ pytestmark = pytest.mark.slow
 PAGE = (Path(__file__).parents[2] / "shotc" / "docs" / "flying.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_following_what_is_seen_keeps_what_the_plan_alone_does_not() -> None:
     (text,) = re.findall(r"```yaml\n(# walker.yaml\n.*?)```", PAGE, re.DOTALL)
     plan = compiled_text(text).plan

@@ -19,6 +19,7 @@ def slope(level: float):
     return grid(rise[:, None] * np.ones(SIDE), STEP)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("level", few([-80.0, 0.0, 60.0], [-80.0, 60.0]))
 @pytest.mark.parametrize(
     "target",

@@ -293,6 +293,7 @@ def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capt
     return plan
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CASES)
 def test_it_is_refused_with_line_and_numbers_and_its_help_helps(
     planned: Callable[[str], Result], name: str

@@ -35,6 +35,7 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", WORLDS)
 def test_what_cannot_be_judged_is_listed_and_no_fault(place: Path, name: str) -> None:
     done = run("check", f"{name}.yaml", folder=place, env=BARE)
@@ -52,6 +53,7 @@ def test_the_rest_is_judged_beside_a_scene(place: Path) -> None:
     assert "N013" in done.out
 
 
+@pytest.mark.long
 def test_bad_files_are_told_as_far_as_they_can_be(place: Path) -> None:
     (place / "houses.geojson").write_bytes(geojson(feature(square(0, 0, 10), building="yes")))
     done = run("check", "buildings.yaml", folder=place, env=BARE)
@@ -61,6 +63,7 @@ def test_bad_files_are_told_as_far_as_they_can_be(place: Path) -> None:
     assert "N008" in run("check", "scene.yaml", folder=place, env=BARE).out
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", WORLDS)
 def test_nothing_is_planned(place: Path, name: str) -> None:
     done = run("plan", f"{name}.yaml", folder=place, env=BARE)
@@ -69,6 +72,7 @@ def test_nothing_is_planned(place: Path, name: str) -> None:
     assert not (place / "out").exists()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["scene", "buildings"])
 def test_check_of_what_stands_there_loads_numpy_and_nothing_larger(place: Path, name: str) -> None:
     code = (

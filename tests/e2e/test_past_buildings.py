@@ -41,6 +41,7 @@ def planned(folder: Path, text: str, *walls: dict) -> Compilation:
     return compile_source(text.encode(), "m.yaml", folder, PlanOptions(refiner="none"))
 
 
+@pytest.mark.long
 def test_a_wall_across_the_way_is_named_and_the_height_that_is_told_leads_over_it(tmp_path: Path) -> None:
     text = MISSION.replace("TOP", "60").replace("ASIDE", "-19").replace("SHOT", LATERAL)
     done = planned(tmp_path, text, wall(-60, 60, "Long wall"))
@@ -54,6 +55,7 @@ def test_a_wall_across_the_way_is_named_and_the_height_that_is_told_leads_over_i
     assert higher.plan is not None, higher.diagnostics
 
 
+@pytest.mark.long
 def test_a_gap_that_is_too_narrow_tells_the_clearance_with_which_it_is_flown(tmp_path: Path) -> None:
     text = MISSION.replace("TOP", "20").replace("ASIDE", "0").replace("SHOT", "kind: lead, distance: 10")
     walls = wall(-60, -2.2, "South wall"), wall(2.2, 60, "North wall")
@@ -68,6 +70,7 @@ def test_a_gap_that_is_too_narrow_tells_the_clearance_with_which_it_is_flown(tmp
     assert lower.plan is not None, lower.diagnostics
 
 
+@pytest.mark.long
 def test_where_nothing_helps_no_number_is_told(tmp_path: Path) -> None:
     text = MISSION.replace("TOP", "20").replace("ASIDE", "-19").replace("SHOT", LATERAL)
     (told,) = (d for d in planned(tmp_path, text, wall(-60, 60, "Long wall")).diagnostics if d.code == "M009")

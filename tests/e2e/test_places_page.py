@@ -56,7 +56,7 @@ def test_it_checks_clean(folder: Path, text: bytes) -> None:
     assert check_source(text, "mine.yaml", folder).diagnostics == ()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @each
 def test_it_plans_without_a_warning(folder: Path, text: bytes) -> None:
     if BOXES.encode() in text:

@@ -48,6 +48,7 @@ def times(path: str, factor: float) -> Edit:
     return edited(path, lambda old: old * factor)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", each_mission())
 def test_a_plan_is_proved_from_its_bytes_alone(
     plan: Plan, path: Any, tmp_path: Any, monkeypatch: Any
@@ -135,6 +136,7 @@ def shift(document: Document, phase: str, seconds: float) -> None:
     phases[index - 1]["end"] += seconds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EDITS)
 def test_an_edit_that_matters_is_noticed(plan: Plan, name: str) -> None:
     document = json.loads(plan(TOWER).files["plan.json"])
@@ -154,6 +156,7 @@ def test_an_edited_screen_promise_is_noticed(plan: Plan) -> None:
     assert {"V020", "V040"} <= {d.code for d in report.diagnostics}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("channel", range(7))
 def test_every_control_point_counts(plan: Plan, channel: int) -> None:
     """Whichever of the control points moves by a hundredth, something jumps or does not agree."""

@@ -68,6 +68,7 @@ def box(places: Array) -> Array:
     return np.array([places.min(axis=0), places.max(axis=0)])
 
 
+@pytest.mark.long
 def test_what_stands_there_is_in_the_recording_where_it_stands(recording: Recording) -> None:
     mission = recording.mission
     grounds = {} if mission.terrain is None else {"/world/terrain": mission.terrain.ground.surface}

@@ -107,6 +107,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("seeded")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", few(SEEDS, FEW))
 def test_a_show_keeps_what_it_asks_or_says_why_not(seed: int, folder: Path) -> None:
     plan, said = planned(seed, folder)
@@ -120,6 +121,7 @@ def test_a_show_keeps_what_it_asks_or_says_why_not(seed: int, folder: Path) -> N
     assert max(show_files.beyond_limits(fleet).values()) <= 1 + 1e-9
 
 
+@pytest.mark.long
 def test_most_can_be_planned(folder: Path) -> None:
     refused = {seed: said for seed in SEEDS for plan, said in [planned(seed, folder)] if plan is None}
     assert len(refused) <= 5, refused

@@ -62,6 +62,7 @@ SHOTS = {
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SHOTS)
 def test_other_eyes_see_what_is_planned(name: str, tmp_path: Path) -> None:
     path = tmp_path / "shapes.yaml"
@@ -69,6 +70,7 @@ def test_other_eyes_see_what_is_planned(name: str, tmp_path: Path) -> None:
     assert judge(case_of(path)) == []
 
 
+@pytest.mark.long
 def test_the_van_before_the_church_is_in_frame_at_every_instant() -> None:
     assert judge(case_of(VAN)) == []
     plan = compiled(VAN).plan

@@ -14,6 +14,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("shows")]
 MIDDLE = np.array([0.0, 20.0, 50.0])
 
 
+@pytest.mark.long
 def test_pictures_stand_still_in_their_colours(show: Show) -> None:
     for (picture, places, lights), color in zip(held(show), COLORS, strict=True):
         assert np.ptp(places, axis=1).max() < DIGITS, picture

@@ -35,6 +35,7 @@ def on_the_plan(world, name, back=px4_place):
     return got
 
 
+@pytest.mark.long
 def test_a_film_of_two_minutes_is_flown_and_recorded_by_px4():
     with World(orbit_plan()) as world:
         flown, (pilot,) = world.fly()

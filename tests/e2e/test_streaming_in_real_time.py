@@ -85,6 +85,7 @@ def on_the_plan(places, origin):
         assert np.linalg.norm(path - there, axis=1).min() < 0.02
 
 
+@pytest.mark.long
 def test_a_short_flight_by_the_clock_of_the_machine():
     with World(PLAN, cam1=Script(parameters=PARAMETERS)) as world:
         autopilot = world.autopilots["cam1"]
@@ -94,6 +95,7 @@ def test_a_short_flight_by_the_clock_of_the_machine():
     assert gc.isenabled()
 
 
+@pytest.mark.long
 def test_mavsdk_understands_all_that_is_sent():
     pytest.importorskip("mavsdk", exc_type=ModuleNotFoundError)
     from tests.support.stream.sdk_autopilot import SdkAutopilot

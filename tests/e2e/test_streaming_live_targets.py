@@ -118,7 +118,7 @@ def feeding(world, send, until):
     again()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_setpoints_are_the_same_to_the_bit_whatever_the_target_does():
     plan = hop_plan(pans=True)
     with World(plan) as calm, World(plan, targets=["tower"]) as chased:

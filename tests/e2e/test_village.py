@@ -29,6 +29,7 @@ def planned():
     return done.plan
 
 
+@pytest.mark.long
 def test_the_church_is_the_boxes_about_its_parts_and_other_eyes_see_it(planned):
     mission = planned.trajectory.keyframes.mission
     assert mission.target("church").parts == ("church.nave", "church.choir", "church.tower")

@@ -33,6 +33,7 @@ def small(seed: int) -> Mission:
     return mission(seed, most_drones=2, most_takes=1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", few(FEW, (1, 12, 41)))
 def test_a_small_mission_is_planned_and_shows_its_subjects_whole(seed: int) -> None:
     assert_planned_and_whole(small(seed))
@@ -70,6 +71,7 @@ def test_every_kind_theme_and_number_of_drones_is_drawn_often() -> None:
     assert sum("zones:" in m.text for m in drawn) >= 60
 
 
+@pytest.mark.long
 def test_a_seed_means_the_same_mission_in_every_process(tmp_path: Path) -> None:
     dumped = ("--seeds", "3:6", "--dump", str(tmp_path / "other"))
     command = [sys.executable, "-m", "tests.support.generated", *dumped]

@@ -122,6 +122,7 @@ def refused(seed: int) -> bool:
     return report.plan is None
 
 
+@pytest.mark.long
 def test_no_edit_is_accepted() -> None:
     assert [seed for seed in range(FEW) if not refused(seed)] == []
 

@@ -46,6 +46,7 @@ def examine(data: bytes, folder: Path) -> bool:
     return not has_errors(report.diagnostics)
 
 
+@pytest.mark.long
 @settings(max_examples=250)
 @given(damaged_trees())
 def test_a_damaged_mission_is_checked(damaged: tuple[bytes, Path]) -> None:
@@ -70,6 +71,7 @@ def test_the_command_accepts_or_rejects_and_writes_json(damaged: tuple[bytes, Pa
     assert err.getvalue() == ""
 
 
+@pytest.mark.long
 @pytest.mark.timeout(240)
 @settings(
     max_examples=examples(3, 6), suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]

@@ -28,6 +28,7 @@ PUSHES = st.tuples(
 )
 
 
+@pytest.mark.long
 @pytest.mark.timeout(240)
 @settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(PUSHES, min_size=1, max_size=2))

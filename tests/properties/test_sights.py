@@ -61,6 +61,7 @@ def pose_of(drawn: tuple) -> np.ndarray:
     return pose
 
 
+@pytest.mark.long
 @pytest.mark.timeout(240)
 @settings(max_examples=examples(8, 20), deadline=None)
 @given(

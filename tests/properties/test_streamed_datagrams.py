@@ -73,6 +73,7 @@ def test_a_link_takes_any_datagram(opened, data):
         assert isinstance(value, float)
 
 
+@pytest.mark.long
 @given(data=DATAGRAMS | st.dictionaries(KEYS, NUMBERS).map(lambda told: json.dumps(told).encode()))
 def test_a_feed_takes_any_datagram_and_believes_only_places_near_by(opened, data):
     _, feed, sender = opened

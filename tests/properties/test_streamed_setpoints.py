@@ -27,7 +27,7 @@ def apart(a, b):
     return abs((a - b + pi) % (2 * pi) - pi)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("pilot", [PX4, ARDUPILOT], ids=["px4", "ardupilot"])
 @given(origin=ORIGINS, raised=st.floats(-1, 1), which=st.sampled_from(PLANS), share=st.floats(-0.1, 1.1))
 def test_a_setpoint_is_where_the_plan_is_at_its_tick(pilot, origin, raised, which, share):

@@ -127,6 +127,7 @@ def elements(draw: st.DrawFn, depth: int = 4) -> str:
     return f"<{tag}{place}>{inner}{said}</{tag}>"
 
 
+@pytest.mark.long
 @given(st.binary(max_size=200) | elements().map(str.encode), st.booleans())
 @example(b'<?xml version="1.0" encoding="no-such"?><gpx/>', True)
 @example(b'<?xml version="1.0" encoding="utf-7"?><gpx/>', True)

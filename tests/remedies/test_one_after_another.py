@@ -38,12 +38,14 @@ def ends_well(text: str, codes: tuple[str, ...]) -> bool:
     return not has_errors(planned(text))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", [registry()["M005"].failing, CAR], ids=["example", "car"])
 def test_a_drone_with_the_speed_that_is_told_is_there_at_the_start_that_is_told(text):
     assert [d.code for d in placed(text.encode())[1]] == ["M005"]
     assert ends_well(text, ("M005", "T003"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("timing", ["{start: 11, duration: 6}", "{duration: 6}"])
 def test_a_drone_that_does_not_catch_up_is_told_the_speed_at_which_it_does(timing):
     text = CAR.replace("speed: 8", "speed: 10").replace("{start: 11, duration: 6}", timing)

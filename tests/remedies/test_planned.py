@@ -57,6 +57,7 @@ def planned(text: str, refiner: str | None = None) -> list[Diagnostic]:
     return [*made.diagnostics, *(emit_plan(made.plan).diagnostics if written else ())]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("info", PLANNED, ids=[info.code for info in PLANNED])
 def test_an_example_shows_its_code_alone_and_its_help_does(info: CodeInfo) -> None:
     judged = partial(planned, refiner=None if info.code in REFINED else "none")

@@ -40,6 +40,7 @@ TOLD_IN_WORDS = {
 """Codes whose help no rule applies, and why."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("info", CHECKED, ids=[info.code for info in CHECKED])
 def test_what_a_help_proposes_does_when_it_is_written(info: CodeInfo, tmp_path: Path) -> None:
     found, wrong = failed(info.failing, lambda text: placed(text.encode(), tmp_path)[1])

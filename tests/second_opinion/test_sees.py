@@ -135,6 +135,7 @@ def first_phase(**values: Any) -> Edit:
     return lambda plan: flight(plan)["phases"][0].update(values)
 
 
+@pytest.mark.long
 def test_nothing_is_wrong_with_the_plan_itself(case: Case) -> None:
     assert judge(case) == []
 
@@ -178,6 +179,7 @@ FLOWN = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rule", FLOWN)
 def test_a_flight_that_breaks_a_rule_is_seen(case: Case, rule: str) -> None:
     assert sees(edited(case, FLOWN[rule]), rule)
@@ -210,6 +212,7 @@ CLAIMED = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rule", CLAIMED)
 def test_an_untrue_plan_is_seen(case: Case, rule: str) -> None:
     assert sees(edited(case, CLAIMED[rule]), rule)
@@ -246,6 +249,7 @@ ASKED = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rule", ASKED)
 def test_a_plan_of_another_mission_is_seen(case: Case, rule: str) -> None:
     assert sees(asked(case, *ASKED[rule]), rule)
@@ -289,6 +293,7 @@ MISSION_FILES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rule", MISSION_FILES)
 def test_a_mission_file_that_flies_otherwise_is_seen(case: Case, rule: str) -> None:
     file = json.loads(case.files["cam1.plan"])
@@ -321,6 +326,7 @@ def test_shots_in_another_order_are_seen(case: Case) -> None:
     assert sees(other, "order of shots")
 
 
+@pytest.mark.long
 def test_a_drone_in_the_picture_is_seen(case: Case) -> None:
     """The other drone stands in front of the tower that the first one films."""
     found = edited(case, lambda plan: plan["mission"]["drones"][2].update(home=[-20, 2.5, 14]))
@@ -328,6 +334,7 @@ def test_a_drone_in_the_picture_is_seen(case: Case) -> None:
     assert sees(found, "required: spare out of the picture")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("table", "old", "new", "rule"),
     [

@@ -171,7 +171,7 @@ def test_walkers_who_come_near_are_kept_farther_away_and_the_picture_stays(seed:
     assert weights.FIELD > 0.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_drones_that_need_no_distance_are_refined_beside_one_another() -> None:
     text = HEAD.replace("rules: {", "rules: {separation: 0, ") + SIDE + PASS
     done = compile_source(text.encode(), "m.yaml", None, PlanOptions())

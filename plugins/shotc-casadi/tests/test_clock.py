@@ -130,6 +130,7 @@ def test_a_pass_straight_over_its_target_goes_aside_on_the_guide_s_side() -> Non
     assert peaks(subject(ours, "refine-path").leg)[0] < 0.5 * peaks(subject(plain).leg)[0]
 
 
+@pytest.mark.long
 def test_where_the_gimbal_does_not_look_down_that_far_the_camera_goes_aside() -> None:
     drone = ", gimbal: {pitch: [-45 deg, 20 deg]}"
     plain, near, far = (
@@ -157,6 +158,7 @@ def test_places_that_the_author_gave_stay(shot: str) -> None:
     assert off(subject(compiled(shot, 3.0), "refine-path")) < off(subject(compiled(shot, 3.0))) + 0.03
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("body", ["forward", "free", "follow-camera"])
 @pytest.mark.parametrize("world", [SHED, PEN])
 def test_what_stands_and_what_the_body_does_is_kept(world: str, body: str) -> None:
@@ -217,6 +219,7 @@ def test_the_solver_takes_no_small_curvature_for_none() -> None:
     assert program.solve(task(subject(compiled(FLYBY))), "fatrop").iterations < 15
 
 
+@pytest.mark.long
 def test_the_control_points_of_every_stage_keep_what_is_asked() -> None:
     of = subject(compiled(LATERAL, 3.0, "", SHED))
     refined = refine_clock(of)

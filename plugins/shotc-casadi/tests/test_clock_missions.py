@@ -93,6 +93,7 @@ def drawn(seed: int) -> str:
     )
 
 
+@pytest.mark.long
 def test_several_drones_are_refined_beside_one_another_and_out_of_each_other_s_pictures() -> None:
     done = compiled(SEVERAL)
     assert done.plan is not None
@@ -104,6 +105,7 @@ def test_several_drones_are_refined_beside_one_another_and_out_of_each_other_s_p
         assert claim.worst >= (3.0 if "separation" in claim.constraint else 0.0)
 
 
+@pytest.mark.long
 def test_how_far_a_refined_shot_leaves_its_place_is_told_of_the_flown_motion() -> None:
     guide, ours = compiled(CORNER, "none"), compiled(CORNER)
     for done in (guide, ours):
@@ -138,6 +140,7 @@ def turned(leg: ClockLeg) -> float:
     return sum(float((leg.curve.derivative(2)(t)[:, c] ** 2).mean()) for c in (CAM_YAW, CAM_PITCH))
 
 
+@pytest.mark.long
 def test_where_a_wall_leaves_no_room_on_the_side_of_the_pass_there_is_a_motion_all_the_same() -> None:
     text = ALONE.format(
         points="[0, 0, 0.9], [-23.35, 9.75, 0.9], [-47.51, 13.15, 0.9], [-43.09, 37.63, 0.9]",

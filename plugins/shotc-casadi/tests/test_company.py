@@ -127,6 +127,7 @@ def test_every_phase_keeps_its_time(text: str) -> None:
     assert np.allclose([t for _, *t in before], [t for _, *t in after], rtol=0, atol=1e-6)
 
 
+@pytest.mark.long
 def test_nobody_comes_nearer_than_the_separation_where_a_shot_backs_off() -> None:
     alone = shown(ALONE)
     (apart,) = (c for c in plan(BEHIND).certificate if c.constraint == "separation from cam2")
@@ -136,6 +137,7 @@ def test_nobody_comes_nearer_than_the_separation_where_a_shot_backs_off() -> Non
     assert refined(BEHIND) == {"fly-past": "yes", "still": "its camera stands still"}
 
 
+@pytest.mark.long
 def test_a_shot_keeps_clear_of_what_crosses_behind_it() -> None:
     assert shown(CROSSED) > shown(CROSSED, "none") + 0.2
     assert refined(CROSSED) == {"fly-past": "yes", "float": "yes"}

@@ -89,7 +89,7 @@ def close(ours, theirs):
     assert a == pytest.approx(b, rel=1e-9, abs=1e-9 * (1 + np.abs(b).max()))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("kind", "planes"), KINDS)
 def test_what_the_solvers_get_is_what_casadi_derives(kind, planes):
     reference, s = plain(kind, planes), made(kind, planes)

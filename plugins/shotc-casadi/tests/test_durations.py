@@ -31,6 +31,7 @@ def planned(seconds: str):
     return compile_source(MISSION.replace("SECONDS", seconds).encode(), "m.yaml", None, PlanOptions())
 
 
+@pytest.mark.long
 def test_the_duration_that_is_told_is_that_of_the_refined_path_and_is_enough():
     (fault,) = planned("15.3").diagnostics
     assert fault.code == "T001"

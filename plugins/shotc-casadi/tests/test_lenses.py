@@ -62,7 +62,7 @@ output: {{rate: 20}}
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("hfov", "of", "shape"),
     [(20, "tower", (16, 9)), (15, "person", (9, 16)), (39, "ship", (239, 100)), (110, "tower", (1, 1))],
@@ -73,7 +73,7 @@ def test_a_target_stays_whole_through_any_lens(hfov, of, shape):
     assert seen(done.plan, count=300).inside.min() > 0.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("turns", [1, 2])
 @pytest.mark.parametrize("hfov", [20, 70])
 def test_a_promise_is_kept_between_keyframes_at_which_the_target_just_fits(hfov, turns):

@@ -60,6 +60,7 @@ def sound(done):
                 assert_continuous(leg)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", list(MISSIONS))
 def test_a_refined_mission_is_sound_and_framed_between_its_keyframes(name):
     done = planned(name)
@@ -122,6 +123,7 @@ def test_a_camera_that_cannot_step_back_backs_off_another_way():
     assert curve(np.linspace(curve.start, curve.end, 50))[:, 2].max() > 15.0
 
 
+@pytest.mark.long
 def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
     done = compiled(LOW)
     assert done.plan is not None
@@ -209,6 +211,7 @@ def test_a_duration_that_is_too_short_is_told_by_the_time_pass_alone():
     assert any("14" in d.message for d in done.diagnostics)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("share", few([1.02, 1.1, 1.3, 2.5], [1.1, 2.5]))
 @pytest.mark.parametrize("index", [1, 2])
 def test_a_keyframe_is_reached_at_its_time(index, share):

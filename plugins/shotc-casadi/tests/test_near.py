@@ -62,6 +62,7 @@ def flown(of: ClockSubject) -> tuple[np.ndarray, np.ndarray]:
     return np.linalg.norm(place - ideal, axis=1), np.linalg.norm(target - ideal, axis=1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("altitude", ["3", "3.4", "5"])
 def test_where_nothing_is_promised_a_camera_stays_as_near_to_its_place_as_a_preference_keeps_it(
     altitude: str,
@@ -73,6 +74,7 @@ def test_where_nothing_is_promised_a_camera_stays_as_near_to_its_place_as_a_pref
     assert dict(subject(text).path.stats)["s.refine_status"] == "solved"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("altitude", "least"), [("3", 0.97), ("3.4", 1.0)])
 def test_a_walker_whom_the_gimbal_cannot_follow_is_kept_in_more_frames(altitude: str, least: float) -> None:
     text = FLYBY.replace("altitude: 3", f"altitude: {altitude}")
@@ -84,6 +86,7 @@ def test_a_walker_whom_the_gimbal_cannot_follow_is_kept_in_more_frames(altitude:
 BESIDE = MISSION.format(shot="kind: flyby, behind: 10, ahead: 10, altitude: 3, offset: 1")
 
 
+@pytest.mark.long
 def test_a_subject_that_hardly_fits_is_kept_whole_by_going_back_a_little() -> None:
     of = subject(BESIDE, "solve-path-qp")
     plain = refine_clock(of)
@@ -104,6 +107,7 @@ def test_what_crops_its_subject_more_than_the_guide_is_not_flown(monkeypatch: py
     assert subject_of(path, "s").leg is of.leg
 
 
+@pytest.mark.long
 def test_a_subject_that_is_to_be_cropped_is_not_kept_whole() -> None:
     of = subject(BESIDE, "solve-path-qp")
     plain = refine_clock(of)
@@ -113,6 +117,7 @@ def test_a_subject_that_is_to_be_cropped_is_not_kept_whole() -> None:
     assert held_whole(close, plain) is None
 
 
+@pytest.mark.long
 def test_who_does_not_fit_from_where_the_camera_may_go_is_no_reason_to_go_there() -> None:
     text = BESIDE.replace("gimbal", "camera: {hfov: 50 deg}, gimbal")
     asked = text.replace("offset: 1", "offset: 1, require: {in_frame: 100 %}")
@@ -126,6 +131,7 @@ def test_who_does_not_fit_from_where_the_camera_may_go_is_no_reason_to_go_there(
     assert near[: middle // 2].all()
 
 
+@pytest.mark.long
 def test_what_is_promised_is_kept_at_any_distance() -> None:
     assert compiled(PROMISED, "none").plan is None
     assert in_frame(PROMISED) == 1.0
@@ -133,6 +139,7 @@ def test_what_is_promised_is_kept_at_any_distance() -> None:
     assert (ours > MOST_MOVED * far).any()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "shot",
     [
@@ -178,6 +185,7 @@ shots:
 """
 
 
+@pytest.mark.long
 def test_what_the_way_between_keyframes_is_left_by_is_in_the_plan_and_no_reason_to_refuse_it() -> None:
     done = compile_source(BENT.encode(), "m.yaml", None, PlanOptions())
     assert done.plan is not None, done.diagnostics

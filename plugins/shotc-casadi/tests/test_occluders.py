@@ -144,7 +144,7 @@ def test_a_solid_without_an_end_is_held_by_an_ellipsoid_without_one() -> None:
     assert np.linalg.norm(scale @ (np.array([1.5, 2.0, 1e4]) - centre)) < 1.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("shot", [LATERAL, FRAMING])
 @pytest.mark.parametrize("walk", few([PASSING, CROSSING], [CROSSING]))
 def test_who_passes_between_camera_and_subject_is_looked_past(shot: str, walk: dict[str, object]) -> None:
@@ -161,7 +161,7 @@ def test_who_passes_between_camera_and_subject_is_looked_past(shot: str, walk: d
     assert claims["runner screen error"] < 0.01
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_drone_between_camera_and_subject_is_looked_past() -> None:
     text = mission(
         LATERAL.replace("altitude: 3", "altitude: 4.5, allow: [hidden-subject]"), **(AWAY | {"more": BIRD})
@@ -185,7 +185,7 @@ def test_a_place_that_the_author_gave_is_kept_whatever_hides_the_subject() -> No
     assert past_occluders(of, refine_clock(of)) is None
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_who_passes_between_two_keyframes_is_looked_past_and_these_stay() -> None:
     text = mission(KEYED.replace("LAST", "[3, -8, 3.5]"), **CROSSING)
     assert visible(text, "none") < 0.97
@@ -206,7 +206,7 @@ def test_a_camera_that_keyframes_keep_beside_a_target_stays_there() -> None:
     assert past_occluders(of, refine_clock(of)) is None
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_promise_goes_before_the_line_of_sight() -> None:
     text = mission(LATERAL + ", require: {size: [0.29, 0.3005]}", **PASSING)
     of = subject(text)

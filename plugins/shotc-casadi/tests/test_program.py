@@ -214,7 +214,7 @@ print(solve(short, "fatrop").status, solve(task(arc()), "fatrop").status)
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_process_goes_on_and_ends_after_a_solver_that_does_not():
     """Seventy metres in half a second: the linear system is so bad that fatrop never has done with it."""
     run = subprocess.run(

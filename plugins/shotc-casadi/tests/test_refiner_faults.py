@@ -64,6 +64,7 @@ def test_without_a_fault_nothing_is_said():
     assert all(stats[f"{shot}.refine_solver"] == SOLVERS[0] for shot in (PASS, ROUND))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("status", "code"), [("nan", "R010"), ("stopped", "R011"), ("infeasible", "R012")])
 def test_a_shot_that_no_solver_solves_is_an_error_with_its_stage(monkeypatch, status, code):
     only(PASS, monkeypatch)

@@ -196,6 +196,7 @@ def evaluated(one: Any, made: Derived, z: Array, p: Array, rng: np.random.Genera
     return [np.array(ca.DM(part).full()) for part in one.call([x, p, *prices])]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("where", [*PLACES, *INSIDE])
 @pytest.mark.parametrize(("kind", "planes"), KINDS)
 def test_all_values_and_derivatives_are_numbers(kind: Any, planes: int, where: str) -> None:

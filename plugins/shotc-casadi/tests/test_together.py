@@ -203,6 +203,7 @@ def test_round_a_corner_both_appear_better_than_by_the_guide_and_the_camera_is_c
     assert turning(after) < turning(before)
 
 
+@pytest.mark.long
 def test_who_walks_behind_another_is_looked_at_past_him() -> None:
     behind = BEHIND.replace("allow: [fast-pan]", "allow: [fast-pan, hidden-subject]")
     assert claim(compiled(behind, "none"), "b in sight") < 0.9

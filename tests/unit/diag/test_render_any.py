@@ -32,6 +32,7 @@ DIAGNOSTICS = st.builds(
 TEXTS = st.lists(NASTY, max_size=9).map("\n".join) | NASTY.map(lambda text: text * 20)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["text", "concise", "json", "sarif", "github"])
 @given(found=st.lists(DIAGNOSTICS, max_size=4), texts=st.tuples(TEXTS, TEXTS))
 def test_never_fails_and_never_lets_control_characters_through(

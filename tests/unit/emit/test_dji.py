@@ -177,6 +177,7 @@ def weaving(amplitude, period):
     )
 
 
+@pytest.mark.long
 def test_a_curve_that_would_swing_into_a_zone_is_not_written():
     """Legs as short as they may be cut the bows of this weave by 0.15 m, and a pole stands in each."""
     poles = tuple(

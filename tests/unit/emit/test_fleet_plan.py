@@ -179,7 +179,7 @@ PLACES = [p for p in places_in(DOCUMENT) if p[:1] == ("fleets",) or p[1:2] in ((
 JUNK = [None, True, -1, 0, 1e12, 10**400, "", "inf", "x", [], {}, [[]], [[0.0, 1.0]], {"type": "Sphere"}]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=300, deadline=None)
 @given(st.sampled_from(PLACES), st.sampled_from(JUNK))
 def test_any_value_anywhere_is_told_not_raised(place: tuple[str | int, ...], junk: Any) -> None:

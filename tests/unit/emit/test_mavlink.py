@@ -70,7 +70,7 @@ def test_the_same_plan_gives_the_same_bytes(autopilot: str) -> None:
     assert EMITTER.emit(source) == EMITTER.emit(source)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("autopilot", "most"), [("px4", 500), ("ardupilot", 649)])
 def test_a_flight_too_long_for_the_autopilot_is_coarsened_and_says_how_far(autopilot: str, most: int) -> None:
     emission = EMITTER.emit(plan(restless(), autopilot=autopilot))

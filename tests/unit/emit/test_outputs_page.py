@@ -67,7 +67,7 @@ def test_every_field_of_what_a_plan_holds_is_explained():
     assert [name for name in fields if name not in NAMED] == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_every_part_of_simulate_json_is_explained():
     ir, conditions = orbit_plan().trajectory, Conditions()
     done = rehearse(ir, conditions, simulated(ir, conditions, 1, 1), lambda _runs: None)

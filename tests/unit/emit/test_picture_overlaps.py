@@ -105,7 +105,7 @@ def among(plan: VerifiedIR, targets: tuple[Target, ...]) -> VerifiedIR:
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("make", [orbit_plan, pair_plan, crowded, straight_down])
 def test_no_label_lies_over_a_target_or_another_label(make: Callable[[], VerifiedIR]) -> None:
     assert overlaps(make()) == []

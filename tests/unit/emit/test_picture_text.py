@@ -30,6 +30,7 @@ def renamed(plan: VerifiedIR) -> VerifiedIR:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "make", [orbit_plan, pair_plan, lambda: dense_plan(placed=True), lambda: renamed(orbit_plan())]
 )

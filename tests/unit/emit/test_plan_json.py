@@ -233,7 +233,7 @@ junk = st.recursive(
 )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(st.data())
 def test_any_value_in_any_place_is_read_or_told(data: st.DataObject) -> None:

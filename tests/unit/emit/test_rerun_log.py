@@ -131,7 +131,7 @@ def test_the_recording_has_one_active_layout(rrd: Path) -> None:
     assert len(reader.blueprints()) == 1
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_viewer_s_own_check_accepts_the_file(rrd: Path) -> None:
     command = [sys.executable, "-m", "rerun", "rrd", "verify", str(rrd)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)

@@ -67,7 +67,7 @@ def test_vehicles_are_told_what_is_to_be_set_in_them(autopilot, asked, words) ->
     assert words in note
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("asked", "exit_", "action", "words"),
     [

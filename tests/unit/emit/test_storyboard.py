@@ -55,7 +55,7 @@ def test_the_user_s_plot_style_does_not_reach_the_page() -> None:
         assert mpl.rcParams["font.size"] == 30
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("plan", "panels"),
     [(orbit_plan(), 5), (dense_plan(placed=False), 6), (dense_plan(placed=True), 12)],

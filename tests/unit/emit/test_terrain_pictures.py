@@ -244,7 +244,7 @@ def test_missions_without_terrain_touch_none_of_it(monkeypatch: pytest.MonkeyPat
             draw_map(Canvas(4.0, 4.0, 40.0), BOX, _board(rise), flat, 10.0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_storyboard_over_terrain_is_always_the_same() -> None:
     plan = orbit_plan()
     told = replace(plan.trajectory.keyframes.mission, terrain=Terrain(waves(), "relief.csv"))

@@ -35,7 +35,7 @@ def flights(draw):
     return moves
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(
     max_examples=5,
     deadline=None,

@@ -64,6 +64,7 @@ def test_in_wind_the_table_has_a_row_for_the_plan_and_a_worse_one_for_each_loop(
     assert "1 of 1 missions" in table.notes[0]
 
 
+@pytest.mark.long
 def test_beside_a_steady_walker_the_measures_of_table_4_are_those_of_geometry():
     done = compile_source(PAIR, "pair.yaml", None, PlanOptions("none"))
     assert done.plan is not None, done.diagnostics
@@ -97,6 +98,7 @@ def test_a_camera_that_looks_beside_a_target_is_off_by_that_angle_and_may_lose_i
     assert (told.away, told.spread) == (2.0, 0.0)
 
 
+@pytest.mark.long
 def test_a_robot_that_keeps_its_way_is_in_the_middle_and_as_far_as_planned():
     ir = tracked.trajectory()
     (told,) = tracked.fly(ir, Conditions(loop="track", gps=EXACT), 1, (22.0, 26.0))

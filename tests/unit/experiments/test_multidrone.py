@@ -56,7 +56,7 @@ def test_a_cubic_has_the_velocities_of_its_ends() -> None:
         assert [slope(0.0), slope(2.0)] == pytest.approx([start[axis + 3], end[axis + 3]])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @both
 def test_all_eight_configurations_are_solved_and_stay_out_of_the_no_fly_circle(reading: Reading) -> None:
     assert len(flown(reading)) == 8

@@ -14,6 +14,7 @@ from tests.experiments.papers import nose
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.long
 def test_both_keep_the_cone_and_the_limits_past_the_mast() -> None:
     who, of = nose.drone(), nose.instances(2)[1]
     (plain, _), (way, _) = nose.ours(who, of, look_ahead=False), nose.ours(who, of)

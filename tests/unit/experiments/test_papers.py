@@ -182,7 +182,7 @@ def test_the_page_is_filled_between_its_marks_again_and_again():
         page.filled("nothing", "body")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("lens", [20, 100])
 def test_near_a_subject_the_refiner_shows_all_of_it_through_any_lens(lens):
     (draft,) = lenses.drawn(lens, 1)

@@ -22,6 +22,7 @@ def flown(name: str) -> Record:
     return fly(HORIZONS[name], 1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", HORIZONS)
 def test_it_never_enters_the_zone_and_is_near_the_paper_s_rmse(name):
     one = flown(name)

@@ -23,6 +23,7 @@ from tests.experiments.papers.viewpoint import (
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.long
 def test_four_setpoints_are_had_as_asked() -> None:
     table = viewpoint.setpoints()
     assert len(table.rows) == 7
@@ -47,6 +48,7 @@ def test_who_stops_in_the_line_of_sight_is_looked_past() -> None:
     assert ideal_look(guide, "s", "face")[0] == before.hidden.mean()
 
 
+@pytest.mark.long
 def test_who_walks_at_the_camera_is_kept_clear_of() -> None:
     walks = roaming(1)
     guide = planned(portrait(walks), "none", walks)[0]

@@ -14,6 +14,7 @@ from tests.support.village_films import some_film
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.long
 def test_a_flight_through_a_village_is_planned_and_proved():
     assert not flight(7).fault
 

@@ -220,7 +220,7 @@ def test_a_show_turned_and_moved_is_where_its_location_says() -> None:
     assert claims(other, "separation")[0].worst == pytest.approx(claims(one, "separation")[0].worst, abs=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("kind", range(len(KINDS)))
 def test_a_violation_that_no_place_of_the_file_shows_is_found(kind: int) -> None:
     violation = KINDS[kind](np.random.default_rng([7, kind]))
@@ -345,7 +345,7 @@ _LOOKING = b"\n".join(
 )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=40, deadline=None)
 @given(data=st.data(), shown=st.booleans())
 def test_no_bytes_make_a_traceback(data: st.DataObject, shown: bool) -> None:

@@ -106,7 +106,7 @@ def scene(random: np.random.Generator, size: float) -> tuple[Array, list[Solid]]
     return eye, solids
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_shares_are_those_of_many_rays() -> None:
     random, errors, partly = np.random.default_rng(4), [], 0
     for shape in SHAPES:
@@ -161,6 +161,7 @@ def test_an_eye_within_its_target_sees_no_outline() -> None:
     assert share_of(rays, rays.own).tolist() in ([0.0], [1.0])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", [0.2, 5.0, 60.0])
 def test_what_is_left_out_is_in_the_way_of_no_ray(size: float) -> None:
     """Triangles that cross, touch and lie far beside the rays, and flat ones that the target stands on."""

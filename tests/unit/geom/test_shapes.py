@@ -56,6 +56,7 @@ def seen_from(look: tuple[float, ...]) -> tuple[View, tuple[float, float, float]
     return view(yaw, max(-1.5, min(1.5, pitch)), HFOV, ASPECT), (-away[0], -away[1], -away[2])
 
 
+@pytest.mark.long
 @given(boxes | groups, looks)
 def test_the_outline_is_that_of_all_its_points(shape: TargetShape, look: tuple[float, ...]) -> None:
     camera, offset = seen_from(look)

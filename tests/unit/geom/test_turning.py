@@ -25,6 +25,7 @@ def drawn(seed: int) -> Track:
     return Track(tuple(times), tuple(map(tuple, points)), faced)  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(60))
 def test_no_course_changes_by_more_than_is_told(seed: int) -> None:
     track = drawn(seed)

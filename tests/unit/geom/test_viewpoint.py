@@ -84,7 +84,7 @@ def test_a_free_elevation_is_level_or_as_little_above_as_the_ground_asks() -> No
     assert size_from(low, LENS, offset) == pytest.approx(0.3, rel=1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(deadline=None, max_examples=40)
 @given(
     apart=st.floats(1.5, 6.0),

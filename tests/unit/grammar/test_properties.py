@@ -60,12 +60,14 @@ statics = st.fixed_dictionaries(
 films = st.lists(st.one_of(laterals, statics), min_size=2, max_size=5)
 
 
+@pytest.mark.long
 @settings(max_examples=60, deadline=None)
 @given(films)
 def test_a_mirror_image_is_told_the_same(ways: list[Way]) -> None:
     assert found(ways, mirror=True) == found(ways)
 
 
+@pytest.mark.long
 @settings(max_examples=60, deadline=None)
 @given(films, st.integers(-9, 9), st.integers(-9, 9))
 def test_a_mission_elsewhere_is_told_the_same(ways: list[Way], east: int, north: int) -> None:

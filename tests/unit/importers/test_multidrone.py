@@ -299,7 +299,7 @@ SOME_PLANNED = [
 """All are read and checked; every third one is planned, too, and all by `make fuzz`."""
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(not ORIGINALS, reason="no original missions: MULTIDRONE_MISSIONS=DIR names their folder")
 @pytest.mark.parametrize("path", SOME_PLANNED)
 def test_every_production_mission_is_planned(path: Path) -> None:

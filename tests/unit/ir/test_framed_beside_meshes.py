@@ -98,6 +98,7 @@ def test_several_subjects_are_filmed_from_the_side_on_which_no_house_stands():
     assert seen_whole(beside, found)
 
 
+@pytest.mark.long
 def test_a_bearing_is_turned_until_no_hill_hides_the_subject():
     corners = np.array([[-400.0, -400.0], [400.0, -400.0], [400.0, 400.0], [-400.0, 400.0], [0.0, -20.0]])
     ring = np.array([[-9.0, -20.0], [0.0, -26.0], [9.0, -20.0], [0.0, -14.0]])

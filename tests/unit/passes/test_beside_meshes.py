@@ -45,6 +45,7 @@ def test_what_keeps_clear_is_not_told(folder):
     assert told(folder) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("home", "words"),
     [

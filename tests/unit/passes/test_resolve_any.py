@@ -72,7 +72,7 @@ shots = st.sampled_from(sorted(parameters)).flatmap(
 )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=150, deadline=None)
 @given(
     st.lists(shots, min_size=1, max_size=3),

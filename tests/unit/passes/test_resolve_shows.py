@@ -184,7 +184,7 @@ def test_no_pattern_leaves_the_folder(tmp_path: Path) -> None:
     assert codes("a.ply") == ["N008"]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_too_much_to_read_is_not_read(tmp_path: Path) -> None:
     with (tmp_path / "huge.ply").open("wb") as stream:
         stream.truncate(1_000_000_000)

@@ -302,7 +302,7 @@ def test_a_million_rows_are_refused_at_once(tmp_path: Path) -> None:
         assert d.code == "N009"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("place", few(["x,y,z", "lat,lon,height"], ["lat,lon,height"]))
 def test_as_many_rows_as_are_read_are_checked(tmp_path: Path, place: str) -> None:
     values = "{0},0,1" if place == "x,y,z" else "{1},8.5417,1"

@@ -58,6 +58,7 @@ def test_a_place_inside_of_a_house_is_as_far_from_free_as_its_wall_and_the_clear
     assert bounds_slack(space, np.array([[0.0, 0.0, 9.0]]))[0] == pytest.approx(3.0 - CLEARANCE)
 
 
+@pytest.mark.long
 def test_segments_are_stopped_as_samples_of_them_are(village):
     triangles, space = village
     random = np.random.default_rng(2)
@@ -72,6 +73,7 @@ def test_segments_are_stopped_as_samples_of_them_are(village):
     assert 5 < stopped.sum() < 35
 
 
+@pytest.mark.long
 def test_what_pieces_lack_is_never_less_than_their_samples_do(village):
     triangles, space = village
     random = np.random.default_rng(3)
@@ -85,6 +87,7 @@ def test_what_pieces_lack_is_never_less_than_their_samples_do(village):
     assert (lack[near > CLEARANCE + 0.01] <= 0.0).all()
 
 
+@pytest.mark.long
 def test_points_in_the_half_spaces_of_a_free_piece_keep_the_clearance(village):
     triangles, space = village
     random = np.random.default_rng(4)

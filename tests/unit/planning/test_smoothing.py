@@ -138,7 +138,7 @@ def test_normal_smoothing_is_what_a_silent_mission_has() -> None:
     assert np.array_equal(silent.curve.ctrl, normal.curve.ctrl)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_compare_shows_a_calmer_camera_farther_from_its_place() -> None:
     mission = framing("").replace("{target: runner, frame: center, ", "{target: runner, frame: left-third, ")
     done = compare_source(mission.encode(), "m.yaml", None, Options(("none", "ours"), (0.25, 0.5, 1.5)))

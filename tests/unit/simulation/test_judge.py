@@ -46,6 +46,7 @@ def run(behind_a_tree) -> Run:
     return only
 
 
+@pytest.mark.long
 def test_what_hides_a_target_is_told_as_it_is_of_the_plan(behind_a_tree, run) -> None:
     ir, shot = behind_a_tree
     (track,) = ir.drones

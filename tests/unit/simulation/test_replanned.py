@@ -75,6 +75,7 @@ def flown(loop="replan", runs=(0, 1, 2), truth=WANDERS):
     return world, fly_all(world, plan().drones)
 
 
+@pytest.mark.long
 def test_a_drone_that_plans_anew_keeps_its_place_beside_a_walker_who_leaves_the_track():
     off = {}
     veers = Track((0.0, 60.0), ((0.0, 0.0, 0.9), (72.0, 18.0, 0.9)))
@@ -88,6 +89,7 @@ def test_a_drone_that_plans_anew_keeps_its_place_beside_a_walker_who_leaves_the_
     assert off["track"] > 2.0
 
 
+@pytest.mark.long
 def test_drones_that_plan_anew_keep_the_separation_and_come_back_to_their_plan():
     world, tracks = flown()
     runs = judged(world, plan(), tracks, ((),) * 3)
@@ -104,6 +106,7 @@ def test_drones_that_plan_anew_keep_the_separation_and_come_back_to_their_plan()
         assert np.abs(off).max() < 1.0
 
 
+@pytest.mark.long
 def test_drones_that_plan_anew_keep_out_of_pictures_where_the_mission_requires_it(monkeypatch):
     """The walker turns aside, and brings the second drone behind the first, where its camera looks."""
     done = compile_source(ACROSS, "across.yaml", None, PlanOptions("none"))
@@ -119,6 +122,7 @@ def test_drones_that_plan_anew_keep_out_of_pictures_where_the_mission_requires_i
     assert kept.courses[1].replans.failed == 0
 
 
+@pytest.mark.long
 def test_a_run_is_the_same_whichever_ran_beside_it():
     _, several = flown()
     _, alone = flown(runs=(2,))
@@ -164,6 +168,7 @@ class _Bad:
         return Replan(None, "failed", "it does not know")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("what", "reason"),
     [
@@ -192,6 +197,7 @@ def test_where_planning_anew_fails_the_drone_brakes_and_holds_and_it_is_told(mon
     assert np.isfinite(tracks[0].position).all()
 
 
+@pytest.mark.long
 def test_a_drone_whose_target_is_lost_stops_and_it_is_told():
     lost = Gps(lost=((0.0, 100.0),))
     conditions = Conditions(loop="replan", gps=lost, detector=None)
@@ -222,6 +228,7 @@ shots:
 """
 
 
+@pytest.mark.long
 def test_a_framing_is_planned_anew_where_its_subjects_part():
     done = compile_source(DUO, "duo.yaml", None, PlanOptions("none"))
     assert done.plan is not None, done.diagnostics

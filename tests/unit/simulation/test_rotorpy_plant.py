@@ -29,6 +29,7 @@ def strays(plant, vehicle, wind):
     return np.sqrt(np.mean(np.square(off))), np.max(off)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("wind", [Wind(), Wind(4.0, 2.0, 1.0)])
 def test_both_vehicles_stray_alike(wind):
     rotorpy_plant = pytest.importorskip("shotc.simulation.rotorpy_plant")

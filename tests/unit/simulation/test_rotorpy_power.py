@@ -63,11 +63,13 @@ def shares(name: str, radius: float | None, gains: tuple[float, float]) -> np.nd
     return np.array([ours[part].sum() / theirs[part].sum() for part in parts])
 
 
+@pytest.mark.long
 def test_a_vehicle_with_inflow_and_drag_takes_as_much_in_every_part_of_a_flight() -> None:
     pytest.importorskip("rotorpy")
     assert shares("hummingbird", None, (544.0, 46.0)) == pytest.approx(1.0, abs=0.10)
 
 
+@pytest.mark.long
 def test_the_vehicle_of_px4_takes_as_much_in_all() -> None:
     # Its rotors know no inflow, so that its climbs cost too little and its descents too much.
     pytest.importorskip("rotorpy")

@@ -116,6 +116,7 @@ print(repr(block.runs))
 """
 
 
+@pytest.mark.long
 def test_a_cluster_flies_the_same_runs_and_where_none_answers_it_is_told(first) -> None:
     """In a process of its own: a cluster leaves threads, and where there are threads nothing may fork."""
     pytest.importorskip("distributed")

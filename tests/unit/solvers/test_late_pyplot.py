@@ -23,6 +23,7 @@ print(plt.Figure is algorithm.plt.Figure, plt.__spec__ is not None)
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("before", ["", ", matplotlib"])
 def test_pyplot_loads_when_it_is_used(before: str) -> None:
     run = subprocess.run(
@@ -31,6 +32,7 @@ def test_pyplot_loads_when_it_is_used(before: str) -> None:
     assert run.stdout.split() == ["False", "matplotlib.figure", "True", "True"], run.stderr
 
 
+@pytest.mark.long
 def test_a_pyplot_that_is_there_is_left_alone() -> None:
     code = SEEN.format(before=", matplotlib.pyplot")
     run = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)

@@ -151,7 +151,7 @@ def test_without_any_answer_of_the_solver_a_rough_profile_keeps_every_limit(
     assert all(jump < 1e-6 for jump in jumps(move.curve))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [0, 10, 12, 13])
 def test_turns_within_centimetres_among_long_ways_cost_no_more_than_they_must(seed: int):
     rng = np.random.default_rng(seed)

@@ -237,7 +237,7 @@ def test_the_fingerprint_is_of_the_bytes(loads):
     assert one.mission.sha256 == same.mission.sha256 != other.mission.sha256
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_each_wrong_value_gives_one_report_in_its_place(kinds, whole_language):
     tree = tree_of(whole_language)
     checked = 0

@@ -132,7 +132,7 @@ def test_adding_a_key_anywhere_is_refused_by_both(accepts, kinds, whole_language
 JUNK = [None, True, [], {}, "7 parsecs", -7, 1e300, [[0]]]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("junk", few(JUNK, [None, {}, "7 parsecs", -7]), ids=repr)
 def test_any_value_replaced_by_junk_is_judged_alike(junk, accepts, kinds, whole_language):
     for piece in pieces(tree_of(whole_language)):

@@ -42,7 +42,7 @@ def cliff(height: float = 40.0, size: int = 41) -> Grid:
     return grid(heights)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=examples(80, 300))
 @given(seeds, st.integers(2, 14), st.integers(2, 14), st.sampled_from(["any", "column", "diagonal"]))
 def test_heights_enclose_every_sample_and_are_tight(seed: int, rows: int, columns: int, way: str):

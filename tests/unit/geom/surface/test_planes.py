@@ -52,7 +52,7 @@ def alone(ctrl: np.ndarray) -> Pieces:
     return Pieces(np.zeros(1), np.ones(1), ctrl[None])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=60)
 @given(seeds, st.sampled_from([2, 6]))
 def test_a_piece_whose_points_keep_its_planes_keeps_the_clearance(seed: int, points: int):
@@ -142,7 +142,7 @@ def land(seed: int, size: int = 14) -> Ground:
     return ground_of(found.corners, found.faces)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=60)
 @given(seeds, st.floats(0.0, 6.0))
 def test_a_piece_that_keeps_its_ground_plane_keeps_its_height(seed: int, width: float):
@@ -163,7 +163,7 @@ def test_a_piece_that_keeps_its_ground_plane_keeps_its_height(seed: int, width: 
         assert above.proven >= 2.0 - 1e-6
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=40)
 @given(seeds)
 def test_no_plane_above_the_ground_leaves_a_piece_more_room(seed: int):

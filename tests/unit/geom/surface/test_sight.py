@@ -111,7 +111,7 @@ def test_a_target_seen_from_its_own_height_is_upright():
     assert boards.up == pytest.approx(np.array([[0.0, 0.0, 2.0]]))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_shares_of_sixty_four_rays_are_near_those_of_ten_thousand(monkeypatch: pytest.MonkeyPatch):
     random = np.random.default_rng(7)
     surface = _trunks(random)

@@ -19,6 +19,7 @@ def star(random: np.random.Generator, centre: np.ndarray, size: float) -> np.nda
     return centre + np.column_stack([reach * np.cos(turn), reach * np.sin(turn)])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_it_is_the_least_of_all_places_in_the_ring(seed):
     random = np.random.default_rng(seed)

@@ -304,6 +304,7 @@ GOOD = {
 }
 
 
+@pytest.mark.long
 @settings(max_examples=400)
 @given(st.sampled_from(sorted(GOOD)), st.data())
 def test_bytes_that_are_damaged_anyhow_are_posts_or_a_fault(name: str, data: st.DataObject):

@@ -64,7 +64,7 @@ def test_the_choice_is_the_best_of_all(drawn: list[tuple[float | None, float, fl
     assert taken <= min(possible) + 1e-3
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_nearest_drone_films_and_one_drone_is_never_in_two_places() -> None:
     auto = (SIDE + PASS + TAIL).replace("cam1", "auto").replace("cam2", "auto").replace("cam3", "auto")
     done = compile_source((HEAD + auto).encode(), "m.yaml", None, PlanOptions(refiner="none"))

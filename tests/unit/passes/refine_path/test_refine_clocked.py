@@ -103,6 +103,7 @@ FAULTS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", FAULTS)
 def test_every_rule_is_broken_once_and_the_fault_names_the_shot(name: str) -> None:
     act, code, what = FAULTS[name]
@@ -151,6 +152,7 @@ def test_a_refiner_that_ignores_them_keeps_them() -> None:
     assert outcome.value.timed is guide().timed
 
 
+@pytest.mark.long
 def test_a_motion_that_breaks_a_limit_is_blamed_on_its_refiner(monkeypatch) -> None:
     odd = plugins.Source(Odd(lambda ir: Outcome(bent(ir, along(Z, 20.0)))), "odd-maker", "")
     monkeypatch.setattr(plugins, "one", lambda group, name: odd)
@@ -162,6 +164,7 @@ def test_a_motion_that_breaks_a_limit_is_blamed_on_its_refiner(monkeypatch) -> N
     assert [d.code for d in kept.diagnostics if d.code != "V034"] == ["R003", "R014"]
 
 
+@pytest.mark.long
 def test_a_deadline_s_process_hands_timed_legs_back() -> None:
     options = api.PlanOptions(refiner="ours", deadline=60.0)
     plain = api.PlanOptions(refiner="ours")

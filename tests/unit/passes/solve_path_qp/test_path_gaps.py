@@ -72,7 +72,7 @@ def test_the_ground_is_nothing_to_move_but_its_clearance_is():
     assert across(field, wall, clearance=lower).value is not None
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_of_many_zones_that_close_a_way_any_one_is_enough():
     sides = [((10, 30), (8, 12)), ((10, 30), (-12, -8)), ((8, 12), (-12, 12)), ((28, 32), (-12, 12))]
     walls = [out(f"w{i}", block(x, y, (-20, 60))) for i, (x, y) in enumerate(sides)]

@@ -87,6 +87,7 @@ EDITS: dict[str, tuple[Edit, str]] = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EDITS)
 def test_what_a_plan_says_of_its_mission_is_held_to_the_mission(name: str) -> None:
     edit, said = EDITS[name]
@@ -192,6 +193,7 @@ CERTIFICATES: dict[str, tuple[Edit, str]] = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", CERTIFICATES)
 def test_the_certificate_is_compared_whole(name: str) -> None:
     edit, said = CERTIFICATES[name]

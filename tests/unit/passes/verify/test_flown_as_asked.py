@@ -77,6 +77,7 @@ OTHERS: dict[str, tuple[str, str, str]] = {
 QUICK = ("the other way round", "a hold dropped", "another direction", "the other side")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", few(OTHERS, QUICK))
 def test_the_flight_of_another_mission_is_refused(data: bytes, name: str) -> None:
     old, new, code = OTHERS[name]

@@ -143,6 +143,7 @@ TAMPERED: list[tuple[str, TrajectoryIR, set[str]]] = [
 ]  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("tampered", "expected"), [t[1:] for t in TAMPERED], ids=[t[0] for t in TAMPERED])
 def test_tampering_is_found(tampered: TrajectoryIR, expected: set[str]) -> None:
     verdict = judge(tampered, CONTEXT)

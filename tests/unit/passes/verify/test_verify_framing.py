@@ -99,6 +99,7 @@ def test_a_hidden_target_is_a_warning() -> None:
     assert float(told.notes[-1].split()[-5]) == pytest.approx(100 * (1 - shown.worst), abs=0.2)
 
 
+@pytest.mark.long
 def test_a_target_within_a_zone_is_hidden_in_every_frame_and_that_is_an_error_unless_it_is_meant() -> None:
     hall = Zone("hall", "out", box((0.0, 0.0, 15), (12, 12, 30), 0), ("world", "zones", "hall"))
     ir = with_mission(zones=(*MISSION.zones, hall))
@@ -247,7 +248,7 @@ def test_a_range_to_paste_holds_for_both_ends() -> None:
     assert not [d for d in kept if d.code == "V021"]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_broken_screen_error_is_told_with_a_promise_to_paste() -> None:
     aside = shifted(CAM_YAW, radians(3))
     (found,) = promising(Promise(screen_error=0.05), aside)

@@ -89,6 +89,7 @@ def film(flight: DroneTrajectory) -> Array:
 
 
 class TestFlown:
+    @pytest.mark.long
     @pytest.mark.parametrize("refiner", few(["none", "ours"], ["none"]))
     def test_placed_keyframes_are_passed_at_their_times(self, refiner: str) -> None:
         mission, flight, _ = assert_planned(KEYS, refiner=refiner)
@@ -118,6 +119,7 @@ class TestFlown:
         lens = [np.degrees(flight.curve(k.time)[HFOV]) for k in flight.keyframes]
         assert lens[1:] == pytest.approx([45.0, 60.0])
 
+    @pytest.mark.long
     def test_a_start_that_is_open_is_placed_when_it_is_known(self) -> None:
         mission, flight, _ = assert_planned(KEYS, "{duration: 20}")
         a = flight.keyframes[0].time
@@ -240,6 +242,7 @@ ZIGZAG = """kind: keyframes
 
 
 class TestRefused:
+    @pytest.mark.long
     def test_keyframes_out_of_reach_are_told_with_the_times_that_do(self) -> None:
         done = compiled(ZIGZAG)
         (fault,) = [d for d in done.diagnostics if d.code == "M015"]
@@ -252,6 +255,7 @@ class TestRefused:
         slower = re.sub(r"time: ([\d.]+)", lambda at: f"time: {float(at[1]) * times}", ZIGZAG)
         assert_planned(slower, f"{{start: 15, duration: {lasts}}}")
 
+    @pytest.mark.long
     def test_a_target_that_has_moved_on_is_told_with_a_framing_that_does(self) -> None:
         shot = KEYS.replace("[45, -22, 9], look_at: walker", "[45, -22, 9], heading: 180 deg, pitch: 0 deg")
         (fault,) = [d for d in compiled(shot, "{duration: 20}").diagnostics if d.code == "M016"]
@@ -259,6 +263,7 @@ class TestRefused:
         mended = KEYS.replace("[45, -22, 9], look_at: walker", f"[45, -22, 9], {angles}")
         assert_planned(mended, f"{{{start}, duration: 20}}")
 
+    @pytest.mark.long
     def test_a_keyframe_that_another_drone_is_too_near_to_is_told_with_both(self) -> None:
         beside = """\
 shotc: 1
@@ -308,6 +313,7 @@ def zooming(rate: str) -> str:
     return mission(ZOOMED).replace("home: [10, -25, 0]", lens)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rate", [3.2, 4.5, 20.0])
 def test_a_zoom_by_the_mission_clock_keeps_the_rate_of_the_lens(rate: float) -> None:
     # 30 deg in 10 s: the step of least jerk would take 5.6 deg/s.

@@ -51,7 +51,7 @@ def at_home(plan: VerifiedIR) -> Claim:
     return next(c for c in plan.certificate if c.constraint == "target walker at home")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("mission", [PADS, STATIC])
 @pytest.mark.parametrize(
     ("track", "start", "off"), [(CROSSES, "start: 20,", 6.3), (CROSSES, "", 6.3), (SOON, "start: 20,", 4.5)]
@@ -122,7 +122,7 @@ shots:
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_motion_begins_where_walkers_have_just_passed() -> None:
     """Three seconds before it begins they are there: the drone comes from aside, just in time."""
     plan, found = compiled(WALKERS, "")

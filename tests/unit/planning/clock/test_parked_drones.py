@@ -123,7 +123,7 @@ def test_a_pad_in_a_picture_bends_a_shot_only_where_it_must_not_be(strength: str
     assert len(visibility_of(mission, mission.drones[0], {}).bodies) == count
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("shot", "home"), [(PAST, "[0, -47, 0]"), (BESIDE, "[14, -36, 0]")])
 def test_a_way_past_a_parked_drone_is_planned_at_its_distance(shot: str, home: str) -> None:
     plan = compile_source(

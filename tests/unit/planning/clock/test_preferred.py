@@ -122,6 +122,7 @@ def test_what_is_given_up_is_told_once_a_shot_with_its_price_and_the_switch() ->
     assert told(orbit(), "M008") == []
 
 
+@pytest.mark.long
 def test_a_requirement_pays_whatever_it_takes() -> None:
     chase = orbit("require", 3)
     assert chase.plan is not None

@@ -165,6 +165,7 @@ def test_a_drone_that_leads_gets_out_of_the_way_when_the_film_ends() -> None:
     assert away.min() >= away[0] - 0.1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("start", few([52.0, 54.0], [52.0]))
 def test_a_drone_leads_straight_on_where_aside_it_would_miss_the_next_start(start: float) -> None:
     """Aside of the runner, it is at the walker after 58 s; straight on, after 51 s."""
@@ -174,6 +175,7 @@ def test_a_drone_leads_straight_on_where_aside_it_would_miss_the_next_start(star
     assert shot.start == start
 
 
+@pytest.mark.long
 def test_the_earliest_start_is_the_one_that_straight_on_allows() -> None:
     done = compiled_text(NEXT.replace("START", "48"), "none", "m.yaml")
     (late,) = (d for d in done.diagnostics if d.code == "T003")
@@ -191,6 +193,7 @@ def test_a_film_with_an_open_start_waits_until_no_fence_keeps_it_from_its_place(
     assert 24.0 <= shot.start <= 26.0
 
 
+@pytest.mark.long
 def test_where_a_drone_rests_after_a_film_does_not_move_the_film() -> None:
     plan, codes = planned(TWO)
     assert "M008" not in codes

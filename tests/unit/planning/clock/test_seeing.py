@@ -41,6 +41,7 @@ def frames(plan: VerifiedIR) -> tuple[Array, Array]:
     return covered, projected(of, track, "walker", t).in_frame
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("blocks", ["scene", "zones"])
 @pytest.mark.parametrize("seed", few([1, 3, 4, 8], [3]))
 def test_less_is_hidden_from_a_way_that_is_led_and_keyframes_stay(

@@ -65,6 +65,7 @@ def nearest(plan: VerifiedIR) -> float:
     )
 
 
+@pytest.mark.long
 def test_three_drones_film_one_runner_and_keep_apart() -> None:
     plan = planned(SIDE + PASS + TAIL)
     assert nearest(plan) >= 3.0 - 1e-6
@@ -74,6 +75,7 @@ def test_three_drones_film_one_runner_and_keep_apart() -> None:
     assert min(c.worst for c in claims) == pytest.approx(nearest(plan), abs=0.02)
 
 
+@pytest.mark.long
 def test_the_lower_priority_gives_way() -> None:
     first = planned(SIDE + PASS)
     away = {c.shot: c.worst for c in first.certificate if c.constraint == "distance from its place"}
@@ -129,6 +131,7 @@ def pairs() -> list[tuple[str, str]]:
     return [(a, b) for a in ("cam1", "cam2", "cam3") for b in ("cam1", "cam2", "cam3") if a != b]
 
 
+@pytest.mark.long
 def test_drones_keep_out_of_each_others_pictures_both_ways() -> None:
     off = planned(SIDE + PASS + TAIL)
     assert max(seen_share(off, a, b) for a, b in pairs()) > 0.5
@@ -137,6 +140,7 @@ def test_drones_keep_out_of_each_others_pictures_both_ways() -> None:
     assert nearest(kept) >= 3.0 - 1e-6
 
 
+@pytest.mark.long
 def test_a_cone_is_kept_free_where_the_mission_asks_for_one() -> None:
     cone = HEAD.replace('{strength: "off"}', "{strength: prefer, half_angle: 20 deg}")
     plan = planned(SIDE + PASS + TAIL, cone)

@@ -81,7 +81,7 @@ class TestKeyframeTimes:
         assert still(ir, start, start + 3.0)
         assert end - start == pytest.approx(15.0, abs=1e-9)
 
-    @pytest.mark.slow
+    @pytest.mark.long
     @pytest.mark.parametrize("end", [None, 20.0])
     def test_too_early_names_the_earliest_which_then_works(self, end: float | None) -> None:
         marks = self.marks((0.0, None), (20.0, 2.0), (40.0, None))

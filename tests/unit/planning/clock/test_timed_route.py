@@ -65,6 +65,7 @@ KINDS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_films_a_moving_target_and_is_proved(kind: str) -> None:
     plan = planned(text(KINDS[kind]))
@@ -113,6 +114,7 @@ def test_a_shot_keeps_clear_of_a_zone_that_its_ideal_runs_through() -> None:
     assert "M008" in said(text(KINDS["lateral"], world=world))
 
 
+@pytest.mark.long
 def test_a_pass_over_its_target_keeps_the_clearance_at_every_instant() -> None:
     plan = planned(text("kind: flyby, behind: 8, ahead: 8, altitude: 4"))
     assert claim(plan, "target runner") >= 1.0 - 1e-6
@@ -121,6 +123,7 @@ def test_a_pass_over_its_target_keeps_the_clearance_at_every_instant() -> None:
     assert claim(low, "distance from its place") > 0.3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("body", ["forward", "free", "follow-camera"])
 def test_the_gimbal_and_the_body_keep_their_ranges_whatever_the_body_does(body: str) -> None:
     plan = planned(text(KINDS["flyby"], drone=f", body: {body}"))

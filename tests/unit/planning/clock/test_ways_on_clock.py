@@ -94,6 +94,7 @@ def only(found: tuple[Diagnostic, ...], code: str) -> Diagnostic:
     return told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", ["0.9", "0.7"])
 @pytest.mark.parametrize("home", few(["[-100, 15, 0]", "[-97, 12, 0]", "[-85, -15, 0]"], ["[-97, 12, 0]"]))
 def test_the_way_to_a_shot_leads_round_who_stands_in_it(size: str, home: str) -> None:
@@ -107,6 +108,7 @@ def test_the_way_to_a_shot_leads_round_who_stands_in_it(size: str, home: str) ->
         assert away.min() >= plan.trajectory.keyframes.mission.rules.target_clearance
 
 
+@pytest.mark.long
 def test_a_start_put_off_is_one_at_which_the_drone_is_there() -> None:
     told = only(ride("start: 0, duration: 6")[1], "T003")
     start = re.search(r"`start: ([\d.]+) s` or later", told.help)
@@ -114,6 +116,7 @@ def test_a_start_put_off_is_one_at_which_the_drone_is_there() -> None:
     assert ride(f"start: {start[1]}, duration: 6")[0] is not None
 
 
+@pytest.mark.long
 def test_a_track_that_ends_before_the_later_shot_does_leaves_so_much_of_it() -> None:
     told = only(ride("start: 0, duration: 40")[1], "T003")
     numbers = re.search(r"`start: ([\d.]+) s` and `duration: ([\d.]+) s` or less", told.help)
@@ -138,6 +141,7 @@ def test_what_comes_before_a_shot_adds_up_to_its_earliest_start() -> None:
     assert f"but {told_sum:.2f} s is the earliest" in told.message
 
 
+@pytest.mark.long
 def test_a_shot_without_a_start_is_told_how_long_it_can_be() -> None:
     told = only(ride("duration: 40")[1], "M010")
     left = re.search(r"`duration: ([\d.]+) s` or less", told.help)

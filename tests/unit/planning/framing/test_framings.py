@@ -82,6 +82,7 @@ def bearing_of(ir: KeyframeIR, t: float = 15.0) -> tuple[float, float]:
     return degrees(atan2(x, y)) % 360, degrees(atan2(z, hypot(x, y)))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("target", ["runner", "tower"])
 def test_one_subject_is_seen_as_asked_at_every_frame_whether_it_moves_or_stands(target: str) -> None:
     size, view = 0.4, "view: {azimuth: 150 deg, elevation: 20 deg}"
@@ -240,6 +241,7 @@ def test_a_course_is_as_fast_as_its_drone_at_most_and_smooth() -> None:
     assert speeds.max() <= 0.81 * 8.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("subjects", "code", "where"),
     [
@@ -256,6 +258,7 @@ def test_what_no_camera_can_have_is_told_at_its_line(
     assert underlined(mission, only(mission, code)) == where
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rules", ["", "rules: {target_clearance: 3}\n"])
 @pytest.mark.parametrize(
     "view",
@@ -338,6 +341,7 @@ def test_a_size_that_the_geometry_decides_is_told_with_what_would_give_it(shot: 
     assert not has_errors(told(mission))
 
 
+@pytest.mark.long
 def test_a_shot_begins_later_where_the_way_to_it_would_meet_its_subjects() -> None:
     mission = text().split("targets:")[0]
     mission += """\
@@ -359,6 +363,7 @@ def test_check_knows_all_of_it_without_a_solver() -> None:
     assert not has_errors(report.diagnostics)
 
 
+@pytest.mark.long
 @settings(deadline=None, max_examples=3, phases=(Phase.explicit, Phase.generate))
 @given(
     size=st.floats(0.12, 0.45),

@@ -111,7 +111,7 @@ def test_a_camera_that_nothing_else_places_stays_there_and_turns(refiner: str) -
     assert np.hypot(frames.u, frames.v).max() < 0.01
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("refiner", ["none", "ours"])
 def test_several_subjects_are_filmed_from_nearer_to_the_place(refiner: str) -> None:
     far = []

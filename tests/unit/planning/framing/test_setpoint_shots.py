@@ -63,6 +63,7 @@ def eased(t, known):
     return out
 
 
+@pytest.mark.long
 def test_a_moving_subject_appears_as_its_setpoints_say_at_every_frame() -> None:
     plan = planned(text(ONE))
     mission, track = plan.trajectory.keyframes.mission, plan.trajectory.drones[0]
@@ -103,6 +104,7 @@ def test_the_example_of_the_guide_checks_clean() -> None:
     assert placed(re.sub(r"  - .*\n", example, world))[1] == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("setpoints", "code", "marked"),
     [
@@ -122,6 +124,7 @@ def test_a_setpoint_that_makes_no_sense_is_told_where_it_stands(setpoints, code,
     assert mission.splitlines()[span.line - 1][span.column - 1 : span.end_column - 1] == marked
 
 
+@pytest.mark.long
 def test_a_change_that_is_too_fast_for_the_drone_is_told_with_the_time_it_takes() -> None:
     mission = text("{target: mast, size: 0.2, setpoints: [{time: 4, size: 0.6}]}")
     (found,) = placed(mission)[1]

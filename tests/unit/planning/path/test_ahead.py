@@ -71,6 +71,7 @@ def off_course(plan: VerifiedIR) -> float:
     return degrees(off[unfilmed & (np.linalg.norm(v, axis=1) > FAST_M_S)].max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", few(range(24), range(4)))
 def test_whatever_is_drawn_is_flown_nose_first_between_shots(seed: int) -> None:
     text, half_angle = drawn(seed)
@@ -90,6 +91,7 @@ def test_without_the_rule_the_same_drone_looks_aside_and_nothing_is_claimed() ->
     assert not [c for c in plan.certificate if c.constraint == "look ahead"]
 
 
+@pytest.mark.long
 def test_a_drone_on_the_mission_s_clock_looks_ahead_to_where_its_film_s_motion_begins() -> None:
     text = """\
 shotc: 1
@@ -129,6 +131,7 @@ def seconds_between(plan: VerifiedIR) -> float:
     return second.start - first.end
 
 
+@pytest.mark.long
 def test_a_way_bends_where_that_takes_less_time_than_to_turn_first(monkeypatch: pytest.MonkeyPatch) -> None:
     bent = compiled(ASIDE).plan
     assert bent is not None

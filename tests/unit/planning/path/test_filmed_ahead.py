@@ -69,6 +69,7 @@ def off_course(plan: VerifiedIR, shot: str, channel: int = BODY_YAW) -> float:
     return degrees(off[np.linalg.norm(v, axis=1) > FAST_M_S].max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", few(range(16), range(2)))
 def test_whatever_path_is_drawn_its_nose_and_its_camera_look_along_it(seed: int) -> None:
     rng = np.random.default_rng([seed, 156])
@@ -83,6 +84,7 @@ def test_whatever_path_is_drawn_its_nose_and_its_camera_look_along_it(seed: int)
     assert off_course(plan, "run", CAM_YAW) <= HALF_DEG
 
 
+@pytest.mark.long
 def test_the_same_path_is_refused_where_nobody_plans_it(monkeypatch: pytest.MonkeyPatch) -> None:
     text = mission("follow-camera", CORNERS)
     monkeypatch.setattr(shots, "ahead_in", lambda mission, shot: None)
@@ -93,12 +95,14 @@ def test_the_same_path_is_refused_where_nobody_plans_it(monkeypatch: pytest.Monk
     assert {label.span.line for label in broken.labels} == {5, 7}
 
 
+@pytest.mark.long
 def test_a_refined_shot_still_looks_along_its_path() -> None:
     plan = planned(mission("follow-camera", CORNERS), "ours")
     assert claimed(plan, "run").holds
     assert off_course(plan, "run") <= HALF_DEG
 
 
+@pytest.mark.long
 def test_beside_another_drone_the_legs_keep_their_times_and_look_ahead() -> None:
     far = "  - {id: far, kind: static, drone: two, at: [-60, -60, 9], heading: 0 deg, pitch: 0 deg}\n"
     text = mission("follow-camera", CORNERS, far)
@@ -108,6 +112,7 @@ def test_beside_another_drone_the_legs_keep_their_times_and_look_ahead() -> None
         assert off_course(plan, "run") <= HALF_DEG
 
 
+@pytest.mark.long
 def test_a_body_under_a_camera_that_films_looks_ahead_where_its_gimbal_pans_enough() -> None:
     plan = planned(mission("forward", CORNERS, ROUND))
     assert claimed(plan, "round").holds
@@ -116,6 +121,7 @@ def test_a_body_under_a_camera_that_films_looks_ahead_where_its_gimbal_pans_enou
     assert "in `run`, in `round`" in summary(plan, [Path("o/plan.json")], [])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("drone", "why"),
     [

@@ -101,6 +101,7 @@ class TestMethods:
         # Yaws 100, 80, -110, 150 deg from East.
         assert turns(mission("350", "10", "200", "300"), "bounded") == [20.0, 190.0, -260.0]
 
+    @pytest.mark.long
     @pytest.mark.parametrize("headings", [("350", "10", "200", "300"), ("0", "178", "357", "170", "10")])
     def test_the_curve_of_virtual_is_flown_and_that_of_others_is_not(self, headings: tuple[str, ...]) -> None:
         leg, plan = planned_leg(mission(*headings), "virtual")

@@ -113,7 +113,7 @@ def test_ends_close_to_a_face_find_their_way_out():
     assert np.abs(route[1:-1, 1]).max() > 10.6
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=40, deadline=None)
 @given(
     st.lists(

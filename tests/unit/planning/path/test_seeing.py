@@ -91,6 +91,7 @@ def test_a_way_stays_as_it_is_where_its_target_may_be_hidden(plain, meant):
     assert same(film(with_meshes(square(), TREE), placed), plain)
 
 
+@pytest.mark.long
 def test_a_way_stays_as_it_is_where_the_time_asked_for_leaves_none_to_go_aside():
     placed = shot(pair().keyframes, timing=Timing(duration=7.0))
     assert same(film(with_meshes(square(), TREE), placed), film(square(), placed))
@@ -103,6 +104,7 @@ def test_a_way_from_one_target_to_another_stays_as_it_is():
     assert same(film(with_meshes(of, TREE), pair(b=BENCH)), film(of, pair(b=BENCH)))
 
 
+@pytest.mark.long
 def test_a_way_stays_as_it_is_where_nothing_beside_it_sees_more(plain):
     walls = [turned(house(40.0, 1.0, 60.0, 61.0), 0.0, (0.0, -10.0))]
     assert same(film(with_meshes(square(), *walls), pair()), plain)

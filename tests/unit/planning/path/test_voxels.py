@@ -23,7 +23,7 @@ from tests.support.surfaces import distances, samples
 A, B = np.array([-12.0, 0.0, 5.0]), np.array([12.0, 0.0, 5.0])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", few([1, 2, 3], [1]))
 def test_ways_through_villages_are_flown_clear_of_every_triangle(seed):
     scene = some_scene(np.random.default_rng(seed))
@@ -50,7 +50,7 @@ def test_a_way_leads_over_a_wall_whose_gate_is_too_narrow():
     assert way[:, 2].max() >= 12.0 + CLEARANCE
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_nothing_leads_out_of_a_closed_yard():
     walls = [quad((x, y, -1), (u, v, -1), (u, v, 9), (x, y, 9)) for x, y, u, v in _ring(9.0)]
     lid = quad((-9, -9, 9), (9, -9, 9), (9, 9, 9), (-9, 9, 9))

@@ -99,7 +99,7 @@ def zone(solid: object) -> Zone:
     return Zone("mast", "out", solid, ("world", "zones", "mast"))  # type: ignore[arg-type]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     "solid",
     [Cylinder((15.0, 60.0), 1.0, 0.0, 38.5), Cylinder((15.0, 62.0), 1.0, 0.0, 90.0)],

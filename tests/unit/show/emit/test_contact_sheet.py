@@ -51,7 +51,7 @@ def crowded(count: int, apart: float) -> VerifiedIR:
     return replace(plan, trajectory=replace(plan.trajectory, fleets=(flight,)))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("apart", [0.0, 60.0])
 @pytest.mark.parametrize("count", [2, 5, 10])
 def test_the_map_has_a_number_for_each_picture_and_none_is_over_another(count: int, apart: float) -> None:

@@ -75,6 +75,7 @@ def test_key_points_are_as_the_server_wants_them(step: float) -> None:
         assert trajectory["version"] == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", skyc_reader.DAMAGE)
 def test_the_reader_knows_what_the_loader_refuses(name: str) -> None:
     assert list(skyc_reader.faults(skyc_reader.damaged(content(), name)))

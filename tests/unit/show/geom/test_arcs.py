@@ -49,7 +49,7 @@ def flown(move: ArcMove, starts: Array, goals: Array) -> tuple[Array, Array]:
     return np.arange(coef.shape[1] - 2) * move.piece, coef
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=15, deadline=None)
 @given(st.integers(0, 2**31), st.integers(2, 60), st.sampled_from(["ellipsoid", "cylinder"]))
 def test_fleets_as_dense_as_the_separation_allows_keep_it(seed: int, count: int, shape: str) -> None:
@@ -77,6 +77,7 @@ def test_fleets_as_dense_as_the_separation_allows_keep_it(seed: int, count: int,
         assert np.linalg.norm(spline.derivative(order)(breaks[:-1] + 1e-9), axis=2).max() <= most
 
 
+@pytest.mark.long
 @given(gaps_of_balls)
 def test_the_way_is_the_shortest_outside_the_circle(gaps: Gaps) -> None:
     """Against the shortest path through a fine polygon round the circle and both ends."""

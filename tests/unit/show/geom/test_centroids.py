@@ -71,7 +71,7 @@ def test_every_point_is_of_its_nearest_goal_whatever_they_begin_with() -> None:
         assert distance == pytest.approx(cKDTree(found.goals).query(points)[0])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("shape", [ball_of, cube_of])
 def test_momentum_ends_below_plain_steps(shape: Callable[[int, int], Array]) -> None:
     shares = []
@@ -110,6 +110,7 @@ def test_no_step_raises_the_cost(seed: int, n: int, weight: float) -> None:
     assert never_rises(seen.costs)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shape", [ball_of, cube_of])
 @pytest.mark.parametrize("seed", range(4))
 def test_cost_in_space_rises_and_in_the_picture_falls_with_the_weight(shape, seed: int) -> None:

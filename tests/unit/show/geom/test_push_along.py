@@ -42,7 +42,7 @@ def test_a_line_holds_as_many_as_fit_along_it() -> None:
     assert push_along(shape[::20], shape, 1.0, 0.1, anywhere) is None
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000), st.integers(2, 60))
 def test_what_is_left_is_apart_on_the_shape_and_not_few(seed: int, n: int) -> None:

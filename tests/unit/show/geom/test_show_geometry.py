@@ -134,7 +134,7 @@ def packed(gap: float, stretch: float, offset: Vec3) -> list[Vec3]:
     ]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @settings(max_examples=25, deadline=None)
 @given(solids, st.sampled_from([(1.0, 1.0), (1.0, 2.0), (2.0, 1.2)]), st.tuples(*[st.floats(0, 1)] * 3))
 def test_the_densest_packing_never_beats_the_bound(

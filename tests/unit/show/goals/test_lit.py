@@ -93,6 +93,7 @@ CASES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("source", "fill", "count"), CASES)
 def test_no_light_is_beside_a_stroke(source: Source, fill: str, count: int) -> None:
     frame, _ = placed(mission(source, fill, count))
@@ -110,6 +111,7 @@ def test_few_lights_write_along_the_strokes_and_many_along_the_outline() -> None
     assert not codes(mission(source, "legible", 60)) + codes(mission(source, "legible", 130))
 
 
+@pytest.mark.long
 def test_spare_drones_are_dark_behind_the_picture() -> None:
     frame, (warning,) = placed(mission(heart(23.7), "outline", 60))
     dark = ~frame.colors.any(axis=1)
@@ -119,6 +121,7 @@ def test_spare_drones_are_dark_behind_the_picture() -> None:
     assert frame.points[dark][:, 1].min() > 20.0 + spacing(APART)  # who looks stands in the south
 
 
+@pytest.mark.long
 def test_spare_drones_stand_in_front_where_there_is_no_room_behind() -> None:
     wall = Zone("wall", "out", box((0.0, 24.0, 40.0), (300.0, 6.0, 80.0), 0.0), ("world", "zones", "wall"))
     frame, _ = placed(mission(heart(23.7), "outline", 60, (wall,)))
@@ -126,6 +129,7 @@ def test_spare_drones_stand_in_front_where_there_is_no_room_behind() -> None:
     assert (frame.points[dark][:, 1] < 20.0).all()
 
 
+@pytest.mark.long
 def test_what_the_help_of_dark_drones_says_lights_all() -> None:
     ir = mission(heart(23.7), "outline", 60)
     (warning,) = PlaceGoals().run(ir, PassContext()).diagnostics
@@ -148,6 +152,7 @@ def numbers(found: Diagnostic) -> list[float]:
     return [float(word) for word in words.groups()]
 
 
+@pytest.mark.long
 def test_a_fleet_that_is_mostly_dark_is_told_where_to_put_a_larger_picture() -> None:
     (fault,) = PlaceGoals().run(mission(heart(23.7), "outline", 200), PassContext()).diagnostics
     assert fault.code == "D062"

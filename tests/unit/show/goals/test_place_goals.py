@@ -49,7 +49,7 @@ def nearest(points: np.ndarray, apart: Apart) -> float:
     return float(pdist(points * (1, 1, stretch(apart))).min())
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("info", [c for c in CODES if c.phase == "plan"], ids=lambda c: c.slug)
 def test_the_examples_that_planning_finds(info: CodeInfo) -> None:
     for text, codes in ((info.failing, {info.code}), (info.passing, set())):
@@ -60,6 +60,7 @@ def test_the_examples_that_planning_finds(info: CodeInfo) -> None:
         assert all(d.labels[0].span.line > 10 for d in found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("apart", [APART, Apart("cylinder", 1.0, 2.0, 0.1)])
 @pytest.mark.parametrize("weight", [inf, 0.5, 0.0])
 @pytest.mark.parametrize(
@@ -173,7 +174,7 @@ def test_a_point_cloud_is_its_points() -> None:
     assert (fault.code, "20 points" in fault.message) == ("D061", True)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_too_many_drones_and_what_would_do() -> None:
     tight = Sphere(MIDDLE, 2.5)
     done = PlaceGoals().run(show(display(picture(tight)), fleet(100)), PassContext())
@@ -200,7 +201,7 @@ def apart_enough(points, of) -> bool:
     return bool(pdist(scaled).min() >= spacing(of) * (1 - 1e-9))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("viewpoint", few([None, (0.0, -200.0, 2.0)], [None]))
 def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -> None:
     cube = Box(MIDDLE, (12.0, 12.0, 12.0), 0.0)
@@ -217,7 +218,7 @@ def test_drones_without_room_stay_dark_behind_the_outline_of_a_cube(viewpoint) -
     assert frame.points[dark][:, 1].min() > frame.points[~dark][:, 1].max() + 1.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_dark_drones_of_a_solid_stand_in_front_where_there_is_no_room_behind() -> None:
     """As those of a flat picture do: one rule places both."""
     cube = Box(MIDDLE, (17.0, 17.0, 17.0), 0.0)
@@ -231,7 +232,7 @@ def test_dark_drones_of_a_solid_stand_in_front_where_there_is_no_room_behind() -
     assert apart_enough(frame.points, crowd.apart)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_of_an_animation_the_same_drones_stay_dark_in_every_frame() -> None:
     files = {f"w{k}.ply": ply(sphere_mesh(5.0 + 0.5 * k, 12)) for k in range(3)}
     model = Model(tuple(files), 2.0, MIDDLE, None, 0.0)

@@ -226,7 +226,7 @@ def test_a_picture_that_limits_bend_is_told(period: float, warned: bool) -> None
         assert "period" in done.diagnostics[0].help
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("shape", few(["ellipsoid", "cylinder"], ["ellipsoid"]))
 def test_drones_matched_at_random_are_pushed_apart(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)

@@ -72,7 +72,7 @@ def told(found: Diagnostic, key: str) -> float:
     return float(found.help.split(f"`{key}: ")[1].split("`")[0])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_period_that_is_too_short_comes_with_one_that_does() -> None:
     said: list[str] = []
     (found,) = planned(half_a_turn(0.27), said).diagnostics

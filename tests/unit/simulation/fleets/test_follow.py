@@ -85,7 +85,7 @@ def test_feed_forward_turns_a_corner_closer():
     assert with_it.error.max() < without.error.max()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("hold", [2, 4])
 @pytest.mark.parametrize("degrees", [90, 150, 180])
 def test_nobody_is_left_behind_a_turn_after_a_hold(degrees, hold):

@@ -142,7 +142,7 @@ def test_a_limit_that_binds_is_met_by_the_best_curve() -> None:
     assert curve.derivative()(3.0)[0] == pytest.approx(0.65, abs=1e-5)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_limit_on_the_rate_that_binds_is_met_by_the_best_curve() -> None:
     problem = task([0.0, 3.0], each=3.0, acceleration=np.inf, rate=1.45)
     cost = energy(problem.at, 0.0, problem.rates)
