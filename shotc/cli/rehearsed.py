@@ -13,6 +13,7 @@ from shotc.cli.console import clock, table
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import at_least, at_most, plain, up
+from shotc.simulation.fleets.near import Near
 from shotc.simulation.judge import Course, Picture, Run
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.shows import FleetCourse
@@ -233,8 +234,23 @@ def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
     )
     if near is not None:
         pair = f"{names[near.first]} and {names[near.second]}"
-        yield f"{fleet.name}: {pair} come nearest, at {clock(near.time)}"
+        in_air = " in the air" if far.beside is not None else ""
+        yield f"{fleet.name}: {pair} come nearest{in_air}, at {clock(near.time)}"
+    yield from _beside_pads(fleet, [each.flown.beside for each in every if each.flown.beside is not None])
     yield f"{fleet.name}: {_enough(fleet, far.farthest, 0 if near is None else near.below)}"
+
+
+def _beside_pads(fleet: Fleet, every: list[Near]) -> Iterator[str]:
+    """Say who comes nearest while one of them stands on its pad."""
+    if not every:
+        return
+    names, near = drone_names(fleet), min(every, key=lambda n: n.distance)
+    text = (
+        f"{fleet.name}: {names[near.first]} and {names[near.second]} come nearest while one stands on its "
+        f"pad, {at_most(near.distance)} m at {clock(near.time)}"
+    )
+    touching = f"; bodies touch below {2 * fleet.radius:.2f} m" if near.below else ""
+    yield f"{text}{touching}"
 
 
 def _enough(fleet: Fleet, farthest: float, below: int) -> str:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 LAYERS = ("layers", "layers deep m", "layers seen m", "layers aside m")
+TAKE_OFF = ("layers", "lowest m", "highest m", "s", "landing s")
 
 
 def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
@@ -20,6 +21,20 @@ def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
             yield (
                 f"{where} is {deep:.2f} m deep, in {count:.0f} layers: its lights may look {seen:.2f} m "
                 f"apart, and from 20 m beside the axis the last layer looks {aside:.2f} m aside"
+            )
+
+
+def taking_off(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
+    """Yield which fleets rise and land in layers, how high, and how long it takes; stats : of passes."""
+    known = dict(stats)
+    for name in known:
+        fleet = re.fullmatch(r"fleet (.+) take-off layers", name)
+        if fleet:
+            at = name.removesuffix("layers")
+            count, low, high, up, down = (float(known[at + key]) for key in TAKE_OFF)
+            yield (
+                f"{fleet[1]} takes off in {count:.0f} layers, {low:.1f} to {high:.1f} m above its pads, in "
+                f"{up:.1f} s, and lands in {down:.1f} s: its pads are nearer than its separation"
             )
 
 

@@ -10,7 +10,7 @@ from textwrap import wrap
 from shotc.cli.centred import centred
 from shotc.cli.console import clock, table
 from shotc.cli.exposed import exposed
-from shotc.cli.show_facts import dense, layered
+from shotc.cli.show_facts import dense, layered, taking_off
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
 from shotc.ir.fleet import FleetTrajectory
@@ -124,7 +124,8 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("turns", text) for text in _turns(plan)]
     facts += exposed(plan)
     facts += [("smoothed", text) for text in _smoothed(mission)]
-    facts += [("shows", text) for text in (*dense(plan.trajectory.stats), *layered(plan.trajectory.stats))]
+    told = (taking_off, dense, layered)
+    facts += [("shows", text) for tell in told for text in tell(plan.trajectory.stats)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]
 
@@ -345,7 +346,9 @@ def _pair(plan: VerifiedIR, claim: Claim) -> str:
     reached, needed = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
     when = "" if claim.time is None else f", at {clock(claim.time)}"
     text = f"{' and '.join(claim.drones)} come nearest, {reached}, {needed} needed{when}"
-    if claim.constraint != "separation":
+    if claim.constraint == "separation on pads":
+        return f"{text} while one stands on its pad"
+    if claim.constraint not in ("separation", "separation in the air"):
         return text
     apart = plan.trajectory.keyframes.mission.fleet(claim.subject).apart
     return f"{text}; heights count {stretch(apart):.2g} times ({apart.shape})"

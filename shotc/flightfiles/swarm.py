@@ -26,12 +26,15 @@ from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.origin import KeyPath
 from shotc.ir.rules import Rules
 from shotc.ir.sampling import beside
-from shotc.ir.show import Fleet
+from shotc.ir.show import Apart, Fleet
 from shotc.ir.target import Target
 from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, Worst, gap, held, less
 from shotc.passes.verify.fleets.space import nearest
+from shotc.planning.take_off import bodies_of, take_off_of
+
+Span = tuple[float, float]
 
 AT_PAD_M = 0.05
 """Metres from their pads at which flights begin and end."""
@@ -77,7 +80,7 @@ def judged(swarm: Swarm) -> Iterator[Found]:
         yield moved(fleet.name, swarm.flights, move, fleet=True)
     yield from _space(swarm)
     if len(swarm.flights) > 1:
-        yield _separation(swarm)
+        yield from _separation(swarm)
 
 
 def moved(subject: str, flights: Sequence[Flown], move: Move, *, fleet: bool = False) -> Found:
@@ -113,7 +116,7 @@ def _pads(swarm: Swarm) -> Iterator[Found]:
     k = int(np.argmax(away))
     home = Limit("distance from home", AT_PAD_M, "m", (*fleet.path, "layout"))
     yield _told(swarm, home, Bound(float(away[k]), float(away[k]), 0.0), k)
-    airborne = np.array([_airborne(flight) for flight in swarm.flights])
+    airborne = np.array([down - up for up, down in map(_moving, swarm.flights)])
     k = int(np.argmax(airborne))
     endurance = Limit("endurance", fleet.endurance, "s", (*fleet.path, "endurance"))
     yield _told(
@@ -121,14 +124,28 @@ def _pads(swarm: Swarm) -> Iterator[Found]:
     )
 
 
-def _airborne(flight: Flown) -> float:
-    """Return how long a drone is off its first and its last place."""
+def _moving(flight: Flown, least: float = 0.0) -> Span:
+    """Return when a drone leaves its first place, and when it comes to its last one; least : of a move, m."""
     curve = flight.curve
-    moves = (curve.ctrl != curve.ctrl[:, :1]).any(axis=(1, 2))
+    moves = np.asarray((np.abs(curve.ctrl - curve.ctrl[:, :1]) > least).any(axis=(1, 2)))
     if not moves.any():
-        return 0.0
+        return curve.end, curve.end
     first, last = int(np.argmax(moves)), len(moves) - int(np.argmax(moves[::-1]))
-    return float(curve.breaks[last] - curve.breaks[first])
+    return float(curve.breaks[first]), float(curve.breaks[last])
+
+
+def _aloft(swarm: Swarm) -> Array:
+    """Return when every drone is off its pads, shape (n, 2); always where its flight ends elsewhere.
+
+    On a piece of its flight it stands where it moves by less than what the file leaves open.
+    """
+    spans = []
+    for flight in swarm.flights:
+        ends = (flight.curve.ctrl[0, 0], flight.curve.ctrl[-1, -1])
+        on_pad = [float(norm(swarm.pads - end).min()) <= AT_PAD_M for end in ends]
+        up, down = _moving(flight, flight.leeway.place)
+        spans.append((up if on_pad[0] else -inf, down if on_pad[1] else inf))
+    return np.array(spans)
 
 
 def _space(swarm: Swarm) -> Iterator[Found]:
@@ -270,15 +287,27 @@ def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> Found:
     return _told(swarm, limit, less(worst, radius), owner)
 
 
-def _separation(swarm: Swarm) -> Found:
+def _separation(swarm: Swarm) -> Iterator[Found]:
+    """Claim the separation; of a fleet that takes off in layers that of two in the air, and of bodies."""
     fleet = swarm.fleet
-    found = closest_of([flight.curve for flight in swarm.flights], fleet.apart)
+    if not take_off_of(fleet).layered:
+        yield from _kept(swarm, "separation", fleet.apart)
+        return
+    yield from _kept(swarm, "separation in the air", fleet.apart, _aloft(swarm))
+    yield from _kept(swarm, "separation on pads", bodies_of(fleet))
+
+
+def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> Iterator[Found]:
+    fleet = swarm.fleet
+    found = closest_of([flight.curve for flight in swarm.flights], apart, spans=spans)
+    if not isfinite(found.proven):
+        return  # No two are ever in the air.
     own = (*fleet.path, "separation")
     origins = swarm.mission.origins
     path: KeyPath = own if own in origins.keys or own in origins.values else ("rules", "separation")
-    limit = Limit("separation", fleet.apart.across, "m", path, upper=False)
+    limit = Limit(name, apart.across, "m", path, upper=False)
     pair = (swarm.flights[found.first], swarm.flights[found.second])
     worst = Worst(found.proven, found.time, "bounded", found.position)
     claim: Claim = held(fleet.name, limit, worst, (pair[0].name, pair[1].name))
     leeway = sum(flight.leeway.place for flight in pair)
-    return Found(to_tolerance(claim, {"m": leeway}), pair[0].at(found.time), when(pair[0], found.time))
+    yield Found(to_tolerance(claim, {"m": leeway}), pair[0].at(found.time), when(pair[0], found.time))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil
 
 import numpy as np
@@ -28,16 +29,23 @@ BLOCK_PAIRS = 20_000
 """Pairs looked at together, which bounds the memory."""
 
 
-def closest_of(flights: Sequence[Piecewise], apart: Distances, first: int | None = None) -> Nearest:
+def closest_of(
+    flights: Sequence[Piecewise],
+    apart: Distances,
+    first: int | None = None,
+    spans: Array | None = None,
+) -> Nearest:
     """Return the nearest that two flights ever come, in the sense of ``apart``.
 
     flights : cubics x, y, z over seconds, metres, two at least
     first : of how many of them one of two has to be, and the other one of the rest; None for any
+    spans : between which of its breaks each flight counts, or before and after all, shape (n, 2), seconds;
+        None for always
     """
     search = NearestPair(upright=apart.shape == "cylinder")
     high = stretch(apart)
     scale = np.array([1.0, 1.0, high])
-    slabs = _slabs([Piecewise(f.breaks, f.ctrl * scale) for f in flights])
+    slabs = _slabs([Piecewise(f.breaks, f.ctrl * scale) for f in flights], spans)
     _sampled(search, slabs, first)
     pairs, index = _candidates(search, slabs, first)
     for at in range(0, len(pairs), BLOCK_PAIRS):
@@ -68,6 +76,7 @@ class _Slabs:
     ends : (S + 1,), seconds; cut : the flights on breaks that hold these ends
     at : places at the ends, (n, S + 1, 3); centre, radius : of balls that hold each flight in each slab, less
         what all have in common, (n, S, 3) and (n, S)
+    spans : when each flight counts, (n, 2)
     """
 
     ends: Array
@@ -75,6 +84,11 @@ class _Slabs:
     at: Array
     centre: Array
     radius: Array
+    spans: Array
+
+    def counted(self, low: float, high: float) -> Index:
+        """Return which flights count at some time of an interval."""
+        return np.flatnonzero((self.spans[:, 0] <= high) & (self.spans[:, 1] >= low))
 
     def apart(self, pairs: Index, slab: Index) -> Array:
         """Return how far the balls of pairs are apart, (M,)."""
@@ -98,7 +112,9 @@ class _Slabs:
             breaks = np.union1d(a, b)
             x, y = (restrict(Piecewise(*each), breaks).ctrl for each in ((a, x), (b, y)))
             a = breaks
-        return np.stack([a[:-1], a[1:]], axis=1), x - y
+        middle, both = 0.5 * (a[:-1] + a[1:]), self.spans[[one, other]]
+        counts = (middle > both[:, 0].max()) & (middle < both[:, 1].min())
+        return np.stack([a[:-1], a[1:]], axis=1)[counts], (x - y)[counts]
 
     def _part(self, drone: int, slab: int) -> tuple[Array, Array]:
         curve = self.cut[drone]
@@ -106,7 +122,7 @@ class _Slabs:
         return curve.breaks[low : high + 1], curve.ctrl[low:high]
 
 
-def _slabs(flights: Sequence[Piecewise]) -> _Slabs:
+def _slabs(flights: Sequence[Piecewise], spans: Array | None) -> _Slabs:
     end = max(f.end for f in flights)
     begin = min(f.start for f in flights)
     whole = [_standing(f, begin, end) for f in flights]
@@ -126,7 +142,9 @@ def _slabs(flights: Sequence[Piecewise]) -> _Slabs:
         low.append(np.minimum.reduceat(own.min(axis=1), k))
         high.append(np.maximum.reduceat(own.max(axis=1), k))
     least, most = np.stack(low), np.stack(high)
-    return _Slabs(common, cut, at, 0.5 * (least + most), 0.5 * norm(most - least))
+    if spans is None:
+        spans = np.tile([-np.inf, np.inf], (len(flights), 1))
+    return _Slabs(common, cut, at, 0.5 * (least + most), 0.5 * norm(most - least), spans)
 
 
 def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
@@ -138,15 +156,24 @@ def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
 
 
 def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
-    """Look for the nearest pair at the ends of slabs."""
+    """Look for the nearest pair at the ends of slabs, and for one of which both count somewhere."""
+    begins = np.argsort(slabs.spans[:, 0], kind="stable")
+    for one, other in pairwise(begins.tolist()):
+        begin = float(np.clip(slabs.spans[other, 0], slabs.ends[0], slabs.ends[-1]))
+        if first is None and slabs.spans[one, 1] >= begin:
+            near = slabs.cut[one](begin) - slabs.cut[other](begin)
+            search.note(float(search.size(near[None])[0]), (one, other), begin)
+            break
     for k, time in enumerate(slabs.ends.tolist()):
         places = slabs.at[:, k]
         if first is None:
-            if len(places) < 2:
-                return
-            distance, index = cKDTree(places).query(places, k=2)
-            one = int(np.argmin(distance[:, 1]))
-            other = int(index[one, 1]) if int(index[one, 1]) != one else int(index[one, 0])
+            rows = slabs.counted(time, time)
+            if len(rows) < 2:
+                continue
+            distance, index = cKDTree(places[rows]).query(places[rows], k=2)
+            row = int(np.argmin(distance[:, 1]))
+            one = int(rows[row])
+            other = int(rows[index[row, 1] if index[row, 1] != row else index[row, 0]])
         else:
             distance, index = cKDTree(places[first:]).query(places[:first])
             one = int(np.argmin(distance))
@@ -164,7 +191,8 @@ def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[
         if not np.isfinite(reach):
             continue
         if first is None:
-            pairs = cKDTree(centre).query_pairs(reach, output_type="ndarray")
+            rows = slabs.counted(*slabs.ends[k : k + 2])
+            pairs = rows[cKDTree(centre[rows]).query_pairs(reach, output_type="ndarray")]
         else:
             near = cKDTree(centre[:first]).sparse_distance_matrix(
                 cKDTree(centre[first:]), reach, output_type="ndarray"

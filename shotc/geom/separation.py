@@ -13,10 +13,11 @@ Arithmetic is IEEE double, as in ``geom.proof``, with the same gap.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from shotc.geom.apart import Distances, stretch
@@ -33,6 +34,11 @@ SAMPLE_SLABS = 128
 
 BLOCK_PAIRS = 50_000
 """Pairs looked at together, which bounds the memory."""
+
+
+PAIR = 2
+
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,12 +58,13 @@ class Nearest:
     position: tuple[float, float, float]
 
 
-def closest(breaks: Array, coef: Array, apart: Distances) -> Nearest:
+def closest(breaks: Array, coef: Array, apart: Distances, counted: Mask | None = None) -> Nearest:
     """Return the nearest that two drones of one fleet ever come.
 
     breaks : shape (P + 1,), seconds; coef : shape (n, P + 3, 3), metres, as in ``geom.fleet_spline``
+    counted : who counts on each piece, shape (n, P); all, if None
     """
-    fleet = _Fleet.of(breaks, coef, apart)
+    fleet = replace(_Fleet.of(breaks, coef, apart), counted=counted)
     return _Search(fleet, None, apart).run()
 
 
@@ -74,15 +81,26 @@ def closest_between(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Fleet:
-    """A fleet's motion in stretched space; ctrl : Bernstein control points, shape (P, n, 4, 3)."""
+    """A fleet's motion in stretched space; ctrl : Bernstein control points, shape (P, n, 4, 3).
+
+    counted : who counts on each piece, shape (n, P); all, if None
+    """
 
     breaks: Array
     ctrl: Array
+    counted: Mask | None = None
 
     @staticmethod
     def of(breaks: Array, coef: Array, apart: Distances) -> _Fleet:
         ctrl = np.moveaxis(pieces(breaks, coef), 1, 0)
         return _Fleet(breaks, np.ascontiguousarray(ctrl * np.array([1.0, 1.0, stretch(apart)])))
+
+    def rows(self, low: float, high: float) -> Index | None:
+        """Return the drones that count on an interval that holds no break, shape (m,); None for all."""
+        if self.counted is None:
+            return None
+        k = int(np.searchsorted(self.breaks, 0.5 * (low + high), side="right")) - 1
+        return np.flatnonzero(self.counted[:, k])
 
     def on(self, low: float, high: float) -> Array:
         """Return control points on an interval that holds no break, shape (n, 4, 3)."""
@@ -130,14 +148,17 @@ class _Search(NearestPair):
         return Nearest(proven, self.best, *self.pair, self.time, self._position())
 
     def _slabs(self) -> list[tuple[float, float]]:
-        """Cut time so that no drone leaves its ball by more than the reach."""
+        """Cut time so that no drone leaves its ball by more than the reach; nobody counts in the rest."""
         breaks = self.one.breaks
         if self.other is not None:
             breaks = np.unique(np.concatenate([breaks, self.other.breaks]))
         slabs: list[tuple[float, float]] = []
         reach = REACH_SHARE * self.apart.across
         for low, high in pairwise(breaks.tolist()):
-            _, radius = _balls(_steady(self._ctrl(low, high)))
+            ctrl, rows = self._counted(low, high)
+            if rows is not None and len(rows) < PAIR:
+                continue
+            _, radius = _balls(_steady(ctrl))
             parts = max(1, int(np.ceil(radius.max(initial=0.0) / reach)))
             ends = np.linspace(low, high, parts + 1)
             slabs += list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
@@ -148,9 +169,15 @@ class _Search(NearestPair):
         one = self.one.on(low, high)
         return one if self.other is None else np.concatenate([one, self.other.on(low, high)])
 
+    def _counted(self, low: float, high: float) -> tuple[Array, Index | None]:
+        """Return the control points of those that count, and which they are; None for all."""
+        rows, ctrl = self.one.rows(low, high), self._ctrl(low, high)
+        return (ctrl, None) if rows is None else (ctrl[rows], rows)
+
     def _sample(self, low: float, high: float) -> None:
         """Look for the nearest pair in the middle of a slab."""
-        middle = midway(self._ctrl(low, high))
+        ctrl, rows = self._counted(low, high)
+        middle = midway(ctrl)
         count = len(self.one.ctrl[0])
         if self.other is None:
             distance, at = cKDTree(middle).query(middle, k=2)
@@ -163,11 +190,13 @@ class _Search(NearestPair):
             return  # There is no second drone.
         second = int(at[first])
         apart = float(self.size((middle[first] - middle[second + skip])[None])[0])
-        self.note(apart, (first, second), 0.5 * (low + high))
+        pair = (first, second) if rows is None else (int(rows[first]), int(rows[second]))
+        self.note(apart, pair, 0.5 * (low + high))
 
     def _open(self, low: float, high: float) -> Iterator[Bag]:
         """Give the pairs of a slab that could be nearer than the nearest found so far."""
-        ctrl = _steady(self._ctrl(low, high))
+        ctrl, rows = self._counted(low, high)
+        ctrl = _steady(ctrl)
         centre, radius = _balls(ctrl)
         # A ball holds the cylinder: what is near in its sense is near in the tree's.
         far = self.best * (np.sqrt(2.0) if self.upright else 1.0)
@@ -178,7 +207,8 @@ class _Search(NearestPair):
             first, second = pairs[:, 0], pairs[:, 1] + skip
             near = norm(centre[first] - centre[second]) - radius[first] - radius[second] < far
             relative = ctrl[first[near]] - ctrl[second[near]]
-            bag = Bag(pairs[near], np.broadcast_to([low, high], (len(relative), 2)), relative)
+            named = pairs[near] if rows is None else rows[pairs[near]]
+            bag = Bag(named, np.broadcast_to([low, high], (len(relative), 2)), relative)
             yield bag.pick(self.least(relative) < self.best - self.gap())
 
     def _candidates(self, centre: Array, reach: float) -> Index:

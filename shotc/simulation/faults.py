@@ -106,8 +106,8 @@ def _where(run: Run, each: Verdict) -> Iterator[str]:
     elif each.key == "clearance":
         near = [(c.drone, n) for c in run.courses for n in c.near if n.distance == each.worst]
         yield from (f"drone `{drone}` and {n.to}, at {n.time:.1f} s" for drone, n in near)
-        pairs = [f for f in run.fleets if f.clearance == each.worst and f.flown.near is not None]
-        yield from (f"two drones of `{f.fleet}`, at {f.flown.near.time:.1f} s" for f in pairs if f.flown.near)
+        pairs = [(f, f.nearest) for f in run.fleets if f.clearance == each.worst]
+        yield from (f"two drones of `{f.fleet}`, at {n.time:.1f} s" for f, n in pairs if n is not None)
     else:
         yield from (f"drone `{c.drone}`, at {c.time:.1f} s" for c in run.courses if c.farthest == each.worst)
         yield from (

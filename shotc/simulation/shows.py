@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
+from shotc.simulation.fleets.near import Near
 from shotc.simulation.fleets.rehearse import Rehearsal, rehearse
 from shotc.simulation.fleets.vehicle import Gusts
 
@@ -21,9 +22,15 @@ class FleetCourse:
     radius: float
 
     @property
+    def nearest(self) -> Near | None:
+        """The nearest that two came, in the air or on pads; None for a fleet of one."""
+        found = [near for near in (self.flown.near, self.flown.beside) if near is not None]
+        return min(found, key=lambda near: near.distance, default=None)
+
+    @property
     def clearance(self) -> float:
         """The least distance from body to body, metres; infinite for a fleet of one."""
-        near = self.flown.near
+        near = self.nearest
         return float("inf") if near is None else near.distance - 2 * self.radius
 
 

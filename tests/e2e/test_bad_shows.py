@@ -59,7 +59,7 @@ BAD = {
     "no period": Bad(", period: 2", "", "D010", "walk*"),
     "more drones than fit": Bad("radius: 12", "radius: 0.2", "D018 D056", "radius: 0.2}"),
     "viewpoint inside": Bad("[0, -100, 2]", "[0, -5, 40]", "D013", "viewpoint"),
-    "dense layout": Bad("spacing: 4", "spacing: 0.8", "D001", "spacing"),
+    "dense layout": Bad("spacing: 4", "spacing: 0.4", "D002", "spacing"),
     "script": Bad("good.svg", "script.svg", "D022", "script.svg"),
     "reference": Bad("good.svg", "refers.svg", "D022", "refers.svg"),
     "document type": Bad("good.svg", "typed.svg", "D022", "typed.svg"),

@@ -64,4 +64,14 @@ GROUPED: tuple[CodeInfo, ...] = (
         _GROUPED,
         ("ring: [9-24, 40]", "ring: 9-40"),
     ),
+    slip(
+        "D137",
+        "mixed-pads",
+        "pads of two groups of a fleet are nearer to each other than its separation",
+        "A fleet whose pads are nearer to each other than its separation takes off in layers. Groups take off for their own "
+        "pictures, one while another stands or flies, so drones of two groups keep the whole separation, on their pads, too. "
+        "Within a group pads may be nearer. Space the layout wider, or leave room between the pads of the groups.",
+        _GROUPED.replace("origin: [0, 0, 0]}}", "origin: [0, 0, 0]}}\n    separation: 2"),
+        ("spacing: 4", "spacing: 1.5"),
+    ),
 )

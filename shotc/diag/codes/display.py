@@ -31,6 +31,15 @@ shots:
       - {text: {text: SHOTC, center: [0, 0, 40], height: 16}, hold: 4, fill: outline}
 """
 
+_MARGIN = _PASSING.replace("separation: 2", "separation: {horizontal: 2, margin: 0.2}")
+
+_HIGH = (
+    _PASSING.replace("separation: 2", "separation: {horizontal: 2, vertical: 4}")
+    .replace("fleets:", "rules: {max_height: 80}\nfleets:")
+    .replace("size: 24", "size: 26")
+    .replace("height: [0, 90]}}", "height: [0, 200]}}")
+)
+
 _TWO = (
     _PASSING.replace(
         "shots:\n",
@@ -60,12 +69,14 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "D001",
         "crowded-pads",
-        "pads of a fleet are nearer to each other than its separation",
-        "The drones of a fleet stay apart at every instant, on their pads, too: as far as `separation` says, its "
-        "margin included, or else as far as `rules.separation`. The two nearest pads are named, by the order in which "
-        "the layout gives them, and the spacing that would do. Space the layout wider, or ask for less.",
-        _PASSING,
-        ("spacing: 4", "spacing: 1.5"),
+        "pads of a fleet are nearer to each other than bodies may come",
+        "Pads may be nearer to each other than the fleet's separation: it then takes off in layers, one after another, "
+        "and lands in them. But drones rise past others that still stand, so two pads are as far apart as two bodies "
+        "need, seen from above: twice the radius, and the margin of the separation. The two nearest pads are named, by "
+        "the order in which the layout gives them, and the spacing that would do. More than 64 layers are refused, "
+        "too. Space the layout wider, or ask for less.",
+        _MARGIN,
+        ("spacing: 4", "spacing: 0.6"),
     ),
     slip(
         "D002",
@@ -125,6 +136,17 @@ CODES: tuple[CodeInfo, ...] = (
         "the floors of keep-in zones apply, both from the body. Rise higher.",
         _PASSING,
         ("rise: 10", "rise: 2"),
+    ),
+    slip(
+        "D027",
+        "high-layers",
+        "a fleet takes off in layers that reach too high",
+        "A fleet whose pads are nearer to each other than its separation takes off in layers. The lowest rises by "
+        "`rise`, each of the others a vertical separation higher, so many layers reach high. The highest may not be "
+        "above `rules.max_height`. The wider the pads stand, the fewer layers it takes; as far apart as the separation, "
+        "all rise at once. Space the layout wider, or allow more.",
+        _HIGH,
+        ("spacing: 4", "spacing: 0.5"),
     ),
     slip(
         "D008",

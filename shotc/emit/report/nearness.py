@@ -13,6 +13,7 @@ from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.show import Apart, Fleet
 from shotc.ir.trajectory import TrajectoryIR
+from shotc.planning.on_pads import standing_at
 
 SAMPLES = 240
 NEIGHBOURS = 12
@@ -22,7 +23,8 @@ NEIGHBOURS = 12
 class Nearness(NamedTuple):
     """A fleet's nearest pair over time; metres of horizontal distance, as its separation counts them.
 
-    times, distances : shape (T,); needed : what its drones keep
+    times, distances : shape (T,), of two in the air where a fleet takes off in layers
+    needed : what its drones keep
     """
 
     fleet: str
@@ -40,8 +42,11 @@ def nearness(flown: TrajectoryIR) -> tuple[Nearness, ...]:
 def _of(fleet: Fleet, flight: FleetTrajectory) -> Nearness:
     times = np.linspace(flight.breaks[0], flight.breaks[-1], SAMPLES + 1)
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
+    standing = standing_at(fleet, flight, times)
+    several = (~standing).sum(axis=0) > 1
+    times, aloft = times[several], ~standing[:, several]
     least = [
-        _least(places(flight.breaks, flight.coef, times[[k]])[:, 0] * scale, fleet.apart)
+        _least(places(flight.breaks, flight.coef, times[[k]])[aloft[:, k], 0] * scale, fleet.apart)
         for k in range(len(times))
     ]
     return Nearness(fleet.name, times, np.array(least), fleet.apart.across)

@@ -14,7 +14,10 @@ from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.show import Apart, Fleet
 from shotc.ir.trajectory import VerifiedIR
+from shotc.planning.on_pads import standing_at
+from shotc.planning.take_off import take_off_of
 
+PAIR = 2
 WORDS = {**SHOWN, "transit": "Flying to the next display", "shot": "Showing"}
 
 
@@ -83,13 +86,20 @@ def fleet_plots(fleet: Fleet, flight: FleetTrajectory, t: Array) -> tuple[Plot, 
     )
     if len(flight.coef) == 1:
         return moves
-    nearest = np.array([nearest_pair(points, fleet.apart) for points in at])
-    title = "Nearest two drones (m, heights stretched as separation asks)"
+    aloft = ~standing_at(fleet, flight, t)
+    nearest = np.array([nearest_pair(points[aloft[:, k]], fleet.apart) for k, points in enumerate(at)])
+    which = "two drones in the air" if take_off_of(fleet).layered else "two drones"
+    title = f"Nearest {which} (m, heights stretched as separation asks)"
     return (Plot("separation", title, (Line("nearest", nearest),), (fleet.apart.across,)), *moves)
 
 
 def nearest_pair(points: Array, apart: Apart) -> float:
-    """Return how near the nearest two of points (n, 3) are, as ``geom.separation`` measures it, metres."""
+    """Return how near the nearest two of points (n, 3) are, as ``geom.separation`` measures it, metres.
+
+    It is nan where there are not two.
+    """
+    if len(points) < PAIR:
+        return float("nan")
     tall = points * np.array([1.0, 1.0, stretch(apart)])
     tree = cKDTree(tall)
     ball = float(tree.query(tall, k=2)[0][:, 1].min())

@@ -16,6 +16,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.passes import Outcome, PassContext
+from shotc.planning.take_off import take_off_of
 from shotc.show.assignment.director import Director
 from shotc.show.assignment.flashes import flashing
 from shotc.show.assignment.images import images_of
@@ -68,4 +69,20 @@ def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float
         (f"fleet {name} control points", float(flight.coef.shape[1])),
         (f"fleet {name} arcs", float(director.arcs)),
         (f"fleet {name} time", float(flight.breaks[-1])),
+        *_take_off(director, flight),
+    ]
+
+
+def _take_off(director: Director, flight: FleetTrajectory) -> list[tuple[str, float | str]]:
+    """Return how a fleet rises and lands in layers, if it does."""
+    take_off, name = take_off_of(director.fleet), f"fleet {flight.fleet} take-off"
+    if not take_off.layered:
+        return []
+    up, down = flight.phases[0], flight.phases[-1]
+    return [
+        (f"{name} layers", float(len(take_off.heights))),
+        (f"{name} lowest m", take_off.heights[-1]),
+        (f"{name} highest m", take_off.heights[0]),
+        (f"{name} s", up.end - director.waited),
+        (f"{name} landing s", down.end - down.start),
     ]

@@ -13,12 +13,11 @@ from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
-from shotc.show.assignment.home import come_home
+from shotc.show.assignment.home import come_home, way_up
 from shotc.show.assignment.lights import Images, Standing, lights, with_effects
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import Cast, Scene
 from shotc.show.assignment.score import Motion, Score
-from shotc.show.solvers.move import fastest
 
 TINY_S = 1e-6
 """A time missed by less is met, seconds."""
@@ -29,7 +28,7 @@ class Director:
 
     def __init__(self, mission: MissionIR, fleet: Fleet, cast: Cast) -> None:
         self.mission, self.fleet, self.cast = mission, fleet, cast
-        self.score = Score(cast.pads)
+        self.score = Score(cast.up.pads)
         self.mover = Mover(mission, fleet)
         self.waited = 0.0
         self._found: list[Diagnostic] = []
@@ -56,7 +55,7 @@ class Director:
         """Bring the fleet home; return what is wrong with its times."""
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
-        come_home(self.score, self.mover, (self.cast.over, self.cast.ends))
+        come_home(self.score, self.mover, self.cast.down)
         if not self._found and self.score.clock - self.waited > self.fleet.endurance:
             self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
         return [*self._found, *self.mover.faults]
@@ -77,8 +76,8 @@ class Director:
     def _present(self, display: Display, scenes: tuple[Scene, ...], ready: float) -> None:
         """Write a display and the way to its first picture, which stands when it is to begin."""
         first, score = display.pictures[scenes[0].frame.picture], self.score
-        here = score.places if self._done else self.cast.above
-        rise = fastest(here - score.places, self.fleet.limits, 1.0)
+        here = score.places if self._done else self.cast.up.above
+        rise = way_up(self.fleet, self.cast.up)
         lead = 0.0 if self._done else rise.duration
         move = self.mover.move(here, scenes[0].places, display.pace, first)
         duration = self._duration(first, here, scenes[0].places, move)

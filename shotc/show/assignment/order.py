@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors, FleetGoals, Frame
 from shotc.ir.show import Fleet
+from shotc.planning.take_off import take_off_of
 from shotc.show.solvers.match import matched
 
 DIGITS = 6
@@ -32,42 +34,53 @@ class Scene:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cast:
-    """Where the drones of a fleet are, in the order of their numbers, shape (n, 3) each.
+class Columns:
+    """The ways straight up from pads, one a drone, in the order of their numbers.
 
-    pads, above : where they start and to where they rise; over, ends : over which pads they come back
+    pads, above : their ends, shape (n, 3) each; layer : in which layer each rises or sinks, shape (n,)
     """
 
     pads: Array
     above: Array
+    layer: NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cast:
+    """What the drones of a fleet do: rise by their own columns, show scenes, and sink by others."""
+
+    up: Columns
     scenes: tuple[Scene, ...]
-    over: Array
-    ends: Array
+    down: Columns
 
 
 def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
     """Match every frame with the one before it, by squared distance where heights are stretched."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
-    pads, above = places_at_home(fleet)
-    scenes, last = [], above
+    up = columns_of(fleet)
+    scenes, last = [], up.above
     for frame in goals.frames:
         order = matched(last * scale, frame.points * scale)
         places = np.round(frame.points[order], DIGITS)
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
         scenes.append(Scene(frame, places, frame.colors[order], tuple(spare)))
         last = places
-    return Cast(pads, above, tuple(scenes), *way_down(fleet, last))
+    return Cast(up, tuple(scenes), way_down(fleet, last))
 
 
-def places_at_home(fleet: Fleet) -> tuple[Array, Array]:
-    """Return the pads of a fleet and the places to which its drones rise, shape (n, 3) each."""
+def columns_of(fleet: Fleet) -> Columns:
+    """Return the columns over a fleet's pads, by which its drones rise."""
+    take_off = take_off_of(fleet)
+    layer = np.array(take_off.layer, dtype=np.intp)
     pads = np.round(np.array(fleet.pads), DIGITS)
-    return pads, np.round(pads + np.array([0.0, 0.0, fleet.rise]), DIGITS)
+    heights = np.array(take_off.heights)[layer]
+    above = pads + np.stack([np.zeros_like(heights), np.zeros_like(heights), heights], axis=1)
+    return Columns(pads, np.round(above, DIGITS), layer)
 
 
-def way_down(fleet: Fleet, places: Array) -> tuple[Array, Array]:
-    """Return where over its pads each drone comes down, and on which, from places of shape (n, 3)."""
+def way_down(fleet: Fleet, places: Array) -> Columns:
+    """Return the columns by which drones at places of shape (n, 3) come down."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
-    pads, above = places_at_home(fleet)
-    order = matched(places * scale, above * scale)
-    return above[order], pads[order]
+    home = columns_of(fleet)
+    order = matched(places * scale, home.above * scale)
+    return Columns(home.pads[order], home.above[order], home.layer[order])

@@ -16,6 +16,7 @@ from shotc.ir.fleet import FleetTrajectory, Lights, Shown
 from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import DIGITS
 from shotc.show.solvers.arc_move import ArcMove
+from shotc.show.solvers.layered_move import LayeredMove
 from shotc.show.solvers.move import Move
 
 Motion = Move | ArcMove
@@ -52,7 +53,7 @@ class Score:
         if seconds > 0.0:
             self._add([self.places], seconds)
 
-    def move(self, places: Array, move: Motion, duration: float | None = None) -> None:
+    def move(self, places: Array, move: Motion | LayeredMove, duration: float | None = None) -> None:
         """Go from stop to stop, in so many seconds if they are given."""
         between = [np.round(points, DIGITS) for points in move.between(self.places, places)]
         self._add([*between, places, places, places], (duration or move.duration) / move.pieces)

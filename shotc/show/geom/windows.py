@@ -28,6 +28,11 @@ class Window:
         """Return which control points count in it."""
         return slice(self.first, self.last + DEGREE)
 
+    @property
+    def pieces(self) -> slice:
+        """Return which pieces it has."""
+        return slice(self.first, self.last)
+
     def breaks(self, breaks: Array) -> Array:
         """Return its own of the breaks."""
         return breaks[self.first : self.last + 1]

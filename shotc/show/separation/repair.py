@@ -8,11 +8,13 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
+from shotc.geom.on_pads import Mask
 from shotc.geom.separation import Nearest, closest
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Fleet
+from shotc.planning.on_pads import standing
 from shotc.show.geom.windows import Window, windows
 from shotc.show.separation.common import common
 from shotc.show.separation.faults import Tried, standing_too_near, too_near
@@ -42,23 +44,41 @@ class Keeper:
         """Return the flight with its drones kept apart, or as it is where there are faults."""
         self.proven = self._alike()
         if not kept(self.proven, self.across):
-            self.proven = closest(self.flight.breaks, self.coef, self.fleet.apart).proven
+            self.proven = self._closest().proven
         if kept(self.proven, self.across):
             return self.flight
         for window in windows(self.coef):
             self._mend(window)
         if not self.faults:
             # The windows were proved one by one; what is told is of the whole.
-            self.proven = closest(self.flight.breaks, self.coef, self.fleet.apart).proven
+            self.proven = self._closest().proven
         return replace(self.flight, coef=self.coef)
 
     def _alike(self) -> float:
         """Return the separation of a large fleet that moves alike all the time, proved; 0 where it is not."""
         if len(self.coef) <= MANY:
             return 0.0
-        return min(
-            (common(self.coef[:, w.points], self.fleet.apart) for w in windows(self.coef)), default=0.0
-        )
+        return min(map(self._apart_in, windows(self.coef)), default=0.0)
+
+    def _apart_in(self, window: Window) -> float:
+        """Return the separation in a stretch, proved; 0 where that takes a search through all pairs."""
+        counted = self._aloft()
+        if counted is not None and not counted[:, window.pieces].all():
+            return self._closest(window).proven
+        return common(self.coef[:, window.points], self.fleet.apart)
+
+    def _aloft(self) -> Mask | None:
+        """Return who is in the air on each piece, where what stands on its pad keeps less; else None."""
+        on_pads = standing(self.fleet, self.coef)
+        return None if on_pads is None else ~on_pads
+
+    def _closest(self, window: Window | None = None) -> Nearest:
+        """Return the nearest pair of those that keep the separation, in a stretch or all the time."""
+        counted, apart = self._aloft(), self.fleet.apart
+        if window is None:
+            return closest(self.flight.breaks, self.coef, apart, counted)
+        counted = None if counted is None else counted[:, window.pieces]
+        return closest(window.breaks(self.flight.breaks), self.coef[:, window.points], apart, counted)
 
     def stats(self) -> list[tuple[str, float | str]]:
         """Return what was done."""
@@ -73,7 +93,7 @@ class Keeper:
 
     def _mend(self, window: Window) -> None:
         breaks, coef = window.breaks(self.flight.breaks), self.coef[:, window.points]
-        nearest = closest(breaks, coef, self.fleet.apart)
+        nearest = self._closest(window)
         if kept(nearest.proven, self.across):
             return
         self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")

@@ -16,6 +16,7 @@ from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
 
 Pairs = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 
 NARROWINGS = 30
 """Times that two thirds of an interval are kept; the distance of two drones is convex over it."""
@@ -57,29 +58,35 @@ class Search:
         self._low: set[tuple[int, int]] = set()
         self._last: tuple[float, Array] | None = None
 
-    def add(self, time: float, places: Array) -> None:
-        """Take where all drones are at a time, later than those before."""
+    def add(self, time: float, places: Array, counted: Mask | None = None) -> None:
+        """Take where all drones are at a time, later than those before.
+
+        counted : who counts since the time before, shape (n,); all, if None
+        """
         seen = places * self._height
         seen = seen - seen.mean(axis=0)
-        if self._last is not None:
-            self._between(*self._last, time, seen)
+        rows = np.arange(len(seen)) if counted is None else np.flatnonzero(counted)
+        if self._last is not None and len(rows) > 1:
+            self._between(*self._last, (time, seen), rows)
         self._last = (time, seen)
 
     def found(self) -> Near:
         """Return the nearest so far."""
         return replace(self._best, below=len(self._low))
 
-    def _between(self, before: float, start: Array, after: float, end: Array) -> None:
+    def _between(self, before: float, start: Array, then: tuple[float, Array], rows: Pairs) -> None:
+        (after, end), start = then, start[rows]
+        end = end[rows]
         pairs = _candidates(start, end, max(self._limit, self._best.distance), self._upright)
         if not len(pairs):
             return
         one, other = pairs.T
         least, share = _least(start[one] - start[other], end[one] - end[other], self._upright)
-        self._low.update((int(i), int(j)) for i, j in pairs[least < self._limit])
+        self._low.update((int(i), int(j)) for i, j in rows[pairs[least < self._limit]])
         m = int(np.argmin(least))
         if least[m] < self._best.distance:
             when = float(before + share[m] * (after - before))
-            self._best = Near(float(least[m]), int(one[m]), int(other[m]), when, 0)
+            self._best = Near(float(least[m]), int(rows[one[m]]), int(rows[other[m]]), when, 0)
 
 
 def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:

@@ -9,6 +9,8 @@ import numpy as np
 
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.show import Fleet
+from shotc.planning.on_pads import standing as standing_in
+from shotc.planning.take_off import bodies_of
 from shotc.simulation.fleets.fly import FleetConditions, flying
 from shotc.simulation.fleets.near import Near, Search
 from shotc.simulation.fleets.vehicle import Gusts, Vehicle
@@ -23,7 +25,9 @@ class Rehearsal:
 
     rmse : of the distance from where each drone should be; usual : what 99 % of the largest distances of each
         drone do not exceed; farthest : the largest; drone, time : whose, a row, and when, s
-    near : the nearest that two came, horizontal distance as in ``geom.separation``, or None for one drone
+    near : the nearest that two came, horizontal distance as in ``geom.separation``, or None for one drone;
+        of a fleet that takes off in layers, two in the air
+    beside : the nearest that two came while one stood on its pad, m; None for fleets that rise all at once
     """
 
     rmse: float
@@ -32,24 +36,37 @@ class Rehearsal:
     drone: int
     time: float
     near: Near | None
+    beside: Near | None = None
 
 
 def rehearse(fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tuple[int, ...]) -> Rehearsal:
-    """Fly a fleet with lag and gusts; the same seed gives the same flight."""
+    """Fly a fleet with lag and gusts; the same seed gives the same flight.
+
+    Of a fleet that takes off in layers, whoever stands on its pad stays there.
+    """
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))
     vehicle = Vehicle(acceleration=HEADROOM * limits.acceleration, speed=fastest)
     several = len(flight.coef) > 1
     search = Search(fleet.apart, fleet.apart.horizontal)
+    bodies = bodies_of(fleet)._replace(margin=0.0)
+    beside = Search(bodies, bodies.across)
+    standing = standing_in(fleet, flight.coef) if several else None
     largest, when = np.zeros(len(flight.coef)), np.zeros(len(flight.coef))
     squares, count = 0.0, 0
     for moment in flying(flight.breaks, flight.coef, FleetConditions(vehicle, gusts=gusts, seed=seed)):
-        error = np.linalg.norm(moment.position - moment.wanted, axis=1)
+        position, aloft = moment.position, None
+        if standing is not None:
+            piece = int(np.searchsorted(flight.breaks, moment.time)) - 1
+            stands = standing[:, max(piece, 0)]
+            position, aloft = np.where(stands[:, None], moment.wanted, position), ~stands
+            beside.add(moment.time, position, np.full(len(stands), stands.any()))
+        error = np.linalg.norm(position - moment.wanted, axis=1)
         when = np.where(error > largest, moment.time, when)
         largest = np.maximum(largest, error)
         squares, count = squares + float(error @ error), count + len(error)
         if several:
-            search.add(moment.time, moment.position)
+            search.add(moment.time, position, aloft)
     drone = int(np.argmax(largest))
     return Rehearsal(
         rmse=float(np.sqrt(squares / count)),
@@ -58,4 +75,5 @@ def rehearse(fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tu
         drone=drone,
         time=float(when[drone]),
         near=search.found() if several else None,
+        beside=None if standing is None else beside.found(),
     )

@@ -224,28 +224,49 @@ def test_drawings_are_looked_into(tmp_path: Path) -> None:
 
 
 def test_crowded_pads_are_named_with_what_would_do() -> None:
-    text = show(fleet=FLEET.replace("separation: 2", "separation: {horizontal: 4, margin: 0.15}"))
+    fleet = FLEET.replace("separation: 2", "separation: {horizontal: 4, margin: 0.15}")
+    text = show(fleet=fleet.replace("spacing: 4", "spacing: 0.6"))
     d = only(text)
-    assert (d.code, marked(d, text)) == ("D001", "4")
-    assert "are 4.00 m apart" in d.notes[0]
-    assert "4.15 m side by side, its margin of 0.15 m included" in d.notes[0]
-    assert d.help == "give the grid a spacing of 4.16 m or more"
-    assert faults(text.replace("spacing: 4,", "spacing: 4.15,")) == []
+    assert (d.code, marked(d, text)) == ("D001", "0.6")
+    assert "are 0.60 m apart" in d.notes[0]
+    assert "0.65 m side by side, its margin of 0.15 m included" in d.notes[0]
+    assert d.help == "give the grid a spacing of 0.65 m or more"
+    assert faults(text.replace("spacing: 0.6,", "spacing: 0.65,")) == []
+
+
+def test_pads_that_take_too_many_layers() -> None:
+    text = show(fleet="swarm: {count: 400, layout: {grid: {spacing: 0.6}}, separation: 9}")
+    d = only(text)
+    assert (d.code, marked(d, text)) == ("D001", "0.6")
+    assert d.notes[0].endswith("as many layers or more, and 64 is the most")
+    assert "spacing of 9.01 m or more" in d.help
+    assert faults(text.replace("separation: 9", "separation: 4")) == []
+
+
+def test_layers_above_what_the_mission_allows() -> None:
+    fleet = FLEET.replace("separation: 2", "separation: {horizontal: 2, vertical: 4}")
+    text = show(fleet=fleet.replace("spacing: 4", "spacing: 1"), head="rules: {max_height: 58}\n")
+    d = only(text.replace("58", "21"))  # four layers: 10 m, and three times 4.004 m
+    assert (d.code, marked(d, text)) == ("D027", "1")
+    assert "highest is at z = 22.01" in d.notes[0]
+    assert "max_height: 23" in d.help
+    assert faults(text) == []
 
 
 def test_a_crowded_circle_is_told_its_radius() -> None:
-    text = show(fleet="swarm: {count: 40, layout: {circle: {radius: 10}}, separation: 2}")
+    text = show(fleet="swarm: {count: 40, layout: {circle: {radius: 3}}, separation: 2}")
     d = only(text)
     radius = float(d.help.split("radius of ")[1].split(" ")[0])
-    assert radius == pytest.approx(1.001 / sin(pi / 40), abs=0.01)
-    assert faults(text.replace("radius: 10", f"radius: {radius}")) == []
+    assert radius == pytest.approx(0.25 / sin(pi / 40), abs=0.01)
+    assert faults(text.replace("radius: 3", f"radius: {radius}")) == []
 
 
 def test_pads_above_each_other_are_measured_as_the_fleet_says(tmp_path: Path) -> None:
+    """Where a fleet rises all at once, one may rise above another; past it none can."""
     (tmp_path / "pads.csv").write_text("0,0,0\n0,0,3\n20,0,0\n")
     fleet = "swarm: {count: 3, layout: {file: pads.csv}, separation: {horizontal: 2, vertical: 4}}"
     d = only(show(fleet=fleet), tmp_path)
-    assert (d.code, d.notes[0].startswith("pads 1 and 2 are 3.00 m apart")) == ("D001", True)
+    assert (d.code, d.notes[0].startswith("pads 1 and 2 are 0.00 m apart, as seen")) == ("D001", True)
     assert faults(show(fleet=fleet.replace("vertical: 4", "vertical: 3")), tmp_path) == []
 
 

@@ -1,5 +1,9 @@
 """Fleets against themselves and each other: how near any two drones come, at every instant.
 
+Of a fleet whose pads are nearer than its separation two things are claimed, which together hold at every
+instant: of every two that are in the air the separation, and as long as anybody stands on its pad that no two
+bodies are nearer than the margin, centre to centre twice the radius and that.
+
 "How near" is measured as horizontal distance, heights being stretched so that the vertical distance that is
 kept counts as much as the horizontal one (``geom.separation``).
 """
@@ -9,10 +13,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import combinations, product
+from math import isfinite
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.on_pads import on_pads
 from shotc.geom.proof import norm
 from shotc.geom.separation import Nearest, closest, closest_between
 from shotc.geom.solids import point
@@ -24,17 +30,34 @@ from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, Worst, gap, held
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 from shotc.passes.verify.fleets.space import nearest
+from shotc.planning.take_off import bodies_of, take_off_of
 
 
 def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
     """Claim the separation of all pairs of each fleet's drones, and of every two fleets."""
     for flight in flights:
-        if len(flight.names) > 1:
+        if len(flight.names) > 1 and take_off_of(flight.fleet).layered:
+            yield from _in_layers(flight)
+        elif len(flight.names) > 1:
             apart = flight.fleet.apart
-            nearest = closest(flight.track.breaks, flight.track.coef, apart)
+            nearest = closest(*_spline(flight), apart)
             yield _claim(flight.mission, (flight.fleet, flight.names), "separation", (apart, nearest))
     for one, other in combinations(flights, 2):
         yield between(one.mission, (one.fleet, other.fleet), _spline(one), _spline(other))
+
+
+def _in_layers(flight: FleetFlight) -> Iterator[Claim]:
+    """Claim the separation in the air, and that bodies are apart while anybody stands on its pad."""
+    standing = on_pads(flight.track.coef, flight.pads)
+    some = np.broadcast_to(standing.any(axis=0), standing.shape)
+    named = (
+        ("separation in the air", flight.fleet.apart, ~standing),
+        ("separation on pads", bodies_of(flight.fleet), some),
+    )
+    for name, apart, counted in named:
+        nearest = closest(*_spline(flight), apart, counted)
+        if isfinite(nearest.proven):
+            yield _claim(flight.mission, (flight.fleet, flight.names), name, (apart, nearest))
 
 
 Spline = tuple[Array, Array]

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shotc.geom.apart import ROOMIER, spacing
+from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
 from shotc.show.geom.fit import most_drones
-from shotc.show.geom.pads import nearest_pair
 from shotc.show.geom.shape import balls, bounds, depth_in, highest, lowest
 
 coordinates = st.floats(-8, 8).map(lambda x: round(x, 3))

@@ -13,6 +13,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.passes.resolve.checks.motion import least_travel
 from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST, waits_longer
+from shotc.planning.take_off import take_off_of
 from shotc.rounding import at_least
 from shotc.show.geom.shape import bounds
 from shotc.show.labels import key_of, moments, transition_label, word_of
@@ -207,7 +208,7 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
 
 
 def _rise_time(fleet: Fleet) -> float:
-    return least_travel([(0.0, 0.0, 0.0), (0.0, 0.0, fleet.rise)], fleet.limits)
+    return least_travel([(0.0, 0.0, 0.0), (0.0, 0.0, take_off_of(fleet).heights[0])], fleet.limits)
 
 
 def _early(mission: MissionIR, display: Display, last: _Free, there: float, waits: float) -> Diagnostic:
@@ -249,7 +250,7 @@ def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
         between = last - first + least_display(shown[-1], limits)
     else:
         between = 0.0
-    down = least_travel([(0.0, 0.0, fleet.rise), (0.0, 0.0, 0.0)], limits)
+    down = least_travel([(0.0, 0.0, take_off_of(fleet).heights[0]), (0.0, 0.0, 0.0)], limits)
     flight = max(pictures + changes, between) + _rise_time(fleet) + down
     if flight <= fleet.endurance:
         return

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import dist
+from math import ceil, dist
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
+from shotc.geom.colouring import fewest_colours
+from shotc.geom.pads import first_nearer, nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet, whole_fleets
 from shotc.passes.resolve.checks.home import take_off_room
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
+from shotc.planning.take_off import MOST_LAYERS, bodies_of, take_off_of
 from shotc.rounding import at_least, up
-from shotc.show.geom.pads import first_nearer, nearest_pair
 from shotc.show.labels import wider
 
 UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
@@ -24,15 +26,16 @@ FARTHEST, MANY = 60, 400  # metres up to which a free place is looked for, and d
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
     """Yield what is wrong with the pads of each fleet, and between those of different ones."""
-    mission = mission._replace(fleets=whole_fleets(mission.fleets))
+    groups, mission = mission.fleets, mission._replace(fleets=whole_fleets(mission.fleets))
     spaced: list[Fleet] = []
     for fleet in mission.fleets:
         crowded = _crowded(mission, fleet)
-        if crowded is None:
-            spaced.append(fleet)
-        else:
+        if crowded is not None:
             yield crowded
+            continue
+        spaced.append(fleet)
         yield from _placed(mission, fleet)
+        yield from _mixed(mission, fleet, [part for part in groups if part.path == fleet.path])
     for one, other in combinations(spaced, 2):
         near = _too_near(mission, one, other)
         if near is not None:
@@ -41,19 +44,64 @@ def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
 
 def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
     """Say which two pads of a fleet are nearest, and what spacing would do."""
-    nearest = nearest_pair(fleet.pads, fleet.apart)
-    if nearest is None:
+    if nearest_pair(fleet.pads, fleet.apart) is None:
         return None
-    one, other = fleet.pads[nearest.one], fleet.pads[nearest.other]
-    away = dist(one, other)
+    bodies, level = bodies_of(fleet), [(x, y, 0.0) for x, y, _ in fleet.pads]
+    nearest = nearest_pair(level, bodies)
+    if nearest is None:
+        return _many_layers(mission, fleet)
+    away = dist(level[nearest.one], level[nearest.other])
     which = f"pads {nearest.one + 1} and {nearest.other + 1} are {away:.2f} m apart"
-    help_ = wider(mission, fleet, max(spacing(fleet.apart), 2 * fleet.radius))
-    if away < 2 * fleet.radius:
+    help_ = wider(mission, fleet, bodies.across)
+    if dist(fleet.pads[nearest.one], fleet.pads[nearest.other]) < 2 * fleet.radius:
         note = f"{which}, and each body has a radius of {fleet.radius:.2f} m"
         message = f"drones of {fleet.words} stand inside each other"
         return Diagnostic("D002", message, (_layout(mission, fleet),), (note,), help_)
-    note = f"{which}; the fleet's separation asks for {_asked(fleet.apart)}"
+    note = (
+        f"{which}, as seen from above; bodies with a radius of {fleet.radius:.2f} m that rise past each "
+        f"other ask for {_asked(bodies)}"
+    )
     message = f"the pads of {fleet.words} are too near to each other"
+    return Diagnostic("D001", message, (_layout(mission, fleet),), (note,), help_)
+
+
+def _mixed(mission: MissionIR, fleet: Fleet, groups: Sequence[Fleet]) -> Iterator[Diagnostic]:
+    """Yield the first two groups of a fleet whose pads are nearer to each other than the separation.
+
+    Each group takes off in layers of its own, and for its own pictures: others have to stand clear of it.
+    """
+    reach = fleet.apart.across
+    for one, other in combinations(groups, 2):
+        near = first_nearer(one.pads, other.pads, reach)
+        if near is None:
+            continue
+        message = f"pads of {one.words} and {other.words} are too near to each other"
+        labels = (_layout(mission, fleet), mission.origins.key(max(one.key, other.key, key=len), "the groups"))
+        first, second = one.numbers[near.one], other.numbers[near.other]
+        note = (
+            f"pads {first} and {second} are {near.share * reach:.2f} m apart; {_asked(fleet.apart)} is asked for "
+            "between drones that do not take off together"
+        )
+        help_ = (
+            f"{wider(mission, fleet, spacing(fleet.apart))}, or leave that much room between the pads of the "
+            "groups, in a layout from a file"
+        )
+        yield Diagnostic("D137", message, labels, (note,), help_)
+        return
+
+
+def _many_layers(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
+    """Say where so many pads are within one separation that the fleet would rise in too many layers."""
+    across = fleet.apart.across
+    layers = fewest_colours([(x, y) for x, y, _ in fleet.pads], across)
+    if layers <= MOST_LAYERS:
+        return None
+    note = (
+        f"within the fleet's separation of {_asked(fleet.apart)} are {layers} pads: it would take off in as "
+        f"many layers or more, and {MOST_LAYERS} is the most"
+    )
+    message = f"the pads of {fleet.words} are too near to each other"
+    help_ = f"{wider(mission, fleet, spacing(fleet.apart))}, from where all rise at once, or ask for less"
     return Diagnostic("D001", message, (_layout(mission, fleet),), (note,), help_)
 
 
@@ -146,11 +194,13 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     yield from blocked
     if not blocked:
         yield from _low_rise(mission, fleet, obstacles, z)
+    yield from _high_layers(mission, fleet)
 
 
 def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnostic | None:
     """Say how many pads have an obstacle in or over them, and which has least room."""
-    rooms = [take_off_room(pad, pad[2] + fleet.rise, obstacle) for pad in fleet.pads]
+    tops = take_off_of(fleet)
+    rooms = [take_off_room(pad, pad[2] + tops.top(i), obstacle) for i, pad in enumerate(fleet.pads)]
     lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING_M]
     if not lacking:
         return None
@@ -187,8 +237,9 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
 def _rises(mission: MissionIR, fleet: Fleet) -> bool:
     """Tell whether all drones of a fleet can rise from their pads."""
     least = fleet.radius - ROUNDING_M
-    around = clearances_of(mission, fleet)
-    return all(take_off_room(p, p[2] + fleet.rise, o) >= least for o in around for p in fleet.pads)
+    around, tops = clearances_of(mission, fleet), take_off_of(fleet)
+    pads = [(pad, pad[2] + tops.top(i)) for i, pad in enumerate(fleet.pads)]
+    return all(take_off_room(pad, top, o) >= least for o in around for pad, top in pads)
 
 
 def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
@@ -198,15 +249,35 @@ def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
 
 def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> str:
     """Give the numbers of the pad that has least room."""
-    x, y, _ = fleet.pads[worst]
+    (x, y, _), top = fleet.pads[worst], take_off_of(fleet).top(worst)
     if obstacle.inside:
         where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
     else:
         where = f"{room:.2f} m away from it" if room > 0 else f"{-room:.2f} m deep in it"
     return (
-        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: on its {fleet.rise:.1f} m up it is {where}; the "
+        f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: on its {top:.1f} m up it is {where}; the "
         f"body radius of {fleet.radius:.2f} m must be free"
     )
+
+
+def _high_layers(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
+    """Yield where a fleet rises in so many layers that the highest is above what the mission allows."""
+    most, take_off = mission.rules.max_height, take_off_of(fleet)
+    if most is None or not take_off.layered:
+        return
+    high = max(pad[2] + take_off.top(i) for i, pad in enumerate(fleet.pads))
+    if high <= most + ROUNDING_M:
+        return
+    layers = len(take_off.heights)
+    message = f"{fleet.words} takes off in {layers} layers, the highest above what the mission allows"
+    labels = (_layout(mission, fleet), mission.origins.value(("rules", "max_height"), "the rule"))
+    note = (
+        f"its pads are nearer than its separation, so its layers stand {take_off.step:.2f} m above each "
+        f"other, the lowest {fleet.rise:.2f} m above its pads; the highest is at z = {high:.2f}"
+    )
+    at_once = wider(mission, fleet, spacing(fleet.apart))
+    help_ = f"{at_once}, from where all rise at once, or write `rules: {{max_height: {ceil(high)}}}`"
+    yield Diagnostic("D027", message, labels, (note,), help_)
 
 
 def _low_rise(

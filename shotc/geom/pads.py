@@ -8,8 +8,8 @@ from itertools import product
 from math import dist, floor, hypot
 from typing import NamedTuple
 
-from shotc.ir.limits import Vec3
-from shotc.ir.show import Apart
+from shotc.geom.apart import Distances
+from shotc.geom.vec import Vec3
 
 ROUNDING = 1e-6  # metres, or shares of the separation
 _AROUND = tuple(product((-1, 0, 1), repeat=3))
@@ -24,7 +24,7 @@ class Pair(NamedTuple):
     share: float
 
 
-def nearest_pair(pads: Sequence[Vec3], apart: Apart) -> Pair | None:
+def nearest_pair(pads: Sequence[Vec3], apart: Distances) -> Pair | None:
     """Return the two pads nearest to each other as the fleet measures it, if any are nearer than they may.
 
     Points go one by one into cells as wide as the least distance so far; the cells are laid anew where a
@@ -65,7 +65,7 @@ def first_nearer(one: Sequence[Vec3], other: Sequence[Vec3], reach: float) -> Pa
     return None
 
 
-def _measure(apart: Apart) -> Callable[[Vec3, Vec3], float]:
+def _measure(apart: Distances) -> Callable[[Vec3, Vec3], float]:
     """Return the distance in shares of the separation, of points in units of it."""
     if apart.shape == "ellipsoid":
         return dist

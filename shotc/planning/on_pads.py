@@ -1,0 +1,28 @@
+"""Who stands on its pad when, of a fleet that takes off in layers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.on_pads import Mask, on_pads
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.show import Fleet
+from shotc.planning.take_off import take_off_of
+
+
+def standing(fleet: Fleet, coef: Array) -> Mask | None:
+    """Tell of every drone and piece whether it stands, shape (n, P); None where all rise at once.
+
+    coef : shape (n, P + 3, 3), as in ``geom.fleet_spline``
+    """
+    return on_pads(coef, np.array(fleet.pads)) if take_off_of(fleet).layered else None
+
+
+def standing_at(fleet: Fleet, flight: FleetTrajectory, times: Array) -> Mask:
+    """Tell of every drone and time whether it stands, shape (n, T); nobody does where all rise at once."""
+    found = standing(fleet, flight.coef)
+    if found is None:
+        return np.zeros((len(flight.coef), len(times)), dtype=np.bool_)
+    piece = np.clip(np.searchsorted(flight.breaks, times) - 1, 0, found.shape[1] - 1)
+    return found[:, piece]
