@@ -34,7 +34,7 @@ shots:
 _MARGIN = _PASSING.replace("separation: 2", "separation: {horizontal: 2, margin: 0.2}")
 
 _HIGH = (
-    _PASSING.replace("separation: 2", "separation: {horizontal: 2, vertical: 4}")
+    _PASSING.replace("separation: 2", "separation: {horizontal: 2, vertical: 5}")
     .replace("fleets:", "rules: {max_height: 80}\nfleets:")
     .replace("size: 24", "size: 26")
     .replace("height: [0, 90]}}", "height: [0, 200]}}")
