@@ -76,11 +76,14 @@ def _mixed(mission: MissionIR, fleet: Fleet, groups: Sequence[Fleet]) -> Iterato
         if near is None:
             continue
         message = f"pads of {one.words} and {other.words} are too near to each other"
-        labels = (_layout(mission, fleet), mission.origins.key(max(one.key, other.key, key=len), "the groups"))
+        labels = (
+            _layout(mission, fleet),
+            mission.origins.key(max(one.key, other.key, key=len), "the groups"),
+        )
         first, second = one.numbers[near.one], other.numbers[near.other]
         note = (
-            f"pads {first} and {second} are {near.share * reach:.2f} m apart; {_asked(fleet.apart)} is asked for "
-            "between drones that do not take off together"
+            f"pads {first} and {second} are {near.share * reach:.2f} m apart; {_asked(fleet.apart)} is asked "
+            "for between drones that do not take off together"
         )
         help_ = (
             f"{wider(mission, fleet, spacing(fleet.apart))}, or leave that much room between the pads of the "
