@@ -119,7 +119,7 @@ def test_a_pyro_cue_names_drones_by_their_numbers_in_the_fleet() -> None:
 
 def test_pads_are_judged_as_the_fleet_s() -> None:
     near = GROUPED.replace("spacing: 4", "spacing: 1.5")
-    assert [d.code for d in faults(show(fleet=near, more=ALL))] == ["D001"]
+    assert [d.code for d in faults(show(fleet=near, more=ALL))] == ["D137"]
 
 
 def test_too_many_drones_for_a_picture_are_those_of_the_group() -> None:
