@@ -49,3 +49,16 @@ def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
         if lattice:
             where = f"picture {lattice[2]} of {lattice[1]}"
             yield f"{where} is a lattice of {value:.0f} lights: spread evenly, they have no room"
+
+
+def beside(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
+    """Yield how fleets and groups fly so that they do not meet others; stats : of passes."""
+    words = {
+        "home later": "flies home {:.1f} s later than it could",
+        "sets out earlier": "sets out {:.1f} s earlier than it needs, and waits in its place",
+        "led round": "flies round others, {:.1f} s longer",
+    }
+    for name, value in stats:
+        found = re.fullmatch(rf"fleet (.+) ({'|'.join(words)})", name)
+        if found:
+            yield f"{found[1]} {words[found[2]].format(value)}: another one is in its way"

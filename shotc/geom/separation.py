@@ -79,6 +79,18 @@ def closest_between(
     return _Search(one, other, apart).run()
 
 
+def first_nearer(
+    flown: tuple[Array, Array], beside: tuple[Array, Array], apart: Distances, marks: Array, least: float
+) -> Nearest | None:
+    """Return the nearest of two fleets in the first span in which it is not proved that they keep a distance.
+
+    flown, beside : breaks and control points; marks : ends of the spans, rising, s; least : metres
+    """
+    one, other = _Fleet.of(*flown, apart), _Fleet.of(*beside, apart)
+    found = (_Search(one, other, apart, span).run() for span in pairwise(marks.tolist()))
+    return next((nearest for nearest in found if nearest.proven < least), None)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _Fleet:
     """A fleet's motion in stretched space; ctrl : Bernstein control points, shape (P, n, 4, 3).
@@ -128,8 +140,14 @@ def _cut(low: float, high: float) -> Array:
 class _Search(NearestPair):
     """Branch and bound over slabs and pairs."""
 
-    def __init__(self, one: _Fleet, other: _Fleet | None, apart: Distances) -> None:
-        self.one, self.other, self.apart = one, other, apart
+    def __init__(
+        self,
+        one: _Fleet,
+        other: _Fleet | None,
+        apart: Distances,
+        span: tuple[float, float] | None = None,
+    ) -> None:
+        self.one, self.other, self.apart, self.span = one, other, apart, span
         super().__init__(upright=apart.shape == "cylinder")
 
     def run(self) -> Nearest:
@@ -152,6 +170,9 @@ class _Search(NearestPair):
         breaks = self.one.breaks
         if self.other is not None:
             breaks = np.unique(np.concatenate([breaks, self.other.breaks]))
+        if self.span is not None:
+            low, high = self.span
+            breaks = np.array([low, *breaks[(breaks > low) & (breaks < high)], high])
         slabs: list[tuple[float, float]] = []
         reach = REACH_SHARE * self.apart.across
         for low, high in pairwise(breaks.tolist()):

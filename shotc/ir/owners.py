@@ -11,7 +11,7 @@ from shotc.ir.target import Target
 if TYPE_CHECKING:  # a mission without any loads no arrays
     from shotc.ir.obstacle_mesh import ObstacleMesh
 
-OwnerKind = Literal["zone", "target", "drone", "ground", "ceiling", "scene", "buildings"]
+OwnerKind = Literal["zone", "target", "drone", "ground", "ceiling", "scene", "buildings", "fleet"]
 
 
 class Owner(NamedTuple):

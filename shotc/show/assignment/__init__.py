@@ -17,6 +17,7 @@ from shotc.diag.registry import has_errors
 from shotc.ir.fleet import FleetTrajectory, GoalIR, ShowIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.planning.take_off import take_off_of
+from shotc.show.assignment.beside import beside
 from shotc.show.assignment.director import Director
 from shotc.show.assignment.flashes import flashing
 from shotc.show.assignment.images import images_of
@@ -49,6 +50,7 @@ class AssignGoals:
         diagnostics += song_faults(mission, max(ends.values(), default=0.0))
         if has_errors(diagnostics):
             return Outcome(None, tuple(diagnostics))
+        changed = beside(mission, directors)
         made = [director.trajectory(images) for director in directors]
         fleets = tuple(flight for flight, _ in made)
         diagnostics += [d for _, told in made for d in told]
@@ -59,7 +61,7 @@ class AssignGoals:
             for entry in _stats(director, flight)
         )
         wanted = tuple(fleet.coef for fleet in fleets)
-        return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats)), tuple(diagnostics))
+        return Outcome(ShowIR(ir, fleets, wanted, (*ir.stats, *stats, *changed)), tuple(diagnostics))
 
 
 def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float | str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf, isfinite
 
 import numpy as np
@@ -11,13 +12,13 @@ from shotc.geom.apart import ball, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet, Picture
-from shotc.planning.clearances import ROUNDING_M
+from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.show.assignment.faults import no_room
 from shotc.show.assignment.score import Motion
-from shotc.show.assignment.swell import Heights, led
+from shotc.show.assignment.swell import Ends, Heights, Lack, led
 from shotc.show.geom.arcs import Gaps, straight_enough
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.goals.room import room_of
+from shotc.show.goals.room import Room, room_of
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from shotc.show.solvers.move import fastest
 
@@ -40,12 +41,35 @@ class Mover:
 
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
         """Return the fastest move; picture : to which, None for the way home."""
-        limits, path = self.fleet.limits, "auto" if picture is None else picture.transition_path
-        easing = "ease-in-out" if picture is None else picture.easing
+        path = "auto" if picture is None else picture.transition_path
         least = tuple(nearest_pair(places * self._scale) for places in (here, there))
         whole = ball(self.fleet.apart)
         if path == "straight" or (path == "auto" and straight_enough(Gaps(*(d / whole for d in least)))):
-            return fastest(there - here, limits, pace, easing)
+            easing = "ease-in-out" if picture is None else picture.easing
+            return fastest(there - here, self.fleet.limits, pace, easing)
+        move, lack = self._arcs((here, there), pace, picture, self._room)
+        if lack.metres > ROUNDING_M and not self.faults:
+            self.faults.append(no_room(self.mission, self.fleet, picture, lack))
+        return move
+
+    def around(
+        self, ends: Ends, pace: float, picture: Picture | None, beside: tuple[Clearance, ...]
+    ) -> ArcMove | None:
+        """Return the fastest arcs that are clear of more than what stands, None where none are found.
+
+        ends : places before and after, shape (n, 3) each
+        """
+        if picture is not None and picture.transition_path == "straight":
+            return None
+        room = replace(self._room, obstacles=(*self._room.obstacles, *beside))
+        move, lack = self._arcs(ends, pace, picture, room)
+        return move if lack.metres <= ROUNDING_M else None
+
+    def _arcs(self, ends: Ends, pace: float, picture: Picture | None, room: Room) -> tuple[ArcMove, Lack]:
+        """Return the fastest arcs found that have room, or those that lack least, and what they lack."""
+        easing = "ease-in-out" if picture is None else picture.easing
+        least = tuple(nearest_pair(places * self._scale) for places in ends)
+        whole = ball(self.fleet.apart)
         kept = whole * (1.0 + MARGIN_SHARE)
         if self.fleet.apart.shape == "ellipsoid":
             # What stands as near as it may, such as on pads, has no share to spare.
@@ -55,9 +79,6 @@ class Mover:
             gaps = Gaps(1.0, 1.0)  # asked for: a quarter of an ellipse is outside, too
 
         def about(pivot: Array) -> ArcMove:
-            return fastest_arc((here, there), pivot, gaps, limits, pace, easing)
+            return fastest_arc(ends, pivot, gaps, self.fleet.limits, pace, easing)
 
-        move, lack = led((here, there), self._heights, self._room, about)
-        if lack.metres > ROUNDING_M and not self.faults:
-            self.faults.append(no_room(self.mission, self.fleet, picture, lack))
-        return move
+        return led(ends, self._heights, room, about)

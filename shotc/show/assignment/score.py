@@ -89,6 +89,11 @@ class Score:
         breaks, coef = np.array(self._breaks), np.stack(self._points, axis=1)
         return FleetTrajectory(fleet, breaks, coef, tuple(self.phases), tuple(self.shown), lights)
 
+    def follow(self, flight: FleetTrajectory) -> None:
+        """Take over a flight that was changed after it was written."""
+        self.phases, self.shown, self.places = list(flight.phases), list(flight.shown), flight.coef[:, -1]
+        self._points, self._breaks = list(np.moveaxis(flight.coef, 1, 0)), flight.breaks.tolist()
+
     def _add(self, points: list[Array], piece: float) -> None:
         origin = self.clock
         self._points += points

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from shotc.cli.show_facts import dense, layered
+from shotc.cli.show_facts import beside, dense, layered
 
 
 def test_arcs_and_lattices_are_told_and_nothing_else() -> None:
@@ -25,3 +25,11 @@ def test_layers_are_told_with_what_a_seat_beside_sees() -> None:
     assert "2.45 m deep, in 3 layers" in told
     assert "0.87 m apart" in told
     assert "0.33 m aside" in told
+
+
+def test_what_flies_otherwise_for_another_s_sake_is_told() -> None:
+    stats = [("fleet swarm/ring home later", 2.0), ("fleet swarm arcs", 1.0), ("fleet a led round", 0.5)]
+    assert list(beside(stats)) == [
+        "swarm/ring flies home 2.0 s later than it could: another one is in its way",
+        "a flies round others, 0.5 s longer: another one is in its way",
+    ]

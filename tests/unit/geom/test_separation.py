@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import centres, places
 from shotc.geom.nearest_pair import GAP_M
-from shotc.geom.separation import closest, closest_between
+from shotc.geom.separation import closest, closest_between, first_nearer
 from shotc.ir.show import Apart
 
 BALL = Apart("ellipsoid", 0.9, 1.9, 0.1)
@@ -157,3 +157,26 @@ def test_two_that_come_together_at_the_end_of_a_slab_are_not_left_out() -> None:
     found = closest(breaks, np.stack([*stand, *meet]), BALL)
     assert found.attained == pytest.approx(1.0, abs=1e-6)
     assert (found.first, found.second) == (2, 3)
+
+
+def test_the_first_span_in_which_two_fleets_come_too_near_is_found_not_the_nearest() -> None:
+    # One drone passes two that stand: the first at 0.8 m, 4 s later the other at 0.2 m.
+    breaks = np.linspace(0.0, 12.0, 13)
+    one = straight(breaks, [0, 0, 10], [1, 0, 0])[None]
+    other = np.stack([straight(breaks, [4, 0.8, 10], [0, 0, 0]), straight(breaks, [8, 0.2, 10], [0, 0, 0])])
+    flown, beside = (breaks, one), (breaks, other)
+    whole = closest_between(*flown, *beside, BALL)
+    assert (whole.attained, whole.time) == (pytest.approx(0.2), pytest.approx(8.0, abs=1e-3))
+    marks = np.array([0.0, 2.0, 6.0, 7.0, 12.0])
+    found = first_nearer(flown, beside, BALL, marks, 1.0)
+    assert found is not None
+    assert (found.attained, found.time, found.second) == (
+        pytest.approx(0.8),
+        pytest.approx(4.0, abs=1e-3),
+        0,
+    )
+    later = first_nearer(flown, beside, BALL, marks, 0.7)
+    assert later is not None
+    assert (later.attained, later.second) == (pytest.approx(0.2), 1)
+    assert first_nearer(flown, beside, BALL, marks, 0.199) is None
+    assert first_nearer(flown, beside, BALL, marks[:3], 0.7) is None

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.emit.audience import flight_of, picture_name
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.light_colors import lit_drones
-from shotc.ir.show import Display
+from shotc.ir.show import Display, fleet_name
 from shotc.ir.trajectory import VerifiedIR
 
 MOST_MOMENTS = 12
@@ -40,12 +40,16 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Board:
-    """One display of the sheet; total : frames that it has, which may be more than its moments."""
+    """One display of the sheet; total : frames that it has, which may be more than its moments.
+
+    beside : flights of the other groups of its fleet, whose lights are seen with its own
+    """
 
     display: Display
     flight: FleetTrajectory
     moments: tuple[Moment, ...]
     total: int
+    beside: tuple[FleetTrajectory, ...] = ()
 
     @property
     def span(self) -> tuple[float, float]:
@@ -60,7 +64,9 @@ def boards(plan: VerifiedIR) -> tuple[Board, ...]:
         flight = flight_of(plan, display.fleet)
         shown = [s for s in flight.shown if s.display == display.id]
         if shown:
-            found.append(Board(display, flight, _moments(display, flight, shown), len(shown)))
+            of, every = fleet_name(flight.fleet), plan.trajectory.fleets
+            beside = tuple(f for f in every if f is not flight and fleet_name(f.fleet) == of)
+            found.append(Board(display, flight, _moments(display, flight, shown), len(shown), beside))
     return tuple(found)
 
 

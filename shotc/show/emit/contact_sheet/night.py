@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import tan
 
 import numpy as np
@@ -31,11 +32,13 @@ BLOOM, SPREAD = 5.0, 0.011
 """How strongly a light spills over, and how far, as a share of the width."""
 
 
-def night(flight: FleetTrajectory, time: float, seen: Audience, size: tuple[int, int]) -> NDArray[np.uint8]:
-    """Return the picture of a fleet at a time, shape (rows, columns, 3); size : columns, rows."""
-    at = places(flight.breaks, flight.coef, np.array([time]))[:, 0]
-    colors = light_colors(flight, np.array([time]))[:, 0]
-    light = _lights(at, colors, seen, size)
+def night(
+    flights: Sequence[FleetTrajectory], time: float, seen: Audience, size: tuple[int, int]
+) -> NDArray[np.uint8]:
+    """Return the picture of fleets at a time, shape (rows, columns, 3); size : columns, rows."""
+    at = [places(flight.breaks, flight.coef, np.array([time]))[:, 0] for flight in flights]
+    colors = [light_colors(flight, np.array([time]))[:, 0] for flight in flights]
+    light = _lights(np.concatenate(at), np.concatenate(colors), seen, size)
     light += BLOOM * gaussian_filter(light, (SPREAD * size[0], SPREAD * size[0], 0.0), truncate=3.0)
     picture = 1.0 - (1.0 - backdrop(seen, size)) * np.exp(-light)
     return np.asarray(np.round(255.0 * picture), dtype=np.uint8)

@@ -146,10 +146,10 @@ def _cell(
     width = SMALL * ASPECT
     for i, time in enumerate(moment.way):
         box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
-        _sky(canvas, box, (board.flight, time), (wide, how[1]))
+        _sky(canvas, box, (board, time), (wide, how[1]))
         canvas.text(box.x + 0.05, box.y + 0.05, as_minutes(time), Type(7.5, WHITE))
     box = Box(x + width + SLIT_IN, y, BIG, HEIGHT)
-    _sky(canvas, box, (board.flight, moment.time), (seen, how[1]))
+    _sky(canvas, box, (board, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
     if board.flight.lights.looks:  # its lights change while it stands
         canvas.text(box.x + 0.08, box.y + 0.07, as_minutes(moment.time), Type(7.5, WHITE))
@@ -167,10 +167,11 @@ def _cell(
         canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))
 
 
-def _sky(canvas: Canvas, box: Box, what: tuple[FleetTrajectory, float], how: tuple[Audience, float]) -> None:
-    flight, time = what
+def _sky(canvas: Canvas, box: Box, what: tuple[Board, float], how: tuple[Audience, float]) -> None:
+    board, time = what
     seen, dpi = how
-    canvas.image(night(flight, time, seen, (round(box.width * dpi), round(box.height * dpi))), box)
+    size = (round(box.width * dpi), round(box.height * dpi))
+    canvas.image(night((board.flight, *board.beside), time, seen, size), box)
 
 
 def _depth(board: Board, moment: Moment, seen: Audience) -> float:

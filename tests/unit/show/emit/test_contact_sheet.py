@@ -112,7 +112,7 @@ def test_lights_are_where_the_camera_has_them() -> None:
     plan = show_flights.plan(show_flights.mission(1))
     flight = plan.trajectory.fleets[0]
     seen = audience(plan, plan.trajectory.keyframes.mission.displays[0], ASPECT)
-    picture = night(flight, 27.5, seen, SIZE).astype(int).sum(axis=-1)
+    picture = night((flight,), 27.5, seen, SIZE).astype(int).sum(axis=-1)
     row, column = np.unravel_index(int(np.argmax(picture)), picture.shape)
     away = places(flight.breaks, flight.coef, np.array([27.5]))[0, 0] - np.array(seen.eye)
     u, v, _ = seen.view(ASPECT).project((away[0], away[1], away[2]))

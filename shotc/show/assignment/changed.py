@@ -1,0 +1,144 @@
+"""A flight changed after it was written: later on its way home, earlier to a picture, or on other arcs.
+
+Between two stops a flight is a spline of its own, so that a stretch can be flown at another time, or another
+way, and all others stay what they were. Every change here keeps every picture and when it stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE
+from shotc.ir.fleet import FleetTrajectory
+from shotc.show.assignment.order import DIGITS
+from shotc.show.geom.windows import Window, at_rest, windows
+from shotc.show.solvers.arc_move import ArcMove
+
+NEAR_S = 1e-6
+"""Seconds by which times that are one differ at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Stretches of a flight one right after the other, such as the rise and the way to the first picture."""
+
+    stretches: tuple[Window, ...]
+
+    @property
+    def way(self) -> Window:
+        """The last stretch."""
+        return self.stretches[-1]
+
+    @property
+    def first(self) -> int:
+        """The break at which it begins."""
+        return self.stretches[0].first
+
+
+def homeward(flight: FleetTrajectory) -> float:
+    """Return when the way home begins, s."""
+    return next(phase.start for phase in flight.phases if phase.name == "return")
+
+
+def block_at(flight: FleetTrajectory, time: float) -> Block | None:
+    """Return what is flown at a time, with what is flown right before it; None where the fleet stands."""
+    known = windows(flight.coef)
+    k = next(
+        (
+            k
+            for k, w in enumerate(known)
+            if flight.breaks[w.first] - NEAR_S <= time <= flight.breaks[w.last] + NEAR_S
+        ),
+        None,
+    )
+    if k is None:
+        return None
+    if k == 0 and len(known) > 1 and known[0].last == known[1].first:
+        k = 1  # the rise goes with the way that comes after it
+    first = k
+    while first > 0 and known[first - 1].last == known[first].first:
+        first -= 1
+    return Block(tuple(known[first : k + 1]))
+
+
+def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:
+    """Return the flight of which the way home begins so much later, from where the last picture stood."""
+    start = homeward(flight)
+    at = int(np.searchsorted(flight.breaks, start - NEAR_S))
+    breaks = np.concatenate([flight.breaks[: at + 1], flight.breaks[at:] + seconds])
+    moved = replace(flight, breaks=np.round(breaks, 9), coef=_repeated(flight.coef, at))
+    return _timed(moved, lambda t: t + seconds if t > start + NEAR_S else t)
+
+
+def earlier(flight: FleetTrajectory, block: Block, seconds: float) -> FleetTrajectory:
+    """Return the flight that comes to a picture so much earlier, and stands there until it is shown."""
+    flight, block = _ready(flight, block)
+    low, high = float(flight.breaks[block.first]), float(flight.breaks[block.way.last])
+    first, last = block.first, block.way.last
+    own = flight.breaks[first : last + 1] - seconds
+    breaks = np.concatenate([flight.breaks[:first], own, flight.breaks[last:]])
+    moved = replace(flight, breaks=np.round(breaks, 9), coef=_repeated(flight.coef, last))
+    return _timed(moved, lambda t: t - seconds if low - NEAR_S <= t < high - NEAR_S else t)
+
+
+def on_arcs(flight: FleetTrajectory, block: Block, move: ArcMove) -> FleetTrajectory:
+    """Return the flight with another way at the end of a block.
+
+    The way home takes what it takes; one to a picture begins so much earlier that it ends when it did.
+    """
+    flight, block = _ready(flight, block)
+    way = block.way
+    low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
+    here, there = flight.coef[:, way.first], flight.coef[:, way.last]
+    between = [np.round(points, DIGITS) for points in move.between(here, there)]
+    points = np.stack(between, axis=1)
+    coef = np.concatenate([flight.coef[:, : way.first + DEGREE], points, flight.coef[:, way.last :]], axis=1)
+    longer = move.duration - (high - low)
+    home = low >= homeward(flight) - NEAR_S
+    start = low if home else low - longer
+    own = start + np.arange(move.pieces + 1) * move.piece
+    before, after = flight.breaks[: way.first].copy(), flight.breaks[way.last + 1 :]
+    if home:
+        after = after + longer
+        flown = replace(flight, breaks=np.concatenate([before, own, after]), coef=coef)
+        return _timed(flown, lambda t: t + longer if t > high - NEAR_S else t)
+    before[block.first :] -= longer
+    own[-1] = high
+    flown = replace(flight, breaks=np.round(np.concatenate([before, own, after]), 9), coef=coef)
+    since = float(flight.breaks[block.first])
+    return _timed(flown, lambda t: t - longer if since - NEAR_S <= t < high - NEAR_S else t)
+
+
+def _ready(flight: FleetTrajectory, block: Block) -> tuple[FleetTrajectory, Block]:
+    """Return a flight that stands before a block in one piece, and the block in it."""
+    rest = set(at_rest(flight.coef).tolist())
+    first = block.first
+    since = first
+    while since - 1 in rest:
+        since -= 1
+    fewer = max(first - since - 1, 0)
+    breaks = np.concatenate([flight.breaks[: since + 1], flight.breaks[since + 1 + fewer :]])
+    coef = np.delete(flight.coef, np.s_[since + 1 : since + 1 + fewer], axis=1)
+    stretches = tuple(Window(w.first - fewer, w.last - fewer) for w in block.stretches)
+    return replace(flight, breaks=breaks, coef=coef), Block(stretches)
+
+
+def _repeated(coef: Array, at: int) -> Array:
+    """Return control points with one more of a stop, for a piece in which everybody stands there."""
+    return np.insert(coef, at + 1, coef[:, at], axis=1)
+
+
+def _timed(flight: FleetTrajectory, at: Callable[[float], float]) -> FleetTrajectory:
+    """Return a flight whose phases and frames are at other times."""
+    phases = tuple(replace(p, start=at(p.start), end=at(p.end)) for p in flight.phases)
+    shown = tuple(replace(s, start=at(s.start), end=at(s.end)) for s in flight.shown)
+    return replace(flight, phases=phases, shown=shown)
+
+
+def ends_of(flight: FleetTrajectory, way: Window) -> tuple[Array, Array]:
+    """Return where all drones are before and after a stretch, shape (n, 3) each."""
+    return flight.coef[:, way.first], flight.coef[:, way.last]
