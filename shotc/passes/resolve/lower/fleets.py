@@ -8,7 +8,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.limits import Vec3
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Apart, Fleet, FleetGroup, group_name
+from shotc.ir.show import Apart, Fleet, FleetGroup, group_name, spans
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
@@ -66,7 +66,8 @@ def _not_grouped(written: FleetSpec, path: KeyPath, files: Files) -> list[Diagno
         if numbers[-1] > written.count:
             labels = (label, files.origins.value((*path, "count"), "the count"))
             message = f"fleet `{path[-1]}` has {written.count} drones, and no drone {numbers[-1]}"
-            help_ = f"give numbers from 1 to {written.count}, or write `count: {numbers[-1]}`"
+            kept = [number for number in numbers if number <= written.count]
+            help_ = f"{_instead(kept)}, or write `count: {numbers[-1]}`"
             faults.append(Diagnostic("D135", message, labels, help=help_))
         shared = [number for number in numbers if number in group_of]
         if shared:
@@ -74,10 +75,15 @@ def _not_grouped(written: FleetSpec, path: KeyPath, files: Files) -> list[Diagno
             labels = (label, files.origins.value((*path, "groups", other), "and here"))
             message = f"drone {shared[0]} of fleet `{path[-1]}` is in groups `{other}` and `{name}`"
             notes = (f"they share {len(shared)} drones",) if len(shared) > 1 else ()
-            help_ = "a drone flies one show: leave it out of one of them"
+            help_ = _instead([number for number in numbers if number not in group_of])
             faults.append(Diagnostic("D134", message, labels, notes, help_))
         group_of |= {number: group_of.get(number, name) for number in numbers}
     return faults
+
+
+def _instead(numbers: list[int]) -> str:
+    """Say what a group may be; numbers : of its drones that may be in it."""
+    return f"write `[{spans(numbers)}]`" if numbers else "remove the group"
 
 
 def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, ...]) -> Fleet:
