@@ -84,7 +84,8 @@ def first_nearer(
 ) -> Nearest | None:
     """Return the nearest of two fleets in the first span in which it is not proved that they keep a distance.
 
-    flown, beside : breaks and control points; marks : ends of the spans, rising, s; least : metres
+    flown, beside : breaks and control points, as in ``closest``; least : metres
+    marks : ends of the spans, rising, shape (M,), seconds
     """
     one, other = _Fleet.of(*flown, apart), _Fleet.of(*beside, apart)
     found = (_Search(one, other, apart, span).run() for span in pairwise(marks.tolist()))
