@@ -12,6 +12,9 @@ from typing import Protocol
 ROOMIER = 1.001
 """Goals are farther apart than the separation by this factor, so that moves have something to round."""
 
+SLACK_SHARE = 1e-6
+"""What the proof may fall short of, a share of the distance and of a metre at least, as in verification."""
+
 
 class Distances(Protocol):
     """What ``ir.show.Apart`` says: the shape that is kept free, and its half axes with the margin, metres."""
@@ -53,3 +56,8 @@ def spacing(apart: Distances) -> float:
 def straight_spacing(apart: Distances) -> float:
     """Return the stretched distance of two goals at which straight moves between formations need no proof."""
     return sqrt(2.0) * ball(apart)
+
+
+def kept(proven: float, across: float) -> bool:
+    """Tell whether a proved distance is the one to be kept, metres."""
+    return proven >= across - SLACK_SHARE * max(1.0, across)

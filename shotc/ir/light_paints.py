@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.effects import Blend
-from shotc.ir.light_layers import Along, Axis, Band, Footage, Glints, Gradient, Order, Painted, Tint
+from shotc.ir.light_layers import Along, Axis, Band, Footage, Glints, Gradient, Order, Painted, Radius, Tint
 
 Levels = NDArray[np.float32]
 RISE_SHARE = 0.25
@@ -75,11 +75,15 @@ def along(of: Along, spots: Spots) -> Levels:
     """Return where lights are along something, 0 to 1 within what it goes through; shape (n, T) or (n, 1)."""
     if isinstance(of, Order):
         return np.asarray(spots.numbers[:, None] / max(of.drones - 1, 1), dtype=np.float32)
+    return np.asarray(reached(of, spots.places), dtype=np.float32)
+
+
+def reached(of: Axis | Radius, places: Array) -> Array:
+    """Return where places (..., 3) are along something, 0 to 1 within what it goes through."""
     if isinstance(of, Axis):
-        share = (spots.places @ np.array(of.direction) - of.low) / (of.high - of.low)
-        return np.asarray(share, dtype=np.float32)
-    share = np.linalg.norm(spots.places - np.array(of.centre), axis=-1) / of.reach
-    return np.asarray(1.0 - share if of.inward else share, dtype=np.float32)
+        return np.asarray((places @ np.array(of.direction) - of.low) / (of.high - of.low))
+    share = np.linalg.norm(places - np.array(of.centre), axis=-1) / of.reach
+    return np.asarray(1.0 - share if of.inward else share)
 
 
 def _color(color: tuple[int, int, int]) -> Levels:

@@ -6,7 +6,7 @@ World frame W, metres, radians, seconds. A fleet's drones carry a light and no c
 from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
-from shotc.ir.effects import Color, Effect
+from shotc.ir.effects import Color, Effect, Way
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.origin import KeyPath
 
@@ -210,6 +210,21 @@ class Model(NamedTuple):
 Easing = Literal["ease-in-out", "linear", "ease-in", "ease-out"]
 """How the speed of a move runs: slow at both ends, even, slow at its beginning, or slow at its end."""
 
+
+class Wave(NamedTuple):
+    """Drones that set out one after another.
+
+    time : from when the first sets out to when the last does, s
+    along : where it goes through the picture that they come to, or through the one that they leave (by)
+    center : p_W from which `out` and `in` count, None for the picture's middle
+    """
+
+    time: float
+    along: Way
+    by: Literal["goal", "start"]
+    center: Vec3 | None
+
+
 Source = Sphere | Box | Torus | Lettering | Drawing | Model
 
 
@@ -224,7 +239,7 @@ class Picture(NamedTuple):
     layers : in how many layers, one behind the other, a flat picture stands
     effects : of its lights, the last on top
     transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
-    proved; easing : how their speed runs
+    proved; easing : how their speed runs; wave : in which they set out, None for all at once
     at : when it stands on the mission's clock, s, or None where that follows from what is before it
     name : what shots of cameras call it, or None
     size : width, depth and height of the box about it that they frame, metres; None where its shape says that
@@ -243,6 +258,7 @@ class Picture(NamedTuple):
     size: Vec3 | None = None
     effects: tuple[Effect, ...] = ()
     easing: Easing = "ease-in-out"
+    wave: Wave | None = None
 
 
 class PyroCue(NamedTuple):

@@ -7,6 +7,7 @@ from pydantic import Field, GetCoreSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
+from shotc.ir.effects import Way
 from shotc.ir.show import Easing
 from shotc.kinds.effects import MOST_EFFECTS, FrameEffectSpec
 from shotc.spec.colors import LightColor
@@ -101,6 +102,25 @@ class FilesSpec(Model):
     heading: Angle = Field(default=0.0, description="compass bearing to which all are turned")
 
 
+class WaveSpec(QuantityModel):
+    """Drones that set out one after another, swept through a picture."""
+
+    SHORT: ClassVar = ("time", Quantity("Duration", "duration", SMALLEST["duration"]))
+
+    time: Duration = Field(description="from when the first sets out to when the last does")
+    along: Way = Field(
+        default="right",
+        description="where it goes: an axis, right or left as the audience sees it, out from a middle or in, "
+        "or by the drones' numbers (index)",
+    )
+    by: Literal["goal", "start"] = Field(
+        default="goal", description="places that it goes through: those of this picture, or those before it"
+    )
+    center: Position | None = Field(
+        default=None, description="from where `out` and `in` count; the picture's middle if silent"
+    )
+
+
 class TransitionSpec(QuantityModel):
     """How a fleet comes to a picture from the one before, or from its pads."""
 
@@ -118,6 +138,9 @@ class TransitionSpec(QuantityModel):
         default="ease-in-out",
         description="how the speed runs: slow at both ends and as fast as can be, as even as can be "
         "(linear), slow at its beginning (ease-in) or at its end (ease-out)",
+    )
+    wave: WaveSpec | None = Field(
+        default=None, description="drones set out one after another, on straight lines; all at once if silent"
     )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
+from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus, Wave
 from shotc.kinds.base import Scene
 from shotc.kinds.effect_stack import effects_of
 from shotc.kinds.moments import moment
@@ -31,13 +31,34 @@ def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Pictu
     source = _drawable(spec, scene, path)
     at = None if spec.at is None else moment(spec.at, scene, (*path, "at"))
     effects = effects_of(spec.effects, scene, (*path, "effects"))
-    if isinstance(source, Diagnostic) or isinstance(at, Diagnostic) or isinstance(effects, list):
-        wrong = [one for one in (source, at) if isinstance(one, Diagnostic)]
+    change = spec.transition or TransitionSpec()
+    wave = _wave(change, scene, (*path, "transition"))
+    if (
+        isinstance(source, Diagnostic)
+        or isinstance(at, Diagnostic)
+        or isinstance(wave, Diagnostic)
+        or isinstance(effects, list)
+    ):
+        wrong = [one for one in (source, at, wave) if isinstance(one, Diagnostic)]
         return [*wrong, *(effects if isinstance(effects, list) else ())]
     fill = spec.fill or ("legible" if isinstance(source, Lettering) else "volume")
-    change = spec.transition or TransitionSpec()
     shown = Picture(source, fill, spec.color, change.duration, spec.hold, path, change.path, spec.layers)
-    return shown._replace(at=at, name=spec.name, size=spec.size, effects=effects, easing=change.easing)
+    shown = shown._replace(at=at, name=spec.name, size=spec.size, effects=effects)
+    return shown._replace(easing=change.easing, wave=wave)
+
+
+def _wave(spec: TransitionSpec, scene: Scene, path: KeyPath) -> Wave | Diagnostic | None:
+    """Return in what wave drones come to a picture, or what is wrong with it; path : of the transition."""
+    wave = spec.wave
+    if wave is None:
+        return None
+    if spec.path == "arc":
+        labels = (scene.origins.value((*path, "path")), scene.origins.key((*path, "wave"), "the wave"))
+        note = "on arcs drones keep apart because all are as far along them at any time"
+        help_ = "write `path: straight`, or leave `wave` out"
+        return Diagnostic("D140", "a wave goes on straight lines, not on arcs", labels, (note,), help_)
+    center = None if wave.center is None else scene.place(wave.center)
+    return Wave(wave.time, wave.along, wave.by, center)
 
 
 def _drawable(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:

@@ -83,6 +83,8 @@ def _picture(picture: Picture, path: str) -> Iterator[Fault]:
         yield f"{path}.hold", f"{picture.hold:g} is negative"
     if picture.transition is not None and picture.transition < 0:
         yield f"{path}.transition", f"{picture.transition:g} is negative"
+    if picture.wave is not None and picture.wave.time <= 0:
+        yield f"{path}.wave.time", f"{picture.wave.time:g} is not positive"
     if any(not 0 <= part <= 255 for part in picture.color or ()):
         yield f"{path}.color", "a part of it is not between 0 and 255"
     if isinstance(picture.source, Model) and not picture.source.files:

@@ -37,6 +37,13 @@ def transition_key(mission: MissionIR, picture: Picture) -> str:
     return "duration" if longer in mission.origins.values else "transition"
 
 
+def wave_key(mission: MissionIR, picture: Picture) -> KeyPath:
+    """Return the path of what says how long the wave to a picture lasts."""
+    path = (*picture.path, "transition", "wave")
+    longer = (*path, "time")
+    return longer if longer in mission.origins.values else path
+
+
 def moments(mission: MissionIR, earliest: float) -> str:
     """Say when a picture may stand at the earliest, in seconds and in beats."""
     possible, music = at_least(earliest), mission.music

@@ -8,6 +8,7 @@ from shotc.diag.codes._filmed_shows import FIRED, NAMED
 from shotc.diag.codes._grouped import GROUPED
 from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._slips import slip
+from shotc.diag.codes._waves import WAVES
 from shotc.diag.model import Severity
 
 _PASSING = """\
@@ -362,4 +363,5 @@ CODES: tuple[CodeInfo, ...] = (
     *NAMED,
     *FIRED,
     *GROUPED,
+    *WAVES,
 )

@@ -66,6 +66,7 @@ RULES = {
     "lack of hold": Rule("V015", help=REPLAN),
     "error of transition": Rule("V015", help=REPLAN),
     "error of moment": Rule("V015", help=REPLAN),
+    "error of wave": Rule("V015", help=REPLAN),
     "distance from keyframes": Rule("V016", help=REPLAN),
     "delay of keyframes": Rule("V016", help=REPLAN),
     "keyframes out of order": Rule("V016", help=REPLAN),

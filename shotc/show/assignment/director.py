@@ -18,6 +18,7 @@ from shotc.show.assignment.lights import Images, Standing, lights, with_effects
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import Cast, Scene
 from shotc.show.assignment.score import Motion, Score
+from shotc.show.assignment.waves import Waves
 
 TINY_S = 1e-6
 """A time missed by less is met, seconds."""
@@ -30,6 +31,7 @@ class Director:
         self.mission, self.fleet, self.cast = mission, fleet, cast
         self.score = Score(cast.up.pads)
         self.mover = Mover(mission, fleet)
+        self.waves = Waves(mission, fleet)
         self.waited = 0.0
         self._found: list[Diagnostic] = []
         self._displays = [
@@ -58,7 +60,7 @@ class Director:
         come_home(self.score, self.mover, self.cast.down)
         if not self._found and self.score.clock - self.waited > self.fleet.endurance:
             self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
-        return [*self._found, *self.mover.faults]
+        return [*self._found, *self.mover.faults, *self.waves.faults]
 
     @property
     def arcs(self) -> int:
@@ -79,8 +81,7 @@ class Director:
         here = score.places if self._done else self.cast.up.above
         rise = way_up(self.fleet, self.cast.up)
         lead = 0.0 if self._done else rise.duration
-        move = self.mover.move(here, scenes[0].places, display.pace, first)
-        duration = self._duration(first, here, scenes[0].places, move)
+        move, duration = self._way(display, first, here, scenes[0].places)
         wait = self._wait(display, score.clock + lead + duration, ready)
         score.stand(wait)
         if not self._done:
@@ -105,8 +106,7 @@ class Director:
         for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
             picture, frames = display.pictures[number], tuple(group)
             if frames[0] is not scenes[0]:
-                move = self.mover.move(self.score.places, frames[0].places, display.pace, picture)
-                duration = self._duration(picture, self.score.places, frames[0].places, move)
+                move, duration = self._way(display, picture, self.score.places, frames[0].places)
                 self._stand_until(picture, duration)
                 self.score.move(frames[0].places, move, duration)
             self._show(display, picture, frames)
@@ -135,6 +135,14 @@ class Director:
         ends = [*times[:-1], score.clock]
         for scene, start, end in zip(frames, times, ends, strict=True):
             score.shown.append(Shown(display.id, scene.frame.picture, scene.frame.index, start, end))
+
+    def _way(self, display: Display, picture: Picture, here: Array, there: Array) -> tuple[Motion, float]:
+        """Return the move to a picture, and how long it takes."""
+        if picture.wave is not None:
+            wave = self.waves.move((here, there), display, picture)
+            return wave, wave.duration
+        move = self.mover.move(here, there, display.pace, picture)
+        return move, self._duration(picture, here, there, move)
 
     def _duration(self, picture: Picture, here: Array, there: Array, move: Motion) -> float:
         """Return how long a move takes: as long as is asked for, if that can be."""

@@ -3,18 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import spacing, straight_spacing, stretch
-from shotc.ir.effects import Effect
+from shotc.geom.separation import Nearest
+from shotc.ir.effects import Effect, Way
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
-from shotc.ir.show import Display, Fleet, Picture, drone_names
+from shotc.ir.show import Display, Fleet, Picture, Wave, drone_names
 from shotc.kinds.files import FileFault
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Lack
-from shotc.show.labels import moments, transition_key, transition_label
+from shotc.show.labels import moments, transition_key, transition_label, wave_key
+
+
+class TriedWave(NamedTuple):
+    """What was tried of a wave in vain.
+
+    nearest : who comes nearest, and when after its beginning; longest : wave that keeps all apart, s, or 0
+    spacings : least distances before and after, metres, heights stretched
+    wider : by how much larger both would do, None where nothing tried does
+    """
+
+    nearest: Nearest
+    longest: float
+    spacings: tuple[float, float]
+    wider: float | None
+
 
 UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2", "jerk": "m/s^3"}
 
@@ -23,6 +40,8 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, 
     """Return D080: a transition is asked to be shorter than the limits allow; way : of whom it binds, m."""
     origins, name = mission.origins, drone_names(fleet)[least.drone]
     eased = "" if picture.easing == "ease-in-out" else f" with `easing: {picture.easing}`"
+    if picture.wave is not None:
+        eased += f" after a wave of {plain(picture.wave.time)} s"
     limit = getattr(fleet.limits, least.limit)
     shortest = at_least(least.duration)
     return Diagnostic(
@@ -134,6 +153,52 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Lac
         ),
         f"place its pictures {metres} m farther away from there, make them "
         f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones",
+    )
+
+
+def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: TriedWave) -> Diagnostic:
+    """Return D141: two drones come too near while they set out one after another."""
+    names, near, key = drone_names(fleet), tried.nearest, wave_key(mission, picture)
+    before, after = tried.spacings
+    x, y, z = near.position
+    apart = f"the nearest two are {before:.2f} m apart before it and {after:.2f} m after it"
+    if stretch(fleet.apart) != 1.0:
+        apart += f", heights counted {stretch(fleet.apart):.2f} times"
+    if tried.wider is not None:
+        apart += f"; {at_least(tried.wider)} times that would do"
+    fewer = "larger pictures or fewer drones have them farther apart"
+    if tried.longest > 0.0:
+        help_ = f"write `{key[-1]}: {tried.longest:.2f} s`, the longest found that keeps them apart; {fewer}"
+    else:
+        help_ = f"leave `wave` out; {fewer}"
+    return Diagnostic(
+        "D141",
+        f"in this wave two drones of `{fleet.name}` come within {near.attained:.2f} m of each other, and "
+        f"{fleet.apart.across:.2f} m is the least",
+        (
+            mission.origins.value(key),
+            mission.origins.value((*fleet.path, "separation"), "the separation"),
+        ),
+        (
+            f"they are `{names[near.first]}` and `{names[near.second]}`, {near.time:.1f} s after the fleet "
+            f"sets out, at [{x:.1f}, {y:.1f}, {z:.1f}]",
+            apart,
+        ),
+        help_,
+    )
+
+
+def wave_without_extent(mission: MissionIR, picture: Picture, wave: Wave, able: Sequence[Way]) -> Diagnostic:
+    """Return D142: all places that a wave goes through are alike along it; able : where they are not."""
+    places = "of this picture" if wave.by == "goal" else "before this picture"
+    path = (*picture.path, "transition", "wave")
+    along = (*path, "along")
+    return Diagnostic(
+        "D142",
+        f"the wave goes nowhere: along `{wave.along}` all places {places} are alike",
+        (mission.origins.value(along if along in mission.origins.values else path),),
+        (),
+        f"write {', or '.join(f'`along: {way}`' for way in able)}" if able else "leave `wave` out",
     )
 
 

@@ -106,7 +106,7 @@ def _paint(effect: Effect, stage: Stage, times: Times, seed: int) -> Painted:
     if isinstance(paint, Ramp):
         return _gradient(paint, stage, times)
     if isinstance(paint, Chase):
-        along = _along(paint.along, paint.center, stage)
+        along = along_of(paint.along, paint.center, stage)
         return Band(paint.color, along, 1.0 / paint.period, times.start, paint.length)
     if isinstance(paint, Sparkle):
         return Glints(paint.color, paint.share, paint.period, seed)
@@ -114,7 +114,7 @@ def _paint(effect: Effect, stage: Stage, times: Times, seed: int) -> Painted:
 
 
 def _gradient(ramp: Ramp, stage: Stage, times: Times) -> Gradient:
-    along = None if ramp.along is None else _along(ramp.along, ramp.center, stage)
+    along = None if ramp.along is None else along_of(ramp.along, ramp.center, stage)
     rate = 0.0 if ramp.period is None else 1.0 / ramp.period
     if along is None:
         # By the time the colours come in their order, not one behind the other.
@@ -122,7 +122,8 @@ def _gradient(ramp: Ramp, stage: Stage, times: Times) -> Gradient:
     return Gradient(ramp.colors, ramp.at, along, rate, times.start, ramp.period is not None)
 
 
-def _along(way: Way, center: Vec3 | None, stage: Stage) -> Along:
+def along_of(way: Way, center: Vec3 | None, stage: Stage) -> Along:
+    """Return what goes a way through the places of a stage; center : from which `out` and `in` count."""
     if way == "index":
         return Order(stage.drones)
     low, high = stage.places.min(axis=0), stage.places.max(axis=0)

@@ -18,8 +18,9 @@ from shotc.show.assignment.order import DIGITS
 from shotc.show.solvers.arc_move import ArcMove
 from shotc.show.solvers.layered_move import LayeredMove
 from shotc.show.solvers.move import Move
+from shotc.show.solvers.wave_move import WaveMove
 
-Motion = Move | ArcMove
+Motion = Move | ArcMove | WaveMove
 
 
 class Score:
@@ -84,10 +85,13 @@ class Score:
         start = self.phases[-1].end if self.phases else self._breaks[0]
         self.phases.append(Phase(name, shot, start, self.clock))
 
+    def spline(self) -> tuple[Array, Array]:
+        """Return breaks and control points of what is written, as of FleetTrajectory."""
+        return np.array(self._breaks), np.stack(self._points, axis=1)
+
     def trajectory(self, fleet: str, lights: Lights) -> FleetTrajectory:
         """Return the whole flight."""
-        breaks, coef = np.array(self._breaks), np.stack(self._points, axis=1)
-        return FleetTrajectory(fleet, breaks, coef, tuple(self.phases), tuple(self.shown), lights)
+        return FleetTrajectory(fleet, *self.spline(), tuple(self.phases), tuple(self.shown), lights)
 
     def follow(self, flight: FleetTrajectory) -> None:
         """Take over a flight that was changed after it was written."""

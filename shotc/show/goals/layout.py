@@ -117,7 +117,8 @@ def laid_out(task: Task, setting: Setting, bodies: Sequence[Body]) -> Layout | D
 def flown_straight(task: Task, bodies: Sequence[Body]) -> bool:
     """Tell whether a picture is an animation, or drones come to it or go from it on straight ways alone."""
     next_ones = task.display.pictures[task.index : task.index + 2]
-    return len(bodies) > 1 or any(picture.transition_path == "straight" for picture in next_ones)
+    straight = (p.transition_path == "straight" or p.wave is not None for p in next_ones)
+    return len(bodies) > 1 or any(straight)
 
 
 class _Layouts:

@@ -3,7 +3,8 @@
 Takes flights within their limits. Proves for every fleet that no two of its drones ever come nearer than its
 separation, and that no two fleets meet; where that does not hold between two stops of a fleet, the drones
 concerned are pushed apart, all at once and as little as does, until the proof and all limits hold. What
-cannot be had is an error that names the two drones, the time, and how near they come.
+cannot be had is an error that names the two drones, the time, and how near they come. Waves of departure are
+proved where they are made (``show.assignment.waves``), so that none is bent here.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from itertools import combinations
 from typing import ClassVar
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import straight_spacing
+from shotc.geom.apart import kept, straight_spacing
 from shotc.geom.separation import closest_between
 from shotc.ir.fleet import FleetTrajectory, ShowIR
 from shotc.ir.mission import MissionIR
@@ -22,7 +23,6 @@ from shotc.ir.show import stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.separation.faults import bent, fleets_meet
 from shotc.show.separation.off_goals import farthest
-from shotc.show.separation.pushed import kept
 from shotc.show.separation.repair import Keeper
 
 MUCH_SHARE = 0.5

@@ -12,13 +12,14 @@ from typing import Literal
 
 import numpy as np
 
+from shotc.geom.apart import kept
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Fleet
 from shotc.rounding import up
-from shotc.show.separation.pushed import DIGITS, ROUNDS, kept, pushed
+from shotc.show.separation.pushed import DIGITS, ROUNDS, pushed
 from shotc.show.solvers.qcqp import Bounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)

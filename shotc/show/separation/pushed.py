@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from shotc.geom.apart import kept
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Fleet
@@ -26,10 +27,6 @@ NOISE_M = 0.01
 DIGITS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
 
-SLACK_SHARE = 1e-6
-"""What the proof may fall short of, a share of the distance and of a metre at least, as in verification."""
-
-
 HOPELESS_SHARE = 0.05
 """Share of the distance that is lacking when nobody asks for the limits yet, which takes longest."""
 
@@ -45,11 +42,6 @@ class Pushed:
     coef: Array | None
     rounds: int
     reached: float
-
-
-def kept(proven: float, across: float) -> bool:
-    """Tell whether a proved distance is the one to be kept, metres."""
-    return proven >= across - SLACK_SHARE * max(1.0, across)
 
 
 def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS) -> Pushed:

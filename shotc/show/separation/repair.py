@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from shotc.diag.model import Diagnostic
+from shotc.geom.apart import kept
 from shotc.geom.bernstein import Array
 from shotc.geom.on_pads import Mask
 from shotc.geom.separation import Nearest, closest
@@ -19,7 +20,7 @@ from shotc.show.geom.windows import Window, windows
 from shotc.show.separation.common import common
 from shotc.show.separation.faults import Tried, standing_too_near, too_near
 from shotc.show.separation.longer import Stretch, longer
-from shotc.show.separation.pushed import Pushed, kept, pushed
+from shotc.show.separation.pushed import Pushed, pushed
 
 MANY = 1000
 """Drones beyond which moves that all make alike are proved in closed form; verification searches all

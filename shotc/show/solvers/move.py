@@ -78,7 +78,7 @@ class Move:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Ceilings:
+class Ceilings:
     """For each drone what the limits leave of s', s'' and s''', shape (n,), and what binds s'."""
 
     first: Array
@@ -87,7 +87,8 @@ class _Ceilings:
     names: list[str]
 
     @staticmethod
-    def of(ways: Array, limits: Limits, pace: float) -> _Ceilings:
+    def of(ways: Array, limits: Limits, pace: float) -> Ceilings:
+        """Return what every limit times ``pace`` leaves of moves g - x, shape (n, 3), metres."""
         across, far = np.hypot(ways[:, 0], ways[:, 1]), np.linalg.norm(ways, axis=1)
         with np.errstate(divide="ignore"):
             rates = np.stack(
@@ -99,12 +100,32 @@ class _Ceilings:
             )
             scale = LIMIT_SHARE * pace
             named = ("speed", "climb", "descent")
-            return _Ceilings(
+            return Ceilings(
                 scale * rates.min(axis=0),
                 scale * limits.usable_acceleration / far,
                 scale * limits.jerk / far,
                 [named[k] for k in rates.argmin(axis=0)],
             )
+
+    def least(self, steps: Array) -> Array:
+        """Return how short the unit of time may be of each shape, seconds, for all drones together.
+
+        steps : (M, 3), its largest derivatives of order 1 to 3 by that unit, or differences that bound them
+        """
+        first, second, third = (float(c.min()) for c in (self.first, self.second, self.third))
+        with np.errstate(divide="ignore"):
+            times = [steps[:, 0] / first, np.sqrt(steps[:, 1] / second), np.cbrt(steps[:, 2] / third)]
+        return np.asarray(np.max(times, axis=0))
+
+    def binding(self, steps: Array, unit: float) -> tuple[str, int]:
+        """Return which limit binds a shape, steps of shape (3,), whose unit lasts so many seconds, and
+        whom.
+        """
+        kept = (self.first, self.second, self.third)
+        tight = [steps[k] / unit ** (k + 1) / float(kept[k].min()) for k in range(3)]
+        k = int(np.argmax(tight))
+        drone = int(kept[k].argmin())
+        return (self.names[drone], "acceleration", "jerk")[k], drone
 
 
 def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> Move:
@@ -112,34 +133,34 @@ def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-
 
     ways : g - x, shape (n, 3), metres
     """
-    ceilings = _Ceilings.of(ways, limits, pace)
+    ceilings = Ceilings.of(ways, limits, pace)
     best: tuple[float, Array] | None = None
     for pieces in PIECES:
         shapes, steps = family(pieces, easing)
         if not len(shapes):
             continue
-        least = np.maximum(_least_pieces(steps, ceilings), LEAST_PIECE_S)
+        least = np.maximum(ceilings.least(steps), LEAST_PIECE_S)
         # Of those that are as fast, the smoothest.
         k = int(np.where(least <= 1.001 * least.min(), steps[:, 2], inf).argmin())
         if best is None or pieces * least[k] * WORTH_RATIO < best[0] * (len(best[1]) - 3):
             best = float(np.ceil(least[k] / TICK_S) * TICK_S), shapes[k]
     assert best is not None
-    return _named(best[1], best[0], ceilings)
+    return Move(best[1], best[0], *ceilings.binding(_steps(best[1][None])[0], best[0]))
 
 
 def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
     """Return the least length of one of so many pieces that everybody's straight move allows, seconds."""
     if pieces < 4:
         return inf if np.abs(ways).max(initial=0.0) > 0.0 else 0.0
-    ceilings = _Ceilings.of(ways, limits, 1.0)
-    return float(_least_pieces(family(pieces)[1], ceilings).min())
+    ceilings = Ceilings.of(ways, limits, 1.0)
+    return float(ceilings.least(family(pieces)[1]).min())
 
 
 def least_pieces(pieces: int, ways: Array, limits: Limits) -> Array:
     """Return for every drone alone what ``least_piece`` is for all of them together, shape (n,)."""
     if pieces < 4:
         return np.where(np.abs(ways).max(axis=1) > 0.0, inf, 0.0)
-    ceilings, steps = _Ceilings.of(ways, limits, 1.0), family(pieces)[1]
+    ceilings, steps = Ceilings.of(ways, limits, 1.0), family(pieces)[1]
     with np.errstate(divide="ignore"):
         first = steps[:, :1] / ceilings.first
         second = np.sqrt(steps[:, 1:2] / ceilings.second)
@@ -147,29 +168,11 @@ def least_pieces(pieces: int, ways: Array, limits: Limits) -> Array:
     return np.asarray(np.maximum(first, np.maximum(second, third)).min(axis=0))
 
 
-def _least_pieces(steps: Array, ceilings: _Ceilings) -> Array:
-    """Return how short a piece each shape allows; steps : (M, 3), its largest differences of order 1 to 3."""
-    first, second, third = (float(c.min()) for c in (ceilings.first, ceilings.second, ceilings.third))
-    with np.errstate(divide="ignore"):
-        times = [steps[:, 0] / first, np.sqrt(steps[:, 1] / second), np.cbrt(steps[:, 2] / third)]
-    return np.asarray(np.max(times, axis=0))
-
-
-def _named(shape: Array, piece: float, ceilings: _Ceilings) -> Move:
-    """Return the move with what binds it."""
-    steps = _steps(shape[None])[0]
-    kept = (ceilings.first, ceilings.second, ceilings.third)
-    tight = [steps[k] / piece ** (k + 1) / float(kept[k].min()) for k in range(3)]
-    k = int(np.argmax(tight))
-    drone = int(kept[k].argmin())
-    return Move(shape, piece, (ceilings.names[drone], "acceleration", "jerk")[k], drone)
-
-
 def _steps(shapes: Array) -> Array:
     return np.stack([np.abs(np.diff(shapes, n, axis=1)).max(axis=1) for n in (1, 2, 3)], axis=1)
 
 
-class _Ramps(NamedTuple):
+class Ramps(NamedTuple):
     """Shares of the time of a profile in which it speeds up and slows down, and of either of these the share
     in which its acceleration sets in and goes.
     """
@@ -178,6 +181,32 @@ class _Ramps(NamedTuple):
     down: float
     up_jerk: float
     down_jerk: float
+
+    @property
+    def back(self) -> Ramps:
+        """Return those of the profile that is run from its end."""
+        return Ramps(self.down, self.up, self.down_jerk, self.up_jerk)
+
+    @property
+    def peaks(self) -> tuple[float, float, float]:
+        """Return the largest size of each derivative of the profile, of order 1 to 3, over its time."""
+        sets_in, out = 0.5 * self.up * self.up_jerk, 0.5 * self.down * self.down_jerk
+        speed = 1.0 / (1.0 - 0.5 * (self.up + self.down))
+        up, down = speed / (self.up - sets_in), speed / (self.down - out)
+        return speed, max(up, down), max(up / sets_in, down / out)
+
+
+@cache
+def ramps_of(easing: Easing) -> tuple[Ramps, ...]:
+    """Return the profiles of an easing; of an even one those whose speed is, by themselves."""
+    if easing in ("ease-in", "ease-out"):
+        slow = tuple(Ramps(*r) for r in product(LONG_SHARES, SHORT_SHARES, JERK_SHARES, JERK_SHARES))
+        return slow if easing == "ease-in" else tuple(ramps.back for ramps in slow)
+    shares = np.linspace(0.0, 1.0, 15)[1:].tolist()
+    every = tuple(Ramps(0.5 * ramp, 0.5 * ramp, jerk, jerk) for ramp, jerk in product(shares, shares))
+    if easing == "linear":
+        return tuple(ramps for ramps in every if ramps.peaks[0] * EVEN_SHARE <= 1.0)
+    return every
 
 
 @cache
@@ -188,14 +217,7 @@ def family(pieces: int, easing: Easing = "ease-in-out") -> tuple[Array, Array]:
     """
     # The profile begins one piece late and ends one early, and rests outside: three equal points at each end.
     at = np.clip((np.arange(pieces + 3) - 2.0) / (pieces - 2.0), 0.0, 1.0)
-    shares = np.linspace(0.0, 1.0, 15)[1:].tolist()
-    if easing in ("ease-in", "ease-out"):
-        every = [_Ramps(*r) for r in product(LONG_SHARES, SHORT_SHARES, JERK_SHARES, JERK_SHARES)]
-    else:
-        every = [_Ramps(0.5 * ramp, 0.5 * ramp, jerk, jerk) for ramp, jerk in product(shares, shares)]
-    shapes = np.array([_profile(at, ramps) for ramps in every])
-    if easing == "ease-out":
-        shapes = 1.0 - shapes[:, ::-1]
+    shapes = np.array([profile(at, ramps) for ramps in ramps_of(easing)])
     steps = _steps(shapes)
     if easing == "linear":
         even = pieces * steps[:, 0] * EVEN_SHARE <= 1.0
@@ -203,8 +225,8 @@ def family(pieces: int, easing: Easing = "ease-in-out") -> tuple[Array, Array]:
     return shapes, steps
 
 
-def _profile(at: Array, ramps: _Ramps) -> Array:
-    """Return s of seven stretches of constant third derivative at shares of its time."""
+def profile(at: Array, ramps: Ramps) -> Array:
+    """Return s of seven stretches of constant third derivative at shares of its time, 0 to 1, any shape."""
     up, down = ramps.up, ramps.down
     in_, out = 0.5 * up * ramps.up_jerk, 0.5 * down * ramps.down_jerk
     ends = np.array([in_, up - in_, up, 1.0 - down, 1.0 - down + out, 1.0 - out])
@@ -212,7 +234,7 @@ def _profile(at: Array, ramps: _Ramps) -> Array:
     back = (up - in_) * in_ / ((down - out) * out)
     signs = np.array([1.0, 0.0, -1.0, 0.0, -back, 0.0, back])
     jumps = np.diff(signs)
-    late = np.maximum(at[:, None] - ends, 0.0)
-    s = (signs[0] * at**3 + (late**3 * jumps).sum(axis=1)) / 6.0
+    late = np.maximum(at[..., None] - ends, 0.0)
+    s = (signs[0] * at**3 + (late**3 * jumps).sum(axis=-1)) / 6.0
     whole = (signs[0] + ((1.0 - ends) ** 3 * jumps).sum()) / 6.0
     return np.asarray(np.where(at >= 1.0, 1.0, s / whole))

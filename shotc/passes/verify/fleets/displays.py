@@ -39,6 +39,7 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _timing(flight, display, flown[0], ends)
             yield from _pictures(flight, display, flown[0], shown)
             yield from _transitions(flight, display, shown)
+            yield from _waves(flight, display, shown)
             yield from _holds(flight, display, shown)
             yield from named_pictures(flight, display, shown)
 
@@ -110,6 +111,36 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) 
         off, time, path = max(transitions, key=lambda item: item[0])
         limit = Limit("error of transition", ON_TIME_S, "s", path, shot=display.id)
         yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
+
+
+def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+    """Claim that the drones set out within the time of a wave, to two pieces of their splines.
+
+    Whoever stays where it is sets out at no time: nothing is claimed of a way on which somebody does.
+    """
+    breaks, coef = flight.track.breaks, flight.track.coef
+    found: list[tuple[float, Limit, Worst]] = []
+    first = {s.picture: s for s in reversed(shown)}
+    for k, picture in enumerate(display.pictures):
+        if picture.wave is None or k not in first:
+            continue
+        end = first[k].start
+        begin = max((s.end for s in flight.track.shown if s.end <= end), default=flight.track.phases[0].end)
+        on_way = np.flatnonzero((breaks[:-1] > begin - TOLERANCE) & (breaks[1:] < end + TOLERANCE))
+        # A piece moves where its four control points are not all alike.
+        steps = (np.diff(coef[:, : on_way.max(initial=0) + 4], axis=1) != 0.0).any(axis=2)
+        moving = np.stack([steps[:, j : j + 3].any(axis=1) for j in on_way], axis=1)
+        if moving.size and moving.any(axis=1).all():
+            departs = breaks[on_way[moving.argmax(axis=1)]]
+            off = abs(float(np.ptp(departs)) - picture.wave.time)
+            piece = float(np.diff(breaks)[on_way].max())
+            limit = Limit(
+                "error of wave", 2.0 * piece, "s", (*picture.path, "transition", "wave"), shot=display.id
+            )
+            found.append((off - 2.0 * piece, limit, Worst(off, float(departs.max()), "exact")))
+    if found:
+        _, limit, worst = max(found, key=lambda item: item[0])
+        yield held(flight.fleet.name, limit, worst)
 
 
 def _holds(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:

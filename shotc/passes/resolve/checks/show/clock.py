@@ -14,7 +14,7 @@ from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.passes.resolve.checks.motion import least_travel
 from shotc.passes.resolve.checks.timing import EARLIEST, SHORTEST, waits_longer
 from shotc.planning.take_off import take_off_of
-from shotc.rounding import at_least
+from shotc.rounding import at_least, plain
 from shotc.show.geom.shape import bounds
 from shotc.show.labels import key_of, moments, transition_label, word_of
 
@@ -50,14 +50,16 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
             mission.origins.key(key_of(before), "the picture before"),
         )
         limits, shortest = fleet.limits, at_least(least, 1)
+        flown = at_least(least - _last(after), 1)
         note = (
-            f"every drone has {_gap(before, after):.1f} m to fly at least, which takes {shortest} s at "
+            f"every drone has {_gap(before, after):.1f} m to fly at least, which takes {flown} s at "
             f"{limits.speed:.1f} m/s across, {limits.climb:.1f} m/s up, {limits.descent:.1f} m/s down and "
             f"{limits.acceleration:.1f} m/s^2"
         )
-        message = (
-            f"no drone gets from this {word_of(before)} to the {word_of(after)} in {after.transition:.1f} s"
-        )
+        if after.wave is not None:
+            note += f"; the last sets out {plain(after.wave.time)} s after the first"
+        who = "no drone gets" if after.wave is None else "not all drones get"
+        message = f"{who} from this {word_of(before)} to the {word_of(after)} in {after.transition:.1f} s"
         yield Diagnostic("D019", message, labels, (note,), f"give it more than {shortest} s; {SHORTEST}")
 
 
@@ -77,7 +79,12 @@ def _gap(before: Picture, after: Picture) -> float:
 
 
 def _between(before: Picture, after: Picture, limits: Limits) -> float:
-    return least_travel([(0.0, 0.0, 0.0), _way(before, after)], limits)
+    return _last(after) + least_travel([(0.0, 0.0, 0.0), _way(before, after)], limits)
+
+
+def _last(picture: Picture) -> float:
+    """Return how long after the first drone the last one sets out, seconds."""
+    return 0.0 if picture.wave is None else picture.wave.time
 
 
 def _change(before: Picture, after: Picture, limits: Limits) -> float:

@@ -1,0 +1,144 @@
+"""Drones that set out one after another: who when, and the proof that they stay apart.
+
+Two drones that are s_i and s_j along their ways are nearer than if both were s_i, by up to |s_j - s_i| times
+the way of the second: what straight ways prove of places that are matched does not hold, and nothing in
+closed form does that is sharp. So every wave is proved by ``geom.separation`` as it is flown, and what comes
+too near is a fault. Nobody is pushed aside for it: that would bend the wave.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.apart import kept, stretch
+from shotc.geom.bernstein import Array
+from shotc.geom.separation import Nearest, closest
+from shotc.ir.effects import Way
+from shotc.ir.light_layers import Axis, Order
+from shotc.ir.light_paints import reached
+from shotc.ir.limits import Vec3
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display, Fleet, Picture, Wave
+from shotc.rounding import down, up
+from shotc.show.assignment.faults import TriedWave, too_fast, wave_too_near, wave_without_extent
+from shotc.show.assignment.layers import LEAST_M, Stage, along_of
+from shotc.show.assignment.score import Score
+from shotc.show.geom.push_apart import nearest_pair
+from shotc.show.solvers.wave_move import WaveMove, fastest_wave
+
+HALVINGS = 6
+"""Waves, and spacings, that are tried between what is not enough and what is."""
+FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0)
+"""By which places are farther apart, in turn, until that is enough; the last one not being enough, nothing
+is said.
+"""
+TINY_S = 1e-6
+"""A time missed by less is met, seconds."""
+
+Ends = tuple[Array, Array]
+"""Places of all drones before and after a move, shape (n, 3) each."""
+
+
+def departures(wave: Wave, viewpoint: Vec3 | None, ends: Ends) -> Array | None:
+    """Return when each drone sets out after the first, shape (n,), seconds; None where all places are alike.
+
+    The last one sets out ``wave.time`` after the first, all others by where they are between the two.
+    """
+    places = ends[1] if wave.by == "goal" else ends[0]
+    along = along_of(wave.along, wave.center, Stage(places, viewpoint, len(places), {}))
+    if isinstance(along, Order):
+        share = np.arange(len(places), dtype=np.float64)
+    else:
+        metres = along.high - along.low if isinstance(along, Axis) else along.reach
+        share = metres * reached(along, places)
+    low, high = float(share.min()), float(share.max())
+    return None if high - low < LEAST_M else wave.time * (share - low) / (high - low)
+
+
+class Waves:
+    """Finds the moves of one fleet whose drones set out one after another; ``faults`` fills up."""
+
+    def __init__(self, mission: MissionIR, fleet: Fleet) -> None:
+        self.mission, self.fleet = mission, fleet
+        self.faults: list[Diagnostic] = []
+
+    def move(self, ends: Ends, display: Display, picture: Picture) -> WaveMove:
+        """Return the move to a picture that has a wave, as long as it is asked for or as the pace allows."""
+        wave = picture.wave
+        assert wave is not None
+        departs = departures(wave, display.viewpoint, ends)
+        if departs is None:
+            others: tuple[Way, ...] = ("right", "up", "away", "out", "index")
+            able = [
+                w for w in others if departures(wave._replace(along=w), display.viewpoint, ends) is not None
+            ]
+            self.faults.append(wave_without_extent(self.mission, picture, wave, able))
+            return self._timed(ends, np.zeros(len(ends[0])), display, picture)
+        move = self._timed(ends, departs, display, picture)
+        if picture.transition is not None and move.duration > picture.transition + TINY_S:
+            way = float(np.linalg.norm((ends[1] - ends[0])[move.drone]))
+            self.faults.append(too_fast(self.mission, self.fleet, picture, move, way))
+            return move
+        nearest = self._nearest(ends, move)
+        if not kept(nearest.proven, self.fleet.apart.across):
+            self.faults.append(self._too_near(ends, display, picture, nearest))
+        return move
+
+    def _timed(self, ends: Ends, departs: Array, display: Display, picture: Picture) -> WaveMove:
+        """Return the move as it is flown, which takes longer than asked for where that cannot be."""
+        asked, limits = picture.transition, self.fleet.limits
+        pace = display.pace if asked is None else 1.0
+        move = fastest_wave(ends[1] - ends[0], departs, limits, pace, picture.easing)
+        return move if asked is None or asked < move.duration else move.lasting(asked)
+
+    def _nearest(self, ends: Ends, move: WaveMove) -> Nearest:
+        """Return how near two drones come, proved, of the control points that are flown."""
+        score = Score(ends[0])
+        score.move(ends[1], move)
+        return closest(*score.spline(), self.fleet.apart)
+
+    def _too_near(self, ends: Ends, display: Display, picture: Picture, nearest: Nearest) -> Diagnostic:
+        """Return D141, with the wave and the spacing that would do."""
+        wave, apart = picture.wave, self.fleet.apart
+        assert wave is not None
+
+        def enough(seconds: float, factor: float) -> bool:
+            wider = _larger(ends[0], factor), _larger(ends[1], factor)
+            departs = departures(wave._replace(time=seconds), display.viewpoint, wider)
+            assert departs is not None
+            move = self._timed(wider, departs, display, picture)
+            return kept(self._nearest(wider, move).proven, apart.across)
+
+        longest = 0.0
+        if enough(0.0, 1.0):
+            longest = _closed_in((0.0, wave.time), lambda time: enough(time, 1.0), down)
+        factor = next((f for f in FACTORS if enough(wave.time, f)), None)
+        if factor is not None:
+            less = max((f for f in FACTORS if f < factor), default=1.0)
+            factor = _closed_in((factor, less), lambda f: enough(wave.time, f), up)
+        scale = np.array([1.0, 1.0, stretch(apart)])
+        before, after = (nearest_pair(places * scale) for places in ends)
+        tried = TriedWave(nearest, longest, (before, after), factor)
+        return wave_too_near(self.mission, self.fleet, picture, tried)
+
+
+def _larger(places: Array, factor: float) -> Array:
+    """Return places farther apart about their middle, shape (n, 3)."""
+    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
+    return np.asarray(middle + factor * (places - middle))
+
+
+def _closed_in(
+    ends: tuple[float, float], enough: Callable[[float], bool], rounded: Callable[[float], float]
+) -> float:
+    """Return what is enough and nearer to what is not; ends : the one and the other."""
+    good, bad = ends
+    for _ in range(HALVINGS):
+        middle = rounded(0.5 * (good + bad))
+        if middle in (good, bad):
+            break
+        good, bad = (middle, bad) if enough(middle) else (good, middle)
+    return good
