@@ -29,6 +29,7 @@ def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
     for i, fleet in enumerate(mission.fleets):
         yield from _fleet(fleet, f"mission.fleets[{i}]")
     drones = {fleet.name: set(fleet.numbers) for fleet in mission.fleets}
+    targets = {target.name for target in mission.every_target}
     for i, display in enumerate(mission.displays):
         if display.fleet not in drones:
             yield f"mission.displays[{i}].fleet", f"there is no fleet `{display.fleet}`"
@@ -36,6 +37,9 @@ def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
             if not drones.get(display.fleet, set()).issuperset(cue.drones):
                 yield f"mission.displays[{i}].pyro[{k}].drones", f"not all are drones of `{display.fleet}`"
         yield from _display(display, f"mission.displays[{i}]")
+        for k, picture in enumerate(display.pictures):
+            if picture.name is not None and picture.name not in targets:
+                yield f"mission.displays[{i}].pictures[{k}].name", f"there is no target `{picture.name}`"
     for i, track in enumerate(ir.fleets):
         yield from _track(track, mission, f"fleets[{i}]")
 

@@ -107,6 +107,7 @@ def shown(document: dict[str, Any]) -> dict[str, Any]:
     return document["mission"]["displays"][0]
 
 
+EARLY = {"time": -1.0, "along": "up", "by": "goal", "center": None}
 EDITS: list[tuple[str, Callable[[dict[str, Any]], Any], str, str]] = [
     ("a control point", lambda d: track(d)["coef"][1][7].__setitem__(2, 60.0), "V001", "swarm-2"),
     ("drones that meet", lambda d: track(d)["coef"].__setitem__(1, track(d)["coef"][0]), "V022", "swarm-1"),
@@ -144,6 +145,9 @@ EDITS: list[tuple[str, Callable[[dict[str, Any]], Any], str, str]] = [
     ("a source of no type", lambda d: shown(d)["pictures"][1]["source"].pop("type"), "E003", "source"),
     ("a colour too bright", lambda d: shown(d)["pictures"][0].update(color=[256, 0, 0]), "E003", "color"),
     ("a hold before", lambda d: shown(d)["pictures"][0].update(hold=-1), "E003", "hold"),
+    ("a wave before", lambda d: shown(d)["pictures"][1].update(wave=EARLY), "E003", "wave.time"),
+    ("an unknown easing", lambda d: shown(d)["pictures"][1].update(easing="steps"), "E003", "easing"),
+    ("a name of no target", lambda d: shown(d)["pictures"][0].update(name="moon"), "E003", "name"),
     ("another pace", lambda d: shown(d).update(pace=3), "E003", "pace"),
     ("a weight of none", lambda d: shown(d).update(weight="nan"), "E003", "weight"),
     ("a weight below", lambda d: shown(d).update(weight=-1), "E003", "weight"),
