@@ -129,12 +129,6 @@ def table(rows: Sequence[Sequence[str]]) -> list[str]:
     return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
 
 
-def clock(seconds: float) -> str:
-    """Write seconds as m:ss.s."""
-    minutes, rest = divmod(round(seconds, 1), 60)
-    return f"{int(minutes)}:{rest:04.1f}"
-
-
 class Progress:
     """Show what is running on a terminal; say nothing elsewhere."""
 

@@ -14,7 +14,7 @@ from shotc.batch.record import Record, folder_of, key_of, still_true
 from shotc.batch.work import Job, Outcome, Planned, planned
 from shotc.checking import models_of
 from shotc.cli import console, refiner
-from shotc.cli.console import Progress, clock, table
+from shotc.cli.console import Progress, table
 from shotc.cli.earlier_outputs import tell_left_over, warn_of_earlier
 from shotc.cli.hands import at_work, no_cluster
 from shotc.cli.inputs import Gathered, MissionText
@@ -23,6 +23,7 @@ from shotc.diag.registry import has_errors
 from shotc.filenames import file_name
 from shotc.output import write
 from shotc.parallel import Hands, as_done, cores
+from shotc.rounding import as_minutes
 from shotc.source.file import SourceFile
 from shotc.spec.load import load
 
@@ -118,7 +119,7 @@ def _row(batch: _Batch, outcome: Outcome) -> tuple[str, ...]:
         errors = "1 error" if outcome.errors == 1 else f"{outcome.errors} errors"
         return (outcome.name, "-", "-", warnings, f"none: {errors}")
     folder = f"{folder_of(outcome, batch.root)}/"
-    return (outcome.name, clock(outcome.in_the_air), str(outcome.proved), warnings, folder)
+    return (outcome.name, as_minutes(outcome.in_the_air), str(outcome.proved), warnings, folder)
 
 
 def _clashes(missions: Sequence[MissionText]) -> tuple[list[Diagnostic], dict[str, SourceFile]]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from shotc.cli.console import clock, table
+from shotc.cli.console import table
 from shotc.collective import Return
 from shotc.ir.measures import measure
+from shotc.rounding import as_minutes
 
 HEADING = ("collective return", "from", "at rest", "over the pads", "landed", "nearest")
 
@@ -35,7 +36,7 @@ def _row(name: str, found: Return) -> tuple[str, ...]:
     if near is not None:
         pair = " and ".join(near.drones)
         apart = f"{measure(near.worst, near.unit)} of {measure(near.limit, near.unit)}, {pair}"
-    return (name, clock(found.time), *spans, apart)
+    return (name, as_minutes(found.time), *spans, apart)
 
 
 def _rest(found: Return) -> float:

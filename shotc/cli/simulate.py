@@ -126,7 +126,8 @@ def simulate(
     `plan` and `verify` do.
 
     Written are simulate.json (every run), flight.csv (the worst run, instant by instant), simulate.png
-    (distributions) and simulate.rrd (the worst run beside the plan, for the rerun viewer). Examples:
+    (distributions), simulate.rrd (the worst run beside the plan, for the rerun viewer) and
+    MISSION-report.html (what is proved, and what came of the runs, for authorities). Examples:
 
         shotc simulate tower.yaml --wind 5 --from 270 --gusts 1
         shotc simulate out/tower --loop track --gps plain --seeds 100
@@ -163,8 +164,8 @@ def simulate(
         if faults:
             console.report(faults, sources)
             raise typer.Exit(console.EXIT_REJECTED)
-        count = runs_of(mission, asked)
-        progress(f"flying {count} runs")
+        count = runs_of(plan.trajectory, conditions, asked)
+        progress(f"flying {count} run{'s' if count > 1 else ''}")
         kept = Unfinished.of(folder, plan.trajectory, conditions)
         earlier = kept.done()
         blocks = kept.keeping(
@@ -172,7 +173,7 @@ def simulate(
         )
         with at_work():
             done = rehearse(plan.trajectory, conditions, blocks, lambda n: progress(f"{n} of {count} runs"))
-        made = artifacts(done, progress)
+        made = artifacts(done, plan, progress)
     paths, faults = write(made.artifacts, folder)
     kept.file.forget()
     found = (*made.diagnostics, *not_kept(done), *faults)

@@ -8,7 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from shotc.cli.centred import centred
-from shotc.cli.console import clock, table
+from shotc.cli.console import table
 from shotc.cli.exposed import exposed
 from shotc.cli.show_facts import beside, dense, layered, taking_off
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
@@ -27,7 +27,7 @@ from shotc.passes.verify.energy import ENERGY, J_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.planning.path.unwrapping import TURNS
-from shotc.rounding import at_least, at_most, away
+from shotc.rounding import as_minutes, at_least, at_most, away
 
 WIDTH = 100
 GLUE = "\N{NO-BREAK SPACE}"
@@ -58,7 +58,7 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
     tables = [rows for rows in (shot_rows(plan) if ir.drones else [], display_rows(plan)) if rows]
     return "\n".join(
         [
-            f"{mission.name}: {shots}, {clock(ir.end)} in the air, planned and proved",
+            f"{mission.name}: {shots}, {as_minutes(ir.end)} in the air, planned and proved",
             *(line for rows in tables for line in ("", *_indent(table(rows)))),
             "",
             *_indent(line for name, text in _facts(plan, notes) for line in _paragraph(name, text)),
@@ -79,7 +79,13 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     for drone, phase in flown:
         assert phase.shot is not None
-        own = (drone, phase.shot, kinds[phase.shot], clock(phase.start), f"{phase.end - phase.start:.2f} s")
+        own = (
+            drone,
+            phase.shot,
+            kinds[phase.shot],
+            as_minutes(phase.start),
+            f"{phase.end - phase.start:.2f} s",
+        )
         for i, target in enumerate(targets[phase.shot] or ("",)):
             summary = certified(plan.certificate, phase.shot, target)
             rows.append((*(own if i == 0 else ("",) * len(own)), target or "-", *_framing(summary)))
@@ -211,7 +217,7 @@ def _closest(claims: Sequence[Claim]) -> list[str]:
     return [
         f"{at_most(c.worst)} m, {c.limit:.2f} m needed: {c.constraint}"
         + "".join(f" of {drone}" for drone in c.drones or (c.subject,) * several)
-        + ("" if c.time is None else f" at {clock(c.time)}")
+        + ("" if c.time is None else f" at {as_minutes(c.time)}")
         for c in near[:2]
     ]
 
@@ -226,7 +232,7 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
     name = near.constraint.removesuffix(ON_TRANSITS) + drone
     if abs(near.worst - near.limit) < NOTHING:
         return [f"as near as a shot begins or ends to {name}, then {near.limit:.2f} m"]
-    when = "" if near.time is None else f" at {clock(near.time)}"
+    when = "" if near.time is None else f" at {as_minutes(near.time)}"
     return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m asked"]
 
 
@@ -258,7 +264,7 @@ def _together(plan: VerifiedIR) -> list[str]:
     near = min(apart, key=lambda c: c.worst)
     other = near.constraint.removeprefix(APART)
     text = f"{near.subject} and {other} come nearest, {at_most(near.worst)} m, {near.limit:.2f} m needed"
-    return [text + ("" if near.time is None else f", at {clock(near.time)}") + f"; {_pictures(plan)}"]
+    return [text + ("" if near.time is None else f", at {as_minutes(near.time)}") + f"; {_pictures(plan)}"]
 
 
 def _on_pads(plan: VerifiedIR) -> Iterator[str]:
@@ -325,7 +331,7 @@ def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
     shown = [s for s in track.shown if s.display == phase.shot]
     pictures = len({s.picture for s in shown})
     frames = "" if len(shown) == pictures else f", {len(shown)} frames"
-    return clock(phase.start), f"{phase.end - phase.start:.2f} s", f"{pictures}{frames}"
+    return as_minutes(phase.start), f"{phase.end - phase.start:.2f} s", f"{pictures}{frames}"
 
 
 def headline(plan: VerifiedIR) -> str:
@@ -344,7 +350,7 @@ def nearest(plan: VerifiedIR) -> Iterator[str]:
 
 def _pair(plan: VerifiedIR, claim: Claim) -> str:
     reached, needed = measure(claim.worst, claim.unit), measure(claim.limit, claim.unit)
-    when = "" if claim.time is None else f", at {clock(claim.time)}"
+    when = "" if claim.time is None else f", at {as_minutes(claim.time)}"
     text = f"{' and '.join(claim.drones)} come nearest, {reached}, {needed} needed{when}"
     if claim.constraint == "separation on pads":
         return f"{text} while one stands on its pad"
@@ -374,7 +380,7 @@ def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
         yield (
             mark(claim),
             *_values(claim),
-            "" if claim.time is None else clock(claim.time),
+            "" if claim.time is None else as_minutes(claim.time),
             WAYS[claim.method] + (f", {' and '.join(claim.drones)}" if claim.drones else ""),
         )
 

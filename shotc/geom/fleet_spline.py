@@ -7,6 +7,8 @@ are a start or an end at rest.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from shotc.geom.bernstein import Array
@@ -76,12 +78,20 @@ def places(breaks: Array, coef: Array, times: Array, order: int = 0) -> Array:
 
     coef : shape (n, P + 3, 3); result : shape (n, T, 3)
     """
+    return places_of(breaks, coef, order)(times)
+
+
+def places_of(breaks: Array, coef: Array, order: int = 0) -> Callable[[Array], Array]:
+    """Return ``places`` as a function of the times, for whoever asks often: it is set up once.
+
+    coef : shape (n, P + 3, 3); result of the function : shape (n, T, 3) at times of shape (T,)
+    """
     from scipy.interpolate import BSpline  # films do without
 
     spline = BSpline(knots(breaks), np.moveaxis(coef, 1, 0), DEGREE)
     if order:
         spline = spline.derivative(order)
-    return np.asarray(np.moveaxis(spline(np.clip(times, breaks[0], breaks[-1])), 0, 1))
+    return lambda times: np.asarray(np.moveaxis(spline(np.clip(times, breaks[0], breaks[-1])), 0, 1))
 
 
 def pieces(breaks: Array, coef: Array) -> Array:

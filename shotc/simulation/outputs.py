@@ -7,18 +7,27 @@ from importlib.util import find_spec
 
 from shotc import plugins
 from shotc.emit.base import Artifact, Emission
+from shotc.emit.report import report
+from shotc.emit.report.page import Simulated
+from shotc.ir.trajectory import VerifiedIR
 from shotc.simulation.document import flight_table, json_text
 from shotc.simulation.plots import draw
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.runs import flown
+from shotc.simulation.summary import summary
 
 
-def artifacts(done: Rehearsed, progress: Callable[[str], None]) -> Emission:
-    """Return simulate.json and simulate.png, and of plans with cameras flight.csv and simulate.rrd, too.
+def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]) -> Emission:
+    """Return the report, simulate.json and simulate.png, and of cameras flight.csv and simulate.rrd, too.
 
+    plan : that is flown
     All but the recording are the same every time. Where rerun is not installed it is left out with a warning.
     """
-    made = [Artifact("simulate.json", json_text(done).encode("ascii"))]
+    found = summary(done)
+    made = [
+        Artifact("simulate.json", json_text(done).encode("ascii")),
+        report(plan, Simulated(found.flown, found.tables, (*found.asked, *found.notes))),
+    ]
     if not done.ir.drones:
         return Emission((*made, Artifact("simulate.png", draw(done))))
     progress("flying the worst run again")

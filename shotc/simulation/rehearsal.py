@@ -111,9 +111,16 @@ def _either(asked: float | None, usual: float) -> float:
     return usual if asked is None else asked
 
 
-def runs_of(mission: MissionIR, asked: Asked) -> int:
-    """Return how many runs a mission and a command line ask for."""
-    return asked.runs or (mission.rehearsal or SILENT).runs
+def runs_of(ir: TrajectoryIR, conditions: Conditions, asked: Asked) -> int:
+    """Return how many runs a mission and a command line ask for: one where nothing differs between runs."""
+    if alike(ir, conditions):
+        return 1
+    return asked.runs or (ir.keyframes.mission.rehearsal or SILENT).runs
+
+
+def alike(ir: TrajectoryIR, conditions: Conditions) -> bool:
+    """Tell whether all runs are the same: of what fleets meet gusts alone are drawn."""
+    return not ir.drones and not conditions.wind.gusts
 
 
 def rehearse(

@@ -21,7 +21,7 @@ from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
 
 BLOCK = 25
-"""Runs that are flown at once, as rows of arrays."""
+"""Runs of cameras that are flown at once, as rows of arrays; those of fleets alone are flown one by one."""
 
 STRAYS_S = 0.2
 """Seconds between the instants of ``Strays``."""
@@ -50,7 +50,8 @@ def simulated(
 
     earlier : blocks that were done before; those of as many runs as are needed now are not flown again
     """
-    needed = {i: range(i, min(i + BLOCK, count)) for i in range(0, count, BLOCK)}
+    size = BLOCK if ir.drones else 1
+    needed = {i: range(i, min(i + size, count)) for i in range(0, count, size)}
     for block in earlier:
         first = block.runs[0].number
         if [run.number for run in block.runs] == list(needed.get(first, ())):

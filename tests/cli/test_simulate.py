@@ -93,6 +93,7 @@ def test_a_film_is_flown_and_written(run: Run, given) -> None:
     assert done.code == 0
     assert "3 runs, wind 2 m/s from any side, gusts 0.5 m/s" in done.out
     assert {path.name for path in Path("out").iterdir()} == {
+        "walker-report.html",
         "simulate.json",
         "flight.csv",
         "simulate.png",
@@ -260,7 +261,16 @@ def test_fleets_are_flown_and_their_strays_told(run: Run, show: str) -> None:
     # All four do the same in still air: they stay as far apart as their pads.
     assert "4.00 m" in done.out
     assert "swarm-1 strays farthest, at 0:" in done.out
-    assert {path.name for path in Path("out").iterdir()} == {"simulate.json", "simulate.png"}
+    assert "without gusts all runs are the same, so one is flown" in done.out
+    assert len(document()["runs"]) == 1
+    assert {path.name for path in Path("out").iterdir()} == {
+        "simulate.json",
+        "simulate.png",
+        "show-report.html",
+    }
+    told = Path("out/show-report.html").read_text()
+    assert "Flown in simulation: 1 run, no gusts." in told
+    assert "Run shotc simulate for that" not in told
 
 
 @pytest.mark.long

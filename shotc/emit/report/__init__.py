@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from shotc.emit.base import Artifact, Emission
-from shotc.emit.report.page import page
+from shotc.emit.report.page import Simulated, page
 from shotc.filenames import file_name
 from shotc.ir.trajectory import VerifiedIR
 
@@ -21,8 +21,13 @@ class ReportEmitter:
 
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return the report."""
-        name = file_name(plan.trajectory.keyframes.mission.name)
-        return Emission((Artifact(f"{name}-report.html", page(plan).encode()),))
+        return Emission((report(plan),))
+
+
+def report(plan: VerifiedIR, simulated: Simulated | None = None) -> Artifact:
+    """Return the report; simulated : what `shotc simulate` found."""
+    name = file_name(plan.trajectory.keyframes.mission.name)
+    return Artifact(f"{name}-report.html", page(plan, simulated).encode())
 
 
 EMITTER = ReportEmitter()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from math import degrees, isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,7 +29,15 @@ GLUE = "\N{NO-BREAK SPACE}"
 Row = Sequence[str]
 
 
-def page(plan: VerifiedIR) -> str:
+class Simulated(NamedTuple):
+    """What `shotc simulate` found: how often and how it flew, tables with their heads, sentences."""
+
+    flown: str
+    tables: Sequence[Sequence[Row]]
+    told: Sequence[str]
+
+
+def page(plan: VerifiedIR, simulated: Simulated | None = None) -> str:
     """Return the document."""
     mission, found = plan.trajectory.keyframes.mission, volumes(plan.trajectory)
     near = nearness(plan.trajectory)
@@ -40,7 +49,7 @@ def page(plan: VerifiedIR) -> str:
         ("Nearest pairs", _pairs(near)),
         ("On the ground", _table(_ground(plan, found))),
         ("When the link is lost", _list(_link(plan))),
-        ("Wind", _list(_wind(mission))),
+        ("Wind", _list(_wind(mission, simulated)) + _flown(simulated)),
         ("Not judged", _list(_open(mission))),
     )
     title = f"{escape(mission.name)}: validation report"
@@ -251,7 +260,7 @@ def _link(plan: VerifiedIR) -> Iterator[str]:
         yield from link_notes(drone, return_height(highest, drone.safety), written=True)
 
 
-def _wind(mission: MissionIR) -> Iterator[str]:
+def _wind(mission: MissionIR, simulated: Simulated | None) -> Iterator[str]:
     if mission.wind:
         words = f"Planned for a wind of {mission.wind:g} m/s"
         toward = mission.wind_toward
@@ -261,7 +270,20 @@ def _wind(mission: MissionIR) -> Iterator[str]:
             yield f"{words} from {(270.0 - degrees(toward)) % 360.0:.0f} deg: airspeed is judged."
     else:
         yield "The mission names no wind: speeds are over ground, in still air."
-    yield "Not judged here: how far drones stray in wind and gusts. Run shotc simulate for that."
+    if simulated is None:
+        yield "Not judged here: how far drones stray in wind and gusts. Run shotc simulate for that."
+
+
+def _flown(simulated: Simulated | None) -> str:
+    """Return what was found in simulation; it is no proof, and says so."""
+    if simulated is None:
+        return ""
+    about = (
+        f"<p>Flown in simulation: {escape(simulated.flown)}. A simulation proves nothing; it shows how far "
+        "drones stray under these assumptions.</p>"
+    )
+    tables = [_table(rows[1:], rows[0]) for rows in simulated.tables]
+    return "\n".join(["", about, *tables, _list(simulated.told)])
 
 
 def _open(mission: MissionIR) -> Iterator[str]:

@@ -9,13 +9,14 @@ seconds of the common time is looked at.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.fleet_spline import pieces, places
+from shotc.geom.fleet_spline import pieces, places_of
 
 SPACING_S = 0.05
 """Seconds between the points of the path among which the nearest is looked for first."""
@@ -47,20 +48,20 @@ class Gains:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reference:
-    """The trajectories of a fleet: breaks (P + 1,), coef (n, P + 3, 3), and of their pieces (n, P, 4, 3)."""
+    """The trajectories of a fleet.
+
+    breaks : shape (P + 1,); ctrl : Bernstein control points of their pieces, (n, P, 4, 3)
+    together : where all drones are to be, (n, T, 3), at times (T,)
+    """
 
     breaks: Array
-    coef: Array
     ctrl: Array
+    together: Callable[[Array], Array]
 
     @staticmethod
     def of(breaks: Array, coef: Array) -> Reference:
         """Return the reference of splines as in ``geom.fleet_spline``."""
-        return Reference(breaks, coef, pieces(breaks, coef))
-
-    def together(self, times: Array) -> Array:
-        """Return where all drones are to be at times (T,); shape (n, T, 3)."""
-        return places(self.breaks, self.coef, times)
+        return Reference(breaks, pieces(breaks, coef), places_of(breaks, coef))
 
     def each(self, times: Array) -> tuple[Array, Array, Array]:
         """Return place, velocity and acceleration, (n, 3) each, of every drone at a time of its own (n,)."""

@@ -1,0 +1,282 @@
+"""What came of a rehearsal, in tables and sentences that people read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, isfinite
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from shotc.geom.camera import heading_of
+from shotc.ir.show import drone_names
+from shotc.rounding import as_minutes, at_least, at_most, plain, up
+from shotc.simulation.fleets.near import Near
+from shotc.simulation.judge import Course, Picture, Run
+from shotc.simulation.rehearsal import Rehearsed, alike
+from shotc.simulation.shows import FleetCourse
+from shotc.simulation.situations import replanned
+from shotc.simulation.verdict import Verdict
+
+if TYPE_CHECKING:
+    from shotc.ir.show import Fleet
+    from shotc.simulation.sensors import Gps
+
+PICTURES = (
+    "shot",
+    "target",
+    "whole in frame",
+    "in the worst run",
+    "in sight",
+    "off on screen",
+    "95 %",
+    "worst",
+)
+COURSES = ("drone", "strays, RMS", "farthest", "run", "nearest", "to", "at", "run")
+LOOPS = {
+    "replay": "camera as planned",
+    "track": "camera follows what it sees",
+    "replan": "drone and camera follow what they see",
+}
+LARGEST_MARGIN = 2.0
+"""Times the separation: with a larger margin a show has no pictures left."""
+FLEETS = ("fleet", "drones", "strays, RMS", "99 %", "farthest", "nearest", "asked", "margin")
+
+
+Rows = tuple[tuple[str, ...], ...]
+
+
+class Summary(NamedTuple):
+    """What came of a rehearsal.
+
+    flown : how often, and in what conditions
+    tables : of pictures, cameras and fleets, those that have rows; the first row of each is its head
+    asked : what the mission asks, and how many runs keep it; notes : what else is to be told
+    """
+
+    flown: str
+    tables: tuple[Rows, ...]
+    asked: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def summary(done: Rehearsed) -> Summary:
+    """Return what people read of a rehearsal."""
+    total = len(done.runs)
+    tables = (tuple(rows) for rows in (_pictures(done), _courses(done), _fleets(done)))
+    return Summary(
+        f"{total} run{'s' if total > 1 else ''}, {_conditions(done)}",
+        tuple(rows for rows in tables if len(rows) > 1),
+        tuple(_asked(done, total)),
+        tuple(_remarks(done)),
+    )
+
+
+def _asked(done: Rehearsed, total: int) -> Iterator[str]:
+    for each in done.verdicts:
+        asked = f"{each.key} {_limit(each)}" if each.written else "touch nothing"
+        yield f"{asked}: {each.held} of {total} runs"
+    if done.promise.of < 1.0 or len(done.verdicts) > 1:
+        yield f"all of it in {done.needed} of {total} runs: {done.held} keep it"
+
+
+def _conditions(done: Rehearsed) -> str:
+    conditions = done.conditions
+    wind, gps = conditions.wind, conditions.gps
+    blows = f"wind {plain(wind.speed, 1)} m/s"
+    if wind.speed and wind.toward is not None:
+        blows += f" from {degrees(heading_of(wind.toward) + np.pi) % 360:.0f} deg"
+    elif wind.speed:
+        blows += " from any side"
+    if not wind.speed:
+        blows = "no steady wind"
+    parts = [f"gusts {plain(wind.gusts, 2)} m/s" if wind.gusts else "no gusts"]
+    if done.ir.drones:
+        parts.insert(0, blows)
+        parts.append(f"positions within {plain(gps.deviation, 2)} m{_beside(gps)}")
+        parts.append(LOOPS[conditions.loop])
+    if conditions.truth.wander:
+        parts.append(f"targets {plain(conditions.truth.wander, 2)} m off their tracks")
+    return ", ".join(parts)
+
+
+def _beside(gps: Gps) -> str:
+    """Say what else positions are off, and when there are none."""
+    east = gps.offset[0]
+    away = f" of {plain(abs(east), 2)} m too far {'east' if east > 0 else 'west'}" if east else ""
+    lost = " and ".join(f"{plain(start, 1)} to {plain(end, 1)} s" for start, end in gps.lost)
+    return f"{away}, none of targets from {lost}" if lost else away
+
+
+def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = [PICTURES]
+    for i, first in enumerate(done.runs[0].pictures):
+        rows.append(_picture_row(first, [run.pictures[i] for run in done.runs]))
+    return rows
+
+
+def _picture_row(first: Picture, every: list[Picture]) -> tuple[str, ...]:
+    shares = [p.in_frame for p in every]
+    sight = min(p.in_sight for p in every)
+    whole = tuple(f"{at_most(100 * share, 1)} %" for share in (float(np.mean(shares)), min(shares), sight))
+    if first.error is None:
+        return (first.shot, first.target, *whole, "-", "-", "-")
+    off = (
+        float(np.mean([p.error for p in every if p.error is not None])),
+        max(p.usual for p in every if p.usual is not None),
+        max(p.worst for p in every if p.worst is not None),
+    )
+    return (first.shot, first.target, *whole, *(_size(value) for value in off))
+
+
+def _size(value: float) -> str:
+    return at_least(value, 3) if isfinite(value) else "behind it"
+
+
+def _courses(done: Rehearsed) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = [COURSES]
+    for i, first in enumerate(done.runs[0].courses):
+        every = [(run, run.courses[i]) for run in done.runs]
+        rows.append(_course_row(first, every))
+    return rows
+
+
+def _course_row(first: Course, every: list[tuple[Run, Course]]) -> tuple[str, ...]:
+    stray = float(np.sqrt(np.mean([course.stray**2 for _, course in every])))
+    strayed, far = max(every, key=lambda pair: pair[1].farthest)
+    row = (first.drone, f"{at_least(stray)} m", f"{at_least(far.farthest)} m", str(strayed.number))
+    near = [(run, course.nearest) for run, course in every if course.nearest is not None]
+    if not near:
+        return (*row, "-", "-", "-", "-")
+    run, nearest = min(near, key=lambda pair: pair[1].distance if pair[1] else 0.0)
+    return (*row, f"{at_most(nearest.distance)} m", nearest.to, as_minutes(nearest.time), str(run.number))
+
+
+def _fleets(done: Rehearsed) -> list[tuple[str, ...]]:
+    count = len(done.runs[0].fleets)
+    return [FLEETS, *(_fleet_row(done, [run.fleets[i] for run in done.runs]) for i in range(count))]
+
+
+def _fleet_row(done: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
+    fleet = done.mission.fleet(every[0].fleet)
+    near = [each.flown.near.distance for each in every if each.flown.near is not None]
+    sizes = (
+        float(np.sqrt(np.mean([each.flown.rmse**2 for each in every]))),
+        max(each.flown.usual for each in every),
+        max(each.flown.farthest for each in every),
+    )
+    nearest = f"{at_most(min(near))} m" if near else "-"
+    apart = fleet.apart
+    shown = (f"{at_least(value)} m" for value in sizes)
+    return (
+        fleet.name,
+        str(len(fleet.pads)),
+        *shown,
+        nearest,
+        f"{apart.horizontal:g} m",
+        f"{apart.margin:g} m",
+    )
+
+
+def _limit(each: Verdict) -> str:
+    if each.unit == "share":
+        return f"{plain(100 * each.limit, 1)} %"
+    return f"{plain(each.limit)}{' m' if each.unit == 'm' else ''}"
+
+
+def _remarks(done: Rehearsed) -> Iterator[str]:
+    """Say what is flown as planned, what failed, and what the margin of a show should be."""
+    yield from _planned_anew(done)
+    unasked = [p.shot for p in done.runs[0].pictures if p.error is None]
+    if unasked and done.conditions.loop != "replay":
+        names = ", ".join(f"`{shot}`" for shot in dict.fromkeys(unasked))
+        yield f"no place on screen is asked in {names}: the camera keeps its planned angles there"
+    yield from _spoiled(done)
+    if done.runs[0].fleets and done.conditions.wind.speed:
+        yield "fleets fly in gusts alone: their drones hold their speed over ground in any steady wind"
+    if alike(done.ir, done.conditions):
+        yield "without gusts all runs are the same, so one is flown; `--gusts 1` shows what gusts do"
+    for i in range(len(done.runs[0].fleets)):
+        yield from _margin(done, [run.fleets[i] for run in done.runs])
+
+
+def _spoiled(done: Rehearsed) -> Iterator[str]:
+    """Say whose pictures have other drones in them, where the mission minds."""
+    if done.mission.rules.visibility == "off":
+        return
+    for i, first in enumerate(done.runs[0].courses):
+        share, run = max((run.courses[i].spoiled, run.number) for run in done.runs)
+        if share > 0.0:
+            seen = f"{at_least(100 * share, 1)} % of its pictures"
+            yield f"{first.drone}: another drone is in {seen} in run {run}"
+
+
+def _planned_anew(done: Rehearsed) -> Iterator[str]:
+    """Say which shots were planned anew, and how often that failed."""
+    if done.conditions.loop != "replan":
+        return
+    mission = done.mission
+    anew = {each.phase.shot for track in done.ir.drones for each in replanned(mission, track)}
+    rest = [f"`{shot.id}`" for shot in mission.shots if shot.id not in anew]
+    if rest:
+        why = "they film nothing that moves, or a pose of their own binds them"
+        yield f"not planned anew, but flown as planned: {', '.join(rest)}; {why}"
+    for i, first in enumerate(done.runs[0].courses):
+        counts = [c for c in (run.courses[i].replans for run in done.runs) if c is not None]
+        if not counts:
+            continue
+        failed = sum(c.failed for c in counts)
+        total = failed + sum(c.planned + c.stalled + c.opened for c in counts)
+        yield (
+            f"{first.drone}: planned anew {total} times, {failed} in vain, "
+            f"{sum(c.opened for c in counts)} from beyond its limits, "
+            f"{sum(c.stalled for c in counts)} no better than before"
+        )
+        yield from (f"{first.drone}: {reason}" for reason in {c.reason: 0 for c in counts if c.reason})
+
+
+def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
+    """Say who strays farthest and comes nearest, and which margin is enough for how far drones stray."""
+    fleet = done.mission.fleet(every[0].fleet)
+    names, far = drone_names(fleet), max(every, key=lambda each: each.flown.farthest).flown
+    yield f"{fleet.name}: {names[far.drone]} strays farthest, at {as_minutes(far.time)}"
+    near = min(
+        (each.flown.near for each in every if each.flown.near is not None),
+        key=lambda n: n.distance,
+        default=None,
+    )
+    if near is not None:
+        pair = f"{names[near.first]} and {names[near.second]}"
+        in_air = " in the air" if far.beside is not None else ""
+        yield f"{fleet.name}: {pair} come nearest{in_air}, at {as_minutes(near.time)}"
+    yield from _beside_pads(fleet, [each.flown.beside for each in every if each.flown.beside is not None])
+    yield f"{fleet.name}: {_enough(fleet, far.farthest, 0 if near is None else near.below)}"
+
+
+def _beside_pads(fleet: Fleet, every: list[Near]) -> Iterator[str]:
+    """Say who comes nearest while one of them stands on its pad."""
+    if not every:
+        return
+    names, near = drone_names(fleet), min(every, key=lambda n: n.distance)
+    text = (
+        f"{fleet.name}: {names[near.first]} and {names[near.second]} come nearest while one stands on its "
+        f"pad, {at_most(near.distance)} m at {as_minutes(near.time)}"
+    )
+    touching = f"; bodies touch below {2 * fleet.radius:.2f} m" if near.below else ""
+    yield f"{text}{touching}"
+
+
+def _enough(fleet: Fleet, farthest: float, below: int) -> str:
+    if not below and fleet.apart.margin >= 2 * farthest:
+        return "no two drones can come too near in this wind: the margin is twice the farthest stray, or more"
+    stray, safe = f"a drone strays up to {at_least(farthest)} m from its place", up(2 * farthest, 1)
+    margin = f"`separation: {{margin: {safe:g}}}`"
+    if safe > LARGEST_MARGIN * fleet.apart.horizontal:
+        remedy = f"{stray}, too far for any margin: do not fly this show in such wind"
+    elif below:
+        remedy = f"{stray}: plan with {margin}, which keeps any two apart in such wind"
+    else:
+        remedy = f"{stray}: {margin} keeps any two apart that stray so far"
+    if not below:
+        return f"the margin was enough in these runs; {remedy}"
+    return f"{'1 pair comes' if below == 1 else f'{below} pairs come'} nearer than the separation; {remedy}"
