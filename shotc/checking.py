@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.ir.passes import PassContext
+from shotc.ir.source import KeptFiles
 from shotc.pipeline import FRONT, Setting, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import load
@@ -22,10 +23,10 @@ class CheckReport(NamedTuple):
     sources: dict[str, SourceFile]
 
 
-def check_source(data: bytes, name: str, folder: Path | None) -> CheckReport:
+def check_source(data: bytes, name: str, folder: Path | KeptFiles | None) -> CheckReport:
     """Check one mission without a solver.
 
-    data : any bytes; name : how to show it; folder : where the files that it names are
+    data : any bytes; name : how to show it; folder : where the files that it names are, or these
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,10 +15,16 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.emit.base import Artifact
 from shotc.importers.cameras.takes import Asked
-from shotc.importers.formats import FORMATS
+from shotc.importers.flights.names import LARGEST_CLOCKED, suffix_of
+from shotc.importers.formats import FORMATS, SHOWS, WHAT
+from shotc.importers.names import safe
 from shotc.importers.xml_tree import LARGEST
+from shotc.ir.source import KeptFiles
 from shotc.output import write
 from shotc.source.file import WHOLE_FILE
+
+if TYPE_CHECKING:  # it loads every importer
+    from shotc.importers.mission import Imported
 
 FormatArgument = Annotated[str, typer.Argument(metavar="FORMAT", help=f"What it is: {', '.join(FORMATS)}.")]
 FileArgument = Annotated[
@@ -68,13 +75,15 @@ def import_(
     last, where the drone is fast enough. Cameras that the others imply are left out: what is as far away as
     the camera is high stays within 0.01 half frames of where the file shows it.
 
+    `show` reads a show of drones that was made elsewhere: zipped CSV (.zip) or a `.skyc`. The mission flies
+    it as it is recorded; `-o` names it, and its pads and, unless it is there, the file are put beside it.
+
     What the file leaves open, has wrong or says twice is assumed: each assumption is a warning with its
     line and column, and a comment in the mission, where it is easily changed. `--strict` refuses instead.
     What is written is a mission that `shotc check` accepts, or nothing is.
 
     Example: `shotc import kml tour.kml --ground 408 -o tour.yaml`
     """
-    from shotc.checking import check_source
     from shotc.importers.mission import imported
 
     if format not in FORMATS:
@@ -86,17 +95,61 @@ def import_(
         ("--fps", fps is not None, ("blender-camera",)),
         ("--ground", ground is not None, ("kml", "qgc", "litchi")),
         ("--times", times, ("kml", "blender-camera")),
-        ("--every", every, FORMATS[1:]),
+        ("--every", every, tuple(WHAT)),
     ):
         if given and format not in those:
             raise typer.BadParameter(f"it is for {', '.join(those)}", param_hint=option)
+    if format == SHOWS:
+        _import_show(file, output, strict=strict)
+        return
     asked = Asked(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
-    made = imported(format, _read(file), name, strict=strict, asked=asked)
+    made = imported(format, _read(file, LARGEST), name, strict=strict, asked=asked)
+    text = _accepted(made, file, None)
+    _save(text, output)
+    counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
+    if made.cameras:
+        counts += f", {_counted(made.keyframes, 'keyframe')} of {_counted(made.cameras, 'camera')}"
+    console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
+
+
+def _import_show(file: str, output: Path | None, *, strict: bool) -> None:
+    """Write the mission of a show, the table of its pads, and the show itself unless it is in that folder."""
+    from shotc.importers.shows import imported_show
+
+    if output is None or output == Path("-") or file == STDIN:
+        raise typer.BadParameter("a show takes files beside it: name FILE, and the mission", param_hint="-o")
+    data = _read(file, LARGEST_CLOCKED)
+    there = _inside(Path(file), output.parent)
+    named = there or f"{safe(Path(file).stem, 'show')}{suffix_of(file)}"
+    show = imported_show(data, file, named, strict=strict)
+    pads = () if show.pads is None else (show.pads,)
+    kept = KeptFiles(dict(pads), ((named, ""),), {})
+    text = _accepted(show.made, file, kept)
+    beside = [*pads, *([] if there else [(named, data)])]
+    _save(text, output, beside)
+    made = show.made
+    console.note(
+        f"imported {_counted(made.drones, 'drone')}; {_counted(len(made.diagnostics), 'assumption')}"
+    )
+
+
+def _inside(file: Path, folder: Path) -> str | None:
+    """Return the name of a file as a mission in a folder has it, None where it is outside."""
+    try:
+        return file.resolve().relative_to(folder.resolve()).as_posix()
+    except (ValueError, OSError, RuntimeError):
+        return None
+
+
+def _accepted(made: Imported, file: str, kept: KeptFiles | None) -> str:
+    """Return the text of a mission that check accepts; kept : the files that it names."""
+    from shotc.checking import check_source
+
     console.report(made.diagnostics, made.sources)
     if made.text is None:
         raise typer.Exit(console.EXIT_REJECTED)
-    checked = check_source(made.text.encode(), "the mission", None)
+    checked = check_source(made.text.encode(), "the mission", kept)
     if has_errors(checked.diagnostics):
         console.report(checked.diagnostics, checked.sources)
         failed = Diagnostic(
@@ -104,20 +157,16 @@ def import_(
         )
         console.report([failed], {})
         raise typer.Exit(console.EXIT_REJECTED)
-    _save(made.text, output)
-    counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
-    if made.cameras:
-        counts += f", {_counted(made.keyframes, 'keyframe')} of {_counted(made.cameras, 'camera')}"
-    console.note(f"imported {counts}; {_counted(len(made.diagnostics), 'assumption')}")
+    return made.text
 
 
-def _read(file: str) -> bytes:
+def _read(file: str, most: int) -> bytes:
     """Return the bytes of a file, or a little more of it than an importer reads."""
     try:
         if file == STDIN:
-            return sys.stdin.buffer.read(LARGEST + 1) if sys.stdin else b""
+            return sys.stdin.buffer.read(most + 1) if sys.stdin else b""
         with Path(file).open("rb") as stream:
-            return stream.read(LARGEST + 1)
+            return stream.read(most + 1)
     except (OSError, ValueError) as fault:
         reason = getattr(fault, "strerror", None) or fault
         message = f"`{file}` cannot be read: {reason}"
@@ -129,11 +178,13 @@ def _counted(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
-def _save(text: str, output: Path | None) -> None:
+def _save(text: str, output: Path | None, beside: Sequence[tuple[str, bytes]] = ()) -> None:
+    """Write a mission and the files beside it, (name, bytes), or print it."""
     if output is None or output == Path("-"):
         console.out(text.rstrip("\n"))
         return
-    _, faults = write([Artifact(output.name, text.encode())], output.parent)
+    files = [Artifact(output.name, text.encode()), *(Artifact(*file) for file in beside)]
+    _, faults = write(files, output.parent)
     if faults:
         console.report(faults, {})
         raise typer.Exit(console.exit_code(faults))

@@ -5,8 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+from shotc.rounding import at_least
+
 LAYERS = ("layers", "layers deep m", "layers seen m", "layers aside m")
 TAKE_OFF = ("layers", "lowest m", "highest m", "s", "landing s")
+
+
+def recorded(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
+    """Yield what of each recorded flight is flown, how near, and on which clock; stats : of passes."""
+    known = dict(stats)
+    for name in known:
+        flight = re.fullmatch(r"flight (.+) off m", name)
+        if flight:
+            start, end, longer, off = (
+                float(known[f"flight {flight[1]} {key}"]) for key in ("from s", "to s", "longer s", "off m")
+            )
+            clock = f"{longer:.2f} s longer" if longer > 0.0 else "at its own times"
+            yield (
+                f"{flight[1]} flies its file from {start:.2f} s to {end:.2f} s, {clock}, "
+                f"within {at_least(off, 3)} m of every track"
+            )
 
 
 def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:

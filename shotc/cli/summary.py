@@ -10,7 +10,7 @@ from textwrap import wrap
 from shotc.cli.centred import centred
 from shotc.cli.console import table
 from shotc.cli.exposed import exposed
-from shotc.cli.show_facts import beside, dense, layered, taking_off
+from shotc.cli.show_facts import beside, dense, layered, recorded, taking_off
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
 from shotc.ir.fleet import FleetTrajectory
@@ -130,7 +130,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
     facts += [("turns", text) for text in _turns(plan)]
     facts += exposed(plan)
     facts += [("smoothed", text) for text in _smoothed(mission)]
-    told = (taking_off, dense, layered, beside)
+    told = (recorded, taking_off, dense, layered, beside)
     facts += [("shows", text) for tell in told for text in tell(flown.stats)]
     facts += [("note", text) for text in centred(plan.trajectory.keyframes)]
     return facts + [("note", note) for note in notes]

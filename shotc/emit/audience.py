@@ -13,7 +13,7 @@ from shotc.geom.camera import View, view
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.limits import Vec3
-from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, Sphere
+from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, RecordedFlight, Sphere
 from shotc.ir.trajectory import VerifiedIR
 
 ASPECT = 16 / 9
@@ -108,8 +108,8 @@ def picture_name(picture: Picture) -> str:
     source = picture.source
     if isinstance(source, Lettering):
         return source.text
-    if isinstance(source, Drawing | Model):
-        name = source.file if isinstance(source, Drawing) else source.files[0]
+    if isinstance(source, Drawing | Model | RecordedFlight):
+        name = source.files[0] if isinstance(source, Model) else source.file
         return PurePath(name).stem
     if isinstance(source, Box):
         return "cube" if len(set(source.size)) == 1 else "box"

@@ -19,10 +19,9 @@ import numpy as np
 
 from shotc.diag.model import Label
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
-from shotc.geom.geodetic import to_world
 from shotc.geom.proof import norm
 from shotc.importers.flights.rows import PLACE, SHORTEST_S, Rows
-from shotc.importers.flights.skyc import Show, ShowFlight
+from shotc.importers.flights.skyc import Show, ShowFlight, shift
 from shotc.importers.notes import label
 from shotc.importers.xml_tree import Node
 from shotc.ir.limits import Limits
@@ -126,11 +125,7 @@ def quantum(columns: Sequence[Sequence[str]]) -> float:
 
 def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None) -> Flown:
     """Return the flight of a drone of a show, moved to where the show's frame stands in the mission's."""
-    shift = np.zeros(3)
-    if show.origin is not None and origin is not None:
-        lat, lon, alt = show.origin
-        shift = np.array(to_world((lat, lon, origin.alt if alt is None else alt), origin))
-        shift[2] = shift[2] if alt is not None else 0.0
+    there = shift(show.origin, origin)
     node = Node("", 1, 1, wide=1)
     steps = np.diff(flight.breaks)
     leeway = Leeway(SHOW_PLACE_M, min(3 * SHOW_PLACE_M / float(steps.min()), MOST_M_S), 0.0)
@@ -140,7 +135,7 @@ def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None)
         return label(file, node)._replace(text=f"{flight.element}, up to key point {index}")
 
     return Flown(
-        flight.name, file, Piecewise(flight.breaks, flight.ctrl + shift), None, leeway, at, show=True
+        flight.name, file, Piecewise(flight.breaks, flight.ctrl + there), None, leeway, at, show=True
     )
 
 

@@ -7,4 +7,6 @@ WHAT = {
     "litchi": "a mission of Litchi",
 }
 """Files of cameras."""
-FORMATS = ("multidrone", *WHAT)
+SHOWS = "show"
+"""Shows of drones, flown as recorded."""
+FORMATS = ("multidrone", *WHAT, SHOWS)

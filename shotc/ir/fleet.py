@@ -36,23 +36,6 @@ class Frame:
     spare: int = 0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FleetGoals:
-    """The frames of all displays of one fleet, in the order they are shown."""
-
-    fleet: str
-    frames: tuple[Frame, ...]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class GoalIR:
-    """The goal sets of a mission's displays."""
-
-    keyframes: KeyframeIR
-    fleets: tuple[FleetGoals, ...]
-    stats: tuple[tuple[str, float | str], ...]
-
-
 @dataclass(frozen=True, slots=True)
 class Shown:
     """When a frame stands: from ``start`` to ``end``, seconds, which are the same in an animation."""
@@ -78,6 +61,45 @@ class Lights:
     looks: tuple[Look, ...] = ()
     of: tuple[int, ...] = ()
     over: tuple[Layer, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recorded:
+    """The flight of a display that another tool made, on a clock of its own, from 0 s.
+
+    breaks : shape (P + 1,); coef : shape (n, P + 3, 3), as of FleetTrajectory, from a stop to a stop
+    up, down : when all have taken off, and when all begin to land; None where they do that by themselves
+    lights : by its clock; shown : the times of its frames
+    """
+
+    display: str
+    breaks: Array
+    coef: Array
+    up: float | None
+    down: float | None
+    lights: Lights
+    shown: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FleetGoals:
+    """The frames of all displays of one fleet, in the order they are shown.
+
+    recorded : those of its displays that are recorded flights
+    """
+
+    fleet: str
+    frames: tuple[Frame, ...]
+    recorded: tuple[Recorded, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GoalIR:
+    """The goal sets of a mission's displays."""
+
+    keyframes: KeyframeIR
+    fleets: tuple[FleetGoals, ...]
+    stats: tuple[tuple[str, float | str], ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

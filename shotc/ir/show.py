@@ -225,7 +225,18 @@ class Wave(NamedTuple):
     center: Vec3 | None
 
 
-Source = Sphere | Box | Torus | Lettering | Drawing | Model
+class RecordedFlight(NamedTuple):
+    """The flight of a whole fleet as another tool made it: tracks and lights of a `.zip` or a `.skyc`."""
+
+    file: str
+
+    @property
+    def centre(self) -> None:
+        """Return None: a flight stays where it was recorded."""
+        return
+
+
+Source = Sphere | Box | Torus | Lettering | Drawing | Model | RecordedFlight
 
 
 class Picture(NamedTuple):

@@ -13,7 +13,7 @@ from shotc.ir.show import Display, Picture, group_name
 from shotc.kinds.base import Expansion, Kind, Scene
 from shotc.kinds.effect_stack import effects_of
 from shotc.kinds.effects import MOST_EFFECTS, DisplayEffectSpec
-from shotc.kinds.pictures import FilesSpec, Frames, PictureSpec
+from shotc.kinds.pictures import FilesSpec, FlightSpec, Frames, PictureSpec
 from shotc.kinds.pyro import MOST_CUES, PyroSpec, cues_of
 from shotc.kinds.sources import picture_of
 from shotc.spec.faults import fault
@@ -56,7 +56,9 @@ class DisplayShot(ShotBase):
     drone: Name = Field(default=NO_DRONE, description="not for a display: it has a fleet")
     fleet: Name = Field(description="name of the fleet that draws")
     group: Name | None = Field(default=None, description="name of the group of that fleet that draws alone")
-    frames: Frames = Field(description="what it draws: pictures in order, or the files of an animation")
+    frames: Frames = Field(
+        description="what it draws: pictures in order, the files of an animation, or a recorded flight"
+    )
     viewpoint: Position | None = Field(default=None, description="where the audience is")
     viewpoint_weight: Annotated[float, WeightType()] | None = Field(
         default=None,
@@ -73,7 +75,8 @@ class DisplayShot(ShotBase):
 def expand(shot: DisplayShot, scene: Scene) -> Expansion:
     """Return the display, or what is wrong with its own words; what is in its files is judged later."""
     frames = shot.frames
-    written: tuple[FilesSpec | PictureSpec, ...] = (frames,) if isinstance(frames, FilesSpec) else frames
+    written: tuple[FilesSpec | FlightSpec | PictureSpec, ...]
+    written = (frames,) if isinstance(frames, FilesSpec | FlightSpec) else frames
     pictures = [picture_of(spec, scene, i) for i, spec in enumerate(written)]
     burning = cues_of(shot.pyro, scene)
     wrong = [fault for picture in pictures if isinstance(picture, list) for fault in picture]
@@ -138,7 +141,7 @@ def _useless(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
 def _twice(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
     """Yield the start that both the timing and the first picture say."""
     frames = shot.frames
-    if shot.timing.start is None or isinstance(frames, FilesSpec) or frames[0].at is None:
+    if shot.timing.start is None or isinstance(frames, FilesSpec | FlightSpec) or frames[0].at is None:
         return
     labels = (
         scene.origins.value((*scene.path, "timing", "start")),

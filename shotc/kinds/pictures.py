@@ -121,6 +121,14 @@ class WaveSpec(QuantityModel):
     )
 
 
+class FlightSpec(Model):
+    """The flight of a fleet that another tool made, in place of pictures."""
+
+    flight: RelativePath = Field(
+        description="zipped CSV (.zip) or a show of Skybrush (.skyc); every drone keeps its track and light"
+    )
+
+
 class TransitionSpec(QuantityModel):
     """How a fleet comes to a picture from the one before, or from its pads."""
 
@@ -189,16 +197,16 @@ class PictureSpec(Model):
 
 
 class FramesType(FieldType):
-    """What a display shows: a list of pictures, or the files of an animation alone."""
+    """What a display shows: a list of pictures, the files of an animation alone, or a recorded flight."""
 
     label = "Frames"
 
-    def read(self, value: Any) -> "FilesSpec | tuple[PictureSpec, ...]":
-        """Return the pictures, or the one animation."""
+    def read(self, value: Any) -> "FilesSpec | FlightSpec | tuple[PictureSpec, ...]":
+        """Return the pictures, the one animation, or the flight."""
         if isinstance(value, dict):
-            return FilesSpec.model_validate(value)
+            return (FlightSpec if "flight" in value else FilesSpec).model_validate(value)
         if not isinstance(value, list):
-            help_ = "write a list of pictures, or the files of an animation"
+            help_ = "write a list of pictures, the files of an animation, or `flight` and its file"
             raise fault("wrong-type", f"expected pictures, got {describe(value)}", help_)
         if not value:
             raise fault("empty-display", "the display shows no picture", "give one picture or more")
@@ -215,7 +223,8 @@ class FramesType(FieldType):
         listed = core_schema.list_schema(
             handler.generate_schema(PictureSpec), min_length=1, max_length=MOST_PICTURES
         )
-        both = core_schema.union_schema([handler.generate_schema(FilesSpec), listed])
+        alone = [handler.generate_schema(FilesSpec), handler.generate_schema(FlightSpec)]
+        both = core_schema.union_schema([*alone, listed])
         return core_schema.no_info_wrap_validator_function(lambda value, _: self.read(value), both)
 
     def __get_pydantic_json_schema__(self, core: CoreSchema, handler: Any) -> JsonSchemaValue:
@@ -227,4 +236,4 @@ def _picture(value: Any) -> PictureSpec:
     return PictureSpec.model_validate(value)
 
 
-Frames = Annotated[FilesSpec | tuple[PictureSpec, ...], FramesType()]
+Frames = Annotated[FilesSpec | FlightSpec | tuple[PictureSpec, ...], FramesType()]

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus, Wave
+from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, RecordedFlight, Source, Sphere, Torus, Wave
 from shotc.kinds.base import Scene
 from shotc.kinds.effect_stack import effects_of
 from shotc.kinds.moments import moment
-from shotc.kinds.pictures import DrawingSpec, FilesSpec, PictureSpec, TextSpec, TransitionSpec
+from shotc.kinds.pictures import DrawingSpec, FilesSpec, FlightSpec, PictureSpec, TextSpec, TransitionSpec
 
 MESHES = (".ply", ".obj", ".stl", ".glb")
 METRES = (".glb",)
@@ -16,15 +16,22 @@ METRES = (".glb",)
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
 FONTS = (".ttf", ".otf", ".ttc")
 DRAWINGS = (".svg",)
+FLIGHTS = (".zip", ".skyc")
 
 
-def picture_of(spec: PictureSpec | FilesSpec, scene: Scene, index: int) -> Picture | list[Diagnostic]:
+def picture_of(
+    spec: PictureSpec | FilesSpec | FlightSpec, scene: Scene, index: int
+) -> Picture | list[Diagnostic]:
     """Return one picture of a display, or what is wrong with it: of what it shows, the first thing.
 
     spec : a picture, or the files that a display gives in place of its list of pictures
     """
+    path: KeyPath = (*scene.path, "frames")
+    if isinstance(spec, FlightSpec):
+        strange = _unreadable(scene, [spec.flight], FLIGHTS, "the flight of a fleet", (*path, "flight"))
+        flown = Picture(RecordedFlight(spec.flight), "volume", None, None, 0.0, path)
+        return flown if strange is None else [strange]
     if isinstance(spec, FilesSpec):
-        path: KeyPath = (*scene.path, "frames")
         alone = _model(spec, scene, path)
         return [alone] if isinstance(alone, Diagnostic) else Picture(alone, "volume", None, None, 0.0, path)
     path = (*scene.path, "frames", index)

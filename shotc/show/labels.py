@@ -7,10 +7,18 @@ from math import pi, sin
 from shotc.diag.model import Label
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Box, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
+from shotc.ir.show import Box, Drawing, Fleet, Lettering, Model, Picture, RecordedFlight, Sphere, Torus
 from shotc.rounding import at_least
 
-KEYS = {Sphere: "sphere", Box: "cube", Torus: "torus", Lettering: "text", Drawing: "svg", Model: "model"}
+KEYS = {
+    Sphere: "sphere",
+    Box: "cube",
+    Torus: "torus",
+    Lettering: "text",
+    Drawing: "svg",
+    Model: "model",
+    RecordedFlight: "flight",
+}
 
 
 def key_of(picture: Picture) -> KeyPath:

@@ -7,6 +7,7 @@ from shotc.diag.codes import flights, lights, pictures
 from shotc.diag.codes._filmed_shows import FIRED, NAMED
 from shotc.diag.codes._grouped import GROUPED
 from shotc.diag.codes._musical import MUSICAL
+from shotc.diag.codes._recorded import RECORDED
 from shotc.diag.codes._slips import slip
 from shotc.diag.codes._waves import WAVES
 from shotc.diag.model import Severity
@@ -360,6 +361,7 @@ CODES: tuple[CodeInfo, ...] = (
     *lights.CODES,
     *flights.CODES,
     *MUSICAL,
+    *RECORDED,
     *NAMED,
     *FIRED,
     *GROUPED,

@@ -43,6 +43,7 @@ class Rows:
     time : (N,), s; place : (N, 3), m; velocity : (N, 3), m/s, or None
     columns : places of all columns in a line; lines : the rows as they are
     member : the file of an archive that they stand in, empty where they stand in a file of their own
+    colors : (N, 3), red, green and blue of its light from 0 to 255, or None
     """
 
     drone: str
@@ -53,6 +54,7 @@ class Rows:
     columns: dict[str, int]
     lines: tuple[str, ...]
     member: str = ""
+    colors: Array | None = None
 
     @property
     def text(self) -> str:

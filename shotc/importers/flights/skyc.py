@@ -6,6 +6,7 @@ Places are metres in a frame of the show, X to the bearing that its location say
 from __future__ import annotations
 
 import json
+from base64 import b64decode
 from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, radians, sin
@@ -15,19 +16,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from shotc.geom.geodetic import to_world
 from shotc.importers.archive import member
 from shotc.importers.cameras.places import LARGEST_NUMBER, is_place
+from shotc.importers.flights.light_program import Keyed, keyed
 from shotc.importers.flights.names import LARGEST_CLOCKED
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.flights.rows import LONGEST_S
 from shotc.importers.notes import plain
 from shotc.importers.xml_tree import Node
+from shotc.ir.mission import GeoOrigin
 
 Array = NDArray[np.float64]
 
 SHOW = "show.json"
 WHOLE = Node("", 1, 1, wide=1)
-MOST_DRONES, MOST_POINTS = 5000, 20_000
+MOST_DRONES, MOST_POINTS = 20_000, 20_000
 SHORTEST_S = 1e-3
 DEGREE = 3
 
@@ -42,6 +46,7 @@ class ShowFlight:
 
     element : where it stands in the file, in words; home : (3,), where it stands before
     breaks : (P + 1,), s; ctrl : Bernstein control points of cubics, (P, 4, 3), m
+    light : of the drone, None where it has none or none was asked for
     """
 
     name: str
@@ -49,6 +54,7 @@ class ShowFlight:
     home: Array
     breaks: Array
     ctrl: Array
+    light: Keyed | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,8 +65,20 @@ class Show:
     origin: tuple[float, float, float | None] | None
 
 
-def show(data: bytes) -> Show:
-    """Return the flights of a show."""
+def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | None) -> Array:
+    """Return where the frame of a show stands in the mission's, (3,), metres: at its origin if none is told.
+
+    origin : of the show; world : of the mission
+    """
+    if origin is None or world is None:
+        return np.zeros(3)
+    lat, lon, alt = origin
+    east, north, up = to_world((lat, lon, world.alt if alt is None else alt), world)
+    return np.array([east, north, 0.0 if alt is None else up])
+
+
+def show(data: bytes, *, lit: bool = False) -> Show:
+    """Return the flights of a show; lit : with their lights."""
     content = _part(data, SHOW)
     if not isinstance(content, dict) or content.get("version") != 1:
         said = plain(str(content.get("version")), 20) if isinstance(content, dict) else "none"
@@ -72,7 +90,7 @@ def show(data: bytes) -> Show:
     turn = location.get("orientation", 0.0)
     if not _is_number(turn):
         refuse(BROKEN, "its `environment.location.orientation` is no number", WHOLE)
-    flights = tuple(_flight(data, drone, i, radians(turn)) for i, drone in enumerate(drones))
+    flights = tuple(_flight(data, drone, i, (radians(turn), lit)) for i, drone in enumerate(drones))
     return Show(flights, _origin(location.get("origin")))
 
 
@@ -110,7 +128,8 @@ def _resolved(data: bytes, value: Any) -> Any:
     return value
 
 
-def _flight(data: bytes, drone: Any, index: int, turn: float) -> ShowFlight:
+def _flight(data: bytes, drone: Any, index: int, how: tuple[float, bool]) -> ShowFlight:
+    turn, lit = how
     settings = _resolved(data, drone.get("settings")) if isinstance(drone, dict) else None
     element = f"swarm.drones[{index}]"
     if not isinstance(settings, dict):
@@ -132,9 +151,24 @@ def _flight(data: bytes, drone: Any, index: int, turn: float) -> ShowFlight:
     elif len(keys) == 1:
         times = np.array([0.0, 1.0])
         ctrl = [_cubic([keys[0][1], keys[0][1]])]
-    return ShowFlight(
-        name, element, _turned(np.array(home, dtype=float), turn), times, _turned(np.array(ctrl), turn)
-    )
+    light = _light(data, settings, element, float(times[-1])) if lit else None
+    places, at_home = _turned(np.array(ctrl), turn), _turned(np.array(home, dtype=float), turn)
+    return ShowFlight(name, element, at_home, times, places, light)
+
+
+def _light(data: bytes, settings: dict[str, Any], element: str, end: float) -> Keyed | None:
+    """Return the light of a drone, None where it has none; end : of its flight, s."""
+    lights, where = _resolved(data, settings.get("lights")), f"{element}.settings.lights"
+    if lights is None:
+        return None
+    told = lights.get("data") if isinstance(lights, dict) and lights.get("version") == 1 else None
+    try:
+        program = b64decode(told, validate=True) if isinstance(told, str) else None
+    except ValueError:
+        program = None
+    if program is None:
+        refuse(BROKEN, f"`{where}` is no program of version 1", WHOLE)
+    return keyed(program, f"{where}.data", end)
 
 
 def _keys(path: dict[str, Any], where: str) -> tuple[list[Key], float]:

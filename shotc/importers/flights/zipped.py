@@ -101,7 +101,9 @@ def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> Rows:
     if shines:
         columns |= {name: k for k, name in enumerate(COLORS, 4)}
     values = numbers_of(body, numbers, list(columns.values()))
-    rows = Rows(drone, tuple(numbers), values[:, 0] / 1e3, values[:, 1:4], None, columns, tuple(body), member)
+    lights = values[:, 4:] if shines else None
+    times, places = values[:, 0] / 1e3, values[:, 1:4]
+    rows = Rows(drone, tuple(numbers), times, places, None, columns, tuple(body), member, lights)
     check_order(rows)
     if shines:
         _check_colors(rows, values[:, 4:])

@@ -9,12 +9,12 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
-from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.fleet import FleetTrajectory, Recorded, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
 from shotc.show.assignment.home import come_home, way_up
-from shotc.show.assignment.lights import Images, Standing, lights, with_effects
+from shotc.show.assignment.lights import Images, Standing, rows_of, with_effects
 from shotc.show.assignment.moves import Mover
 from shotc.show.assignment.order import Cast, Scene
 from shotc.show.assignment.score import Motion, Score
@@ -39,6 +39,8 @@ class Director:
             for name, scenes in groupby(cast.scenes, key=lambda scene: scene.frame.display)
         ]
         self._done = 0
+        self._recorded = {flight.display: flight for flight in cast.recorded}
+        self._followed: list[tuple[Recorded, float]] = []
 
     def advance(self, ends: dict[str, float]) -> bool:
         """Write the next displays; tell whether there were any. ends : of the displays so far, added to."""
@@ -57,7 +59,8 @@ class Director:
         """Bring the fleet home; return what is wrong with its times."""
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
-        come_home(self.score, self.mover, self.cast.down)
+        if self.score.phases[-1].name != "land":
+            come_home(self.score, self.mover, self.cast.down)
         if not self._found and self.score.clock - self.waited > self.fleet.endurance:
             self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
         return [*self._found, *self.mover.faults, *self.waves.faults]
@@ -71,13 +74,28 @@ class Director:
         """Return the flight with its lights, and what is to be said of their effects."""
         score = self.score
         standing = list(map(Standing, self.cast.scenes, score.shown))
-        dark = (score.phases[0].end, score.phases[-1].start)
-        lit, told = with_effects(lights(dark, standing), self.mission, standing, dark, images)
+        dark = self._dark()
+        rows = rows_of(dark, standing, self._followed)
+        lit, told = with_effects(rows, self.mission, standing, dark, images)
         return score.trajectory(self.fleet.name, lit), told
+
+    def _dark(self) -> tuple[float, float]:
+        """Return until when and from when on no light is lit; a recorded flight lights the way up and down."""
+        phases, followed = self.score.phases, self._followed
+        up = bool(followed) and followed[0][0].up is not None
+        down = bool(followed) and followed[-1][0].down is not None
+        begin = followed[0][1] if up else phases[0].end
+        return begin, phases[-1].end if down else phases[-1].start
 
     def _present(self, display: Display, scenes: tuple[Scene, ...], ready: float) -> None:
         """Write a display and the way to its first picture, which stands when it is to begin."""
         first, score = display.pictures[scenes[0].frame.picture], self.score
+        flight = self._recorded.get(display.id)
+        if flight is not None and flight.up is not None:
+            self.waited = self._wait(display, score.clock + flight.up, ready)
+            score.stand(self.waited)
+            self._follow(display, flight)
+            return
         here = score.places if self._done else self.cast.up.above
         rise = way_up(self.fleet, self.cast.up)
         lead = 0.0 if self._done else rise.duration
@@ -90,8 +108,25 @@ class Director:
             score.phase("takeoff")
         score.move(scenes[0].places, move, duration)
         score.phase("transit")
+        if flight is not None:
+            self._follow(display, flight)
+            return
         self._pictures(display, scenes)
         score.phase("shot", display.id)
+
+    def _follow(self, display: Display, flight: Recorded) -> None:
+        """Fly a recorded flight from where the fleet stands, its take-off and landing where it has them."""
+        score, origin = self.score, self.score.clock
+        score.follow(flight.breaks, flight.coef)
+        if flight.up is not None:
+            score.phase("takeoff", end=round(origin + flight.up, 9))
+        score.phase("shot", display.id, None if flight.down is None else round(origin + flight.down, 9))
+        if flight.down is not None:
+            score.phase("land")
+        for index, time in enumerate(flight.shown):
+            at = round(origin + time, 9)
+            score.shown.append(Shown(display.id, 0, index, at, at))
+        self._followed.append((flight, origin))
 
     def _wait(self, display: Display, earliest: float, ready: float) -> float:
         start = display.start

@@ -15,7 +15,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.effects import Effect, Mark
-from shotc.ir.fleet import Lights, Shown
+from shotc.ir.fleet import Colors, Lights, Recorded, Shown
 from shotc.ir.light_layers import Layer, Look
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display
@@ -44,23 +44,46 @@ class _Stood(NamedTuple):
     times: Times
 
 
-def lights(dark: tuple[float, float], standing: Sequence[Standing]) -> Lights:
-    """Return the programme without effects.
+class Row(NamedTuple):
+    """What all lights show at a time: their colours, (n, 3), and the frame that these belong to, if any."""
 
-    dark : until when and from when on no light is lit, seconds
-    standing : every frame, in their order
+    colors: Colors
+    of: Standing | None
+
+
+Rows = Mapping[float, Row]
+"""What is shown by the times between which lights fade."""
+
+
+def rows_of(
+    dark: tuple[float, float], standing: Sequence[Standing], recorded: Sequence[tuple[Recorded, float]] = ()
+) -> Rows:
+    """Return what lights show without effects.
+
+    dark : until when and from when on no light is lit, seconds, but where a recorded flight lights it
+    standing : every frame, in their order; recorded : flights with lights of their own, and when each begins
     """
-    rows = _rows(dark, standing)
+    known = {flight.display for flight, _ in recorded}
     black = np.zeros_like(standing[0].scene.colors)
-    times = sorted(rows)
-    colors = [black if (found := rows[t]) is None else found.scene.colors for t in times]
-    return Lights(np.array(times), np.stack(colors, axis=1))
+    rows = {dark[0]: Row(black, None)}
+    for one in standing:
+        if one.shown.display not in known:
+            rows[one.shown.start] = rows[one.shown.end] = Row(one.scene.colors, one)
+    rows[dark[1]] = Row(black, None)
+    for flight, origin in recorded:
+        first = next(one for one in standing if one.shown.display == flight.display)
+        times = [round(origin + t, 9) for t in flight.lights.times.tolist()]
+        rows = {t: row for t, row in rows.items() if not times[0] < t < times[-1]}
+        colors = np.moveaxis(flight.lights.colors, 1, 0)
+        rows |= {t: Row(color, first) for t, color in zip(times, colors, strict=True)}
+    return {t: rows[t] for t in sorted(rows)}
 
 
 def with_effects(
-    plain: Lights, mission: MissionIR, standing: Sequence[Standing], dark: tuple[float, float], images: Images
+    rows: Rows, mission: MissionIR, standing: Sequence[Standing], dark: tuple[float, float], images: Images
 ) -> tuple[Lights, list[Diagnostic]]:
     """Return the programme with the effects of its displays, and what is to be said of these."""
+    plain = Lights(np.array(list(rows)), np.stack([row.colors for row in rows.values()], axis=1))
     names = dict.fromkeys(one.shown.display for one in standing)
     displays = [mission.display(name) for name in names]
     if not any(display.every_effect for display in displays):
@@ -78,20 +101,11 @@ def with_effects(
             looks.append(Look(layers, one.scene.spare))
     for display in displays:
         over += _of_display(mission, display, pictures, images, told)
-    rows = _rows(dark, standing)
-    kept = (rows[t] for t in sorted(rows))
+    kept = (row.of for row in rows.values())
     of = tuple(
         -1 if one is None else number[one.shown.display, one.shown.picture, one.shown.index] for one in kept
     )
     return replace(plain, looks=tuple(looks), of=of, over=tuple(over)), told
-
-
-def _rows(dark: tuple[float, float], standing: Sequence[Standing]) -> dict[float, Standing | None]:
-    """Return what is shown by the times between which lights fade."""
-    rows: dict[float, Standing | None] = {dark[0]: None}
-    for one in standing:
-        rows[one.shown.start] = rows[one.shown.end] = one
-    return {**rows, dark[1]: None}
 
 
 def _pictures(

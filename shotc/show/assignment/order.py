@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
-from shotc.ir.fleet import Colors, FleetGoals, Frame
+from shotc.ir.fleet import Colors, FleetGoals, Frame, Recorded
 from shotc.ir.show import Fleet
 from shotc.planning.take_off import take_off_of
-from shotc.show.solvers.match import matched
+from shotc.show.solvers.match import Index, matched
 
 DIGITS = 6
 """Decimals of a metre that control points keep, so that a plan stays short."""
@@ -47,11 +47,15 @@ class Columns:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cast:
-    """What the drones of a fleet do: rise by their own columns, show scenes, and sink by others."""
+    """What the drones of a fleet do: rise by their own columns, show scenes, and sink by others.
+
+    recorded : the displays that are recorded flights; the last one may bring the fleet down itself
+    """
 
     up: Columns
     scenes: tuple[Scene, ...]
     down: Columns
+    recorded: tuple[Recorded, ...] = ()
 
 
 def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
@@ -59,13 +63,26 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     up = columns_of(fleet)
     scenes, last = [], up.above
+    flights = {flight.display: flight for flight in goals.recorded}
+    recorded: list[Recorded] = []
+    order = np.arange(len(up.pads))
     for frame in goals.frames:
-        order = matched(last * scale, frame.points * scale)
+        flight = flights.get(frame.display)
+        if flight is None or (frame.index == 0 and flight.up is None):
+            order = matched(last * scale, frame.points * scale)
+        if flight is not None and frame.index == 0:
+            # Who has come to a track stays on it to its end; from its pad everybody is on its own.
+            recorded.append(_in_order(flight, order))
         places = np.round(frame.points[order], DIGITS)
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
         scenes.append(Scene(frame, places, frame.colors[order], tuple(spare)))
         last = places
-    return Cast(up, tuple(scenes), way_down(fleet, last))
+    return Cast(up, tuple(scenes), way_down(fleet, last), tuple(recorded))
+
+
+def _in_order(flight: Recorded, order: Index) -> Recorded:
+    lights = replace(flight.lights, colors=flight.lights.colors[order])
+    return replace(flight, coef=flight.coef[order], lights=lights)
 
 
 def columns_of(fleet: Fleet) -> Columns:

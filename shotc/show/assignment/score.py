@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE
 from shotc.ir.fleet import FleetTrajectory, Lights, Shown
 from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import DIGITS
@@ -68,6 +69,13 @@ class Score:
         self._breaks += [round(origin + seconds, 9) for seconds in passed.tolist()]
         self.places = coef[:, 0]
 
+    def follow(self, breaks: Array, coef: Array) -> None:
+        """Fly a flight from the stop that the last places are to a stop; breaks, coef as of Recorded."""
+        origin = self.clock
+        self._points += list(np.moveaxis(coef[:, DEGREE:], 1, 0))
+        self._breaks += [round(origin + seconds, 9) for seconds in breaks[1:].tolist()]
+        self.places = coef[:, -1]
+
     def animate(self, frames: Sequence[Array], period: float) -> list[float]:
         """Show frames one after another, the last one at a stop; return the time of each.
 
@@ -80,10 +88,10 @@ class Score:
         times = [origin + (k + 2) * period for k in range(len(frames))]
         return [*times[:-1], self.clock]
 
-    def phase(self, name: PhaseName, shot: str | None = None) -> None:
-        """Call what was written since the last phase by a name."""
+    def phase(self, name: PhaseName, shot: str | None = None, end: float | None = None) -> None:
+        """Call what was written since the last phase by a name; end : of it, s, else all of that."""
         start = self.phases[-1].end if self.phases else self._breaks[0]
-        self.phases.append(Phase(name, shot, start, self.clock))
+        self.phases.append(Phase(name, shot, start, self.clock if end is None else end))
 
     def spline(self) -> tuple[Array, Array]:
         """Return breaks and control points of what is written, as of FleetTrajectory."""

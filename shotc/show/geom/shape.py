@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from shotc.geom.solids import box, signed_distance
 from shotc.ir.limits import Vec3
-from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, Source, Sphere, Torus
+from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, RecordedFlight, Source, Sphere, Torus
 
 NARROW = 0.3  # share of a capital's height that a letter is wide at least
 SMALL = 0.5  # share of it that small letters are high at least
@@ -42,6 +42,8 @@ def balls(source: Source) -> tuple[Ball, ...]:
         return tuple(_upright(source.centre, source.height))
     if isinstance(source, Drawing):
         return tuple(_upright(source.centre, source.height))
+    if isinstance(source, RecordedFlight):
+        return ()
     return tuple(_of_text(source))
 
 

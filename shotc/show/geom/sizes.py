@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from shotc.ir.show import Box, Model, Picture, Source, Sphere, Torus
+from shotc.ir.show import Box, Model, Picture, RecordedFlight, Source, Sphere, Torus
 from shotc.rounding import up
 from shotc.show.geom.shape import balls, lowest
 
@@ -18,7 +18,9 @@ def resized(source: Source, change: Callable[[float], float]) -> Source:
     if isinstance(source, Box):
         a, b, c = source.size
         return source._replace(size=(change(a), change(b), change(c)))
-    return source if source.height is None else source._replace(height=change(source.height))
+    if isinstance(source, RecordedFlight) or source.height is None:
+        return source
+    return source._replace(height=change(source.height))
 
 
 def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
@@ -60,4 +62,4 @@ def _sizes(source: Source) -> str:
         return f"radius: {source.radius:.1f}, tube: {source.tube:.1f}"
     if isinstance(source, Box):
         return f"size: {source.size[0]:.1f}"
-    return f"height: {source.height:.1f}"
+    return "" if isinstance(source, RecordedFlight) else f"height: {source.height:.1f}"

@@ -4,11 +4,13 @@ Takes the pictures of a mission's displays and gives a goal set for every frame:
 centroids, adjusted for the audience (*display* Section III), then moved apart. It guarantees that no two
 goals of a frame are nearer than the separation allows, and no nearer than straight moves between pictures
 need where that has room; and that all are clear of what stands and of the ground. Frames of one picture
-follow each other: each begins with the goals of the one before.
+follow each other: each begins with the goals of the one before. A recorded flight is brought within the
+limits of the drones (``show.recorded``), and its frames are moments of it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -20,6 +22,7 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import Display, Fleet
+from shotc.show.goals.flown import Flown, flown, is_recorded
 from shotc.show.goals.layout import Task
 from shotc.show.goals.picture import Drawn, draw_picture
 from shotc.show.goals.room import room_of
@@ -34,12 +37,14 @@ class PlaceGoals:
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[GoalIR]:
         """Place the goals of every display, fleet by fleet; all faults of all pictures are told."""
         shows: list[FleetGoals] = []
-        drawn: list[Drawn] = []
+        drawn: list[Drawn | Flown] = []
         showing = {display.fleet for display in ir.mission.displays}
         for fleet in (f for f in ir.mission.fleets if f.name in showing):
             displays = [d for d in ir.mission.displays if d.fleet == fleet.name]
             found = [_display(ir.mission, fleet, display, ctx) for display in displays]
-            shows.append(FleetGoals(fleet.name, tuple(f for d in found for p in d for f in p.frames)))
+            frames = tuple(frame for display in found for picture in display for frame in picture.frames)
+            flights = (one.flight for display in found for one in display if isinstance(one, Flown))
+            shows.append(FleetGoals(fleet.name, frames, tuple(one for one in flights if one is not None)))
             drawn += [picture for display in found for picture in display]
         diagnostics = tuple(d for picture in drawn for d in picture.diagnostics)
         stats = tuple(entry for picture in drawn for entry in picture.stats)
@@ -47,7 +52,10 @@ class PlaceGoals:
         return Outcome(value, diagnostics)
 
 
-def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContext) -> list[Drawn]:
+def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContext) -> Sequence[Drawn | Flown]:
+    if is_recorded(display):
+        ctx.progress(f"reading the flight of {display.id}")
+        return [flown(mission, fleet, display)]
     files = dict(mission.files)
     setting = Setting(
         number=len(fleet.pads),

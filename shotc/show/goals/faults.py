@@ -9,22 +9,15 @@ import numpy as np
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
-from shotc.ir.show import Box, Display, Drawing, Fleet, Lettering, Model, Picture, Sphere, Torus
+from shotc.ir.show import Display, Drawing, Fleet, Lettering, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.rounding import at_least, at_most
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.remedies import Remedies
 from shotc.show.goals.room import Room, lack_of, least_shift
 from shotc.show.goals.spaced import Setting
+from shotc.show.labels import word_of
 
-KEYS = {
-    Sphere: "sphere",
-    Box: "cube",
-    Torus: "torus",
-    Lettering: "text",
-    Drawing: "svg",
-    Model: "model",
-}
 BETWEEN = (0.0, 0.25, 0.5, 0.75)
 """Shares of the way from the middle of a picture to its goals at which places within it are looked at."""
 FEWEST = 8
@@ -33,7 +26,7 @@ FEWEST = 8
 
 def place_of(mission: MissionIR, picture: Picture, key: str = "") -> Label:
     """Return the label on a key of a picture's source, or on the nearest thing that is written down."""
-    word = KEYS[type(picture.source)]
+    word = word_of(picture)
     paths = [(*picture.path, word, key), (*picture.path, key), (*picture.path, word), picture.path]
     written = next((path for path in paths if path in mission.origins.values), picture.path)
     return mission.origins.value(written)
@@ -54,7 +47,7 @@ def no_points(mission: MissionIR, picture: Picture) -> Diagnostic:
     elif picture.fill == "outline":
         help_ = "use `fill: surface`"
     label = mission.origins.value((*picture.path, "fill"))
-    name = KEYS[type(picture.source)]
+    name = word_of(picture)
     what = {"volume": "inside", "surface": "surface", "outline": "edges"}[picture.fill]
     note = f"`fill: {picture.fill}` puts drones along the {what}"
     return Diagnostic("D060", f"this {name} has no {what} to stand in", (label,), (note,), help_)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from shotc.ir.show import Drawing, Lettering, Model, Picture
+from shotc.ir.show import Drawing, Lettering, Model, Picture, RecordedFlight
 from shotc.show.goals.body import Body, SourceFault
 from shotc.show.goals.drawing import drawing_body
 from shotc.show.goals.frames import model_bodies
@@ -26,5 +26,6 @@ def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[Body] | 
     elif isinstance(source, Lettering):
         body = lettering_body(source, files)
     else:
+        assert not isinstance(source, RecordedFlight)  # which has tracks, and no shape
         body = solid_body(source)
     return body if isinstance(body, SourceFault) else [body]

@@ -10,17 +10,19 @@ from pathlib import Path
 from shotc.diag.model import Diagnostic
 from shotc.ir.effects import Image
 from shotc.ir.origin import KeyPath, OriginMap
-from shotc.ir.show import Display, Drawing, Lettering, Model, Picture
+from shotc.ir.show import Display, Drawing, Lettering, Model, Picture, RecordedFlight
 from shotc.ir.source import KeptFiles
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.image_file import image_fault
+from shotc.kinds.sources import FLIGHTS
 from shotc.kinds.svg import svg_fault
 from shotc.passes.resolve.lower.files import NOT_KEPT, read_file
 from shotc.show.labels import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
 
 LARGEST_MESH = 64_000_000  # bytes of one mesh or font
+LARGEST_FLIGHT = 200_000_000  # bytes of one recorded flight, as `importers.flights` reads them
 MOST = 256_000_000  # bytes of all that one mission draws
 
 Material = tuple[tuple[str, bytes], ...]
@@ -81,7 +83,7 @@ def files_of(picture: Picture) -> tuple[str, ...]:
     source = picture.source
     if isinstance(source, Model):
         return source.files
-    if isinstance(source, Drawing):
+    if isinstance(source, Drawing | RecordedFlight):
         return (source.file,)
     if isinstance(source, Lettering) and source.font is not None and "." in source.font:
         return (source.font,)
@@ -89,19 +91,23 @@ def files_of(picture: Picture) -> tuple[str, ...]:
 
 
 def _where(picture: Picture) -> KeyPath:
-    key = {Model: "files", Drawing: "file"}.get(type(picture.source), "font")
+    key = {Model: "files", Drawing: "file", RecordedFlight: "flight"}.get(type(picture.source), "font")
     return (*key_of(picture), key)
 
 
 def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
     drawing = name.lower().endswith(".svg")
-    data = read_file(folder, origins, name, path, MAX_TABLE_BYTES if drawing else LARGEST_MESH)
+    flight = name.lower().endswith(FLIGHTS)
+    most = MAX_TABLE_BYTES if drawing else LARGEST_FLIGHT if flight else LARGEST_MESH
+    data = read_file(folder, origins, name, path, most)
     if isinstance(data, Diagnostic):
         return data
     if not data:
         return bad_file(origins, path, name, FileFault("the file is empty", None, "export it again"))
     if name.lower().endswith((".png", ".gif")):
         return _image(data, origins, name, path)
+    if flight and (broken := _no_archive(data)) is not None:
+        return bad_file(origins, path, name, broken)
     wrong = svg_fault(data) if drawing else None
     if wrong is None:
         return data
@@ -110,6 +116,16 @@ def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -
     note = f"{name}, line {wrong.fault.line}"
     message = f"`{name}` is more than a drawing: {wrong.fault.message}"
     return Diagnostic("D022", message, (origins.value(path),), (note,), wrong.fault.help)
+
+
+def _no_archive(data: bytes) -> FileFault | None:
+    """Return why bytes are no whole ZIP archive, as far as their first and last ones tell (APPNOTE 4.3)."""
+    if not data.startswith(b"PK"):
+        return FileFault("it is no ZIP archive", None, "export the show again, as `.skyc` or zipped CSV")
+    if b"PK\5\6" not in data[-65_557:]:
+        message = f"the archive breaks off: after {len(data)} bytes it has no table of its files"
+        return FileFault(message, None, "copy it again, or export the show again")
+    return None
 
 
 def _image(data: bytes, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:

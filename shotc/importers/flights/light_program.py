@@ -1,0 +1,128 @@
+"""Lights of a Skybrush show: programs of bytes that set and fade colours, as times and colours.
+
+Orders are those that `libskybrush` plays; a time is a variable-length number of steps of 20 ms, seven bits a
+byte, the low ones first. Orders that change the clock, jump, or take
+colours from a remote control have no times that a file tells.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from shotc.importers.flights.points import BROKEN, refuse
+from shotc.importers.xml_tree import Node
+
+STEP_S = 0.02
+JUMP_S = 0.001
+"""Seconds within which a colour that is set takes the place of the one before."""
+MOST_ORDERS = 100_000
+"""Orders of one program, those of loops as often as they are done."""
+WHOLE = Node("", 1, 1, wide=1)
+
+END, NOTHING, SLEEP = 0x00, 0x01, 0x02
+SETS = {0x04: 3, 0x05: 1, 0x06: 0, 0x07: 0}
+FADES = {0x08: 3, 0x09: 1, 0x0A: 0, 0x0B: 0}
+WHITES = (0x07, 0x0B)
+LOOP, LOOP_END = 0x0C, 0x0D
+
+Color = tuple[int, int, int]
+BLACK: Color = (0, 0, 0)
+
+
+class Keyed(NamedTuple):
+    """A light: colours at times, s, that rise; it changes evenly between them, and is constant beyond."""
+
+    times: tuple[float, ...]
+    colors: tuple[Color, ...]
+
+
+def keyed(program: bytes, where: str, end: float) -> Keyed:
+    """Return the light of a program; refuse what is none.
+
+    where : the program, in words; end : of the flight, s, beyond which nothing is read
+    """
+    return _Player(program, where, end).played()
+
+
+class _Player:
+    """Does the orders of a program."""
+
+    def __init__(self, program: bytes, where: str, end: float) -> None:
+        self._code, self._where, self._end = program, where, end
+        self._at = 0
+        self._steps, self._color = 0, BLACK
+        self._times, self._colors = [0.0], [BLACK]
+        self._loops: list[tuple[int, int]] = []
+
+    def played(self) -> Keyed:
+        for _ in range(MOST_ORDERS):
+            if self._steps * STEP_S > self._end or not self._order():
+                return Keyed(tuple(self._times), tuple(self._colors))
+        self._refuse(f"does more than {MOST_ORDERS} orders")
+        raise AssertionError
+
+    def _order(self) -> bool:
+        """Do the next order; tell whether there may be more."""
+        start, order = self._at, self._byte()
+        if order == END:
+            return False
+        if order in SETS or order in FADES:
+            color = self._wanted(order, SETS.get(order, FADES.get(order, 0)))
+            self._show(color, self._number(), fades=order in FADES)
+        elif order == SLEEP:
+            self._show(self._color, self._number(), fades=False)
+        elif order == LOOP:
+            self._loops.append((self._byte() or MOST_ORDERS, self._at))
+        elif order == LOOP_END:
+            self._again(start)
+        elif order != NOTHING:
+            self._refuse(f"has an order {order:#04x} at byte {start}, which has no time that the file tells")
+        return True
+
+    def _again(self, start: int) -> None:
+        if not self._loops:
+            self._refuse(f"ends a loop at byte {start} that has not begun")
+        left, begin = self._loops.pop()
+        if left > 1:
+            self._loops.append((left - 1, begin))
+            self._at = begin
+
+    def _wanted(self, order: int, count: int) -> Color:
+        if count == 0:
+            return (255, 255, 255) if order in WHITES else BLACK
+        red = self._byte()
+        return (red, self._byte(), self._byte()) if count > 1 else (red, red, red)
+
+    def _show(self, color: Color, steps: int, *, fades: bool) -> None:
+        now = self._steps * STEP_S
+        self._key(now - JUMP_S if not fades and color != self._color else now, self._color)
+        self._steps += steps
+        self._key(self._steps * STEP_S if fades else now, color)
+        self._color = color
+
+    def _key(self, time: float, color: Color) -> None:
+        if time > self._times[-1] + JUMP_S / 2:
+            self._times.append(time)
+            self._colors.append(color)
+        else:
+            self._colors[-1] = color if time >= self._times[-1] - JUMP_S / 2 else self._colors[-1]
+
+    def _byte(self) -> int:
+        if self._at >= len(self._code):
+            self._refuse(f"breaks off after {len(self._code)} bytes")
+        self._at += 1
+        return self._code[self._at - 1]
+
+    def _number(self) -> int:
+        value, shift = 0, 0
+        while True:
+            part = self._byte()
+            value |= (part & 0x7F) << shift
+            shift += 7
+            if part < 0x80:
+                return value
+            if shift > 28:
+                self._refuse(f"has a time of more than 28 bits at byte {self._at - 1}")
+
+    def _refuse(self, why: str) -> None:
+        refuse(BROKEN, f"`{self._where}` {why}", WHOLE)

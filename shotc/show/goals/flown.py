@@ -1,0 +1,74 @@
+"""A display that is a recorded flight: its formations as frames, and the flight itself."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.diag.model import Diagnostic
+from shotc.geom.fleet_spline import places
+from shotc.ir.fleet import Frame, Recorded
+from shotc.ir.light_colors import faded_colors
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display, Fleet, RecordedFlight
+from shotc.show.recorded import faults
+from shotc.show.recorded.stage import Asked, Grounded, Staged, staged
+from shotc.show.recorded.tracks import Unreadable, read_tracks
+
+
+class Flown(NamedTuple):
+    """A recorded flight with its frames, none where it cannot be flown, and what is to be said."""
+
+    frames: tuple[Frame, ...]
+    flight: Recorded | None
+    diagnostics: tuple[Diagnostic, ...]
+    stats: tuple[tuple[str, float | str], ...] = ()
+
+
+def is_recorded(display: Display) -> bool:
+    """Tell whether a display is a recorded flight."""
+    return isinstance(display.pictures[0].source, RecordedFlight)
+
+
+def flown(mission: MissionIR, fleet: Fleet, display: Display) -> Flown:
+    """Return the recorded flight of a display, or all that keeps it from being flown."""
+    source = display.pictures[0].source
+    assert isinstance(source, RecordedFlight)
+    tracks = read_tracks(source.file, dict(mission.files)[source.file], mission.origin)
+    if isinstance(tracks, Unreadable):
+        return Flown((), None, (faults.unreadable(mission, display, tracks),))
+    if len(tracks.tracks) != len(fleet.pads):
+        return Flown((), None, (faults.other_count(mission, display, fleet, len(tracks.tracks)),))
+    mine = [one.id for one in mission.displays if one.fleet == fleet.name]
+    floor = mission.rules.over_ground(fleet.radius)
+    first, last = mine[0] == display.id, mine[-1] == display.id
+    asked = Asked(np.array(fleet.pads), floor, fleet.limits, first, last)
+    found = staged(display.id, tracks, asked)
+    if isinstance(found, Grounded):
+        return Flown((), None, (faults.grounded(mission, display, tracks, found, floor),))
+    jump = faults.jumps(mission, display, tracks, found)
+    if jump is not None:
+        return Flown((), None, (jump,))
+    said = tuple(faults.told(mission, display, tracks, found, asked))
+    return Flown(_frames(found.flight), found.flight, said, _stats(found))
+
+
+def _frames(flight: Recorded) -> tuple[Frame, ...]:
+    times = np.array(flight.shown)
+    at = places(flight.breaks, flight.coef, times)
+    if flight.up is None:
+        at[:, 0] = flight.coef[:, 0]
+    colors = faded_colors(flight.lights, times)
+    return tuple(Frame(flight.display, 0, k, at[:, k], colors[:, k]) for k in range(len(times)))
+
+
+def _stats(found: Staged) -> tuple[tuple[str, float | str], ...]:
+    name = f"flight {found.flight.display}"
+    start, end = found.part
+    return (
+        (f"{name} from s", start),
+        (f"{name} to s", end),
+        (f"{name} longer s", found.longer),
+        (f"{name} off m", found.off),
+    )

@@ -1,0 +1,183 @@
+"""The clock of a recorded flight, stretched where its drones would break a limit: for all drones alike.
+
+The control points stay, and the time from break to break grows. A piece grows by what the drones that count
+on it need: a velocity's control point by its share of the limit, an acceleration's by the root of its own, a
+jerk's by the cube root, for so they fall with time. Where the clock slows down and comes back its logarithm
+changes by 1 in ``EASE`` times the time that braking from full speed takes, evenly, corners rounded: so the
+clock's own acceleration is small, and what it adds falls as the pieces grow. That is repeated until no
+control point of any derivative breaks a limit, which proves all limits for all times. Stretching all pieces
+alike needs no repetition; the shorter of both is taken, so that the result is never longer than that.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE, knots
+from shotc.ir.limits import Limits
+
+EASE = 0.5
+"""Times that braking from full speed takes, in which the clock's rate changes by a factor of e."""
+SMOOTHED = 2
+"""Pieces to either side over which the logarithm of a stretch is averaged."""
+ROUNDS = 200
+SLACK_SHARE = 1e-9
+"""Share of a limit by which rounding may break it."""
+OVER_SHARE = 1e-4
+"""Share by which pieces grow beyond what they lack, so that rounds end."""
+LEEWAY_SHARE = 0.05
+"""Share of a limit, at most, that is granted to the rounding of a file."""
+WORDS = ("speed", "climb", "descent", "acceleration", "jerk")
+
+
+class Need(NamedTuple):
+    """The drone that needs most time: its row, the limit in a word, its value there, the limit, the piece.
+
+    factor : by which the piece would have to last longer
+    """
+
+    drone: int
+    limit: str
+    value: float
+    most: float
+    piece: int
+    factor: float
+
+
+class Clock(NamedTuple):
+    """Breaks of the flight, s, and what asked for more time than the file has, None where nothing did."""
+
+    breaks: Array
+    need: Need | None
+
+
+def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> Clock:
+    """Return the clock of a flight; step : s of every piece by the file's clock.
+
+    coef : control points, (n, K, 3); rounding : metres by which they may be rounded
+    """
+    granted = _granted(limits, step, rounding)
+    count = coef.shape[1] - DEGREE
+    widths = np.full(count, step)
+    need = worst(widths, coef, granted)
+    if need.factor <= 1.0 + SLACK_SHARE:
+        return Clock(_breaks(widths), None)
+    alike = widths * need.factor * (1.0 + OVER_SHARE)
+    found = _stretched(widths, coef, granted)
+    best = alike if found is None or found.sum() >= alike.sum() else found
+    return Clock(_breaks(best), need)
+
+
+def _breaks(widths: Array) -> Array:
+    return np.round(np.concatenate([[0.0], np.cumsum(widths)]), 9)
+
+
+def _granted(limits: Limits, step: float, rounding: float) -> Limits:
+    """Return limits with what rounded places may add to them: theirs is the noise, not the flight's."""
+    noise = 2.0 * rounding / step
+    share = [1.0 + min(noise / most, LEEWAY_SHARE) for most in (limits.speed, limits.climb, limits.descent)]
+    bent = 1.0 + min(2.0 * noise / step / limits.usable_acceleration, LEEWAY_SHARE)
+    jerked = 1.0 + min(4.0 * noise / step**2 / limits.jerk, LEEWAY_SHARE)
+    return limits._replace(
+        speed=limits.speed * share[0],
+        climb=limits.climb * share[1],
+        descent=limits.descent * share[2],
+        acceleration=limits.usable_acceleration * bent,
+        jerk=limits.jerk * jerked,
+    )
+
+
+def _stretched(widths: Array, coef: Array, limits: Limits) -> Array | None:
+    """Return the pieces' widths, stretched here and there, or None where that does not come to an end."""
+    slope = widths[0] / (EASE * limits.speed / limits.usable_acceleration)
+    grown = np.zeros(len(widths))
+    for _ in range(ROUNDS):
+        lacks = needs(widths * np.exp(grown), coef, limits)
+        if lacks.max() <= 1.0 + SLACK_SHARE:
+            return np.asarray(widths * np.exp(grown))
+        aim = grown + np.log(np.maximum(lacks, 1.0)) + OVER_SHARE * (lacks > 1.0 + SLACK_SHARE)
+        grown = np.maximum(grown, _eased(aim, slope))
+    return None
+
+
+def _eased(aim: Array, slope: float) -> Array:
+    """Return a curve over ``aim`` (P,) that changes by ``slope`` from piece to piece, its corners rounded.
+
+    It is not below ``aim``: of the least such curve the largest values about each piece are averaged.
+    """
+    index = np.arange(len(aim)) * slope
+    rising = np.maximum.accumulate(aim + index) - index
+    falling = np.maximum.accumulate((aim - index)[::-1])[::-1] + index
+    hull = np.pad(np.maximum(rising, falling), 2 * SMOOTHED, mode="edge")
+    window = np.lib.stride_tricks.sliding_window_view(hull, 2 * SMOOTHED + 1).max(axis=1)
+    return np.asarray(np.convolve(window, np.full(2 * SMOOTHED + 1, 1.0 / (2 * SMOOTHED + 1)), "valid"))
+
+
+def needs(widths: Array, coef: Array, limits: Limits) -> Array:
+    """Return by which factor every piece lacks time, (P,), 1 or less where it does not."""
+    found = np.zeros(len(widths))
+    for order, share in _shares(widths, coef, limits):
+        # Between k and k + 1 count pieces k - 2 to k; those in their middle are stretched.
+        most = share.max(axis=0)
+        for back in {1: (1,), 2: (1, 0), 3: (0,)}[order]:
+            piece = np.clip(np.arange(len(most)) - back, 0, len(widths) - 1)
+            np.maximum.at(found, piece, most)
+    return found
+
+
+def worst(widths: Array, coef: Array, limits: Limits) -> Need:
+    """Return the drone and the limit that ask for most time."""
+    best = Need(0, "speed", 0.0, limits.speed, 0, 0.0)
+    for order, share in _shares(widths, coef, limits):
+        drone, k = (int(i) for i in np.unravel_index(int(np.argmax(share)), share.shape))
+        if share[drone, k] > best.factor:
+            piece = int(np.clip(k - (order == 1), 0, len(widths) - 1))
+            value = _derivative(widths, coef[drone : drone + 1], order)[0, k]
+            word, size, most = _named(value, order, limits)
+            best = Need(drone, word, size, most, piece, float(share[drone, k]))
+    return best
+
+
+def _named(value: Array, order: int, limits: Limits) -> tuple[str, float, float]:
+    if order == 1:
+        across, up = float(np.hypot(value[0], value[1])), float(value[2])
+        each = [
+            ("speed", across, limits.speed),
+            ("climb", up, limits.climb),
+            ("descent", -up, limits.descent),
+        ]
+        return max(each, key=lambda one: one[1] / one[2])
+    size = float(np.linalg.norm(value))
+    if order == 2:
+        return "acceleration", size, limits.usable_acceleration
+    return "jerk", size, limits.jerk
+
+
+def _shares(widths: Array, coef: Array, limits: Limits) -> list[tuple[int, Array]]:
+    """Return of each derivative the factors by which its control points ask for more time, (n, R)."""
+    found = []
+    for order in (1, 2, 3):
+        values = _derivative(widths, coef, order)
+        if order == 1:
+            across = np.hypot(values[..., 0], values[..., 1]) / limits.speed
+            up, down = values[..., 2] / limits.climb, -values[..., 2] / limits.descent
+            found.append((1, np.maximum(across, np.maximum(up, down))))
+            continue
+        size = np.sqrt(np.einsum("nrd,nrd->nr", values, values))
+        limit = limits.usable_acceleration if order == 2 else limits.jerk
+        found.append((order, np.asarray((size / limit) ** (1.0 / order))))
+    return found
+
+
+def _derivative(widths: Array, coef: Array, order: int) -> Array:
+    """Return the control points of a derivative, (n, K - order, 3), as ``fleet_spline.differences`` does."""
+    t, values = knots(np.concatenate([[0.0], np.cumsum(widths)])), coef
+    for k in range(order):
+        degree = DEGREE - k
+        inner = t[k : len(t) - k]
+        spans = inner[degree + 1 : len(inner) - 1] - inner[1 : len(inner) - degree - 1]
+        values = np.diff(values, axis=1) * (degree / spans)[None, :, None]
+    return np.asarray(values)

@@ -1,0 +1,124 @@
+"""What is wrong with recorded flights, and what is to be said of those that are flown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isinf
+
+from shotc.diag.model import Diagnostic, Label
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Display, Fleet, RecordedFlight
+from shotc.rounding import at_least, plain
+from shotc.show.recorded.clock import Need
+from shotc.show.recorded.stage import Asked, Grounded, Leaned, Staged
+from shotc.show.recorded.tracks import Tracks, Unreadable
+
+MOST_FACTOR = 20.0
+"""By which a piece may be too fast: beyond it a drone jumps, and the file is wrong."""
+UNITS = {"acceleration": "m/s^2", "jerk": "m/s^3"}
+LEAST_TOLD_S = 0.05
+"""Seconds by which a flight is longer from which on that is told."""
+
+
+def _file(mission: MissionIR, display: Display) -> tuple[str, Label]:
+    source = display.pictures[0].source
+    assert isinstance(source, RecordedFlight)
+    return source.file, mission.origins.value((*display.pictures[0].path, "flight"))
+
+
+def unreadable(mission: MissionIR, display: Display, why: Unreadable) -> Diagnostic:
+    """Return D150: the file of a flight cannot be read."""
+    file, label = _file(mission, display)
+    where = f"{file}/{why.member}, line {why.line}" if why.member else file
+    help_ = why.help or "export the show again, as `.skyc` or zipped CSV"
+    message = f"the flight in `{file}` cannot be read: {why.message}"
+    return Diagnostic("D150", message, (label,), (f"in {where}",), help_)
+
+
+def other_count(mission: MissionIR, display: Display, fleet: Fleet, found: int) -> Diagnostic:
+    """Return D151: a file has not one track a drone."""
+    file, label = _file(mission, display)
+    count = len(fleet.pads)
+    labels = (label, mission.origins.value((*fleet.path, "count"), "the fleet"))
+    message = f"`{file}` has the tracks of {found} drones, and fleet `{fleet.name}` has {count}"
+    help_ = f"write `count: {found}`, with as many pads, or give a file with {count} tracks"
+    return Diagnostic("D151", message, labels, (), help_)
+
+
+def grounded(mission: MissionIR, display: Display, tracks: Tracks, why: Grounded, floor: float) -> Diagnostic:
+    """Return D152: at no time all drones are clear of the ground."""
+    file, label = _file(mission, display)
+    one, other = (tracks.tracks[k].where for k in (why.rises, why.falls))
+    if isinf(why.up):
+        note = f"`{one}` never comes up to {floor:.2f} m, the ground clearance and the radius of a body"
+        help_ = "leave out drones that stay on the ground, or lower `rules.ground_clearance`"
+    else:
+        note = (
+            f"`{one}` comes up to {floor:.2f} m at {why.up:.2f} s, and `{other}` goes below it"
+            f" at {why.down:.2f} s"
+        )
+        help_ = "let all drones be in the air together for some seconds, or give the parts to several fleets"
+    return Diagnostic("D152", f"the drones of `{file}` are never all in the air", (label,), (note,), help_)
+
+
+def jumps(mission: MissionIR, display: Display, tracks: Tracks, found: Staged) -> Diagnostic | None:
+    """Return D153 if a drone jumps: no clock makes that a flight."""
+    need = found.need
+    if need is None or need.factor <= MOST_FACTOR:
+        return None
+    file, label = _file(mission, display)
+    who = tracks.tracks[found.order[need.drone]].where
+    message = f"`{who}` of `{file}` jumps at {found.at:.2f} s"
+    notes = (f"its {_value(need)} there; to keep it, that part would last {need.factor:.0f} times as long",)
+    help_ = "look at its track about that time: a segment is lost, or a time is wrong; then export it again"
+    return Diagnostic("D153", message, (label,), notes, help_)
+
+
+def _value(need: Need) -> str:
+    unit = UNITS.get(need.limit, "m/s")
+    return f"{need.limit} is {need.value:.1f} {unit}, and {need.most:.1f} {unit} is the limit"
+
+
+def told(
+    mission: MissionIR, display: Display, tracks: Tracks, found: Staged, asked: Asked
+) -> list[Diagnostic]:
+    """Return the warnings about a flight that is flown."""
+    names = [tracks.tracks[k].where for k in found.order]
+    said = [_slower(mission, display, names, found)] if found.longer > LEAST_TOLD_S else []
+    return said + [_by_itself(mission, display, names, lean, asked) for lean in found.leaned]
+
+
+def _slower(mission: MissionIR, display: Display, names: Sequence[str], found: Staged) -> Diagnostic:
+    file, label = _file(mission, display)
+    length = found.part[1] - found.part[0]
+    message = (
+        f"`{file}` is flown in {at_least(length + found.longer)} s instead of {plain(length, 2)} s:"
+        " its drones are too fast for the limits"
+    )
+    notes = []
+    if found.need is not None:
+        who = names[found.need.drone]
+        notes.append(
+            f"worst at {found.at:.2f} s of the file: `{who}`, whose {_value(found.need)};"
+            f" there it takes {found.need.factor:.2f} times as long"
+        )
+    notes.append("all drones keep one clock, so the formations are those of the file")
+    if mission.music is not None:
+        notes.append("the music keeps its own time: from there on the show is behind it")
+    help_ = "raise `limits` of the fleet if its drones can do more, or make the show slower where it was made"
+    return Diagnostic("D154", message, (label,), tuple(notes), help_)
+
+
+def _by_itself(
+    mission: MissionIR, display: Display, names: Sequence[str], why: Leaned, asked: Asked
+) -> Diagnostic:
+    file, label = _file(mission, display)
+    what, verb = ("landing", "comes home") if why.landing else ("take-off", "takes off")
+    who = names[why.drone]
+    message = f"the {what} of `{file}` is not flown: the fleet {verb} by itself"
+    note = (
+        f"a fleet goes straight up and down over its pads until all are {asked.floor:.2f} m high;"
+        f" `{who}` is {why.metres:.2f} m off at {why.time:.2f} s of the file"
+    )
+    help_ = f"let all drones go straight over their pads up to {asked.floor:.2f} m, or leave it so"
+    return Diagnostic("D155", message, (label,), (note,), help_)

@@ -1,0 +1,237 @@
+"""Which part of a recorded flight take-off and landing are, and the whole as a flight of ours.
+
+A fleet of ours rises and lands straight over its pads, all drones at once, and is clear of the ground
+between. Where the file has that, from the pads that the mission has, it is flown as recorded. Where it does
+not, the flight begins, or ends, where all are clear of the ground, and the fleet comes there by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE, centres
+from shotc.geom.proof import norm
+from shotc.ir.fleet import Lights, Recorded
+from shotc.ir.limits import Limits
+from shotc.show.recorded.clock import Need, clocked
+from shotc.show.recorded.grid import bound, points_of, sources, step_of
+from shotc.show.recorded.tracks import Tracks, colors_at
+
+ON_PAD_M = 0.05
+"""Metres from its pad within which a track begins or ends on it, and from the vertical that it may leave."""
+STILL_M = 2e-3
+"""Metres within which all drones stand: what a file's rounding makes of a stop."""
+STOP_POINTS = 4
+"""Control points in a row that are a stop."""
+DIGITS = 6
+"""Decimals of a metre that control points keep, as in ``assign-goals``."""
+MOST_FINER = 8.0
+"""By how much control points may be nearer to each other in the file."""
+SHOWN = 9
+"""Moments of a recorded flight that stand for it, where pictures are shown."""
+
+
+class Asked(NamedTuple):
+    """What a flight is to fit.
+
+    pads : (n, 3); floor : z from which on a drone is clear of the ground, m
+    first, last : whether the fleet stands on its pads before it, and goes home after it
+    """
+
+    pads: Array
+    floor: float
+    limits: Limits
+    first: bool
+    last: bool
+
+
+class Grounded(NamedTuple):
+    """Why no part of a flight is flown: a drone is not clear of the ground while all others are.
+
+    rises, falls : the drone that is clear last, and the one that is clear no more first; times of the file, s
+    """
+
+    rises: int
+    up: float
+    falls: int
+    down: float
+
+
+class Leaned(NamedTuple):
+    """Why a take-off or a landing is not flown as recorded: who is how far from its pad's vertical, when."""
+
+    drone: int
+    metres: float
+    time: float
+    landing: bool
+
+
+class Staged(NamedTuple):
+    """A flight, and what is to be told of it.
+
+    order : the tracks in the order of its rows; part : of the file's clock that is flown, s
+    off : how far it is from the tracks at most, m; whose : row of that
+    need : who needed more time, at which time of the file, None where nobody did; longer : s
+    """
+
+    flight: Recorded
+    order: NDArray[np.intp]
+    part: tuple[float, float]
+    off: float
+    whose: int
+    need: Need | None
+    at: float
+    longer: float
+    leaned: tuple[Leaned, ...]
+
+
+class _Part(NamedTuple):
+    """Break numbers: from which on all are clear, and up to which; clear : (K,), at every control point."""
+
+    up: int
+    down: int
+
+
+def staged(display: str, tracks: Tracks, asked: Asked) -> Staged | Grounded:
+    """Return the flight of a file with as many tracks as there are pads.
+
+    One that takes longer than its file has control points as near in time as others: nearer in the file.
+    """
+    found = _staged(display, tracks, asked, step_of(tracks.step))
+    if isinstance(found, Grounded) or found.longer <= 0.0:
+        return found
+    start, end = found.part
+    slower = min(1.0 + found.longer / (end - start), MOST_FINER)
+    finer = step_of(tracks.step, slower)
+    return found if finer >= step_of(tracks.step) else _staged(display, tracks, asked, finer)
+
+
+def _staged(display: str, tracks: Tracks, asked: Asked, step: float) -> Staged | Grounded:
+    order, on_pads = _order(tracks, asked)
+    tracks = replace(tracks, tracks=tuple(tracks.tracks[k] for k in order))
+    times = sources(0.0, tracks.end, step, (True, True))
+    points = points_of(tracks.tracks, times)
+    part = _part(points, times, asked.floor)
+    if isinstance(part, Grounded):
+        return part
+    ends = _landed(points[:, -1], asked)
+    leaned: list[Leaned] = []
+    up = _upright(points, times, (asked.pads, part.up + DEGREE), leaned) if on_pads else False
+    down = False
+    if ends is not None:
+        down = _upright(points, times, (ends, part.down - len(times)), leaned)
+    start = 0.0 if up else float(times[part.up])
+    end = tracks.end if down else float(times[part.down + 2])
+    count = len(times) - DEGREE
+    after = count - part.down
+    if not (up and down):
+        times = sources(start, end, step, (up, down))
+        points = points_of(tracks.tracks, times)
+        count = len(times) - DEGREE
+    rise, fall = part.up if up else None, count - after if down else None
+    coef = _stood(points)
+    if rise is not None:
+        _over(coef[:, : rise + DEGREE], asked.pads, 0)
+    if fall is not None and ends is not None:
+        _over(coef[:, fall:], ends, -1)
+    coef = np.round(coef, DIGITS)
+    clock = clocked(coef, step, asked.limits, tracks.rounding)
+    off, whose = bound(tracks.tracks, times, clock.breaks, coef)
+    flight = Recorded(
+        display,
+        clock.breaks,
+        coef,
+        None if rise is None else float(clock.breaks[rise]),
+        None if fall is None else float(clock.breaks[fall]),
+        _lights(tracks, times, clock.breaks),
+        _shown(clock.breaks, rise or 0, count if fall is None else fall),
+    )
+    longer = round(float(clock.breaks[-1]) - step * count, 6)
+    at = 0.0 if clock.need is None else float(times[clock.need.piece + 1])
+    return Staged(flight, order, (start, end), off, whose, clock.need, at, longer, tuple(leaned))
+
+
+def _order(tracks: Tracks, asked: Asked) -> tuple[NDArray[np.intp], bool]:
+    """Return the tracks in the order of the pads that they begin on, and whether each begins on one."""
+    starts = np.stack([track.curve.ctrl[0, 0] for track in tracks.tracks])
+    away, nearest = cKDTree(starts).query(asked.pads)
+    fits = asked.first and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
+    return (np.asarray(nearest) if fits else np.arange(len(starts))), bool(fits)
+
+
+def _landed(ends: Array, asked: Asked) -> Array | None:
+    """Return the pads (n, 3) that drones end on, if each ends on one of its own."""
+    away, nearest = cKDTree(asked.pads).query(ends)
+    fits = asked.last and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
+    return asked.pads[nearest] if fits else None
+
+
+def _part(points: Array, times: Array, floor: float) -> _Part | Grounded:
+    """Return between which breaks all drones are clear of the ground; points : (n, K, 3)."""
+    clear = points[..., 2] >= floor
+    count = clear.shape[1]
+    rises = np.where(clear.any(axis=1), np.argmax(clear, axis=1), count)
+    falls = np.where(clear.any(axis=1), count - 1 - np.argmax(clear[:, ::-1], axis=1), -1)
+    up, down = int(rises.max()), int(falls.min()) - 2
+    if down - up >= 1:
+        return _Part(up, down)
+    late, early = int(np.argmax(rises)), int(np.argmin(falls))
+    when = [float(times[k]) if 0 <= k < count else np.inf for k in (rises[late], falls[early])]
+    return Grounded(late, when[0], early, when[1])
+
+
+def _upright(points: Array, times: Array, of: tuple[Array, int], leaned: list[Leaned]) -> bool:
+    """Tell whether all drones are over their pads at the first control points, or the last ones.
+
+    of : the pads, and how many control points, negative to count from the end; else it is told in ``leaned``
+    """
+    pads, count = of
+    part = slice(None, count) if count > 0 else slice(count, None)
+    away = norm(points[:, part, :2] - pads[:, None, :2])
+    low = pads[:, None, 2] - points[:, part, 2]
+    off = np.maximum(away, low)
+    if off.max() <= ON_PAD_M:
+        return True
+    drone, k = (int(i) for i in np.unravel_index(int(np.argmax(off)), off.shape))
+    leaned.append(Leaned(drone, float(off[drone, k]), float(times[part][k]), count < 0))
+    return False
+
+
+def _over(points: Array, pads: Array, at_rest: int) -> None:
+    """Put control points straight over their pads, none below, and three at an end on them; in place."""
+    points[..., :2] = pads[:, None, :2]
+    points[..., 2] = np.maximum(points[..., 2], pads[:, None, 2])
+    points[:, slice(-DEGREE, None) if at_rest else slice(DEGREE)] = pads[:, None]
+
+
+def _stood(points: Array) -> Array:
+    """Return control points that are equal where everybody stands, but for the rounding of a file."""
+    found = points.copy()
+    first = 0
+    for k in range(1, found.shape[1] + 1):
+        if k < found.shape[1] and norm(found[:, k] - found[:, first]).max() <= STILL_M:
+            continue
+        if k - first >= STOP_POINTS:
+            found[:, first:k] = found[:, first : first + 1]
+        first = k
+    return found
+
+
+def _lights(tracks: Tracks, times: Array, breaks: Array) -> Lights:
+    """Return the lights by the flight's clock; times : of the file, of its control points."""
+    told, colors = colors_at(tracks, float(times[0]), float(times[-1]))
+    inner = slice(DEGREE, -DEGREE)
+    known = np.concatenate([times[:1], times[inner], times[-1:]])
+    flown = np.concatenate([breaks[:1], centres(breaks)[inner], breaks[-1:]])
+    return Lights(np.round(np.interp(told, known, flown), 6), colors)
+
+
+def _shown(breaks: Array, first: int, last: int) -> tuple[float, ...]:
+    chosen = np.unique(np.round(np.linspace(first, last, SHOWN)).astype(int))
+    return tuple(float(breaks[k]) for k in chosen)

@@ -1,0 +1,147 @@
+"""The tracks and lights of a file, in W."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shotc.geom.bernstein import Array, Piecewise
+from shotc.importers.cameras.takes import Refused
+from shotc.importers.flights import skyc, zipped
+from shotc.importers.flights.light_program import Keyed
+from shotc.importers.flights.names import TABLES, suffix_of
+from shotc.importers.flights.points import Unread
+from shotc.importers.flights.rows import Rows
+from shotc.ir.fleet import Colors
+from shotc.ir.mission import GeoOrigin
+
+SHARES = np.linspace(0.0, 1.0, 4)[:, None]
+SHOW_ROUNDING_M = 5e-4
+"""Metres by which control points of shows may be rounded."""
+TABLE_ROUNDING_M = 5e-4
+"""The same of tables, which Skybrush writes to the millimetre."""
+LEVELS = 2.0
+"""Levels, of 255, by which a light may be off for its times to be fewer."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """One drone of a file.
+
+    name : as the file has it; where : it stands there, in words
+    curve : x, y, z of W, cubic, from 0 s; constant after its end
+    light : of the drone, None where the file has none
+    """
+
+    name: str
+    where: str
+    curve: Piecewise
+    light: Keyed | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tracks:
+    """All drones of a file.
+
+    step : seconds from row to row that most tables have, 0 of curves
+    rounding : metres by which places may be rounded; end : s, of the longest track
+    """
+
+    tracks: tuple[Track, ...]
+    step: float
+    rounding: float
+
+    @property
+    def end(self) -> float:
+        """When the last of them ends, s."""
+        return max(track.curve.end for track in self.tracks)
+
+
+class Unreadable(NamedTuple):
+    """Why a file is not read; member : of the archive, empty where it is about all of it; line from 1."""
+
+    code: str
+    message: str
+    member: str
+    line: int
+    help: str
+
+
+def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> Tracks | Unreadable:
+    """Return the tracks of a `.zip` of tables or of a `.skyc`; origin : of the mission."""
+    try:
+        if suffix_of(PurePath(name).name) == TABLES:
+            return _of_tables(zipped.tables(data))
+        return _of_show(skyc.show(data, lit=True), origin)
+    except zipped.UnreadMember as stopped:
+        return _unreadable(stopped.refused, stopped.member)
+    except Unread as stopped:
+        return _unreadable(stopped.refused, "")
+
+
+def _unreadable(why: Refused, member: str) -> Unreadable:
+    return Unreadable(why.code, why.message, member, why.node.line, why.help)
+
+
+def _of_tables(tables: tuple[Rows, ...]) -> Tracks:
+    steps = np.concatenate([np.diff(rows.time) for rows in tables])
+    return Tracks(tuple(map(_of_rows, tables)), float(np.median(steps)), TABLE_ROUNDING_M)
+
+
+def _of_rows(rows: Rows) -> Track:
+    time, place, colors = rows.time, rows.place, rows.colors
+    if time[0] > 0.0:
+        time, place = np.append(0.0, time), np.concatenate([place[:1], place])
+        colors = None if colors is None else np.concatenate([colors[:1], colors])
+    ctrl = place[:-1, None] + SHARES * np.diff(place, axis=0)[:, None]
+    light = None
+    if colors is not None:
+        levels = [(int(r), int(g), int(b)) for r, g, b in colors.tolist()]
+        light = Keyed(tuple(time.tolist()), tuple(levels))
+    return Track(rows.drone, rows.member, Piecewise(time, ctrl), light)
+
+
+def _of_show(show: skyc.Show, origin: GeoOrigin | None) -> Tracks:
+    there = skyc.shift(show.origin, origin)
+    tracks = [Track(f.name, f.element, Piecewise(f.breaks, f.ctrl + there), f.light) for f in show.flights]
+    return Tracks(tuple(tracks), 0.0, SHOW_ROUNDING_M)
+
+
+def colors_at(tracks: Tracks, start: float, end: float) -> tuple[Array, Colors]:
+    """Return times of the file's clock, (T,), and the colours of all lights, (n, T, 3), between two times.
+
+    The times are all those at which a light changes its course, but for those without which no light is more
+    than ``LEVELS`` off.
+    """
+    lights = [track.light or Keyed((0.0,), ((0, 0, 0),)) for track in tracks.tracks]
+    every = np.unique(np.round(np.concatenate([light.times for light in lights]), 6))
+    times = np.concatenate([[start], every[(every > start) & (every < end)], [end]])
+    levels = np.empty((len(lights), len(times), 3), dtype=np.float32)
+    for row, light in zip(levels, lights, strict=True):
+        for k in range(3):
+            row[:, k] = np.interp(times, light.times, [color[k] for color in light.colors])
+    kept = _kept(times, levels)
+    return times[kept], np.asarray(np.rint(levels[:, kept]), dtype=np.uint8)
+
+
+def _kept(times: Array, levels: NDArray[np.float32]) -> list[int]:
+    """Return which times are kept: swing-door trending (Bristol 1990) over all lights at once."""
+    kept = [0]
+    low = np.full(levels[:, 0].shape, -np.inf)
+    high = np.full(levels[:, 0].shape, np.inf)
+    for k in range(1, len(times)):
+        span = times[k] - times[kept[-1]]
+        slope = (levels[:, k] - levels[:, kept[-1]]) / span
+        if ((slope < low) | (slope > high)).any():
+            kept.append(k - 1)
+            span = times[k] - times[k - 1]
+            slope = (levels[:, k] - levels[:, k - 1]) / span
+            low, high = np.full(low.shape, -np.inf), np.full(high.shape, np.inf)
+        low, high = np.maximum(low, slope - LEVELS / span), np.minimum(high, slope + LEVELS / span)
+    if len(times) > 1:
+        kept.append(len(times) - 1)
+    return kept
