@@ -80,7 +80,7 @@ class Director:
         return score.trajectory(self.fleet.name, lit), told
 
     def _dark(self) -> tuple[float, float]:
-        """Return until when and from when on no light is lit; a recorded flight lights the way up and down."""
+        """Return until when and from when on no light is lit; a recorded flight may light its way."""
         phases, followed = self.score.phases, self._followed
         up = bool(followed) and followed[0][0].up is not None
         down = bool(followed) and followed[-1][0].down is not None

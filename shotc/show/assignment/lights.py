@@ -24,6 +24,9 @@ from shotc.show.assignment.layers import Stage, Times, counts, layer_of
 from shotc.show.assignment.order import Scene
 from shotc.show.goals.footage import Frames
 
+SAME_S = 1e-4
+"""Seconds by which times that are meant to be the same may differ."""
+
 Images = Mapping[str, Frames]
 """The images of a mission's effects, by name."""
 
@@ -73,7 +76,7 @@ def rows_of(
     for flight, origin in recorded:
         first = next(one for one in standing if one.shown.display == flight.display)
         times = [round(origin + t, 9) for t in flight.lights.times.tolist()]
-        rows = {t: row for t, row in rows.items() if not times[0] < t < times[-1]}
+        rows = {t: row for t, row in rows.items() if not times[0] - SAME_S < t < times[-1] + SAME_S}
         colors = np.moveaxis(flight.lights.colors, 1, 0)
         rows |= {t: Row(color, first) for t, color in zip(times, colors, strict=True)}
     return {t: rows[t] for t in sorted(rows)}
