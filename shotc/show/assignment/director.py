@@ -40,7 +40,6 @@ class Director:
         ]
         self._done = 0
         self._recorded = {flight.display: flight for flight in cast.recorded}
-        self._followed: list[tuple[Recorded, float]] = []
 
     def advance(self, ends: dict[str, float]) -> bool:
         """Write the next displays; tell whether there were any. ends : of the displays so far, added to."""
@@ -75,13 +74,18 @@ class Director:
         score = self.score
         standing = list(map(Standing, self.cast.scenes, score.shown))
         dark = self._dark()
-        rows = rows_of(dark, standing, self._followed)
+        rows = rows_of(dark, standing, self._followed())
         lit, told = with_effects(rows, self.mission, standing, dark, images)
         return score.trajectory(self.fleet.name, lit), told
 
+    def _followed(self) -> list[tuple[Recorded, float]]:
+        """Return the recorded flights and when each begins, by when its first frame is shown."""
+        first = {shown.display: shown.start for shown in reversed(self.score.shown)}
+        return [(flight, first[flight.display] - flight.shown[0]) for flight in self.cast.recorded]
+
     def _dark(self) -> tuple[float, float]:
-        """Return until when and from when on no light is lit; a recorded flight may light its way."""
-        phases, followed = self.score.phases, self._followed
+        """Return until when and from when on no light is lit; recorded flights may light their way."""
+        phases, followed = self.score.phases, self._followed()
         up = bool(followed) and followed[0][0].up is not None
         down = bool(followed) and followed[-1][0].down is not None
         begin = followed[0][1] if up else phases[0].end
@@ -117,7 +121,7 @@ class Director:
     def _follow(self, display: Display, flight: Recorded) -> None:
         """Fly a recorded flight from where the fleet stands, its take-off and landing where it has them."""
         score, origin = self.score, self.score.clock
-        score.follow(flight.breaks, flight.coef)
+        score.fly(flight.breaks, flight.coef)
         if flight.up is not None:
             score.phase("takeoff", end=round(origin + flight.up, 9))
         score.phase("shot", display.id, None if flight.down is None else round(origin + flight.down, 9))
@@ -126,7 +130,6 @@ class Director:
         for index, time in enumerate(flight.shown):
             at = round(origin + time, 9)
             score.shown.append(Shown(display.id, 0, index, at, at))
-        self._followed.append((flight, origin))
 
     def _wait(self, display: Display, earliest: float, ready: float) -> float:
         start = display.start

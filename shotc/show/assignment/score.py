@@ -69,7 +69,7 @@ class Score:
         self._breaks += [round(origin + seconds, 9) for seconds in passed.tolist()]
         self.places = coef[:, 0]
 
-    def follow(self, breaks: Array, coef: Array) -> None:
+    def fly(self, breaks: Array, coef: Array) -> None:
         """Fly a flight from the stop that the last places are to a stop; breaks, coef as of Recorded."""
         origin = self.clock
         self._points += list(np.moveaxis(coef[:, DEGREE:], 1, 0))
