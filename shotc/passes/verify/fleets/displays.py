@@ -23,6 +23,9 @@ from shotc.passes.verify.claims import TOLERANCE, Limit, Worst, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 
+LEAST_WAY_M = 0.05
+"""Ways on which it is told when a drone sets out are as long as this, metres."""
+
 
 def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Claim that this fleet's displays are flown, on time and in full, and that it stands where it holds."""
@@ -116,7 +119,8 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) 
 def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
     """Claim that the drones set out within the time of a wave, to two pieces of their splines.
 
-    Whoever stays where it is sets out at no time: nothing is claimed of a way on which somebody does.
+    Of a way of millimetres rounding hides the beginning, and whoever stays where it is sets out at no time:
+    nothing is claimed where somebody goes less far than ``LEAST_WAY_M``.
     """
     breaks, coef = flight.track.breaks, flight.track.coef
     found: list[tuple[float, Limit, Worst]] = []
@@ -127,17 +131,19 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Ite
         end = first[k].start
         begin = max((s.end for s in flight.track.shown if s.end <= end), default=flight.track.phases[0].end)
         on_way = np.flatnonzero((breaks[:-1] > begin - TOLERANCE) & (breaks[1:] < end + TOLERANCE))
+        if (
+            not len(on_way)
+            or np.linalg.norm(coef[:, on_way[-1] + 3] - coef[:, on_way[0]], axis=1).min() < LEAST_WAY_M
+        ):
+            continue
         # A piece moves where its four control points are not all alike.
-        steps = (np.diff(coef[:, : on_way.max(initial=0) + 4], axis=1) != 0.0).any(axis=2)
+        steps = (np.diff(coef[:, : on_way[-1] + 4], axis=1) != 0.0).any(axis=2)
         moving = np.stack([steps[:, j : j + 3].any(axis=1) for j in on_way], axis=1)
-        if moving.size and moving.any(axis=1).all():
-            departs = breaks[on_way[moving.argmax(axis=1)]]
-            off = abs(float(np.ptp(departs)) - picture.wave.time)
-            piece = float(np.diff(breaks)[on_way].max())
-            limit = Limit(
-                "error of wave", 2.0 * piece, "s", (*picture.path, "transition", "wave"), shot=display.id
-            )
-            found.append((off - 2.0 * piece, limit, Worst(off, float(departs.max()), "exact")))
+        departs = breaks[on_way[moving.argmax(axis=1)]]
+        off = abs(float(np.ptp(departs)) - picture.wave.time)
+        most = 2.0 * float(np.diff(breaks)[on_way].max())
+        limit = Limit("error of wave", most, "s", (*picture.path, "transition", "wave"), shot=display.id)
+        found.append((off - most, limit, Worst(off, float(departs.max()), "exact")))
     if found:
         _, limit, worst = max(found, key=lambda item: item[0])
         yield held(flight.fleet.name, limit, worst)
