@@ -43,9 +43,14 @@ def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def taking_off(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield which fleets rise and land in layers, how high, and how long it takes; stats : of passes."""
+    """Yield which fleets rise and land in layers or return to their own pads, how high; stats : of passes."""
     known = dict(stats)
     for name in known:
+        own = re.fullmatch(r"fleet (.+) own pads levels", name)
+        if own:
+            count, high = (float(known[name.removesuffix("levels") + key]) for key in ("levels", "highest m"))
+            levels = "one level" if count == 1 else f"{count:.0f} levels"
+            yield f"drones of {own[1]} return to their own pads on {levels}, up to {high:.1f} m above them"
         fleet = re.fullmatch(r"fleet (.+) take-off layers", name)
         if fleet:
             at = name.removesuffix("layers")

@@ -22,7 +22,6 @@ from shotc.passes.verify.fleets.shape import landed
 from shotc.passes.verify.fleets.space import space
 from shotc.show.assignment.home import come_home
 from shotc.show.assignment.moves import Mover
-from shotc.show.assignment.order import way_down
 from shotc.show.assignment.score import Score
 from shotc.show.geom.windows import at_rest, windows
 
@@ -129,7 +128,7 @@ class Homing:
 
     def _judged(self, score: Score, rest: float) -> FleetReturn:
         """Return the way home of a fleet that rests, with its proof."""
-        come_home(score, self._mover, way_down(self.fleet, score.places))
+        come_home(score, self._mover)
         return self._proved(score, rest)
 
     def _as_it_came(self, stop: int, time: float) -> FleetReturn:

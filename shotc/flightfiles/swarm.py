@@ -108,14 +108,16 @@ def _told(swarm: Swarm, limit: Limit, bound: Bound, owner: int) -> Found:
 
 
 def _pads(swarm: Swarm) -> Iterator[Found]:
-    """Claim that drones begin on their pads, and are not in the air for too long."""
+    """Claim that drones begin on their pads, end on them if it says so, and are not too long in the air."""
     fleet = swarm.fleet
-    away = np.array(
-        [norm(f.curve.ctrl[0, 0] - pad) for f, pad in zip(swarm.flights, swarm.pads, strict=True)]
-    )
-    k = int(np.argmax(away))
+    ends = [(0.0, f.curve.ctrl[0, 0], k) for k, f in enumerate(swarm.flights)]
+    if fleet.returns == "own":
+        ends += [(f.curve.end, f.curve.ctrl[-1, -1], k) for k, f in enumerate(swarm.flights)]
+    away = [float(norm(place - swarm.pads[k])) for _, place, k in ends]
+    worst = int(np.argmax(away))
+    time, _, k = ends[worst]
     home = Limit("distance from home", AT_PAD_M, "m", (*fleet.path, "layout"))
-    yield _told(swarm, home, Bound(float(away[k]), float(away[k]), 0.0), k)
+    yield _told(swarm, home, Bound(away[worst], away[worst], time), k)
     airborne = np.array([down - up for up, down in map(_moving, swarm.flights)])
     k = int(np.argmax(airborne))
     endurance = Limit("endurance", fleet.endurance, "s", (*fleet.path, "endurance"))

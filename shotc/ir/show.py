@@ -65,6 +65,7 @@ class Fleet(NamedTuple):
     pads : p_WB of every drone at rest, in the order of their numbers
     rise : metres above its pad to which each drone rises, straight up, before it goes anywhere
     radius : of the body sphere, m; endurance : s
+    returns : to which pad each drone comes home: any of the fleet's, or its own
     """
 
     name: str
@@ -77,6 +78,7 @@ class Fleet(NamedTuple):
     apart: Apart
     path: KeyPath
     group: FleetGroup | None = None
+    returns: Literal["any", "own"] = "any"
 
     @property
     def kind(self) -> str:

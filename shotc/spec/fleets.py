@@ -77,6 +77,9 @@ class FleetSpec(Model):
     separation: SeparationSpec | None = Field(
         default=None, description="how far apart they stay, one distance or several; the rules' if silent"
     )
+    return_: Literal["any", "own"] = Field(
+        default="any", alias="return", description="to which pad each comes home: any, or its own"
+    )
     groups: dict[Name, DroneNumbers] = Field(
         default={}, description="numbers of drones that draw apart from the rest of the fleet, by group"
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes._slips import slip
+from shotc.diag.model import Severity
 
 _GROUPED = """\
 shotc: 1
@@ -23,6 +24,21 @@ shots:
     frames: [{cube: {center: [0, -60, 30], size: 12}, hold: 9}]
 """
 
+_OWN = """\
+shotc: 1
+mission: own
+rules: {max_height: 60}
+fleets:
+  swarm: {count: 16, layout: {grid: {spacing: 2}}, separation: {horizontal: 2, vertical: 4}, rise: 24, return: own}
+shots:
+  - id: two
+    kind: display
+    fleet: swarm
+    frames:
+      - {cube: {center: [3, 3, 16], size: 12}}
+      - {sphere: {center: [3, 3, 16], radius: 7}}
+"""
+
 UNKNOWN: tuple[CodeInfo, ...] = (
     slip(
         "N020",
@@ -32,6 +48,21 @@ UNKNOWN: tuple[CodeInfo, ...] = (
         "that group, so nothing is judged of them. The nearest known name is proposed. Mend the name, or give the fleet the group.",
         _GROUPED,
         ("group: fireworks", "group: firework"),
+    ),
+)
+
+OWN_PADS: tuple[CodeInfo, ...] = (
+    CodeInfo(
+        "D138",
+        "high-levels",
+        Severity.ERROR,
+        "drones that return to their own pads would need more heights than there are",
+        "With `return: own` drones change places over the pads on levels, each a vertical separation above the next, so that "
+        "those whose ways cross never meet. How many that takes depends on the pictures, and is known when the show is planned. "
+        "The highest may not be above `rules.max_height`, and more than 64 are refused. Have them return to any pad, or allow more.",
+        _OWN.replace("max_height: 60", "max_height: 30"),
+        _OWN,
+        phase="plan",
     ),
 )
 

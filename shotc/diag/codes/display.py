@@ -5,7 +5,7 @@ from __future__ import annotations
 from shotc.diag.code_info import CodeInfo
 from shotc.diag.codes import flights, lights, pictures
 from shotc.diag.codes._filmed_shows import FIRED, NAMED
-from shotc.diag.codes._grouped import GROUPED
+from shotc.diag.codes._grouped import GROUPED, OWN_PADS
 from shotc.diag.codes._musical import MUSICAL
 from shotc.diag.codes._recorded import RECORDED
 from shotc.diag.codes._slips import slip
@@ -366,4 +366,5 @@ CODES: tuple[CodeInfo, ...] = (
     *FIRED,
     *GROUPED,
     *WAVES,
+    *OWN_PADS,
 )

@@ -72,14 +72,21 @@ def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float
         (f"fleet {name} arcs", float(director.arcs)),
         (f"fleet {name} time", float(flight.breaks[-1])),
         *_take_off(director, flight),
+        *_own_pads(director),
     ]
+
+
+def _own_pads(director: Director) -> list[tuple[str, float | str]]:
+    """Return on how many levels drones fly over their own pads, and how high above them the highest is."""
+    heights, name = director.levels, f"fleet {director.fleet.name} own pads"
+    return [(f"{name} levels", float(len(heights))), (f"{name} highest m", heights[0])] if heights else []
 
 
 def _take_off(director: Director, flight: FleetTrajectory) -> list[tuple[str, float | str]]:
     """Return how a fleet rises and lands in layers, if it does."""
     take_off, name = take_off_of(director.fleet), f"fleet {flight.fleet} take-off"
-    if not take_off.layered:
-        return []
+    if not take_off.layered or any(f.up is not None or f.down is not None for f in director.cast.recorded):
+        return []  # recorded flights take off and land as they were recorded
     up, down = flight.phases[0], flight.phases[-1]
     return [
         (f"{name} layers", float(len(take_off.heights))),

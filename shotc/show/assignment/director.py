@@ -33,6 +33,7 @@ class Director:
         self.mover = Mover(mission, fleet)
         self.waves = Waves(mission, fleet)
         self.waited = 0.0
+        self.levels: tuple[float, ...] = ()
         self._found: list[Diagnostic] = []
         self._displays = [
             (mission.display(name), tuple(scenes))
@@ -59,7 +60,7 @@ class Director:
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
         if self.score.phases[-1].name != "land":
-            come_home(self.score, self.mover, self.cast.down)
+            self.levels = come_home(self.score, self.mover)
         if not self._found and self.score.clock - self.waited > self.fleet.endurance:
             self._found.append(faults.too_long(self.mission, self.fleet, self.score.phases, self.waited))
         return [*self._found, *self.mover.faults, *self.waves.faults]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import ceil
 from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
@@ -13,6 +14,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display, Fleet, Picture, Wave, drone_names
 from shotc.kinds.files import FileFault
+from shotc.planning.clearances import ROUNDING_M
+from shotc.planning.take_off import MOST_LAYERS
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Lack
@@ -93,6 +96,26 @@ def too_late(mission: MissionIR, picture: Picture, earliest: float, way: float) 
         ),
         moments(mission, earliest),
     )
+
+
+def high_levels(mission: MissionIR, fleet: Fleet, heights: Sequence[float]) -> list[Diagnostic]:
+    """Return D138 where drones on their ways to their own pads need more room above than there is.
+
+    heights : of their levels over the pads, falling, metres
+    """
+    high, most = max(pad[2] for pad in fleet.pads) + heights[0], mission.rules.max_height
+    many = len(heights) > MOST_LAYERS
+    if not many and (most is None or high <= most + ROUNDING_M):
+        return []
+    label = mission.origins.value((*fleet.path, "return"))
+    note = (
+        f"its drones change places at {len(heights)} heights, a vertical separation apart: the lowest "
+        f"{heights[-1]:.2f} m above the pads, the highest at z = {high:.2f}"
+    )
+    limit = f"{MOST_LAYERS} heights are the most" if many else f"`max_height` is {plain(most or 0.0)} m"
+    help_ = "write `return: any`" + ("" if many else f", or `rules: {{max_height: {ceil(high)}}}`")
+    message = f"{fleet.words} has no room to return to its own pads"
+    return [Diagnostic("D138", message, (label,), (note, limit), help_)]
 
 
 def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: float) -> Diagnostic:

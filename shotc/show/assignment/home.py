@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from shotc.geom.bernstein import Array
 from shotc.ir.show import Fleet
 from shotc.planning.take_off import take_off_of
+from shotc.show.assignment.faults import high_levels
 from shotc.show.assignment.moves import Mover
-from shotc.show.assignment.order import Columns
+from shotc.show.assignment.order import Columns, way_down
+from shotc.show.assignment.own_pads import way_to_own
 from shotc.show.assignment.score import Motion, Score
 from shotc.show.solvers.layered_move import LayeredMove, rising, sinking
 from shotc.show.solvers.move import fastest
@@ -19,17 +22,45 @@ def way_up(fleet: Fleet, up: Columns) -> Motion | LayeredMove:
     return rising(take_off.heights, take_off.step, up.layer, fleet.limits)
 
 
-def come_home(score: Score, mover: Mover, down: Columns) -> None:
-    """Bring a fleet that rests home; down : the columns by which its drones come down."""
-    if (score.places != down.above).any():
-        score.move(down.above, mover.move(score.places, down.above, 1.0, None))
+def come_home(score: Score, mover: Mover) -> tuple[float, ...]:
+    """Bring a fleet that rests home, each drone to any pad or to its own, as the fleet says.
+
+    Returns the heights over the pads at which drones change places, falling, metres: none to any pad.
+    """
+    return (_come_to_own if mover.fleet.returns == "own" else _come_to_any)(score, mover)
+
+
+def _come_to_any(score: Score, mover: Mover) -> tuple[float, ...]:
+    fleet, down = mover.fleet, way_down(mover.fleet, score.places)
+    _gather(score, mover, down.above)
     score.phase("return")
-    score.move(down.pads, _way_down(mover.fleet, down))
-    score.phase("land")
-
-
-def _way_down(fleet: Fleet, down: Columns) -> Motion | LayeredMove:
     take_off = take_off_of(fleet)
-    if not take_off.layered:
-        return fastest(down.pads - down.above, fleet.limits, 1.0)
-    return sinking(take_off.heights, take_off.step, down.layer, fleet.limits)
+    _sink(score, fleet, down, (take_off.heights, take_off.step))
+    return ()
+
+
+def _come_to_own(score: Score, mover: Mover) -> tuple[float, ...]:
+    fleet, way = mover.fleet, way_to_own(mover.fleet, score.places)
+    mover.faults += high_levels(mover.mission, fleet, way.heights)
+    _gather(score, mover, way.columns)
+    for places in (way.raised, way.down.above):
+        if (score.places != places).any():
+            score.move(places, fastest(places - score.places, fleet.limits, 1.0))
+    score.phase("return")
+    _sink(score, fleet, way.down, (way.heights, way.step))
+    return way.heights
+
+
+def _gather(score: Score, mover: Mover, places: Array) -> None:
+    if (score.places != places).any():
+        score.move(places, mover.move(score.places, places, 1.0, None))
+
+
+def _sink(score: Score, fleet: Fleet, down: Columns, layers: tuple[tuple[float, ...], float]) -> None:
+    """Come down straight, in layers where the pads are nearer to each other than the separation."""
+    ways = down.pads - down.above
+    if take_off_of(fleet).layered:
+        score.move(down.pads, sinking(*layers, down.layer, fleet.limits))
+    else:
+        score.move(down.pads, fastest(ways, fleet.limits, 1.0))
+    score.phase("land")

@@ -47,14 +47,13 @@ class Columns:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cast:
-    """What the drones of a fleet do: rise by their own columns, show scenes, and sink by others.
+    """What the drones of a fleet do: rise by their own columns, and show scenes.
 
     recorded : the displays that are recorded flights; the last one may bring the fleet down itself
     """
 
     up: Columns
     scenes: tuple[Scene, ...]
-    down: Columns
     recorded: tuple[Recorded, ...] = ()
 
 
@@ -77,7 +76,7 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
         scenes.append(Scene(frame, places, frame.colors[order], tuple(spare)))
         last = places
-    return Cast(up, tuple(scenes), way_down(fleet, last), tuple(recorded))
+    return Cast(up, tuple(scenes), tuple(recorded))
 
 
 def _in_order(flight: Recorded, order: Index) -> Recorded:
@@ -85,18 +84,23 @@ def _in_order(flight: Recorded, order: Index) -> Recorded:
     return replace(flight, coef=flight.coef[order], lights=lights)
 
 
+def pads_of(fleet: Fleet) -> Array:
+    """Return the pads of a fleet, shape (n, 3)."""
+    return np.round(np.array(fleet.pads), DIGITS)
+
+
 def columns_of(fleet: Fleet) -> Columns:
     """Return the columns over a fleet's pads, by which its drones rise."""
     take_off = take_off_of(fleet)
     layer = np.array(take_off.layer, dtype=np.intp)
-    pads = np.round(np.array(fleet.pads), DIGITS)
+    pads = pads_of(fleet)
     heights = np.array(take_off.heights)[layer]
     above = pads + np.stack([np.zeros_like(heights), np.zeros_like(heights), heights], axis=1)
     return Columns(pads, np.round(above, DIGITS), layer)
 
 
 def way_down(fleet: Fleet, places: Array) -> Columns:
-    """Return the columns by which drones at places of shape (n, 3) come down."""
+    """Return the columns by which drones at places of shape (n, 3) come down, each to any pad."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     home = columns_of(fleet)
     order = matched(places * scale, home.above * scale)

@@ -93,6 +93,7 @@ def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, .
         model=written.model,
         pads=pads,
         rise=written.rise,
+        returns=written.return_,
         limits=limits_of(preset, written.limits, spec.world.wind.speed),
         radius=written.radius or preset.radius,
         endurance=written.endurance or preset.endurance,

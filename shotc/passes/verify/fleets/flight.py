@@ -28,7 +28,8 @@ class FleetFlight:
     """One fleet, what it was asked and how it flies.
 
     names : of its drones, in the order of their numbers
-    pads, ends : the pad that each takes off from, and the one that each ends nearest to, shape (n, 3)
+    pads, ends : the pad that each takes off from, and the one that it lands on, shape (n, 3): its own, or
+        the one that it ends nearest to
     flown : their positions in Bernstein form, over the whole flight
     """
 
@@ -46,7 +47,9 @@ class FleetFlight:
         fleet, breaks = mission.fleet(track.fleet), track.breaks
         flown = FleetPieces(breaks[:-1], breaks[1:], pieces(breaks, track.coef))
         pads = np.array(fleet.pads)
-        ends = pads[cKDTree(pads).query(flown.ctrl[:, -1, -1])[1]]
+        ends = pads
+        if fleet.returns == "any":
+            ends = pads[cKDTree(pads).query(flown.ctrl[:, -1, -1])[1]]
         return FleetFlight(mission, fleet, track, drone_names(fleet), pads, ends, flown)
 
     def key(self, *keys: str) -> KeyPath:
@@ -64,7 +67,7 @@ class FleetFlight:
     def verticals(self) -> Iterator[tuple[list[Span], Array]]:
         """Yield when the drones take off and when they land, if they do, and the pads that they are above.
 
-        A drone lands on any pad of its fleet. Two on one pad would be nearer than their separation.
+        Of a fleet that returns to any pad two that land on one would be nearer than their separation.
         """
         for name, pads in zip(UPRIGHT, (self.pads, self.ends), strict=True):
             spans = [(p.start, p.end) for p in self.track.phases if p.name == name and p.end > p.start]

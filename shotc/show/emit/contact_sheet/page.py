@@ -11,10 +11,8 @@ from shotc.emit.palette import FAINT, INK, QUIET, WHITE
 from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
 from shotc.emit.storyboard.furniture import round_length
 from shotc.geom.fleet_spline import places
-from shotc.geom.on_pads import on_pads
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.trajectory import VerifiedIR
-from shotc.planning.take_off import take_off_of
 from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
 from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
@@ -75,15 +73,12 @@ def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
 
 def _take_offs(plan: VerifiedIR) -> list[str]:
     """Say which fleets take off in layers, and how long that takes."""
-    mission, facts = plan.trajectory.keyframes.mission, []
+    known, facts = dict(plan.trajectory.stats), []
     for flight in plan.trajectory.fleets:
-        take_off, standing = take_off_of(mission.fleet(flight.fleet)), on_pads(flight.coef, flight.coef[:, 0])
-        if take_off.layered:
-            lifted = float(flight.breaks[int(np.argmin(standing.all(axis=0)))])
+        layers, seconds = (known.get(f"fleet {flight.fleet} take-off {key}") for key in ("layers", "s"))
+        if layers is not None and seconds is not None:
             whose = f" of {flight.fleet}" if len(plan.trajectory.fleets) > 1 else ""
-            facts.append(
-                f"take-off{whose} in {len(take_off.heights)} layers, {flight.phases[0].end - lifted:.0f} s"
-            )
+            facts.append(f"take-off{whose} in {float(layers):.0f} layers, {float(seconds):.0f} s")
     return facts
 
 
