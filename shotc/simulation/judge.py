@@ -22,7 +22,7 @@ from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.simulation.clearance import Nearest, between, nearest
 from shotc.simulation.flight import Flown
 from shotc.simulation.guidance import Replans
-from shotc.simulation.shows import FleetCourse
+from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
 from shotc.simulation.world import World, at_times
 
 SIGHT_S = 0.2
@@ -86,6 +86,7 @@ class Run:
     pictures: tuple[Picture, ...]
     courses: tuple[Course, ...]
     fleets: tuple[FleetCourse, ...] = ()
+    fleet_pairs: tuple[FleetPair, ...] = ()
 
     @property
     def in_frame(self) -> float:
@@ -106,7 +107,8 @@ class Run:
     def clearance(self) -> float:
         """The least distance of a drone's body from all else, metres; infinite where there is nothing."""
         near = [c.nearest.distance for c in self.courses if c.nearest is not None]
-        return min([*near, *(fleet.clearance for fleet in self.fleets)], default=inf)
+        fleets = [fleet.clearance for fleet in self.fleets]
+        return min([*near, *fleets, *(pair.clearance for pair in self.fleet_pairs)], default=inf)
 
     @property
     def stray(self) -> float:
@@ -122,9 +124,9 @@ class Run:
 
 
 def judged(
-    world: World, ir: TrajectoryIR, flown: tuple[Flown, ...], fleets: tuple[tuple[FleetCourse, ...], ...]
+    world: World, ir: TrajectoryIR, flown: tuple[Flown, ...], fleets: tuple[FleetRun, ...]
 ) -> tuple[Run, ...]:
-    """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run, as ``ir.fleets``."""
+    """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run."""
     mission = world.mission
     ticks = clock(mission.rate, float(world.times[-1]))
     near = [nearest(world, f, t, ticks[ticks <= t.curve.end]) for f, t in zip(flown, ir.drones, strict=True)]
@@ -145,7 +147,8 @@ def judged(
                 _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r)))
                 for d, f in enumerate(flown)
             ),
-            fleets[r],
+            fleets[r].fleets,
+            fleets[r].pairs,
         )
         for r, number in enumerate(world.runs)
     )

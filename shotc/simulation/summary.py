@@ -14,7 +14,7 @@ from shotc.rounding import as_minutes, at_least, at_most, plain, up
 from shotc.simulation.fleets.near import Near
 from shotc.simulation.judge import Course, Picture, Run
 from shotc.simulation.rehearsal import Rehearsed, alike
-from shotc.simulation.shows import FleetCourse
+from shotc.simulation.shows import FleetCourse, FleetPair
 from shotc.simulation.situations import replanned
 from shotc.simulation.verdict import Verdict
 
@@ -198,6 +198,10 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
         yield "without gusts all runs are the same, so one is flown; `--gusts 1` shows what gusts do"
     for i in range(len(done.runs[0].fleets)):
         yield from _margin(done, [run.fleets[i] for run in done.runs])
+    if done.runs[0].fleets and done.ir.drones:
+        yield "how near cameras come to drones of fleets is not looked at here; of the plan it is proved"
+    for i in range(len(done.runs[0].fleet_pairs)):
+        yield _met(done, [run.fleet_pairs[i] for run in done.runs])
 
 
 def _spoiled(done: Rehearsed) -> Iterator[str]:
@@ -251,6 +255,17 @@ def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
         yield f"{fleet.name}: {pair} come nearest{in_air}, at {as_minutes(near.time)}"
     yield from _beside_pads(fleet, [each.flown.beside for each in every if each.flown.beside is not None])
     yield f"{fleet.name}: {_enough(fleet, far.farthest, 0 if near is None else near.below)}"
+
+
+def _met(done: Rehearsed, every: list[FleetPair]) -> str:
+    """Say which two drones of two fleets come nearest, and whether nearer than their separation."""
+    worst = min(every, key=lambda each: each.near.distance)
+    near, fleets = worst.near, (done.mission.fleet(worst.one), done.mission.fleet(worst.other))
+    asked = max(fleet.apart.horizontal for fleet in fleets)
+    pair = f"{drone_names(fleets[0])[near.first]} and {drone_names(fleets[1])[near.second]}"
+    how = f"{at_most(near.distance)} m at {as_minutes(near.time)}"
+    text = f"{worst.one} and {worst.other}: {pair} come nearest, {how}"
+    return f"{text}, nearer than the separation of {asked:g} m" if near.distance < asked else text
 
 
 def _beside_pads(fleet: Fleet, every: list[Near]) -> Iterator[str]:

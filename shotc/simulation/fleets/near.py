@@ -47,6 +47,52 @@ def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Ne
     return search.found()
 
 
+class Across:
+    """The nearest of two drones of different fleets, whose places (n, 3) and (m, 3) come one after another.
+
+    limit : metres of horizontal distance, for ``Near.below``
+    """
+
+    def __init__(self, apart: Distances, limit: float) -> None:
+        self._height = np.array([1.0, 1.0, stretch(apart)])
+        self._upright = apart.shape == "cylinder"
+        self._limit = limit
+        self._best = Near(np.inf, 0, 0, 0.0, 0)
+        self._low: set[tuple[int, int]] = set()
+        self._last: tuple[float, Array, Array] | None = None
+
+    def add(self, time: float, one: Array, other: Array) -> None:
+        """Take where the drones of both fleets are at a time, later than those before."""
+        one, other = one * self._height, other * self._height
+        if self._last is not None:
+            self._between(*self._last, (time, one, other))
+        self._last = (time, one, other)
+
+    def found(self) -> Near:
+        """Return the nearest so far; ``first`` is a row of the one fleet, ``second`` of the other."""
+        return replace(self._best, below=len(self._low))
+
+    def _between(self, before: float, one: Array, other: Array, then: tuple[float, Array, Array]) -> None:
+        after, one_end, other_end = then
+        trees = cKDTree(0.5 * (one + one_end)), cKDTree(0.5 * (other + other_end))
+        moves = (one_end - one, other_end - other)
+        moved = sum(float(np.linalg.norm(move, axis=1).max()) for move in moves)
+        now = float(trees[1].query(trees[0].data)[0].min())
+        # In the tree's sense two are as far apart as in the cylinder's, or up to a root of two farther.
+        wide = np.sqrt(2.0) if self._upright else 1.0
+        far = wide * max(self._limit, min(self._best.distance, now)) + moved
+        if now > far:
+            return
+        found = trees[0].sparse_distance_matrix(trees[1], far * (1.0 + 1e-9), output_type="ndarray")
+        i, j = found["i"], found["j"]
+        least, share = _least(one[i] - other[j], one_end[i] - other_end[j], self._upright)
+        self._low.update(zip(i[least < self._limit].tolist(), j[least < self._limit].tolist(), strict=True))
+        m = int(np.argmin(least))
+        if least[m] < self._best.distance:
+            when = float(before + share[m] * (after - before))
+            self._best = Near(float(least[m]), int(i[m]), int(j[m]), when, 0)
+
+
 class Search:
     """``nearest`` for places (n, 3) that come one after another."""
 

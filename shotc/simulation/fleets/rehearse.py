@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot
 
 import numpy as np
 
+from shotc.geom.bernstein import Array
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.show import Fleet
 from shotc.planning.on_pads import standing as standing_in
 from shotc.planning.take_off import bodies_of
-from shotc.simulation.fleets.fly import FleetConditions, flying
+from shotc.simulation.fleets.fly import FleetConditions, Moment, flying
 from shotc.simulation.fleets.near import Near, Search
 from shotc.simulation.fleets.vehicle import Gusts, Vehicle
 
@@ -39,41 +41,56 @@ class Rehearsal:
     beside: Near | None = None
 
 
-def rehearse(fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tuple[int, ...]) -> Rehearsal:
-    """Fly a fleet with lag and gusts; the same seed gives the same flight.
+class Watch:
+    """What is kept of a fleet while it is flown."""
 
-    Of a fleet that takes off in layers, whoever stands on its pad stays there.
-    """
+    def __init__(self, fleet: Fleet, flight: FleetTrajectory) -> None:
+        self._flight, count = flight, len(flight.coef)
+        self._search = Search(fleet.apart, fleet.apart.horizontal)
+        bodies = bodies_of(fleet)._replace(margin=0.0)
+        self._beside = Search(bodies, bodies.across)
+        self._standing = standing_in(fleet, flight.coef) if count > 1 else None
+        self._largest, self._when = np.zeros(count), np.zeros(count)
+        self._squares, self._count = 0.0, 0
+
+    def add(self, moment: Moment) -> Array:
+        """Take a moment, later than those before; return where the drones are, shape (n, 3).
+
+        Of a fleet that takes off in layers, whoever stands on its pad stays there.
+        """
+        position, aloft = moment.position, None
+        if self._standing is not None:
+            piece = int(np.searchsorted(self._flight.breaks, moment.time)) - 1
+            stands = self._standing[:, max(piece, 0)]
+            position, aloft = np.where(stands[:, None], moment.wanted, position), ~stands
+            self._beside.add(moment.time, position, np.full(len(stands), stands.any()))
+        error = np.linalg.norm(position - moment.wanted, axis=1)
+        self._when = np.where(error > self._largest, moment.time, self._when)
+        self._largest = np.maximum(self._largest, error)
+        self._squares, self._count = self._squares + float(error @ error), self._count + len(error)
+        if len(position) > 1:
+            self._search.add(moment.time, position, aloft)
+        return position
+
+    def found(self) -> Rehearsal:
+        """Return what came of it so far."""
+        drone = int(np.argmax(self._largest))
+        return Rehearsal(
+            rmse=float(np.sqrt(self._squares / self._count)),
+            usual=float(np.quantile(self._largest, 0.99)),
+            farthest=float(self._largest[drone]),
+            drone=drone,
+            time=float(self._when[drone]),
+            near=self._search.found() if len(self._largest) > 1 else None,
+            beside=None if self._standing is None else self._beside.found(),
+        )
+
+
+def moments(
+    fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tuple[int, ...]
+) -> Iterator[Moment]:
+    """Fly a fleet with lag and gusts; the same seed gives the same flight."""
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))
     vehicle = Vehicle(acceleration=HEADROOM * limits.acceleration, speed=fastest)
-    several = len(flight.coef) > 1
-    search = Search(fleet.apart, fleet.apart.horizontal)
-    bodies = bodies_of(fleet)._replace(margin=0.0)
-    beside = Search(bodies, bodies.across)
-    standing = standing_in(fleet, flight.coef) if several else None
-    largest, when = np.zeros(len(flight.coef)), np.zeros(len(flight.coef))
-    squares, count = 0.0, 0
-    for moment in flying(flight.breaks, flight.coef, FleetConditions(vehicle, gusts=gusts, seed=seed)):
-        position, aloft = moment.position, None
-        if standing is not None:
-            piece = int(np.searchsorted(flight.breaks, moment.time)) - 1
-            stands = standing[:, max(piece, 0)]
-            position, aloft = np.where(stands[:, None], moment.wanted, position), ~stands
-            beside.add(moment.time, position, np.full(len(stands), stands.any()))
-        error = np.linalg.norm(position - moment.wanted, axis=1)
-        when = np.where(error > largest, moment.time, when)
-        largest = np.maximum(largest, error)
-        squares, count = squares + float(error @ error), count + len(error)
-        if several:
-            search.add(moment.time, position, aloft)
-    drone = int(np.argmax(largest))
-    return Rehearsal(
-        rmse=float(np.sqrt(squares / count)),
-        usual=float(np.quantile(largest, 0.99)),
-        farthest=float(largest[drone]),
-        drone=drone,
-        time=float(when[drone]),
-        near=search.found() if several else None,
-        beside=None if standing is None else beside.found(),
-    )
+    return flying(flight.breaks, flight.coef, FleetConditions(vehicle, gusts=gusts, seed=seed))

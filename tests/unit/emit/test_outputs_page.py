@@ -30,7 +30,7 @@ from shotc.simulation.judge import Course, Picture
 from shotc.simulation.rehearsal import rehearse
 from shotc.simulation.runs import simulated
 from shotc.simulation.sensors import Detector, Gps
-from shotc.simulation.shows import FleetCourse
+from shotc.simulation.shows import FleetCourse, FleetPair
 from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import Verdict
 from shotc.simulation.wind import Wind
@@ -72,7 +72,8 @@ def test_every_part_of_simulate_json_is_explained():
     ir, conditions = orbit_plan().trajectory, Conditions()
     done = rehearse(ir, conditions, simulated(ir, conditions, 1, 1), lambda _runs: None)
     run = json.loads(json_text(done))
-    records = (Course, Picture, Verdict, Replans, Near, Rehearsal, FleetCourse, Wind, Gps, Detector, Truth)
+    of_fleets = (Near, Rehearsal, FleetCourse, FleetPair)
+    records = (Course, Picture, Verdict, Replans, *of_fleets, Wind, Gps, Detector, Truth)
     named = [field.name for record in records for field in fields(record)]
     parts = [*run, *run["conditions"], *run["asked"], *run["runs"][0], *Nearest._fields, *named]
     assert [part for part in parts if part not in NAMED | BOLD] == []
