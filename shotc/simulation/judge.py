@@ -124,9 +124,9 @@ class Run:
 
 
 def judged(
-    world: World, ir: TrajectoryIR, flown: tuple[Flown, ...], fleets: tuple[FleetRun, ...]
+    world: World, ir: TrajectoryIR, flown: tuple[Flown, ...], fleets: tuple[FleetRun, ...] = ()
 ) -> tuple[Run, ...]:
-    """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run."""
+    """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run, of plans that have some."""
     mission = world.mission
     ticks = clock(mission.rate, float(world.times[-1]))
     near = [nearest(world, f, t, ticks[ticks <= t.curve.end]) for f, t in zip(flown, ir.drones, strict=True)]
@@ -147,8 +147,7 @@ def judged(
                 _course(f, r, astray[d][:, r], near[d][r], _spoiled(world, ir.drones, flown, (d, r)))
                 for d, f in enumerate(flown)
             ),
-            fleets[r].fleets,
-            fleets[r].pairs,
+            *(fleets[r] if fleets else ()),
         )
         for r, number in enumerate(world.runs)
     )

@@ -70,9 +70,7 @@ def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> Block:
     """Fly a plan in the runs of these numbers and judge them."""
     fleets = fly_fleets(ir, conditions, block)
     if not ir.drones:
-        runs = tuple(
-            Run(number, (), (), each.fleets, each.pairs) for number, each in zip(block, fleets, strict=True)
-        )
+        runs = tuple(Run(number, (), (), *each) for number, each in zip(block, fleets, strict=True))
         return Block(runs, None)
     world, tracks = flown(ir, conditions, block)
     return Block(judged(world, ir, tracks, fleets), _strays(ir, world, tracks))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, zip_longest
 from math import inf
+from typing import NamedTuple
 
 from shotc.geom.bernstein import Array
 from shotc.ir.show import stricter
@@ -55,8 +56,7 @@ class FleetPair:
         return self.near.distance - self.radii
 
 
-@dataclass(frozen=True, slots=True)
-class FleetRun:
+class FleetRun(NamedTuple):
     """What came of all fleets in one run; pairs : of fleets."""
 
     fleets: tuple[FleetCourse, ...]

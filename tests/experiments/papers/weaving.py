@@ -104,7 +104,7 @@ def fly(
         across = np.linalg.norm((a - b)[..., :2], axis=2).min(axis=0)
         for each in (one, other):
             apart[each.drone] = np.minimum(apart[each.drone], across)
-    shown = judged(world, ir, tracks, ((),) * runs)
+    shown = judged(world, ir, tracks)
     return {
         each.drone: [
             Told(

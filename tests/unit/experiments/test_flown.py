@@ -45,7 +45,7 @@ def test_what_a_flight_shows_is_what_simulate_s_judge_sees(draft):
     made = framing.fly("none", convex_path(draft))
     ir, windy = made.plan.trajectory, Conditions(wind=flown.WIND)
     world, tracks = runs.flown(ir, windy, (0,))
-    (judged,) = judge.judged(world, ir, tracks, ((),))
+    (judged,) = judge.judged(world, ir, tracks)
     (picture,), (course,) = judged.pictures, judged.courses
     (mine,) = flown.rehearse("one", made, windy, 1)
     assert mine.seen.error.mean() == pytest.approx(picture.error, rel=0.05)

@@ -14,7 +14,6 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.sensors import Gps
-from shotc.simulation.shows import FleetRun
 from shotc.simulation.verdict import enough, held, verdicts
 from shotc.simulation.world import World
 from tests.support.film_plans import orbit_plan
@@ -43,7 +42,7 @@ def behind_a_tree():
 def run(behind_a_tree) -> Run:
     ir, _ = behind_a_tree
     world = World.of(ir, EXACT, (0,))
-    (only,) = judged(world, ir, fly_all(world, ir.drones), (FleetRun((), ()),))
+    (only,) = judged(world, ir, fly_all(world, ir.drones))
     return only
 
 

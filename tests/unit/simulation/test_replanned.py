@@ -92,7 +92,7 @@ def test_a_drone_that_plans_anew_keeps_its_place_beside_a_walker_who_leaves_the_
 @pytest.mark.long
 def test_drones_that_plan_anew_keep_the_separation_and_come_back_to_their_plan():
     world, tracks = flown()
-    runs = judged(world, plan(), tracks, ((),) * 3)
+    runs = judged(world, plan(), tracks)
     for run in runs:
         apart = [n for c in run.courses for n in c.near if n.to == "drone two"]
         assert [n.distance > 3.0 - 2 * world.mission.drone("one").radius for n in apart] == [True]
@@ -114,9 +114,9 @@ def test_drones_that_plan_anew_keep_out_of_pictures_where_the_mission_requires_i
     ir = done.plan.trajectory
     veers = Track((0.0, 60.0), ((0.0, 0.0, 0.9), (72.0, -24.0, 0.9)))
     world = World.of(ir, Conditions(loop="replan", truth=Truth(tracks=(("walker", veers),))), (0,))
-    (kept,) = judged(world, ir, fly_all(world, ir.drones), ((),))
+    (kept,) = judged(world, ir, fly_all(world, ir.drones))
     monkeypatch.setattr("shotc.simulation.guidance._cone_of", lambda *_: None)
-    (free,) = judged(world, ir, fly_all(world, ir.drones), ((),))
+    (free,) = judged(world, ir, fly_all(world, ir.drones))
     assert free.courses[0].spoiled == kept.courses[0].spoiled == 0.0
     assert kept.courses[1].spoiled < 0.6 * free.courses[1].spoiled
     assert kept.courses[1].replans.failed == 0
@@ -185,7 +185,7 @@ def test_where_planning_anew_fails_the_drone_brakes_and_holds_and_it_is_told(mon
     source = plugins.Source(_Bad(what), "theirs", "theirs:IT")
     monkeypatch.setattr("shotc.plugins.one", lambda _group, _name: source)
     world, tracks = flown.__wrapped__(runs=(0,))
-    (run,) = judged(world, plan(), tracks, ((),))
+    (run,) = judged(world, plan(), tracks)
     for course in run.courses:
         assert course.replans.failed == 16  # twice a second
         assert course.replans.planned == 0
@@ -202,7 +202,7 @@ def test_a_drone_whose_target_is_lost_stops_and_it_is_told():
     lost = Gps(lost=((0.0, 100.0),))
     conditions = Conditions(loop="replan", gps=lost, detector=None)
     world = World.of(plan(), conditions, (0,))
-    (run,) = judged(world, plan(), fly_all(world, plan().drones), ((),))
+    (run,) = judged(world, plan(), fly_all(world, plan().drones))
     for course in run.courses:
         assert course.replans.planned == 0
         assert course.replans.reason.startswith("`walker` is known to 4 m at best")
@@ -238,7 +238,7 @@ def test_a_framing_is_planned_anew_where_its_subjects_part():
     for loop in ("track", "replan"):
         conditions = Conditions(loop=loop, truth=Truth(tracks=(("bob", parts),)))
         world = World.of(ir, conditions, (0,))
-        (run,) = judged(world, ir, fly_all(world, ir.drones), ((),))
+        (run,) = judged(world, ir, fly_all(world, ir.drones))
         error[loop] = run.error
     assert run.courses[0].replans.planned == 16
     assert run.courses[0].replans.failed == 0
