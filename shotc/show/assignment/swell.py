@@ -31,6 +31,8 @@ WIDEST = 0.41
 """Share of a shift of c by which the fleet passes farther half-way, the other way: root two less one."""
 SAFE = 0.95
 """Share of the way from the height of c that is safe to the one that just does."""
+LEVELS = 8
+"""Heights of c that are tried one after another."""
 FARTHEST_M = 1000.0
 """Metres beyond which c is not taken: arcs that are so wide take longer than any show."""
 
@@ -131,10 +133,18 @@ def _shifts(ends: Ends, move: ArcMove, lack: Lack) -> Iterator[Array]:
 
 
 def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pivot: Array) -> ArcMove:
-    move = fastest(pivot)
-    if heights.lack(ends, move.ctrl, pivot) <= ROUNDING_M:
-        return move
-    return fastest(np.array([pivot[0], pivot[1], heights.pivot(ends, move.ctrl, float(pivot[2]))]))
+    """Return the move about a point, or above or below it, whichever of those tried lacks least height."""
+    move = best = fastest(pivot)
+    lack = least = heights.lack(ends, move.ctrl, move.pivot)
+    for _ in range(LEVELS):
+        if lack <= ROUNDING_M:
+            return move
+        # Arcs about another point are others, and may need it lower or higher still.
+        move = fastest(np.array([*pivot[:2], heights.pivot(ends, move.ctrl, float(pivot[2]))]))
+        lack = heights.lack(ends, move.ctrl, move.pivot)
+        if lack < least:
+            best, least = move, lack
+    return best
 
 
 def _lack(ends: Ends, heights: Heights, room: Room, move: ArcMove) -> Lack:

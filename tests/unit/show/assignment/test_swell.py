@@ -38,8 +38,8 @@ def ends_of(seed: int) -> tuple[Array, Array]:
     return shapes[0] + rng.normal(size=3) * 20.0, shapes[1] + rng.normal(size=3) * 20.0
 
 
-def about(ends: tuple[Array, Array]) -> Callable[[Array], ArcMove]:
-    return lambda pivot: fastest_arc(ends, pivot, TIGHT, LIMITS, 1.0)
+def about(ends: tuple[Array, Array], gaps: Gaps = TIGHT) -> Callable[[Array], ArcMove]:
+    return lambda pivot: fastest_arc(ends, pivot, gaps, LIMITS, 1.0)
 
 
 def sampled(ends: tuple[Array, Array], move: ArcMove) -> Array:
@@ -77,6 +77,23 @@ def test_it_is_lifted_over_the_ground_or_kept_below_a_height(seed: int, low: boo
     assert lack.metres <= 1e-6
     assert z.min() >= heights.low - 1e-6
     assert z.max() <= heights.high + 1e-6
+
+
+@pytest.mark.parametrize("home", [False, True])
+@pytest.mark.parametrize("radius", [6.0, 10.0, 15.0])
+def test_between_low_pads_and_a_high_picture_the_swell_is_lifted_until_it_is_clear(
+    home: bool, radius: float
+) -> None:
+    """Arcs about a lower point are others: the first that is lower may still reach into the ground."""
+    rng = np.random.default_rng(3)
+    pads = np.array([(1.5 * (i % 4), 1.5 * (i // 4), 8.0) for i in range(12)])
+    ball = rng.normal(size=(12, 3))
+    ball = np.array([60.0, 30.0, 40.0]) + radius * ball / np.linalg.norm(ball, axis=1)[:, None]
+    ends, gaps = ((ball, pads), Gaps(1.2, 0.8)) if home else ((pads, ball), Gaps(0.8, 1.2))
+    for low in (2.25, 5.0, 7.5):
+        move, lack = led(ends, Heights(low, inf), Room((), -inf), about(ends, gaps))
+        assert lack.metres <= 1e-6
+        assert sampled(ends, move)[..., 2].min() >= low - 1e-6
 
 
 def planned(*zones: Zone) -> tuple[TrajectoryIR | None, list[str], str]:
