@@ -21,7 +21,7 @@ from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
 
 BLOCK = 25
-"""Runs of cameras that are flown at once, as rows of arrays; those of fleets alone are flown one by one."""
+"""Runs of cameras that are flown at once, as rows of arrays; those of fleets are flown one by one."""
 
 STRAYS_S = 0.2
 """Seconds between the instants of ``Strays``."""
@@ -50,7 +50,7 @@ def simulated(
 
     earlier : blocks that were done before; those of as many runs as are needed now are not flown again
     """
-    size = BLOCK if ir.drones else 1
+    size = 1 if ir.fleets else BLOCK
     needed = {i: range(i, min(i + size, count)) for i in range(0, count, size)}
     for block in earlier:
         first = block.runs[0].number
@@ -68,11 +68,12 @@ def flown(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tupl
 
 def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> Block:
     """Fly a plan in the runs of these numbers and judge them."""
-    fleets = fly_fleets(ir, conditions, block)
     if not ir.drones:
+        fleets = fly_fleets(ir, conditions, block)
         runs = tuple(Run(number, (), (), *each) for number, each in zip(block, fleets, strict=True))
         return Block(runs, None)
     world, tracks = flown(ir, conditions, block)
+    fleets = fly_fleets(ir, conditions, block, tracks)
     return Block(judged(world, ir, tracks, fleets), _strays(ir, world, tracks))
 
 

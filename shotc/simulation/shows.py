@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, zip_longest
+from itertools import combinations, product
 from math import inf
 from typing import NamedTuple
 
+import numpy as np
+
 from shotc.geom.bernstein import Array
-from shotc.ir.show import stricter
+from shotc.ir.mission import MissionIR
+from shotc.ir.show import Apart, Fleet, kept_from_cameras, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
+from shotc.simulation.fleets.fly import PERIOD_S
 from shotc.simulation.fleets.near import Across, Near
 from shotc.simulation.fleets.rehearse import Rehearsal, Watch, moments
 from shotc.simulation.fleets.vehicle import Gusts
+from shotc.simulation.flight import Flown
+from shotc.simulation.world import at_times
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,14 +46,17 @@ class FleetCourse:
 
 @dataclass(frozen=True, slots=True)
 class FleetPair:
-    """How near drones of two fleets came in one run.
+    """How near drones of a fleet came to those of another one, or to a camera's drone, in one run.
 
-    near : its rows are of the one fleet and of the other; radii : of a body of each together, metres
+    one : a fleet; other : a fleet, or the drone of a camera
+    near : its rows are of the one and of the other
+    asked : the distance that is kept, without margins, metres; radii : of a body of each together, metres
     """
 
     one: str
     other: str
     near: Near
+    asked: float
     radii: float
 
     @property
@@ -57,48 +66,77 @@ class FleetPair:
 
 
 class FleetRun(NamedTuple):
-    """What came of all fleets in one run; pairs : of fleets."""
+    """What came of all fleets in one run; pairs : of fleets, and of fleets and cameras."""
 
     fleets: tuple[FleetCourse, ...]
     pairs: tuple[FleetPair, ...]
 
 
-def fly_fleets(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tuple[FleetRun, ...]:
-    """Return for every run how each fleet of the plan kept to it, in gusts."""
-    return tuple(_flown(ir, conditions, run) for run in runs)
+class _Meeting(NamedTuple):
+    """Two that are watched, by their numbers among all places: fleets first, then cameras."""
+
+    one: int
+    other: int
+    search: Across
+    names: tuple[str, str]
+    asked: float
+    radii: float
+
+    def found(self) -> FleetPair:
+        return FleetPair(*self.names, self.search.found(), self.asked, self.radii)
 
 
-def _flown(ir: TrajectoryIR, conditions: Conditions, run: int) -> FleetRun:
+def fly_fleets(
+    ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int], cameras: Sequence[Flown] = ()
+) -> tuple[FleetRun, ...]:
+    """Return for every run how each fleet of the plan kept to it, in gusts.
+
+    cameras : as flown in these runs
+    """
+    return tuple(_flown(ir, conditions, (r, run), cameras) for r, run in enumerate(runs))
+
+
+def _flown(
+    ir: TrajectoryIR, conditions: Conditions, which: tuple[int, int], cameras: Sequence[Flown]
+) -> FleetRun:
+    """Return what came of a run; which : its index among the cameras' runs, and its number."""
+    r, run = which
+    if not ir.fleets:
+        return FleetRun((), ())
     fleets = [ir.keyframes.mission.fleet(track.fleet) for track in ir.fleets]
     gusts = Gusts(conditions.wind.gusts)
     watches = [Watch(fleet, track) for fleet, track in zip(fleets, ir.fleets, strict=True)]
-    pairs = {
-        (i, j): Across(
-            stricter(fleets[i].apart, fleets[j].apart),
-            max(fleets[i].apart.horizontal, fleets[j].apart.horizontal),
-        )
-        for i, j in combinations(range(len(fleets)), 2)
-    }
     flights = [
         moments(fleet, track, gusts, conditions.seed_of(run, f"gusts {track.fleet}"))
         for fleet, track in zip(fleets, ir.fleets, strict=True)
     ]
+    ends = [*(float(track.breaks[-1]) for track in ir.fleets), *(float(c.times[-1]) for c in cameras)]
+    times = np.arange(round(max(ends) / PERIOD_S) + 1, dtype=np.float64) * PERIOD_S
+    filming = [at_times(camera.position[:, r], camera.times, times)[:, None] for camera in cameras]
+    meetings = list(_meetings(ir.keyframes.mission, fleets, cameras))
     # Every flight begins at 0 and has the same period; who has landed stays where it is.
     last: list[Array] = [track.coef[:, 0] for track in ir.fleets]
-    for now in zip_longest(*flights):
-        last = [
-            place if moment is None else watch.add(moment)
-            for place, watch, moment in zip(last, watches, now, strict=True)
-        ]
-        time = next(moment.time for moment in now if moment is not None)
-        for (i, j), pair in pairs.items():
-            pair.add(time, last[i], last[j])
-    courses = [
+    for k, time in enumerate(times.tolist()):
+        for i, (flight, watch) in enumerate(zip(flights, watches, strict=True)):
+            moment = next(flight, None)
+            if moment is not None:
+                last[i] = watch.add(moment)
+        places = [*last, *(each[k] for each in filming)]
+        for meeting in meetings:
+            meeting.search.add(time, places[meeting.one], places[meeting.other])
+    courses = (
         FleetCourse(fleet.name, watch.found(), fleet.radius)
         for fleet, watch in zip(fleets, watches, strict=True)
-    ]
-    met = [
-        FleetPair(fleets[i].name, fleets[j].name, pair.found(), fleets[i].radius + fleets[j].radius)
-        for (i, j), pair in pairs.items()
-    ]
-    return FleetRun(tuple(courses), tuple(met))
+    )
+    return FleetRun(tuple(courses), tuple(meeting.found() for meeting in meetings))
+
+
+def _meetings(mission: MissionIR, fleets: Sequence[Fleet], cameras: Sequence[Flown]) -> Iterator[_Meeting]:
+    for (i, one), (j, other) in combinations(enumerate(fleets), 2):
+        asked = max(one.apart.horizontal, other.apart.horizontal)
+        search, radii = Across(stricter(one.apart, other.apart), asked), one.radius + other.radius
+        yield _Meeting(i, j, search, (one.name, other.name), asked, radii)
+    for (i, one), (j, camera) in product(enumerate(fleets), enumerate(cameras, len(fleets))):
+        drone, asked = mission.drone(camera.drone), kept_from_cameras(mission.rules.separation, one)
+        search = Across(Apart("ellipsoid", asked, asked, 0.0), asked)
+        yield _Meeting(i, j, search, (one.name, drone.name), asked, one.radius + drone.radius)

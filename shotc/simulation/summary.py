@@ -198,8 +198,6 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
         yield "without gusts all runs are the same, so one is flown; `--gusts 1` shows what gusts do"
     for i in range(len(done.runs[0].fleets)):
         yield from _margin(done, [run.fleets[i] for run in done.runs])
-    if done.runs[0].fleets and done.ir.drones:
-        yield "how near cameras come to drones of fleets is not looked at here; of the plan it is proved"
     for i in range(len(done.runs[0].fleet_pairs)):
         yield _met(done, [run.fleet_pairs[i] for run in done.runs])
 
@@ -258,14 +256,13 @@ def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
 
 
 def _met(done: Rehearsed, every: list[FleetPair]) -> str:
-    """Say which two drones of two fleets come nearest, and whether nearer than their separation."""
+    """Say which drones of two fleets, or of a fleet and a camera, come nearest, and whether too near."""
     worst = min(every, key=lambda each: each.near.distance)
-    near, fleets = worst.near, (done.mission.fleet(worst.one), done.mission.fleet(worst.other))
-    asked = max(fleet.apart.horizontal for fleet in fleets)
-    pair = f"{drone_names(fleets[0])[near.first]} and {drone_names(fleets[1])[near.second]}"
+    near, names = worst.near, {fleet.name: drone_names(fleet) for fleet in done.mission.fleets}
+    one, other = names[worst.one][near.first], names.get(worst.other, (worst.other,))[near.second]
+    text = f"{worst.one} and {worst.other}: {one} and {other} come nearest"
     how = f"{at_most(near.distance)} m at {as_minutes(near.time)}"
-    text = f"{worst.one} and {worst.other}: {pair} come nearest, {how}"
-    return f"{text}, nearer than the separation of {asked:g} m" if near.distance < asked else text
+    return f"{text}, {how}" + (f", nearer than the {worst.asked:g} m asked" if near.below else "")
 
 
 def _beside_pads(fleet: Fleet, every: list[Near]) -> Iterator[str]:
