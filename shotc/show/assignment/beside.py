@@ -25,7 +25,16 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner
 from shotc.ir.show import Apart, Picture, stricter
 from shotc.planning.clearances import Clearance
-from shotc.show.assignment.changed import Block, block_at, earlier, ends_of, homeward, later_home, on_arcs
+from shotc.show.assignment.changed import (
+    NEAR_S,
+    Block,
+    block_at,
+    earlier,
+    ends_of,
+    homeward,
+    later_home,
+    on_arcs,
+)
 from shotc.show.assignment.director import Director
 from shotc.show.geom.windows import stops, windows
 
@@ -186,7 +195,7 @@ class _Sky:
     def _slack(self, flight: FleetTrajectory, block: Block) -> float:
         """Return how much earlier a block may begin, s: up to lift-off, or the end of a hold."""
         begin = float(flight.breaks[block.first])
-        before = [s for s in flight.shown if s.start < begin]
+        before = [s for s in flight.shown if s.start <= begin + NEAR_S]
         if not before:
             return begin
         held = self.mission.display(before[-1].display).pictures[before[-1].picture].hold

@@ -45,24 +45,27 @@ def homeward(flight: FleetTrajectory) -> float:
 
 
 def block_at(flight: FleetTrajectory, time: float) -> Block | None:
-    """Return what is flown at a time, with what is flown right before it; None where the fleet stands."""
-    known = windows(flight.coef)
-    k = next(
-        (
-            k
-            for k, w in enumerate(known)
-            if flight.breaks[w.first] - NEAR_S <= time <= flight.breaks[w.last] + NEAR_S
-        ),
-        None,
-    )
-    if k is None:
+    """Return what is flown at a time, with what is flown right before it; None where the fleet stands.
+
+    All up to the first picture is one block, though the fleet may rest above its pads. No picture stands
+    within a block, not even for an instant.
+    """
+    known, breaks = windows(flight.coef), flight.breaks
+    shown = [s.start for s in flight.shown]
+    up = [w for w in known if breaks[w.last] <= min(shown) + NEAR_S]
+    if up and breaks[up[0].first] - NEAR_S <= time <= breaks[up[-1].last] + NEAR_S:
+        return Block(tuple(up))
+    at = (k for k, w in enumerate(known) if breaks[w.first] - NEAR_S <= time <= breaks[w.last] + NEAR_S)
+    last = next(at, None)
+    if last is None:
         return None
-    if k == 0 and len(known) > 1 and known[0].last == known[1].first:
-        k = 1  # the rise goes with the way that comes after it
-    first = k
-    while first > 0 and known[first - 1].last == known[first].first:
+    first = last
+    while first > len(up) and known[first - 1].last == known[first].first:
+        begin = float(breaks[known[first].first])
+        if any(abs(start - begin) <= NEAR_S for start in shown):
+            break
         first -= 1
-    return Block(tuple(known[first : k + 1]))
+    return Block(tuple(known[first : last + 1]))
 
 
 def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:

@@ -105,16 +105,37 @@ def _lasts(block: object) -> float:
     return float(FLIGHT.breaks[way.last] - FLIGHT.breaks[way.first])
 
 
-def test_the_rise_goes_with_the_way_to_the_first_picture() -> None:
-    pads, above, first = (FLIGHT.coef[:, k] for k in (0, 4, 10))
-    legs = ((pads, 6), (above, 3), (first, 5))
-    coef = np.stack([point for point, count in legs for _ in range(count)], axis=1)
-    phases = (Phase("takeoff", None, 0.0, 12.0), Phase("transit", None, 12.0, 18.0))
-    flown = replace(FLIGHT, breaks=2.0 * np.arange(12.0), coef=coef, phases=phases)
-    for time in (7.0, 13.0):
+@pytest.mark.parametrize("rest", [0, 1])
+def test_the_rise_goes_with_the_way_to_the_first_picture(rest: int) -> None:
+    """Whether the fleet rests above its pads or not, as it does for a moment once its layers have risen."""
+    flown = _risen(rest)
+    end = 18.0 + 2.0 * rest
+    for time in (7.0, 12.5, 13.0 + 2.0 * rest):
         block = block_at(flown, time)
         assert block is not None
-        assert [(w.first, w.last) for w in block.stretches] == [(3, 6), (6, 9)]
+        assert [(w.first, w.last) for w in block.stretches] == [(3, 6), (6 + rest, 9 + rest)]
         moved = earlier(flown, block, 5.5)
-        assert (moved.phases[0].end, moved.phases[1].end) == (6.5, 18.0)
-        np.testing.assert_allclose(at(moved, [0.4, 6.5, 13.0]), at(flown, [0.0, 12.0, 18.0]), atol=1e-9)
+        assert (np.diff(moved.breaks) > 0.0).all()
+        assert (moved.phases[0].end, moved.phases[1].end) == (6.5, end)
+        np.testing.assert_allclose(at(moved, [0.4, 6.5, end - 5.0]), at(flown, [0.0, 12.0, end]), atol=1e-9)
+
+
+def test_a_picture_that_stands_for_an_instant_parts_two_ways() -> None:
+    """What comes to the second of them does not take the first one along."""
+    flown = _risen(0)
+    above = replace(flown.shown[0], start=12.0, end=12.0)
+    block = block_at(replace(flown, shown=(above, *flown.shown)), 13.0)
+    assert block is not None
+    assert [(w.first, w.last) for w in block.stretches] == [(6, 9)]
+
+
+def _risen(rest: int) -> FleetTrajectory:
+    """A flight up, so many pieces of rest above the pads, and the way to the first picture."""
+    pads, above, first = (FLIGHT.coef[:, k] for k in (0, 4, 10))
+    legs = ((pads, 6), (above, 3 + rest), (first, 5))
+    coef = np.stack([point for point, count in legs for _ in range(count)], axis=1)
+    breaks = 2.0 * np.arange(12.0 + rest)
+    end = float(breaks[9 + rest])
+    phases = (Phase("takeoff", None, 0.0, 12.0), Phase("transit", None, 12.0, end))
+    shown = (replace(FLIGHT.shown[0], start=end, end=float(breaks[-1])),)
+    return replace(FLIGHT, breaks=breaks, coef=coef, phases=phases, shown=shown)
