@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.light_colors import light_colors
@@ -23,6 +24,7 @@ from tests.support.recorded_shows import (
     flown,
     planned,
     skyc_show,
+    smooth,
     tables,
 )
 
@@ -222,3 +224,23 @@ def test_effects_are_laid_over_its_lights(tmp_path: Path) -> None:
     end = track.phases[-1].end - 0.1
     assert light_colors(track, np.array([end / 2]))[4, 0].astype(int) == pytest.approx([80, 100, 0], abs=3)
     assert light_colors(track, np.array([end]))[4, 0].astype(int) == pytest.approx([0, 0, 0], abs=10)
+
+
+def test_drones_pushed_apart_rise_and_land_straight_over_their_pads_as_recorded(tmp_path: Path) -> None:
+    """They come to 1.92 m in the air, and 2 m is asked for; nothing parts the way there from the rise."""
+    middle = np.array([4.0, 4.0])
+
+    def nearer(at: Array) -> Array:
+        recorded = flown(80.0, turn=np.pi / 2)(at)
+        share = smooth(np.minimum(at - 7.0, 73.0 - at) / 15.0)[:, None]
+        recorded[..., :2] = middle + (1.0 - 0.52 * share) * (recorded[..., :2] - middle)
+        return recorded
+
+    done = planned(tmp_path, "near.zip", csv_show(nearer, 80.0))
+    assert codes(done) == []
+    found = flight(done)
+    up, down = found.phases[0].end, found.phases[-1].start
+    at = np.array([*np.linspace(0.0, up, 50), *np.linspace(down, found.breaks[-1], 50)])
+    low = places(found.breaks, found.coef, at)[..., :2]
+    np.testing.assert_allclose(low[:, :50], np.repeat(low[:, :1], 50, axis=1), atol=1e-9)
+    np.testing.assert_allclose(low[:, 50:], np.repeat(low[:, -1:], 50, axis=1), atol=1e-9)

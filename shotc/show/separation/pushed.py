@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Fleet
 from shotc.show.solvers.pusher import Index, Push, Pusher
-from shotc.show.solvers.qcqp import Bounds, bounded
+from shotc.show.solvers.qcqp import INNER, Bounds, bounded
 
 ROUNDS = 25
 GROWTH = 1.8
@@ -44,24 +44,27 @@ class Pushed:
     reached: float
 
 
-def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS) -> Pushed:
+def pushed(
+    breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = ROUNDS, free: slice = INNER
+) -> Pushed:
     """Push the drones of a stretch apart.
 
     breaks : shape (P + 1,); wanted : control points within the limits, shape (n, P + 3, 3)
+    free : those of them that may change
     What comes of fewer rounds than needed is nothing; more of them change nothing.
     """
     bounds = Bounds(fleet.limits)
-    pusher = Pusher(breaks, bounds.scaled(0.999), fleet.apart)
+    pusher = Pusher(breaks, bounds.scaled(0.999), fleet.apart, free)
     rng = np.random.default_rng(seed)
     coef, movable, reached = wanted, np.zeros(0, dtype=np.intp), 0.0
     for k in range(rounds):
         distance = fleet.apart.across * (1.0 + MARGIN_SHARES[0] + k * MARGIN_SHARES[1])
         crowded = np.setdiff1d(pusher.crowded(coef, distance), movable)
-        coef, movable = _shaken(coef, crowded, rng), np.union1d(movable, crowded)
+        coef, movable = _shaken(coef, crowded, free, rng), np.union1d(movable, crowded)
         coef = pusher.push(coef, wanted, movable, Push(distance, WEIGHT * GROWTH**k))
         if len(pusher.crowded(coef, (1.0 - HOPELESS_SHARE) * fleet.apart.across)):
             continue
-        done = bounded(breaks, np.round(coef, DIGITS), bounds)
+        done = bounded(breaks, np.round(coef, DIGITS), bounds, free)
         if len(done.failed):
             continue
         reached = max(reached, closest(breaks, done.coef, fleet.apart).proven)
@@ -70,8 +73,8 @@ def pushed(breaks: Array, wanted: Array, fleet: Fleet, seed: int, rounds: int = 
     return Pushed(None, rounds, reached)
 
 
-def _shaken(coef: Array, rows: Index, rng: np.random.Generator) -> Array:
-    """Shift the inner control points of some drones a little, so that those head-on have a side to pass."""
+def _shaken(coef: Array, rows: Index, free: slice, rng: np.random.Generator) -> Array:
+    """Shift the free control points of some drones a little, so that those head-on have a side to pass."""
     coef = coef.copy()
-    coef[rows, 3:-3] += rng.normal(scale=NOISE_M, size=(len(rows), coef.shape[1] - 6, 3))
+    coef[rows, free] += rng.normal(scale=NOISE_M, size=coef[rows, free].shape)
     return coef

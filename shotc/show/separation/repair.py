@@ -9,6 +9,7 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.geom.apart import kept
 from shotc.geom.bernstein import Array
+from shotc.geom.fleet_spline import DEGREE
 from shotc.geom.on_pads import Mask
 from shotc.geom.separation import Nearest, closest
 from shotc.ir.fleet import FleetTrajectory
@@ -25,6 +26,9 @@ from shotc.show.separation.pushed import Pushed, pushed
 MANY = 1000
 """Drones beyond which moves that all make alike are proved in closed form; verification searches all
 pairs."""
+
+NEAR_S = 1e-6
+"""Seconds by which times that are one differ at most."""
 
 
 class Keeper:
@@ -102,12 +106,25 @@ class Keeper:
         if standing is not None:
             self.faults.append(standing_too_near(self.mission, self.fleet, self.flight, standing))
             return
-        done = pushed(breaks, coef, self.fleet, self.ctx.seed)
+        free, done = self._free(breaks), Pushed(None, 0, 0.0)
+        if free.start < free.stop:
+            done = pushed(breaks, coef, self.fleet, self.ctx.seed, free=free)
         self.rounds += done.rounds
         if done.coef is None:
             self.faults.append(self._too_near(window, nearest, done))
             return
         self.coef[:, window.points] = done.coef
+
+    def _free(self, breaks: Array) -> slice:
+        """Return which control points of a stretch may change.
+
+        A recorded flight may rise and land in one stretch with all the rest: there all stay over their pads.
+        """
+        ends = {p.name: p.end if p.name == "takeoff" else p.start for p in self.flight.phases}
+        up, down = ends.get("takeoff", -np.inf), ends.get("land", np.inf)
+        first = int(np.searchsorted(breaks, up - NEAR_S)) if up < breaks[-1] - NEAR_S else 0
+        last = int(np.searchsorted(breaks, down - NEAR_S)) if down > breaks[0] + NEAR_S else len(breaks) - 1
+        return slice(DEGREE + first, min(last, len(breaks) - 1))
 
     def _too_near(self, window: Window, nearest: Nearest, done: Pushed) -> Diagnostic:
         stretch = Stretch.of(self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points])

@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE, knots, places
-from shotc.show.solvers.qcqp import FIXED, Bounds, Programme
+from shotc.show.solvers.qcqp import INNER, Bounds, Programme
 
 Index = NDArray[np.intp]
 
@@ -48,11 +48,14 @@ class Push:
 
 
 class Pusher:
-    """Pushes the drones of one window; breaks : shape (P + 1,); apart, bounds : what is to hold."""
+    """Pushes the drones of one window.
 
-    def __init__(self, breaks: Array, bounds: Bounds, apart: Distances) -> None:
-        self.breaks, self.apart = breaks, apart
-        self.programme = Programme(breaks, bounds)
+    breaks : shape (P + 1,); apart, bounds : what is to hold; free : the control points that may change
+    """
+
+    def __init__(self, breaks: Array, bounds: Bounds, apart: Distances, free: slice = INNER) -> None:
+        self.breaks, self.apart, self.free = breaks, apart, free
+        self.programme = Programme(breaks, bounds, free)
         self.scale = np.array([1.0, 1.0, stretch(apart)])
 
     def samples(self, coef: Array) -> Array:
@@ -81,7 +84,7 @@ class Pusher:
         )
         result = start.copy()
         inner = found.x.reshape(-1, len(movable), 3)
-        result[movable, FIXED:-FIXED] = np.moveaxis(inner, 0, 1)
+        result[movable, self.free] = np.moveaxis(inner, 0, 1)
         return result
 
     def pairs(self, at: Array, reach: float) -> Index:
@@ -111,15 +114,16 @@ def slopes(relative: Array, size: Array, apart: Distances) -> Array:
 
 
 class _Cost:
-    """The function that is made least, of the movable drones' free points, shape (K - 6, m, 3)."""
+    """The function that is made least, of the movable drones' free points, shape (F, m, 3)."""
 
     def __init__(self, pusher: Pusher, start: Array, wanted: Array, movable: Index, push: Push) -> None:
         self.pusher, self.push = pusher, push
-        self.shape = (start.shape[1] - 2 * FIXED, len(movable), 3)
+        self.free = pusher.free
+        self.shape = (len(range(*self.free.indices(start.shape[1]))), len(movable), 3)
         self.start = np.moveaxis(start[movable], 1, 0)
-        self.wanted = np.moveaxis(wanted[movable], 1, 0)[FIXED:-FIXED]
+        self.wanted = np.moveaxis(wanted[movable], 1, 0)[self.free]
         self.ends = self.start.copy()
-        self.ends[FIXED:-FIXED] = 0.0
+        self.ends[self.free] = 0.0
         self._rows()
         self._samples(start, movable)
 
@@ -133,7 +137,7 @@ class _Cost:
         times = pusher.samples(start)
         inside = np.clip(times, pusher.breaks[0], pusher.breaks[-1])
         basis = BSpline.design_matrix(inside, knots(pusher.breaks), DEGREE).tocsc()
-        self.basis = csr_array(basis[:, FIXED:-FIXED])
+        self.basis = csr_array(basis[:, self.free])
         self.back = csr_array(self.basis.T)
         self.offset = (basis @ self.ends.reshape(len(self.ends), -1)).reshape(-1, *self.shape[1:])
         self.step = float(times[1] - times[0])
@@ -156,7 +160,7 @@ class _Cost:
         self.second = np.where(self.both, pairs[:, 0] * len(movable) + pairs[:, 2], 0)
 
     def begin(self) -> Array:
-        return np.ascontiguousarray(self.start[FIXED:-FIXED]).ravel()
+        return np.ascontiguousarray(self.start[self.free]).ravel()
 
     def __call__(self, flat: Array) -> tuple[float, Array]:
         """Return the cost and its slope."""

@@ -31,6 +31,9 @@ Index = NDArray[np.intp]
 FIXED = 3
 """Control points at each end that stay."""
 
+INNER = slice(FIXED, -FIXED)
+"""All others, which are free where nothing else is said."""
+
 LIMIT_SHARE = 0.9998
 """Of the limits, what the iteration aims at: its last violation, ``EXACT_SHARE`` of it, then breaks none."""
 
@@ -97,17 +100,17 @@ def overdraft(breaks: Array, coef: Array, bounds: Bounds) -> Array:
     return worst
 
 
-def bounded(breaks: Array, wanted: Array, bounds: Bounds) -> Bounded:
+def bounded(breaks: Array, wanted: Array, bounds: Bounds, free: slice = INNER) -> Bounded:
     """Return for every drone the nearest spline within its bounds.
 
-    breaks : shape (P + 1,); wanted : shape (n, P + 3, 3)
+    breaks : shape (P + 1,); wanted : shape (n, P + 3, 3); free : the control points that may change
     Drones within the bounds are returned as they are, bit for bit.
     """
     bad = np.flatnonzero(overdraft(breaks, wanted, bounds) > 0.0)
     coef, failed, exact, most = wanted.copy(), [], 0, 0
     if not len(bad):
         return Bounded(coef, bad, 0, 0, 0)
-    programme = Programme(breaks, bounds.scaled(LIMIT_SHARE))
+    programme = Programme(breaks, bounds.scaled(LIMIT_SHARE), free)
     for at in range(0, len(bad), BLOCK_DRONES):
         rows = bad[at : at + BLOCK_DRONES]
         coef[rows], done, iterations = programme.solve(wanted[rows])
@@ -172,28 +175,28 @@ class Optimum(NamedTuple):
 
 
 class Programme:
-    """What all drones over the same breaks share."""
+    """What all drones over the same breaks share; within : the control points that are free."""
 
-    def __init__(self, breaks: Array, bounds: Bounds) -> None:
-        self.bounds = bounds
+    def __init__(self, breaks: Array, bounds: Bounds, within: slice = INNER) -> None:
+        self.bounds, self.within = bounds, within
         weight = deviation(breaks)
         self.curvature = float(np.trace(weight) / len(weight))
         self.weight = weight / self.curvature
         blocks, self.rows, at = [], [], 0
         for order in (1, 2, 3):
             matrix = differences(breaks, order)
-            scale = 1.0 / np.linalg.norm(matrix[:, FIXED:-FIXED], axis=1).clip(1e-12)
-            touched = np.flatnonzero(np.abs(matrix[:, FIXED:-FIXED]).max(axis=1) > 0.0)
+            scale = 1.0 / np.linalg.norm(matrix[:, within], axis=1).clip(1e-12)
+            touched = np.flatnonzero(np.abs(matrix[:, within]).max(axis=1) > 0.0)
             blocks.append(matrix[touched] * scale[touched, None])
             self.rows.append(_Rows(order, slice(at, at + len(touched)), scale[touched]))
             at += len(touched)
         whole = np.concatenate(blocks)
         self.dense = whole
-        self.free = csr_array(whole[:, FIXED:-FIXED])
-        self.back = csr_array(whole[:, FIXED:-FIXED].T)
-        self.ends = csr_array(np.concatenate([whole[:, :FIXED], whole[:, -FIXED:]], axis=1))
-        self.inner = self.weight[FIXED:-FIXED, FIXED:-FIXED]
-        gram = np.asarray(whole[:, FIXED:-FIXED].T @ whole[:, FIXED:-FIXED])
+        self.free = csr_array(whole[:, within])
+        self.back = csr_array(whole[:, within].T)
+        self.ends = csr_array(np.delete(whole, within, axis=1))
+        self.inner = self.weight[within, within]
+        gram = np.asarray(whole[:, within].T @ whole[:, within])
         self.steps = STEP_RATIOS * float(np.trace(self.inner) / np.trace(gram))
         self.inverses = [np.linalg.inv(self.inner + step * gram) for step in self.steps]
 
@@ -214,7 +217,7 @@ class Programme:
                 change = np.rint(np.log(ratio) / np.log(STEP_RATIOS[1] / STEP_RATIOS[0])).astype(int)
                 levels[some] = np.clip(level + change, 0, len(STEP_RATIOS) - 1)
             active = np.flatnonzero(~done)
-        result[:, FIXED:-FIXED] = state.points()
+        result[:, self.within] = state.points()
         return Optimum(result, done, rounds * ROUND)
 
     def solve_exactly(self, wanted: Array) -> Array | None:
@@ -238,11 +241,11 @@ class Programme:
         if status is not Status.SOLVED:
             return None
         result = wanted.copy()
-        result[FIXED:-FIXED] += x[: 3 * count].reshape(3, count).T
+        result[self.within] += x[: 3 * count].reshape(3, count).T
         return result
 
     def _cones(self, rows: ConeRows, part: _Rows, base: Array) -> None:
-        limits, matrix = self.bounds.limits, self.dense[part.span, FIXED:-FIXED]
+        limits, matrix = self.bounds.limits, self.dense[part.span, self.within]
         count = matrix.shape[1]
 
         def entry(axis: int, sign: float = 1.0) -> list[Term]:
@@ -301,9 +304,9 @@ class _State:
         """Begin at the wanted splines; wanted : shape (n, K, 3)."""
         flat = np.ascontiguousarray(np.moveaxis(wanted, 1, 0))
         count = len(wanted)
-        ends = np.concatenate([flat[:FIXED], flat[-FIXED:]]).reshape(2 * FIXED, -1)
-        base = (programme.ends @ ends).reshape(-1, count, 3)
-        inner = flat[FIXED:-FIXED]
+        ends = np.delete(flat, programme.within, axis=0)
+        base = (programme.ends @ ends.reshape(len(ends), -1)).reshape(-1, count, 3)
+        inner = flat[programme.within]
         pull = (programme.inner @ inner.reshape(len(inner), -1)).reshape(inner.shape)
         rows = (programme.free @ inner.reshape(len(inner), -1)).reshape(base.shape) + base
         return _State(
@@ -311,7 +314,7 @@ class _State:
         )
 
     def points(self) -> Array:
-        """Return the free control points, shape (n, K - 6, 3)."""
+        """Return the free control points, shape (n, F, 3)."""
         return np.asarray(np.moveaxis(self.x, 0, 1))
 
     def iterate(self, some: Index, level: int) -> tuple[Array, Array]:
