@@ -15,6 +15,7 @@ from shotc.cli import console
 from shotc.cli.console import Progress, known, listed, table
 from shotc.cli.inputs import read_mission
 from shotc.cli.plan import Deadline
+from shotc.diag.registry import has_errors
 from shotc.filenames import file_name
 from shotc.ir.smoothing import LONGEST_S, SHORTEST_S, SMOOTHINGS
 from shotc.output import write
@@ -135,6 +136,10 @@ def _shown(done: Report) -> Comparison:
     comparison = done.comparison
     if comparison is not None and any(each.plan is not None for each in comparison.conditions):
         return comparison
+    if comparison is None and not has_errors(done.diagnostics):
+        raise typer.BadParameter(
+            "no camera films in it, and refiners change nothing else", param_hint="MISSION"
+        )
     faults = () if comparison is None else (fault for each in comparison.conditions for fault in each.faults)
     console.report((*done.diagnostics, *faults), done.sources)
     raise typer.Exit(console.EXIT_REJECTED)

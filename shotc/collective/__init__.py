@@ -20,6 +20,9 @@ Where the way of part 2 has no room, as beside a mast, the fleet goes on to wher
 there; where that has no room either, it goes back through all that it has flown, which is free of everything
 that stands, and lands where it took off. What has begun its way home as planned goes on.
 
+Where fleets, or groups of one, would meet on their ways, they choose in turn: each takes the first way that
+is clear of those before it, and stands for a while where it has come to rest, if no way is.
+
 None of this is trusted. Every return is a flight of its own, cubic B-splines as in a plan, and is proved as a
 plan is, at every instant: limits, zones, ground, targets, the nearest of all pairs (``geom.separation``), the
 pads, and the endurance; of several fleets each against each. Of the seconds in which a fleet stands the
@@ -28,15 +31,20 @@ return is the same, and is proved once where no target moves.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, islice, permutations
 
 import numpy as np
 
 from shotc.collective.homing import FleetReturn, Homing
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.fleets.apart import between
+
+WAITS_S = (3.0, 6.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0)
+"""How long fleets stand at rest, for others to pass."""
+MOST_TURNS = 6
+"""Orders in which fleets are tried."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,8 +92,61 @@ def collective_returns(plan: VerifiedIR, every: float, progress: Callable[[str],
         progress(f"return from {time:.0f} s of {end:.0f} s")
         fleets = tuple(homing.at(time) for homing in homings)
         if any(way.down > time for way in fleets):
-            found.append(Return(time, fleets, tuple(_between(ir, time, homings, fleets))))
+            between = tuple(_between(ir, time, homings, fleets))
+            if all(claim.holds for claim in between):
+                found.append(Return(time, fleets, between))
+            else:
+                fleets = _in_turn(ir, time, homings, fleets) or fleets
+                found.append(Return(time, fleets, tuple(_between(ir, time, homings, fleets))))
     return found
+
+
+def _in_turn(
+    ir: TrajectoryIR, time: float, homings: list[Homing], first: tuple[FleetReturn, ...]
+) -> tuple[FleetReturn, ...] | None:
+    """Return ways home on which fleets give way to each other, one after another; None where none are found.
+
+    first : what each would fly if it were alone
+    """
+    for turns in islice(permutations(range(len(homings))), MOST_TURNS):
+        placed: dict[int, FleetReturn] = {}
+        for k in turns:
+            free = (
+                way
+                for way in _choices(homings[k], time, first[k])
+                if all(_clear(ir, time, homings, (k, way), (j, other)) for j, other in placed.items())
+            )
+            way = next(free, None)
+            if way is None:
+                break
+            placed[k] = way
+        if len(placed) == len(homings):
+            return tuple(placed[k] for k in range(len(homings)))
+    return None
+
+
+def _choices(homing: Homing, time: float, first: FleetReturn) -> Iterator[FleetReturn]:
+    """Yield the ways home of a fleet that hold: at once, then after waiting where it has come to rest."""
+    yield first
+    if first.track is None:
+        return
+    ways = [way for way in homing.ways(time) if way.holds]
+    yield from ways[1:]
+    for seconds in WAITS_S:
+        yield from (later for way in ways if (later := homing.waiting(way, seconds)).holds)
+
+
+def _clear(
+    ir: TrajectoryIR,
+    time: float,
+    homings: list[Homing],
+    one: tuple[int, FleetReturn],
+    other: tuple[int, FleetReturn],
+) -> bool:
+    (i, way), (j, beside) = one, other
+    mission = ir.keyframes.mission
+    flown = homings[i].flown(time, way), homings[j].flown(time, beside)
+    return between(mission, (mission.fleet(way.fleet), mission.fleet(beside.fleet)), *flown).holds
 
 
 def _between(

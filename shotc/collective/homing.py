@@ -34,7 +34,7 @@ class FleetReturn:
     over : when it is over its pads; down : when it has landed
     track : what it flies that is not planned, from rest on or with its braking; None where it is on its pads,
         or on its way to them as planned
-    claims : what is proved of that
+    claims : what is proved of that; waits : seconds that it stands at rest, for others to pass
     """
 
     fleet: str
@@ -43,12 +43,16 @@ class FleetReturn:
     down: float
     track: FleetTrajectory | None
     claims: tuple[Claim, ...]
+    waits: float = 0.0
 
     @property
     def holds(self) -> bool:
         """Tell whether it can be flown."""
         return all(claim.holds for claim in self.claims)
 
+
+NEAR_S = 1e-6
+"""Seconds by which times that are one differ at most."""
 
 _Way = Callable[[int, float], FleetReturn]
 """Makes a return from a break at which the fleet stops, and the time from which it flies it, s."""
@@ -77,12 +81,31 @@ class Homing:
             over = self.flight.phases[-1].start
             return FleetReturn(name, time, max(time, over), max(time, end), None, ())
         tried: list[FleetReturn] = []
-        for found in self._ways(time):
-            way = replace(found, claims=(*found.claims, self._endurance(found.down)))
+        for way in self.ways(time):
             if way.holds:
                 return way
             tried.append(way)
         return tried[0]
+
+    def ways(self, time: float) -> Iterator[FleetReturn]:
+        """Yield the ways home from a time at which the fleet is in the air, and not yet on its way home."""
+        for found in self._ways(time):
+            yield replace(found, claims=(*found.claims, self._endurance(found.down)))
+
+    def waiting(self, way: FleetReturn, seconds: float) -> FleetReturn:
+        """Return a way home on which the fleet stands for a time, s, where it has come to rest."""
+        track = way.track
+        assert track is not None
+        at = int(np.searchsorted(track.breaks, way.rest - NEAR_S))
+        breaks = np.concatenate([track.breaks[: at + 1], track.breaks[at:] + seconds])
+        coef = np.insert(track.coef, at + 1, track.coef[:, at], axis=1)
+        phases = tuple(
+            replace(p, start=p.start + seconds * (p.start > way.rest + NEAR_S), end=p.end + seconds)
+            for p in track.phases
+        )
+        flown = self._claimed(replace(track, breaks=breaks, coef=coef, phases=phases), way.rest)
+        claims = (*flown.claims, self._endurance(flown.down))
+        return replace(flown, claims=claims, waits=seconds)
 
     def flown(self, time: float, way: FleetReturn) -> tuple[Array, Array]:
         """Return all that the fleet flies from the time of a return on, breaks and control points."""
@@ -145,7 +168,10 @@ class Homing:
         return self._proved(score, time)
 
     def _proved(self, score: Score, rest: float) -> FleetReturn:
-        track = score.trajectory(self.flight.fleet, self.flight.lights)
+        return self._claimed(score.trajectory(self.flight.fleet, self.flight.lights), rest)
+
+    def _claimed(self, track: FleetTrajectory, rest: float) -> FleetReturn:
+        """Return the way home that is flown so, with its proof."""
         over, down = track.phases[-1].start, track.phases[-1].end
         flight = FleetFlight.of(self.ir.keyframes.mission, track)
         claims = (

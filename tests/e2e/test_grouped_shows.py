@@ -11,6 +11,7 @@ import pytest
 
 from shotc import api
 from shotc.cli.show_facts import beside
+from shotc.collective import collective_returns
 from shotc.emit.plan_json import EMITTER
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
@@ -92,3 +93,16 @@ def test_the_command_says_who_draws_what(tmp_path: Path) -> None:
     assert "3 displays of 24 drones" in done.out
     assert "swarm/fire (4 drones)" in done.out
     assert (tmp_path / "out" / "three-groups.skyc").exists()
+
+
+def test_compare_has_nothing_to_compare_without_a_camera(tmp_path: Path) -> None:
+    (tmp_path / "show.yaml").write_text(TEXT)
+    done = run("compare", "show.yaml", folder=tmp_path)
+    assert (done.code, done.out) == (2, "")
+    assert "no camera films in it" in done.err
+
+
+def test_all_groups_come_home_from_any_time_and_meet_nobody(plan: VerifiedIR) -> None:
+    found = collective_returns(plan, 4.0, lambda _: None)
+    assert len(found) > 20
+    assert all(each.holds for each in found), [(each.time, each.broken) for each in found if not each.holds]

@@ -42,6 +42,47 @@ shots:
     effects: [{fade: {to: black, time: 1 s}}]
     pyro: [{at: 71 s, drones: [1, 4], product: comet, duration: 2 s, clear: 4 m}]
 """
+CROSSING = """\
+shotc: 1
+mission: two-groups
+world:
+  origin: {lat: 53.5413, lon: 9.9841, alt: 6}
+fleets:
+  swarm:
+    count: 60
+    layout: {grid: {spacing: 3, origin: [-12, -30, 0]}}
+    separation: {horizontal: 1.5 m, vertical: 2 m}
+    groups:
+      fireworks: 1-8
+      ring: [9-32, 60]
+shots:
+  - id: ball
+    kind: display
+    fleet: swarm
+    viewpoint: [0, -110, 2]
+    frames:
+      - {sphere: {center: [0, 30, 45], radius: 9}, at: 35 s, hold: 20, color: orange}
+      - {cube: {center: [0, 30, 45], size: 14}, at: 65 s, hold: 20, color: skyblue}
+  - id: halo
+    kind: display
+    fleet: swarm
+    group: ring
+    viewpoint: [0, -110, 2]
+    frames:
+      - {torus: {center: [0, 30, 20], radius: 12, tube: 1}, at: 35 s, hold: 60, color: gold}
+  - id: rain
+    kind: display
+    fleet: swarm
+    group: fireworks
+    viewpoint: [0, -110, 2]
+    timing: {start: 50 s}
+    frames:
+      - {torus: {center: [0, 0, 30], radius: 10, tube: 1}, hold: 10, color: white}
+    pyro:
+      - {at: 52 s, drones: [1, 2, 8], product: fountain, duration: 4 s, clear: 4 m}
+"""
+"""Two of three groups fly home over each other's pads at about the same time."""
+
 ACROSS, UPRIGHT = 1.5, 2.0
 
 

@@ -139,8 +139,9 @@ CODES: tuple[CodeInfo, ...] = (
         "D087",
         "fleets-meet",
         "drones of two fleets come too near to each other",
-        "Each fleet is planned by itself. That two fleets stay apart, with the separation of the stricter one, is "
-        "proved afterwards, and their flights are not changed for it.",
+        "Each fleet, and each group of one, is planned by itself. Where two would meet, one flies home later, sets out "
+        "earlier, or flies round the other, if that is found to do; all pictures stay when and where they are. What is left is "
+        "this error: that two stay apart, with the separation of the stricter one, is proved in any case.",
         _TWO,
         ("center: [40, 0, 40]", "center: [-38, 0, 40]"),
     ),

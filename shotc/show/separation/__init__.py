@@ -22,6 +22,7 @@ from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.separation.faults import bent, fleets_meet
+from shotc.show.separation.later_start import later_start
 from shotc.show.separation.off_goals import farthest
 from shotc.show.separation.repair import Keeper
 
@@ -52,16 +53,19 @@ class KeepApart:
             if off.distance > MUCH_SHARE * straight_spacing(keeper.fleet.apart):
                 warnings.append(bent(mission, keeper.fleet, off))
         for one, other in combinations(fleets, 2):
-            diagnostics += _meeting(mission, one, other)
+            diagnostics += _meeting(mission, fleets, (one, other))
         if diagnostics:
             return Outcome(None, tuple(diagnostics))
         return Outcome(TrajectoryIR(ir.goals.keyframes, (), (), tuple(stats), tuple(fleets)), tuple(warnings))
 
 
-def _meeting(mission: MissionIR, one: FleetTrajectory, other: FleetTrajectory) -> list[Diagnostic]:
+def _meeting(
+    mission: MissionIR, every: list[FleetTrajectory], pair: tuple[FleetTrajectory, FleetTrajectory]
+) -> list[Diagnostic]:
+    one, other = pair
     fleets = mission.fleet(one.fleet), mission.fleet(other.fleet)
     apart = stricter(fleets[0].apart, fleets[1].apart)
     near = closest_between(one.breaks, one.coef, other.breaks, other.coef, apart)
     if kept(near.proven, apart.across):
         return []
-    return [fleets_meet(mission, (one, other), near, apart.across)]
+    return [fleets_meet(mission, pair, near, apart.across, later_start(mission, every, pair))]

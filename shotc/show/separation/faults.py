@@ -86,9 +86,13 @@ def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) 
 
 
 def fleets_meet(
-    mission: MissionIR, flights: tuple[FleetTrajectory, FleetTrajectory], nearest: Nearest, across: float
+    mission: MissionIR,
+    flights: tuple[FleetTrajectory, FleetTrajectory],
+    nearest: Nearest,
+    across: float,
+    later: str,
 ) -> Diagnostic:
-    """Return D087: drones of two fleets come too near."""
+    """Return D087: drones of two fleets come too near; later : which start would do, if one was found."""
     fleets = mission.fleet(flights[0].fleet), mission.fleet(flights[1].fleet)
     first, second = (
         drone_names(f)[row] for f, row in zip(fleets, (nearest.first, nearest.second), strict=True)
@@ -99,8 +103,11 @@ def fleets_meet(
         f"{fleets[0].words} and {fleets[1].words} come within {nearest.attained:.2f} m of each "
         f"other at {nearest.time:.2f} s, and {across:.2f} m is the least",
         tuple(mission.origins.key(fleet.key) for fleet in fleets),
-        (f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",),
-        f"{_in_turn(*flights)}, or bring their pads and pictures farther apart",
+        (
+            f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",
+            "flying home later, setting out earlier, and ways round each other were tried in vain",
+        ),
+        f"{later or _in_turn(*flights)}, or bring their pads and pictures farther apart",
     )
 
 
