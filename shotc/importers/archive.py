@@ -6,7 +6,8 @@ import struct
 import zlib
 from collections.abc import Callable, Iterator
 from io import BytesIO
-from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
+from posixpath import normpath
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 from shotc.importers.notes import plain
 
@@ -36,6 +37,45 @@ def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> 
     except BROKEN as fault:
         return f"it is a broken archive: {fault}"
     return f"its document is larger than {most / 1e6:.0f} MB" if len(inside) > most else inside
+
+
+class Archive:
+    """An archive of which many members are read by their names, and which is opened once.
+
+    most : bytes of the archive, and of a member; all : of all that is read, each time that it is
+    """
+
+    def __init__(self, data: bytes, most: int, all: int) -> None:
+        self._most, self._left = most, all
+        self._zip: ZipFile | None = None
+        self._members: dict[str, ZipInfo] = {}
+        self.fault = f"the file is larger than {most / 1e6:.0f} MB" if len(data) > most else ""
+        if self.fault:
+            return
+        try:
+            self._zip = ZipFile(BytesIO(data))
+            self._members = {normpath(each.filename): each for each in reversed(self._zip.infolist())}
+        except BROKEN as fault:
+            self.fault = f"it is a broken archive: {plain(str(fault), 80)}"
+
+    def member(self, name: str) -> bytes | str:
+        """Return the member of a name, or why there is none."""
+        if self.fault or self._zip is None:
+            return self.fault
+        found = self._members.get(normpath(name))
+        if found is None:
+            return f"it is an archive without `{plain(name, 60)}`"
+        if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+            return f"`{plain(name, 60)}` {OTHER_PACKING}"
+        try:
+            with self._zip.open(found) as stream:
+                inside = stream.read(min(self._most, self._left) + 1)
+        except BROKEN as fault:
+            return f"it is a broken archive: {plain(str(fault), 80)}"
+        self._left -= len(inside)
+        if len(inside) > self._most or self._left < 0:
+            return f"its document is larger than {self._most / 1e6:.0f} MB"
+        return inside
 
 
 def members(data: bytes, wanted: Callable[[str], bool], most: int) -> Iterator[tuple[str, bytes] | str]:

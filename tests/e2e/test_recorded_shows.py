@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
+from shotc.cli.show_facts import recorded
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
@@ -213,6 +215,38 @@ def test_music_that_no_longer_fits_is_told(tmp_path: Path) -> None:
     (told,) = compile_source(text.encode(), "again.yaml", tmp_path, PlanOptions()).diagnostics
     assert told.code == "D154"
     assert "the music keeps its own time" in told.notes[-1]
+
+
+def passing(times: Array) -> Array:
+    """Two drones change places, straight at each other, and back."""
+    at = flown(60.0)(times).copy()
+    one, other = at[0].copy(), at[1].copy()
+    share = smooth((times - 20.0) / 12.0) * (1.0 - smooth((times - 34.0) / 12.0))
+    at[0] = one + (other - one) * share[:, None]
+    return at
+
+
+def test_drones_that_come_too_near_are_moved_apart_in_the_air_alone(tmp_path: Path) -> None:
+    done = planned(tmp_path, "a.zip", csv_show(passing, 60.0))
+    assert codes(done) == []
+    assert done.plan is not None
+    assert dict(done.plan.trajectory.stats)["fleet swarm apart moved"] == 2.0
+    facts = " ".join(recorded(done.plan.trajectory.stats))
+    assert re.search(r"within (0\.[5-9]|1\.)\d+ m of every track; 2 are moved so that all stay apart", facts)
+
+
+def test_drones_that_stand_too_near_are_named(tmp_path: Path) -> None:
+    close = Path(tmp_path) / "a.zip"
+    close.write_bytes(csv_show(flown(60.0), 60.0))
+    text = MISSION.format(count=COUNT, origin="[0, 0, 0]", file="a.zip").replace(
+        "separation: 2", "separation: 4.5"
+    )
+    done = compile_source(text.encode(), "again.yaml", tmp_path, PlanOptions())
+    assert set(codes(done)) == {"D156"}
+    told = done.diagnostics[0]
+    assert "within 4.00 m of each other" in told.message
+    assert "`swarm-1` and `swarm-2`" in told.notes[0]
+    assert "a separation of 4.00 m" in told.help
 
 
 def test_effects_are_laid_over_its_lights(tmp_path: Path) -> None:

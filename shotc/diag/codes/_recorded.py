@@ -1,4 +1,4 @@
-"""D150 to D155: flights of whole fleets that other tools made. A mission alone cannot show them: it takes a file."""
+"""D150 to D156: flights of whole fleets that other tools made. A mission alone cannot show them: it takes a file."""
 
 from __future__ import annotations
 
@@ -59,5 +59,13 @@ RECORDED: tuple[CodeInfo, ...] = (
         "out before all are clear of the ground, the fleet rises from its pads, comes to the first formation in the air by "
         "itself, and goes on as recorded; so it does after the last one.",
         warns=True,
+    ),
+    _code(
+        156,
+        "flight-too-near",
+        "two drones of a recorded flight come too near to each other",
+        "Drones that pass too near are moved apart, as little as does, where their limits leave room. Where they stand too "
+        "near, or nothing helps, the two are named, with the time of the mission and their distance. The separation is what "
+        "the fleet asks for: tools that made the show may have asked for less.",
     ),
 )

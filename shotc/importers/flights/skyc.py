@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.geodetic import to_world
-from shotc.importers.archive import member
+from shotc.importers.archive import Archive
 from shotc.importers.cameras.places import LARGEST_NUMBER, is_place
 from shotc.importers.flights.light_program import Keyed, keyed
 from shotc.importers.flights.names import LARGEST_CLOCKED
@@ -32,6 +32,8 @@ Array = NDArray[np.float64]
 SHOW = "show.json"
 WHOLE = Node("", 1, 1, wide=1)
 MOST_DRONES, MOST_POINTS = 20_000, 20_000
+MOST_UNPACKED = 5 * LARGEST_CLOCKED
+"""Bytes of all parts of a show that are read."""
 SHORTEST_S = 1e-3
 DEGREE = 3
 
@@ -79,7 +81,8 @@ def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | N
 
 def show(data: bytes, *, lit: bool = False) -> Show:
     """Return the flights of a show; lit : with their lights."""
-    content = _part(data, SHOW)
+    archive = Archive(data, LARGEST_CLOCKED, MOST_UNPACKED)
+    content = _part(archive, SHOW)
     if not isinstance(content, dict) or content.get("version") != 1:
         said = plain(str(content.get("version")), 20) if isinstance(content, dict) else "none"
         refuse(FOREIGN, f"it is a show of version {said}; 1 is read", WHOLE)
@@ -90,7 +93,7 @@ def show(data: bytes, *, lit: bool = False) -> Show:
     turn = location.get("orientation", 0.0)
     if not _is_number(turn):
         refuse(BROKEN, "its `environment.location.orientation` is no number", WHOLE)
-    flights = tuple(_flight(data, drone, i, (radians(turn), lit)) for i, drone in enumerate(drones))
+    flights = tuple(_flight(archive, drone, i, (radians(turn), lit)) for i, drone in enumerate(drones))
     return Show(flights, _origin(location.get("origin")))
 
 
@@ -105,9 +108,9 @@ def _origin(told: Any) -> tuple[float, float, float | None] | None:
     return lat, lon, float(told[2]) if len(told) > 2 and _is_number(told[2]) else None
 
 
-def _part(data: bytes, name: str) -> Any:
+def _part(archive: Archive, name: str) -> Any:
     """Return a part of the archive as JSON."""
-    found = member(data, lambda entry: normpath(entry) == name, f"`{name}`", LARGEST_CLOCKED)
+    found = archive.member(name)
     if isinstance(found, str):
         refuse(UNREADABLE, found, WHOLE)
     try:
@@ -121,22 +124,22 @@ def _inside(parent: dict[str, Any], key: str) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def _resolved(data: bytes, value: Any) -> Any:
+def _resolved(archive: Archive, value: Any) -> Any:
     """Return what a reference inside the archive stands for, and anything else as it is."""
     if isinstance(value, dict) and isinstance(value.get("$ref"), str):
-        return _part(data, normpath(value["$ref"].partition("#")[0]))
+        return _part(archive, normpath(value["$ref"].partition("#")[0]))
     return value
 
 
-def _flight(data: bytes, drone: Any, index: int, how: tuple[float, bool]) -> ShowFlight:
+def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -> ShowFlight:
     turn, lit = how
-    settings = _resolved(data, drone.get("settings")) if isinstance(drone, dict) else None
+    settings = _resolved(archive, drone.get("settings")) if isinstance(drone, dict) else None
     element = f"swarm.drones[{index}]"
     if not isinstance(settings, dict):
         refuse(BROKEN, f"`{element}` has no `settings`", WHOLE)
     name = settings.get("name")
     name = name if isinstance(name, str) else str(index + 1)
-    path = _resolved(data, settings.get("trajectory"))
+    path = _resolved(archive, settings.get("trajectory"))
     where = f"{element}.settings.trajectory"
     if not isinstance(path, dict) or path.get("version") != 1:
         refuse(BROKEN, f"`{where}` is no trajectory of version 1", WHOLE)
@@ -144,21 +147,21 @@ def _flight(data: bytes, drone: Any, index: int, how: tuple[float, bool]) -> Sho
     told = settings.get("home")
     home = told if _is_place(told) else keys[0][1]
     times = np.array([key[0] for key in keys]) + begin
-    ctrl = [_cubic([a[1], *b[2], b[1]]) for a, b in pairwise(keys)]
+    curves = [[a[1], *b[2], b[1]] for a, b in pairwise(keys)]
     if times[0] > 0.0:  # it stands until it begins
         times = np.append(0.0, times)
-        ctrl.insert(0, _cubic([keys[0][1], keys[0][1]]))
+        curves.insert(0, [keys[0][1], keys[0][1]])
     elif len(keys) == 1:
         times = np.array([0.0, 1.0])
-        ctrl = [_cubic([keys[0][1], keys[0][1]])]
-    light = _light(data, settings, element, float(times[-1])) if lit else None
-    places, at_home = _turned(np.array(ctrl), turn), _turned(np.array(home, dtype=float), turn)
+        curves = [[keys[0][1], keys[0][1]]]
+    light = _light(archive, settings, element, float(times[-1])) if lit else None
+    places, at_home = _turned(_cubics(curves), turn), _turned(np.array(home, dtype=float), turn)
     return ShowFlight(name, element, at_home, times, places, light)
 
 
-def _light(data: bytes, settings: dict[str, Any], element: str, end: float) -> Keyed | None:
+def _light(archive: Archive, settings: dict[str, Any], element: str, end: float) -> Keyed | None:
     """Return the light of a drone, None where it has none; end : of its flight, s."""
-    lights, where = _resolved(data, settings.get("lights")), f"{element}.settings.lights"
+    lights, where = _resolved(archive, settings.get("lights")), f"{element}.settings.lights"
     if lights is None:
         return None
     told = lights.get("data") if isinstance(lights, dict) and lights.get("version") == 1 else None
@@ -199,13 +202,23 @@ def _key(point: Any, where: str) -> Key:
     return float(time), place[:3], [each[:3] for each in control]
 
 
-def _cubic(points: list[list[float]]) -> Array:
-    """Return the control points (4, 3) of a curve of the first to the third degree."""
-    ctrl = np.array(points, dtype=float)
-    while len(ctrl) <= DEGREE:
-        n = len(ctrl)
+def _cubics(curves: list[list[list[float]]]) -> Array:
+    """Return the control points (P, 4, 3) of curves of the first to the third degree."""
+    found = np.empty((len(curves), DEGREE + 1, 3))
+    counts = np.array([len(points) for points in curves])
+    for count in np.unique(counts):
+        some = np.flatnonzero(counts == count)
+        found[some] = _raised(np.array([curves[k] for k in some], dtype=float))
+    return found
+
+
+def _raised(ctrl: Array) -> Array:
+    """Return curves (k, n, 3) as cubics (Farin, *Curves and Surfaces for CAGD*, sec. 6.1)."""
+    while ctrl.shape[1] <= DEGREE:
+        n = ctrl.shape[1]
         share = (np.arange(1, n) / n)[:, None]
-        ctrl = np.concatenate([ctrl[:1], share * ctrl[:-1] + (1.0 - share) * ctrl[1:], ctrl[-1:]])
+        inner = share * ctrl[:, :-1] + (1.0 - share) * ctrl[:, 1:]
+        ctrl = np.concatenate([ctrl[:, :1], inner, ctrl[:, -1:]], axis=1)
     return ctrl
 
 

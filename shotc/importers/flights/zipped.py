@@ -29,6 +29,8 @@ BRIGHTEST = 255
 EARLY_S, LANDED_M = 1.0, 0.5
 """Seconds by which a table may end before the longest, and metres over its beginning up to which a drone that
 ends earlier has landed."""
+MOST_DRONES = 20_000
+SPLIT = "cut the show in two, each with a fleet of its own"
 WHOLE = Node("", 1, 1, wide=1)
 
 
@@ -52,6 +54,8 @@ def tables(data: bytes) -> tuple[Rows, ...]:
     for member in members(data, _is_table, LARGEST_CLOCKED):
         if isinstance(member, str):
             refuse(UNREADABLE, member, WHOLE)
+        if len(found) == MOST_DRONES:
+            refuse(UNREADABLE, f"it has more than {MOST_DRONES} tables, and no more are read", WHOLE, SPLIT)
         table = _Table(plain(member[0], 80), shown(member[1]))
         try:
             rows = _rows(table, left, found)

@@ -51,7 +51,7 @@ def flown(mission: MissionIR, fleet: Fleet, display: Display) -> Flown:
     if jump is not None:
         return Flown((), None, (jump,))
     said = tuple(faults.told(mission, display, tracks, found, asked))
-    return Flown(_frames(found.flight), found.flight, said, _stats(found))
+    return Flown(_frames(found.flight), found.flight, said, _stats(fleet, found))
 
 
 def _frames(flight: Recorded) -> tuple[Frame, ...]:
@@ -63,10 +63,11 @@ def _frames(flight: Recorded) -> tuple[Frame, ...]:
     return tuple(Frame(flight.display, 0, k, at[:, k], colors[:, k]) for k in range(len(times)))
 
 
-def _stats(found: Staged) -> tuple[tuple[str, float | str], ...]:
+def _stats(fleet: Fleet, found: Staged) -> tuple[tuple[str, float | str], ...]:
     name = f"flight {found.flight.display}"
     start, end = found.part
     return (
+        (f"{name} fleet", fleet.name),
         (f"{name} from s", start),
         (f"{name} to s", end),
         (f"{name} longer s", found.longer),

@@ -24,6 +24,9 @@ SHOW_ROUNDING_M = 5e-4
 """Metres by which control points of shows may be rounded."""
 TABLE_ROUNDING_M = 5e-4
 """The same of tables, which Skybrush writes to the millimetre."""
+MOST_COLORS = 30_000_000
+"""Colours of all lights at all times that a plan holds: 90 MB. 1000 lights of five minutes change at 100 Hz,
+20,000 of them at 5 Hz."""
 LEVELS = 2.0
 """Levels, of 255, by which a light may be off for its times to be fewer."""
 
@@ -115,11 +118,14 @@ def colors_at(tracks: Tracks, start: float, end: float) -> tuple[Array, Colors]:
     """Return times of the file's clock, (T,), and the colours of all lights, (n, T, 3), between two times.
 
     The times are all those at which a light changes its course, but for those without which no light is more
-    than ``LEVELS`` off.
+    than ``LEVELS`` off; of more than ``MOST_COLORS`` they are even, as many as that leaves.
     """
     lights = [track.light or Keyed((0.0,), ((0, 0, 0),)) for track in tracks.tracks]
     every = np.unique(np.round(np.concatenate([light.times for light in lights]), 6))
     times = np.concatenate([[start], every[(every > start) & (every < end)], [end]])
+    most = MOST_COLORS // len(lights)
+    if len(times) > most:
+        times = np.linspace(start, end, most)
     levels = np.empty((len(lights), len(times), 3), dtype=np.float32)
     for row, light in zip(levels, lights, strict=True):
         for k in range(3):

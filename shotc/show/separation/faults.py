@@ -14,7 +14,7 @@ from shotc.geom.separation import Nearest
 from shotc.ir.fleet import FleetTrajectory, Shown
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
-from shotc.ir.show import Fleet, drone_names
+from shotc.ir.show import Fleet, Picture, RecordedFlight, drone_names
 from shotc.rounding import at_least, at_most
 from shotc.show.labels import wider
 from shotc.show.separation.longer import Stretch
@@ -55,6 +55,30 @@ def standing_too_near(
         (mission.origins.key(path), *_rule(mission, fleet)),
         (_who(fleet, nearest),),
         change,
+    )
+
+
+def recorded_in(mission: MissionIR, flight: FleetTrajectory, span: tuple[float, float]) -> Picture | None:
+    """Return the recorded flight that is flown between two times, s, None where none is."""
+    shots = (p for p in flight.phases if p.shot is not None and p.start < span[1] and p.end > span[0])
+    pictures = (mission.display(phase.shot or "").pictures[0] for phase in shots)
+    return next((p for p in pictures if isinstance(p.source, RecordedFlight)), None)
+
+
+def recorded_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tried) -> Diagnostic:
+    """Return D156: two drones of a recorded flight come too near, and nothing was found that mends it."""
+    nearest, across = tried.found, fleet.apart.across
+    notes = [_who(fleet, nearest)]
+    if tried.best > 0.0:
+        notes.append(f"the best flight found within their limits keeps {at_most(tried.best)} m")
+    least = at_most(max(tried.best, nearest.attained))
+    return Diagnostic(
+        "D156",
+        f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "
+        f"{nearest.time:.2f} s, and {across:.2f} m is the least",
+        (mission.origins.value((*picture.path, "flight")), *_rule(mission, fleet)),
+        tuple(notes),
+        f"move them apart where the show was made, or ask for a separation of {least} m if that is enough",
     )
 
 

@@ -19,7 +19,7 @@ from shotc.ir.show import Fleet
 from shotc.planning.on_pads import standing
 from shotc.show.geom.windows import Window, windows
 from shotc.show.separation.common import common
-from shotc.show.separation.faults import Tried, standing_too_near, too_near
+from shotc.show.separation.faults import Tried, recorded_in, recorded_too_near, standing_too_near, too_near
 from shotc.show.separation.longer import Stretch, longer
 from shotc.show.separation.pushed import Pushed, pushed
 
@@ -103,6 +103,11 @@ class Keeper:
             return
         self.ctx.progress(f"mending fleet {self.fleet.name} from {breaks[0]:.0f} to {breaks[-1]:.0f} s")
         standing = self._standing(window)
+        recorded = recorded_in(self.mission, self.flight, (float(breaks[0]), float(breaks[-1])))
+        if standing is not None and recorded is not None:
+            tried = Tried(standing, 0.0, None)
+            self.faults.append(recorded_too_near(self.mission, self.fleet, recorded, tried))
+            return
         if standing is not None:
             self.faults.append(standing_too_near(self.mission, self.fleet, self.flight, standing))
             return
@@ -110,6 +115,10 @@ class Keeper:
         if free.start < free.stop:
             done = pushed(breaks, coef, self.fleet, self.ctx.seed, free=free)
         self.rounds += done.rounds
+        if done.coef is None and recorded is not None:
+            tried = Tried(nearest, max(nearest.proven, done.reached), None)
+            self.faults.append(recorded_too_near(self.mission, self.fleet, recorded, tried))
+            return
         if done.coef is None:
             self.faults.append(self._too_near(window, nearest, done))
             return
