@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,7 +19,8 @@ from shotc.planning.timing.profile import Profile
 LATE_S = 1e-6  # seconds
 
 
-def flights(path: PathIR) -> dict[str, DroneTrajectory]:
+@lru_cache(maxsize=4)  # refiners ask again and again for the flights that a shot is refined beside
+def flights(path: PathIR) -> Mapping[str, DroneTrajectory]:
     """Return the flights of the drones of a path on the clock, by name; one has no others."""
     return {} if len(path.timed) < 2 else _all(path)
 

@@ -15,6 +15,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
+from shotc.geom.proof import box_gap
 from shotc.geom.solid_arrays.planes import separate
 from shotc.geom.solid_arrays.points import support
 from shotc.geom.solids import Solid
@@ -84,6 +85,11 @@ class LinearMotion:
         )
         return np.asarray(clearance + self.deviation_bound[:, None])
 
+    def on(self, pieces: IntArray) -> LinearMotion:
+        """Return the motion on some of its pieces, by their numbers."""
+        wide = None if self.wide is None else self.wide[pieces]
+        return LinearMotion(self.what, self.ends[pieces], self.deviation_bound[pieces], wide)
+
 
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
     """Return the targets that move, each a solid about its centre."""
@@ -121,24 +127,34 @@ def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
     rows: list[HalfSpaces] = []
     for index, motion in enumerate(motions):
         relative = relative_to(motion, hulls)
-        need = motion.needs
-        normal, gap = separate(motion.what.part, relative)
-        slack = _slack(motion, relative, normal, gap)
-        for run in _runs(slack < -TOUCH_M):
-            normal[run] = _way_round(motion.what.part, relative[run], need[run].max(axis=1))
-            gap[run] = -_push(motion.what.part, relative[run], np.zeros(len(run)), normal[run])
-        slack = _slack(motion, relative, normal, gap)
-        near = np.flatnonzero(slack < REACH_M)
-        if not len(near):
-            continue
-        points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
-        keep = need[near] + np.minimum(COMFORT_M, 0.5 * np.maximum(slack[near], 0.0))[:, None]
-        border = (points - gap[near])[:, None] + keep
-        linear = np.linspace(0.0, 1.0, 6)[None, :, None]
-        carried = motion.ends[near][:, :1] + linear * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
-        offset = border + np.einsum("nmd,nd->nm", carried, normal[near])
-        rows.append(HalfSpaces(near, normal[near], offset, np.full(len(near), index)))
+        apart = box_gap(relative, motion.what.part) - motion.needs.max(axis=1)
+        pieces = np.flatnonzero(apart < REACH_M)
+        if len(pieces):
+            near = _beside(motion.on(pieces), relative[pieces], pieces)
+            rows.append(replace(near, owner=np.full(len(near.piece), index)))
     return NO_HALF_SPACES.and_also(*rows)
+
+
+def _beside(motion: LinearMotion, relative: Array, pieces: IntArray) -> HalfSpaces:
+    """Put planes between pieces and one motion, where it comes near; without an owner.
+
+    relative : their hulls as the motion sees them; pieces : their numbers, (P,)
+    """
+    part, need = motion.what.part, motion.needs
+    normal, gap = separate(part, relative)
+    slack = _slack(motion, relative, normal, gap)
+    for run in _runs(pieces, slack < -TOUCH_M):
+        normal[run] = _way_round(part, relative[run], need[run].max(axis=1))
+        gap[run] = -_push(part, relative[run], np.zeros(len(run)), normal[run])
+    slack = _slack(motion, relative, normal, gap)
+    near = np.flatnonzero(slack < REACH_M)
+    points = np.einsum("nmd,nd->nm", relative[near], normal[near]).min(axis=1)
+    keep = need[near] + np.minimum(COMFORT_M, 0.5 * np.maximum(slack[near], 0.0))[:, None]
+    border = (points - gap[near])[:, None] + keep
+    linear = np.linspace(0.0, 1.0, 6)[None, :, None]
+    carried = motion.ends[near][:, :1] + linear * (motion.ends[near][:, 1:] - motion.ends[near][:, :1])
+    offset = border + np.einsum("nmd,nd->nm", carried, normal[near])
+    return HalfSpaces(pieces[near], normal[near], offset, np.zeros(len(near), dtype=np.int64))
 
 
 def motion_rows(breaks: Array, planes: HalfSpaces, first: int) -> HalfSpaceRows:
@@ -162,9 +178,15 @@ def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> 
 def shortfalls(motions: Sequence[LinearMotion], hulls: Array) -> Array:
     """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
     worst = np.full(len(hulls), -np.inf)
-    for motion in motions:
-        _, gap = separate(motion.what.part, relative_to(motion, hulls))
-        worst = np.maximum(worst, motion.what.clearance + motion.deviation_bound - gap)
+    seen = [(m.what.part, m.what.clearance + m.deviation_bound, relative_to(m, hulls)) for m in motions]
+    most = [needed - box_gap(relative, part) for part, needed, relative in seen]
+    for k in sorted(range(len(seen)), key=lambda k: -most[k].max(initial=-np.inf)):
+        part, needed, relative = seen[k]
+        # What is farther away than another one is short of it by less.
+        pieces = np.flatnonzero(most[k] > worst)
+        if len(pieces):
+            _, gap = separate(part, relative[pieces])
+            worst[pieces] = np.maximum(worst[pieces], needed[pieces] - gap)
     return worst
 
 
@@ -174,12 +196,12 @@ def relative_to(motion: LinearMotion, hulls: Array) -> Array:
     return np.asarray(hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1])))
 
 
-def _runs(too_near: Mask) -> list[IntArray]:
-    """Return the pieces that are too near, in runs without a gap of more than one piece."""
+def _runs(pieces: IntArray, too_near: Mask) -> list[IntArray]:
+    """Return where those too near stand among pieces (P,), in runs without a gap of more than one."""
     indices = np.flatnonzero(too_near)
     if not len(indices):
         return []
-    return np.split(indices, np.flatnonzero(np.diff(indices) > 2) + 1)
+    return np.split(indices, np.flatnonzero(np.diff(pieces[indices]) > 2) + 1)
 
 
 def _way_round(part: Solid, relative: Array, need: Array) -> Array:

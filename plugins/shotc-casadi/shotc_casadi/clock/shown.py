@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -112,6 +113,7 @@ def _covered(subject: ClockSubject, leg: ClockLeg) -> float:
     return sum(1.0 - shown(subject, leg, which).free.mean for which in range(len(subject.framed)))
 
 
+@lru_cache(maxsize=8)  # a guide and what is refined are compared by several rules
 def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     """Return what a leg shows of one of the subjects of its shot in the film."""
     one = subject.framed[which]
