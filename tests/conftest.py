@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import pkgutil
+import signal
 from importlib import import_module
 
 import pytest
@@ -14,6 +15,8 @@ from hypothesis import settings
 CI, FUZZ = (bool(os.environ.get(name)) for name in ("CI", "FUZZ"))
 settings.register_profile("shotc", deadline=None, derandomize=not FUZZ, print_blob=True)
 settings.load_profile("shotc")
+# A job that a shell keeps in the background ignores interrupts, and so would all that tests start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 OURS = ("shotc", "shotc_casadi", "shotc_chan", "tests")
 if CI:
     # Hypothesis also tries the constants of whatever modules of ours are loaded: so all of them are.

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -16,6 +15,7 @@ from shotc.cli import app, check
 from tests.cli.conftest import Run
 
 SHOTC = [sys.executable, "-m", "shotc"]
+MORE_THAN_A_PIPE_HOLDS = 200_000  # bytes
 
 
 def test_version_is_one_line(run: Run) -> None:
@@ -101,7 +101,8 @@ def test_interrupt(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_interrupt_of_a_process() -> None:
     process = subprocess.Popen([*SHOTC, "check", "-"], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
-    time.sleep(1.5)
+    assert process.stdin is not None
+    process.stdin.write(b"#" * MORE_THAN_A_PIPE_HOLDS)  # returns once the command reads
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=20)
     assert (process.returncode, err) == (130, b"interrupted\n")
