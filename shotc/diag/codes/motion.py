@@ -36,6 +36,27 @@ def _needs_a_file(number: int, slug: str, summary: str, explanation: str) -> Cod
     return CodeInfo(f"M{number:03}", slug, Severity.ERROR, summary, explanation, "", "", "other")
 
 
+_IN_TURN = """\
+shotc: 1
+mission: in-turn
+targets:
+  runner: {track: {start: [0, 0, 0.9], velocity: [3, 0, 0]}, radius: 0.4, height: 1.8}
+drones:
+  cam1: {model: x500, home: [30, -30, 0], priority: 1}
+  cam2: {model: x500, home: [45, 30, 0], priority: 2}
+rules: {mutual_visibility: {strength: off}, allow: [jump-cut]}
+shots:
+  - {id: side, kind: lateral, drone: cam1, target: runner, side: left, distance: 8, altitude: 4,
+     timing: {start: 28, duration: 8}}
+  - id: before
+    kind: keyframes
+    drone: cam2
+    target: runner
+    keyframes:
+      - {at: {from: runner, offset: [3, 10, 3.1]}, look_at: runner, time: 0}
+      - {at: {from: runner, offset: [4, 10, 3.1]}, look_at: runner, time: 5}
+    timing: {start: 20, duration: 5}
+"""
 _SECOND = ",\n                {target: rider, frame: [0.27, 0.0]}"
 _PAIR = f"""\
 shotc: 1
@@ -334,6 +355,18 @@ CODES: tuple[CodeInfo, ...] = (
         "The `time` of a setpoint counts from the shot's start. Setpoints are written in the order of their times, "
         "each later than the one before it, and none later than the duration.",
         ("size: 0.3}", "size: 0.3, setpoints: [{time: 15, size: 0.4}]}"),
+    ),
+    CodeInfo(
+        "M038",
+        "out-of-turn",
+        Severity.WARNING,
+        "a drone gives way to one of a later priority",
+        "Drones are planned in order of `priority`, each clear of those before it. Where one finds no way beside "
+        "them, it is planned before them, and they go clear of it, if all have a way then. The note says what could "
+        "not be flown in order of priority. Drones of one priority have no order of their own: nothing is said of them.",
+        _IN_TURN,
+        _IN_TURN.replace("priority: 2", "priority: 1"),
+        phase="plan",
     ),
     slip(
         "M035",

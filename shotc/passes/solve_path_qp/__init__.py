@@ -31,7 +31,7 @@ from shotc.passes.solve_path_qp.explain.path import (
     pad_blocked,
     swings,
 )
-from shotc.passes.solve_path_qp.explain.schedule import outside_track, too_late, way_met
+from shotc.passes.solve_path_qp.explain.schedule import out_of_turn, outside_track, too_late, way_met
 from shotc.planning.clock.itinerary import Itinerary
 from shotc.planning.clock.moving import moving_targets
 from shotc.planning.clock.others import other_drones
@@ -58,6 +58,14 @@ class _Planned:
     diagnostics: tuple[Diagnostic, ...]
 
 
+class _Ordered(NamedTuple):
+    """What drones came to in some order; stopped : the first without a way, where there is one."""
+
+    path: PathIR | None
+    diagnostics: tuple[Diagnostic, ...]
+    stopped: Drone | None
+
+
 class _Known(NamedTuple):
     """What drones planned one after the other know: of shots their durations, as in the pass, and ends on the
     mission's clock; the flights of those planned so far.
@@ -79,28 +87,54 @@ class SolvePathQp:
     name: ClassVar[str] = "solve-path-qp"
 
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[PathIR]:
-        """Plan every drone's path, in order of priority."""
+        """Plan every drone's path, in order of priority.
+
+        Where one finds no way beside those before it, it goes before them if all have one then.
+        """
+        order = _by_need(ir)
+        planned = first = self._in_order(ir, order, ctx)
+        moved = set[str]()
+        while (stopped := planned.stopped) is not None and stopped.name not in moved:
+            moved.add(stopped.name)
+            before, order = order, _earlier(ir, order, stopped)
+            if order == before:
+                break
+            planned = self._in_order(ir, order, ctx, whole=False)
+        if planned.path is None:
+            return Outcome(None, first.diagnostics)
+        swapped = () if first.stopped is None else out_of_turn(ir.mission, order, first.diagnostics)
+        return Outcome(planned.path, (*swapped, *planned.diagnostics))
+
+    def _in_order(
+        self, ir: KeyframeIR, order: Sequence[Drone], ctx: PassContext, *, whole: bool = True
+    ) -> _Ordered:
+        """Plan drones one after the other; whole : the others, too, where one of them finds no way."""
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
         known = _Known(self.durations, {}, {})
         deviations: list[Deviation] = []
         stats: list[tuple[str, float | str]] = []
         diagnostics: list[Diagnostic] = []
-        for drone in _by_need(ir):
+        stopped: Drone | None = None
+        for drone in order:
             planned = _plan(ir, drone, ctx, known)
             diagnostics += planned.diagnostics
             deviations += planned.deviations
             stats += planned.stats
-            if planned.legs and on_clock(ir):
+            if has_errors(planned.diagnostics):
+                stopped = stopped or drone
+                if not whole:
+                    break
+            elif planned.legs and on_clock(ir):
                 timed.append(TimedPath(drone.name, planned.legs))
             elif planned.legs:
                 legs = tuple(leg for leg in planned.legs if isinstance(leg, PathLeg))
                 paths.append(DronePath(drone.name, legs))
         diagnostics += _placed_late(ir, timed)
         if has_errors(diagnostics):
-            return Outcome(None, tuple(diagnostics))
+            return _Ordered(None, tuple(diagnostics), stopped)
         path = PathIR(ir, tuple(paths), tuple(deviations), tuple(stats), tuple(timed))
-        return Outcome(path, tuple(diagnostics))
+        return _Ordered(path, tuple(diagnostics), None)
 
 
 def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]:
@@ -122,7 +156,17 @@ def on_clock(ir: KeyframeIR) -> bool:
 
 def _by_need(ir: KeyframeIR) -> list[Drone]:
     """Return the drones in order of priority, each after those whose shots its own wait for."""
-    left = sorted(ir.mission.drones, key=lambda d: (d.priority, d.name))
+    return _after_needs(ir, sorted(ir.mission.drones, key=lambda d: (d.priority, d.name)))
+
+
+def _earlier(ir: KeyframeIR, order: Sequence[Drone], drone: Drone) -> list[Drone]:
+    """Return an order in which a drone goes before all that it does not wait for."""
+    return _after_needs(ir, [drone, *(other for other in order if other is not drone)])
+
+
+def _after_needs(ir: KeyframeIR, wanted: Sequence[Drone]) -> list[Drone]:
+    """Return drones as they are wanted, but each after those whose shots its own wait for."""
+    left = list(wanted)
     owner = {placed.shot.id: placed.shot.drone for placed in ir.shots}
     needs: dict[str, set[str]] = {drone.name: set() for drone in left}
     for placed in ir.shots:

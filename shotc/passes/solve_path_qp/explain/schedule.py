@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from shotc.diag.model import Diagnostic
+from collections.abc import Iterator, Sequence
+
+from shotc.diag.model import Diagnostic, Severity
+from shotc.diag.registry import severity_of
 from shotc.ir.drone import Drone
 from shotc.ir.framed import at_start
 from shotc.ir.ideal import TO_CATCH_UP, ideal_place
@@ -107,6 +110,28 @@ def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, meets: Meets) -
         ),
         ", or ".join(remedies),
     )
+
+
+def out_of_turn(
+    mission: MissionIR, order: Sequence[Drone], refused: Sequence[Diagnostic]
+) -> Iterator[Diagnostic]:
+    """Yield M038 for each drone that gives way to one of a later priority.
+
+    order : in which the drones are planned; refused : what was said of them in order of priority
+    """
+    errors = tuple(d.message for d in refused if severity_of(d) is Severity.ERROR)
+    for k, ahead in enumerate(order):
+        for drone in (d for d in order[k + 1 :] if d.priority < ahead.priority):
+            yield Diagnostic(
+                "M038",
+                f"drone `{drone.name}` gives way to `{ahead.name}`, which has a later `priority`",
+                (
+                    mission.origins.value((*ahead.path, "priority")),
+                    mission.origins.value((*drone.path, "priority"), "planned after it"),
+                ),
+                tuple(f"in order of priority {message}" for message in errors),
+                f"write `priority: {drone.priority}` in `{ahead.name}`, too, or give the shots more room",
+            )
 
 
 def _pad_met(mission: MissionIR, drone: Drone, meets: Meets) -> Diagnostic:
