@@ -275,8 +275,14 @@ drones:
   cam2: {model: x500, home: [40, 20, 0], priority: 2}
 rules: {separation: 6 m}
 shots:
-  - {id: a, drone: cam1, kind: lateral, target: walker, side: left, distance: 5, altitude: 6,
-    timing: {start: 20, duration: 8}}
+  - id: a
+    drone: cam1
+    kind: keyframes
+    target: walker
+    keyframes:
+      - {at: {from: walker, offset: [0, 5, 5.1]}, look_at: walker, time: 0 s}
+      - {at: {from: walker, offset: [0, 5, 5.1]}, look_at: walker, time: 8 s}
+    timing: {start: 20, duration: 8}
   - id: b
     drone: cam2
     kind: keyframes
