@@ -9,6 +9,7 @@ from typing import NamedTuple
 from shotc.source.comments import value_in_comment
 from shotc.source.fault import Fault, shorten
 from shotc.source.file import SourceFile, Span
+from shotc.source.limits import MAX_DEPTH
 
 _QUOTE = "put the value in quotes"
 _INDENT = "indent the keys of one mapping, and the items of one list, by the same number of spaces"
@@ -292,6 +293,12 @@ def _after_end(c: Complaint) -> Fault:
     )
 
 
+def _too_deep(c: Complaint) -> Fault:
+    """Blame a depth that the parser refuses by itself, which libyaml does since its release 0.2.6."""
+    message = f"lists and mappings are nested more than {MAX_DEPTH} deep"
+    return Fault("too-deep", message, c.file.point(c.at), help="a mission needs less than 12 levels")
+
+
 def _directive(c: Complaint) -> Fault:
     line_start = c.at - len(c.before)
     return Fault(
@@ -322,6 +329,7 @@ _RULES: tuple[tuple[str, Callable[[Complaint], Fault]], ...] = (
     ("alphabetic or numeric character", _anchor_name),
     ("undefined tag handle", _tag_handle),
     ("expected <document start>", _after_end),
+    ("maximum nesting depth", _too_deep),
     ("directive", _directive),
     ("incompatible YAML document", _directive),
 )
