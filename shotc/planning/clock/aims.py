@@ -1,4 +1,4 @@
-"""Where a camera has to look for its subjects to be at their places on screen."""
+"""Camera angles that put the subjects at their places on screen."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ from shotc.planning.clock.keyed import Keyed, keyed_of
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CameraTask:
-    """A drone that frames subjects, the first one foremost; none where it looks where it goes.
+    """A drone and the subjects that it frames, the most important first.
 
-    keyed : what its camera does instead, where keyframes tell it
-    start : mission time of the first frame, from which the times of setpoints count
-    smoother : smoothing that is asked, over the normal one
-    lens : the field of view over mission time, rad, where a refiner chose it; else that of the drone or of
-        ``keyed``
+    `subjects` is empty where the camera looks along its course.
+
+    keyed : the camera's motion between keyframes, which replaces the framing of subjects
+    start : mission time of the first frame, seconds; the times of setpoints count from it
+    smoother : smoothing time of the shot over the normal one
+    lens : field of view over mission time, rad, if a refiner chose it; else that of the drone or of ``keyed``
     """
 
     mission: MissionIR
@@ -37,47 +38,52 @@ class CameraTask:
 
     @property
     def watches(self) -> bool:
-        """Whether the camera films anything that the author named."""
+        """Whether the author named something for the camera to film."""
         return bool(self.subjects) or self.keyed is not None
 
     def hfov(self, times: Array) -> Array:
-        """Return its field of view at mission times (M,), rad."""
+        """Return the field of view at mission times (M,), rad, shape (M,)."""
         if self.lens is not None:
             return np.asarray(self.lens(times)[:, 0])
         return np.full(len(times), self.drone.hfov) if self.keyed is None else self.keyed.hfov(times)
 
 
 def camera_task_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> CameraTask:
-    """Return who films a shot that is placed for its start, seconds."""
+    """Return the camera task of a shot that is placed for its start, in seconds of mission time."""
     keyed = keyed_of(mission, drone, placed, start)
     return CameraTask(mission, drone, placed.subjects, keyed, start, placed.shot.smoother)
 
 
 def through(camera_task: CameraTask, lens: Piecewise) -> CameraTask:
-    """Return who films a shot through another lens: the field of view over mission time, rad, one channel."""
+    """Return the camera task with another lens: the field of view over mission time, rad, one channel."""
     keyed = camera_task.keyed
     return replace(camera_task, lens=lens, keyed=None if keyed is None else replace(keyed, chosen=lens))
 
 
 def wanted_places(subject: PlacedSubject, start: float, times: Array) -> Array:
-    """Return where on screen a subject is to be at mission times (M,), the middle if nowhere, (M, 2)."""
+    """Return the reference (u, v) of a subject on screen at mission times (M,), shape (M, 2).
+
+    It is the middle of the frame where the subject has none.
+    """
     if not subject.setpoints:
         return np.tile(np.array(subject.reference or (0.0, 0.0)), (len(times), 1))
     return np.array([subject.asked(float(t) - start).place or (0.0, 0.0) for t in times])
 
 
-ROUNDS = 12  # of Gauss and Newton, from a good first guess
+ROUNDS = 12  # Gauss-Newton iterations, from a good initial guess
 NUDGE_RAD = 1e-6  # rad
-VERTICAL_SHARE = 1e-9  # share of a distance that is over ground: with less a ray has no yaw
-MOST_RAD = 0.2  # rad of a step
+VERTICAL_SHARE = 1e-9  # horizontal share of a distance, below which a ray has no yaw
+MOST_RAD = 0.2  # rad, largest step of an iteration
 
 
 def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
-    """Return the yaw and the pitch that put subjects in their places, from places (M, 3) at times (M,).
+    """Return the yaw and the pitch that put the subjects at their places, shape (M, 2), rad, not unwrapped.
 
-    Where keyframes tell the shot they say it. Of several subjects with a place the squares of their distances
-    from it on screen are least, each counting alike.
-    Shape (M, 2), rad, not unwrapped.
+    Keyframes, where there are any, determine both angles. For several subjects with a place on screen, the
+    angles minimise the sum of squared distances from these places, all with equal weight (Gauss-Newton).
+
+    times : mission times, shape (M,), seconds
+    places : camera positions in W, shape (M, 3), metres
     """
     if camera_task.keyed is not None:
         return camera_task.keyed.aims(times, places)
@@ -106,9 +112,10 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
 
 
 def _aim(camera_task: CameraTask, subject: PlacedSubject, times: Array, places: Array) -> Array:
-    """Return the aim at one subject, shape (M, 2); where no camera has it there, that of the time before.
+    """Return the angles that put one subject at its place, shape (M, 2), rad.
 
-    ``geom.camera.aim_at`` for many times at once.
+    Where no camera angles do so, those of the sample before are taken. This is ``geom.camera.aim_at`` for
+    many times at once.
     """
     drone = camera_task.drone
     offset = _centres(camera_task.mission, subject, times) - places
@@ -132,7 +139,10 @@ def _aim(camera_task: CameraTask, subject: PlacedSubject, times: Array, places: 
 
 
 def _carried(found: Array, none: Mask, upright: Mask) -> Array:
-    """Return aims with what is missing from the time before: both angles, or the yaw straight up or down."""
+    """Return the angles with missing values filled from the sample before.
+
+    Both angles are missing where ``none`` holds, and the yaw where the ray is vertical (``upright``).
+    """
     for missing, columns in ((none, [0, 1]), (upright, [0])):
         before = np.maximum.accumulate(np.where(missing, -1, np.arange(len(found))))
         rows = np.flatnonzero(missing)
@@ -149,7 +159,7 @@ def _centres(mission: MissionIR, subject: PlacedSubject, times: Array) -> Array:
 
 
 def _errors(drone: Drone, offsets: Array, wanted: Array, aim: Array) -> Array:
-    """Return how far subjects are from their places on screen, shape (M, 2 K); wanted : (K, M, 2)."""
+    """Return the distances of subjects from their places on screen, shape (M, 2 K); wanted : (K, M, 2)."""
     half = np.tan(drone.hfov / 2)
     yaw, pitch = aim.T
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), half, half / drone.aspect)

@@ -1,4 +1,4 @@
-"""The clearances of ways between shots, where a shot on its own clock is led into and out of its film."""
+"""Clearances of transfers, kept by a shot on its own clock before and after its filmed part."""
 
 from __future__ import annotations
 
@@ -15,35 +15,35 @@ from shotc.geom.taper import SLOPE, Taper
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, relative_to, sides
 from shotc.planning.free_space import STEEPER_RATIO, HalfSpaces
 
-STEP_S = 0.05  # seconds between the places that are compared
-STAND_S = 1.0  # seconds that a drone stands at least where it has come from far, or leaves for there
+STEP_S = 0.05  # seconds between samples
+STAND_S = 1.0  # seconds that a drone stands at least at each end of the motion
 
 Span = tuple[float, float]
 """Mission times of the first and the last filmed frame, seconds."""
 
 
 class Standing(NamedTuple):
-    """What passes a drone that stands, even meanwhile, and where it stands, shape (1, 6, 3)."""
+    """The obstacles' motions while the drone stands, and its position as control points, shape (1, 6, 3)."""
 
     motions: tuple[LinearMotion, ...]
     stands: Array
 
 
 class Lack(NamedTuple):
-    """Metres by which a course is nearer than is needed: to what the mission writes down, and to anything."""
+    """Metres of missing clearance: beside obstacles whose clearance the mission states, and beside any."""
 
     required: float
     any: float
 
 
 def lacking(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> Lack:
-    """Return by how much the ways into and out of a film lack the clearances of ways between shots."""
+    """Return how much the parts before and after the film lack of the clearances of transfers."""
     into, out = lacking_each(motions, course, span)
     return Lack(max(into.required, out.required), max(into.any, out.any))
 
 
 def lacking_each(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> tuple[Lack, Lack]:
-    """Return the same of the way into a film, and of that out of it."""
+    """Return the lack before the film and the lack after it."""
     into, out = (
         _lack(motions, course, film, times) for film, times in zip(span, _times(course, span), strict=True)
     )
@@ -63,7 +63,7 @@ def _lack(motions: Sequence[LinearMotion], course: Piecewise, film: float, times
 
 
 def sides_apart(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> HalfSpaces:
-    """Put planes between the pieces before and after a film and what is near, at the clearances there."""
+    """Return half-spaces for the unfilmed pieces, with the clearances of transfers."""
     found = sides(widened(motions, course, span), course.ctrl[:, :, :3])
     unfilmed = ~_filmed(course, span)[found.piece]
     return HalfSpaces(
@@ -72,7 +72,7 @@ def sides_apart(motions: Sequence[LinearMotion], course: Piecewise, span: Span) 
 
 
 def widened(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> tuple[LinearMotion, ...]:
-    """Return motions with the clearances that are kept on the pieces of a course before and after a film."""
+    """Return the motions with the clearances of transfers on the unfilmed pieces of a course."""
     filmed = _filmed(course, span)
     before = course.breaks[:-1] < span[0]
     return tuple(_widened(motion, course, (span, filmed, before)) for motion in motions)
@@ -81,7 +81,9 @@ def widened(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> t
 def standing_apart(
     motions: Sequence[LinearMotion], course: Piecewise, span: Span
 ) -> tuple[Standing, Standing]:
-    """Return what passes while the drone stands where such ways begin and end, and the clearances from it."""
+    """Return the obstacles and their clearances while the drone stands at the start and at the end of a
+    motion.
+    """
     begin, end = float(course.start), float(course.end)
     pairs = []
     for film, window, place in (
@@ -115,7 +117,9 @@ def _widened(motion: LinearMotion, course: Piecewise, parts: tuple[Span, Mask, M
 
 
 def _taper(what: Moving, course: Piecewise, film: float, slope: float) -> Taper | None:
-    """Return what is needed beside a film that begins or ends at a time; None where that is nothing more."""
+    """Return the clearance near an end of the film at time ``film``; None where it is not larger than in the
+    film.
+    """
     if what.apart <= what.clearance:
         return None
     at = np.array([film])

@@ -1,4 +1,4 @@
-"""What binds a motion on the clock: rest at its ends, the drone's limits, and places of the author's."""
+"""Constraints of a motion on the clock: rest at its ends, limits of the drone, keyframes at given places."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.solvers.spline_problem import Cones
 
-NEARLY_SHARE = 0.999  # of each limit that is used, so that rounding breaks none
+NEARLY_SHARE = 0.999  # share of each limit that is used, as a margin for rounding
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bound:
-    """A place of the author's, W, metres, where the camera is at a time, or from a time to another, seconds.
+    """A place p_W in metres that the author gave, where the camera is from ``start`` to ``end``, seconds.
 
-    index : of its keyframe in the shot
+    index : number of its keyframe in the shot
     """
 
     index: int
@@ -35,7 +35,7 @@ class Bound:
 
 
 def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]:
-    """Return where keyframes bind the camera of a shot whose first frame is at mission time ``start``."""
+    """Return the places of keyframes that bind a shot whose first frame is at mission time ``start``."""
     if not is_keyed(shot):
         return ()
     bounds: list[Bound] = []
@@ -52,7 +52,7 @@ def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]
 
 
 def at_rest(breaks: Array) -> Rows:
-    """Return the rows of a spline's first and second derivative at both ends.
+    """Return the rows for the first and second derivative of a spline at both ends.
 
     breaks : shape (P + 1,), mission times in seconds
     """
@@ -64,7 +64,7 @@ def at_rest(breaks: Array) -> Rows:
 
 
 def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:
-    """Return the norms that a drone's motion keeps, at the control points of its derivatives.
+    """Return the limits of a drone's motion as cones over the control points of its derivatives.
 
     breaks : shape (P + 1,), mission times in seconds
     """

@@ -1,4 +1,4 @@
-"""Where the camera looks and the body heads: as near to its subjects as the gimbal and the body turn."""
+"""Camera angles and body yaw over mission time: near the subjects, within the limits of gimbal and body."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
 from shotc.solvers.spline_qp import minimise
 
-SAMPLES_PER_PIECE = 4  # of the aim, a piece
-FAINT_WEIGHT = 1e-2  # weight of the aim beyond the film's ends, against that in the film
+SAMPLES_PER_PIECE = 4  # samples of the camera angles
+FAINT_WEIGHT = 1e-2  # weight of the references outside the film, over that in the film
 SMOOTH_S = (0.12, 0.12, 0.6)
-"""Seconds below which wiggles of the camera's yaw, its pitch and the body vanish, with normal smoothing."""
-FOLLOW_WEIGHT = 0.05  # weight of the body's wish against the camera's aim
-LEVEL_M_S = 0.5  # m/s below which a motion has no course
-UNIT_RAD2_S = 1e-4  # rad^2 s: what the cost of turning is measured in, for one of 0.1 rad is a large one
+"""Seconds below which movements of camera yaw, camera pitch and body yaw vanish, with normal smoothing."""
+FOLLOW_WEIGHT = 0.05  # weight of the body's reference, over that of the camera's
+LEVEL_M_S = 0.5  # m/s of horizontal speed, below which a motion has no course
+UNIT_RAD2_S = 1e-4  # rad^2 s, unit of the cost in the solver
 YAW, PITCH, BODY = range(3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Turned:
-    """Camera yaw, pitch and body yaw over mission time, or None and the solver's word."""
+    """Camera yaw, camera pitch and body yaw over mission time; or None, and the solver's status."""
 
     curve: Piecewise | None
     status: Status
@@ -40,12 +40,12 @@ class Turned:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AngleTask:
-    """Whose camera turns, and how.
+    """The task of finding a camera's angles along a position curve.
 
-    kept : (yaw, pitch) that the camera keeps, rad, or None where it follows the subjects
-    course : (yaw, pitch) that it is to have at times (M,), shape (M, 2), unwrapped, where somebody has found
-        them already
-    ends : camera yaw, pitch and body yaw in which it begins and ends, shape (2, 3), or None where it is free
+    kept : (yaw, pitch) that the camera keeps, rad; None where it follows the subjects
+    course : reference (yaw, pitch) at times (M,), shape (M, 2), unwrapped, where a refiner has found them
+        already
+    ends : camera yaw, pitch and body yaw at the start and at the end, shape (2, 3); None where they are free
     """
 
     camera_task: CameraTask
@@ -55,7 +55,7 @@ class AngleTask:
 
 
 def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
-    """Return the camera's angles along a position curve."""
+    """Return the angles along a position curve, by one convex programme."""
     drone = angle_task.camera_task.drone
     breaks = clock.breaks
     inner = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
@@ -79,7 +79,7 @@ def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
 
 
 def _ends(angle_task: AngleTask, breaks: Array) -> Equalities:
-    """Return the rest at both ends, and the angles there where they are given."""
+    """Return the constraints of rest at both ends, and of the angles there where these are given."""
     rest = at_rest(breaks)
     still = np.zeros((len(rest.piece), 3))
     if angle_task.ends is None:
@@ -93,7 +93,7 @@ def _ends(angle_task: AngleTask, breaks: Array) -> Equalities:
 
 
 def _aims(angle_task: AngleTask, times: Array, position: Piecewise) -> Array:
-    """Return the yaw and the pitch that put the subjects in their places, unwrapped; shape (M, 2)."""
+    """Return the reference yaw and pitch of the camera, unwrapped; shape (M, 2)."""
     if angle_task.kept is not None:
         return np.tile(np.array(angle_task.kept), (len(times), 1))
     if angle_task.course is not None:
@@ -107,26 +107,28 @@ def _aims(angle_task: AngleTask, times: Array, position: Piecewise) -> Array:
 
 
 def _wound(angle_task: AngleTask, yaw: Array) -> Array:
-    """Return a yaw by whole turns on the winding of the angle that it begins in, if one is given."""
+    """Return a yaw moved by whole turns to be nearest to the given start angle, if there is one."""
     if angle_task.ends is None:
         return yaw
     return np.asarray(yaw + 2 * np.pi * np.round((angle_task.ends[0, YAW] - yaw[0]) / (2 * np.pi)))
 
 
 def _course(drone: Drone, yaw: Array, times: Array, position: Piecewise) -> Array:
-    """Return where the body would head, within what the gimbal reaches from there."""
+    """Return the reference of the body's yaw, from which the gimbal reaches the camera's yaw."""
     if drone.body != "forward":
         return yaw
     course = _motion(position.derivative()(times)[:, :2])
     low, high = drone.gimbal.yaw
     relative = np.unwrap(yaw - course)
-    # Most of the time counts: at its ends a slow motion may go any way.
+    # The median decides, because the course of a slow motion at its ends is arbitrary.
     relative -= 2 * np.pi * np.round((np.median(relative) - 0.5 * (low + high)) / (2 * np.pi))
     return np.asarray(yaw - np.clip(relative, low, high))
 
 
 def _motion(velocity: Array) -> Array:
-    """Return the course of a motion, unwrapped; while it hardly moves, that of the nearest time it did."""
+    """Return the course of a motion, unwrapped; where it hardly moves, interpolated from the times at which
+    it does.
+    """
     moves = np.flatnonzero(np.linalg.norm(velocity, axis=1) >= LEVEL_M_S)
     if not len(moves):
         return np.full(len(velocity), np.pi / 2)
@@ -135,7 +137,7 @@ def _motion(velocity: Array) -> Array:
 
 
 def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
-    """Return one goal a channel, weighted by the squares of ``root``, shape (M, 3)."""
+    """Return one least-squares term a channel, weighted by the squares of ``root``, shape (M, 3)."""
     goals = []
     for channel in range(3):
         value = np.zeros_like(wanted)

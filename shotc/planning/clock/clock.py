@@ -1,4 +1,4 @@
-"""The knots of a shot on its own clock: a way into its motion, the film, and a way out."""
+"""The knots of a shot on its own clock: run-up, film, and run-out."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from shotc.ir.keyed import arrivals, is_keyed, zoom_parts
 from shotc.ir.mission import Shot
 from shotc.planning.clock.run_up import RunUp
 
-PIECE_S = 0.5  # seconds of a piece of the spline, of a shot that is not very long
+PIECE_S = 0.5  # seconds of a piece, where the shot is not very long
 FEWEST_PIECES, MOST_PIECES = 16, 240  # pieces of the film
-FINE_S = 0.4  # seconds of a piece of a way into the film or out of it
-LEAST_PIECES = 5  # pieces of such a way: fewer are not as quick as its time allows
-PIECES_PER_KEYFRAME = 4  # at least from one to the next, so that a smooth way bends between them
+FINE_S = 0.4  # seconds of a piece before or after the film
+LEAST_PIECES = 5  # fewest pieces before or after the film; fewer need more time
+PIECES_PER_KEYFRAME = 4  # least pieces between two keyframes, so that a smooth curve can bend
 ROUNDING_S = 1e-9  # seconds
 
 
@@ -28,7 +28,8 @@ ROUNDING_S = 1e-9  # seconds
 class Clock:
     """Knots over mission time.
 
-    breaks : shape (P + 1,), seconds; start, end : of the film, two of them
+    breaks : shape (P + 1,), seconds
+    start, end : of the film, seconds; both are among the breaks
     """
 
     breaks: Array
@@ -43,9 +44,10 @@ class Clock:
 
 
 def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp], lens: LensRange | None) -> Clock:
-    """Return the knots of a shot whose first frame is at ``start``, with the ways into and out of it.
+    """Return the knots of a shot whose first frame is at ``start``.
 
-    lens : of its camera
+    ways : run-up and run-out
+    lens : zoom range of its camera
     """
     duration = shot.timing.duration or 0.0
     end = start + duration
@@ -65,11 +67,12 @@ def clock_of(shot: Shot, start: float, ways: tuple[RunUp, RunUp], lens: LensRang
 
 
 def _filmed(shot: Shot, start: float, step: float, lens: LensRange | None) -> Array:
-    """Return the knots of a film told by keyframes: each is reached and left at one of them.
+    """Return the knots of a film with keyframes.
 
-    So are the ends of the parts in which the lens zooms.
+    A knot lies where a keyframe is reached, where it is left, and at the ends of the parts in which the lens
+    zooms.
 
-    step : seconds of a piece where there is no reason for a shorter one
+    step : seconds of a piece where no keyframe needs a shorter one
     """
     duration = shot.timing.duration or 0.0
     stops = [(t, t + k.hold) for t, k in zip(arrivals(shot), shot.keyframes, strict=True)]

@@ -1,12 +1,14 @@
-"""When to set out on an unfilmed way, and over which height, so that nothing that moves is met on it.
+"""The choice of a transfer and of its departure time, so that it keeps clear of everything that moves.
 
-A drone leaves as late as it can and still be in time, or, where nobody waits for it, at once. Where that
-way meets a target or another drone, it sets out at another time, or goes round or over the top. On its pad,
-on the way up from it and down to it the drone's body alone counts, as in the proof: a target that comes over
-the pad finds the drone gone before it, or not there yet. A way that comes too near to a target would be
-refused by the proof: it is chosen only where there is no other, not even a late one. So is one that breaks a
-clearance of ways between shots that the mission writes down; where it is silent the clearances are kept by
-ways that are in time, and nothing waits long for them.
+A drone departs as late as it can and still arrives in time; without a deadline it departs at once. If that
+transfer comes too near to a target or to another drone, other departure times are tried, then transfers
+around or above. On the pad, during take-off and during landing only the radius of the body counts, as in
+verification.
+
+A transfer that comes too near to a target would fail verification. It is returned only if there is no other,
+not even a late one. The same holds for one that breaks a clearance of transfers that the mission states.
+Where the mission states none, these clearances are a preference: a transfer that is in time keeps them if it
+can, but nothing waits long for them.
 """
 
 from __future__ import annotations
@@ -32,26 +34,26 @@ from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.visibility import seen_on
 from shotc.planning.timing.estimate import leg_motion
 
-STEP_S = 0.05  # seconds between the places that are compared
-COMFORT_M = 0.5  # metres beyond a clearance: twice what two drones or a target come nearer within a step
-EARLY_S = 1.0  # seconds by which a drone is in place where it has the time
-HASTE_SHARE = 0.9  # of those that are given up where something passes its place until then
-DELAYS_S = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds that it may wait
-WAIT_SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # of the time it has to spare that it waits
-CLOSER, ZOOMS = 20, 2  # parts into which a step is cut where it is nearest to a target, and how often
-LEAVES_S = 3.0  # seconds after a shot, in which a drone has to get away from where it ends
+STEP_S = 0.05  # seconds between samples
+COMFORT_M = 0.5  # metres beyond a clearance: twice the approach of two drones in a step
+EARLY_S = 1.0  # seconds by which a drone is early, if it has the time
+HASTE_SHARE = 0.9  # share of EARLY_S that is given up if something passes its place
+DELAYS_S = (0.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0)  # seconds of waiting
+WAIT_SHARES = (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)  # shares of the spare time that it waits
+CLOSER, ZOOMS = 20, 2  # parts of a refined step near a target, and refinements
+LEAVES_S = 3.0  # seconds after a shot, in which the drone gets away from its end
 PROVED_M = 1e-6  # metres
-WAITED_M = 1e3  # metres that a clearance counts as broken by, where what follows would wait too long for it
+WAITED_M = 1e3  # metres, penalty for a clearance that costs too long a wait
 
 Course = Callable[[Array], Array]
-"""Places (M, 3) at mission times (M,)."""
+"""Positions (M, 3), metres, at mission times (M,), seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class Meeting:
-    """A target that a way comes too near to: when, and by how many metres.
+    """The place where a transfer comes too near to a target, by ``lack`` metres at mission time ``time``.
 
-    phase : "takeoff" or "land" where that is at the pad, "transit" elsewhere
+    phase : "takeoff" or "land" at the pad, "transit" elsewhere
     """
 
     owner: Owner
@@ -62,13 +64,14 @@ class Meeting:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transfer:
-    """Unfilmed legs, the first of which waits for its time.
+    """Unfilmed legs; the first one has its departure time.
 
-    end : mission time at which the last one ends
-    slack : least distance on it beyond a clearance, metres; unseen : least distance out of a picture
+    end : mission time at which the last leg ends, seconds
+    slack : least slack over clearances, metres
+    unseen : least distance out of the pictures of others, metres
     met : the target that it comes too near to, if there is one
-    kept : least distance on it beyond the clearances of ways between shots, metres; required : the same of
-        those that the mission writes down
+    kept : least slack over the clearances of transfers, metres
+    required : the same over those that the mission states
     """
 
     legs: tuple[MovingLeg, ...]
@@ -81,13 +84,13 @@ class Transfer:
 
     @property
     def clear(self) -> bool:
-        """Whether nothing is met on it."""
+        """Whether it keeps its clearances from everything that moves."""
         return self.slack >= COMFORT_M and self.required >= -PROVED_M
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NextLeg:
-    """A leg that is flown after a way, from mission time ``ready`` on at the earliest."""
+    """A leg that is flown after a transfer, at mission time ``ready`` or later."""
 
     leg: PathLeg
     ready: float
@@ -95,10 +98,11 @@ class NextLeg:
 
 @dataclass(frozen=True, slots=True)
 class When:
-    """When a way is flown, mission times in seconds.
+    """The time window of a transfer, mission times in seconds.
 
-    ready : from when on the drone may leave; due : by when it has to be there, if it has to
-    stays : until when it stands where the way ends, at least
+    ready : earliest departure
+    due : deadline of the arrival, if there is one
+    stays : the drone stands at the end of the transfer at least until then
     """
 
     ready: float
@@ -114,19 +118,20 @@ def choose(
     when: When,
     then: NextLeg | None = None,
 ) -> Transfer | None:
-    """Return the first way in time on which nothing is met, else the best; None where there is none.
+    """Return the first transfer that is in time and clear, else the best one; None if there is none.
 
-    The best meets no target, then no drone, is the least late, keeps the clearances of ways between shots,
-    and has the most slack, in this order: what is met is refused by the proof, and a shot that is late can be
-    put off, or is told when it could begin.
+    The best is chosen lexicographically: no target too near, then no drone too near, then the stated
+    clearances of transfers, then the least delay, then the other clearances of transfers, then the slack,
+    then the pictures of others. The order follows verification, which refuses what is too near. A shot that
+    is late can still be put off, or be reported with its earliest start.
 
-    ways : legs that lead there, those to be preferred first
-    then : what it flies next, which is not to meet anything either
+    ways : legs of each candidate, the preferred ones first
+    then : the next leg, which has to be clear as well
     """
     tried: list[Transfer] = []
 
     def waits(way: Transfer) -> float:
-        """Return for how many seconds what follows waits for a way, beside the first."""
+        """Return the seconds that the next leg waits longer than with the first candidate."""
         ready = 0.0 if then is None else then.ready
         return 0.0 if when.due is not None else max(way.end, ready) - max(tried[0].end, ready)
 
@@ -152,17 +157,19 @@ def choose(
 
 
 def _kept(way: Transfer, waits: float) -> float:
-    """Return how far a way keeps the clearances of ways between shots, metres.
+    """Return the slack of a transfer over the clearances of transfers, metres.
 
-    It is worth little where what follows would wait longer for it than a preference may cost.
+    A penalty is subtracted where the next leg would wait longer for it than a preference may cost.
     """
     return way.kept if waits <= LONGEST_WAIT else min(way.kept, 0.0) - WAITED_M
 
 
 def _unseen(others: OtherVehicles, way: Transfer, waits: float) -> float:
-    """Return how far a way is out of pictures, metres, where that counts; waits : as in ``_kept``.
+    """Return how far a transfer is out of the pictures of others, metres, where that counts; waits : as in
+    ``_kept``.
 
-    A preference that is not met counts for nothing, nor one that is for which what follows waits too long.
+    Where free pictures are only preferred, the result is 0 if the preference is met at an acceptable wait,
+    else minus infinity.
     """
     if not others.visibility.preferred:
         return way.unseen
@@ -213,10 +220,11 @@ def _tries(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Course:
-    """Where a drone is on a way, before and after it.
+    """The position of a drone before, during and after a transfer.
 
-    curves : places over the time of each leg that takes any; leaves : mission time
-    film : places of the shot that it flies from mission time ``until`` on, if there is one on a path
+    curves : positions over the time of each leg that takes time
+    leaves : mission time of the departure
+    film : positions of a shot on a path that it flies from mission time ``until`` on, if there is one
     """
 
     legs: list[MovingLeg]
@@ -226,7 +234,7 @@ class _Course:
     until: float
 
     def at(self, times: Array) -> Array:
-        """Return places (M, 3) at mission times (M,); it stands before and after."""
+        """Return positions (M, 3) at mission times (M,); the drone stands before and after."""
         places = np.tile(np.array(self.legs[0].pose[:3]), (len(times), 1))
         begin = self.leaves
         for curve in self.curves:
@@ -237,12 +245,14 @@ class _Course:
         return places
 
     def upright(self, times: Array) -> Mask:
-        """Tell at which times it is on its pad, rises from it or sinks to it: its body alone counts."""
+        """Return whether the drone is on its pad, takes off or lands at times (M,); then only its body
+        counts.
+        """
         takes_off, lands = self._lifts()
         return np.asarray((times <= takes_off) | (times >= lands))
 
     def phase(self, t: float) -> PhaseName:
-        """Return what it does at a mission time; all but take-off and landing is a transit."""
+        """Return the phase at a mission time: take-off, landing, or else transit."""
         takes_off, lands = self._lifts()
         return "takeoff" if t <= takes_off else "land" if t >= lands else "transit"
 
@@ -258,22 +268,22 @@ class _Course:
 
 
 def _from(places: Array, times: Array, begin: float, curve: Piecewise) -> None:
-    """Put the places of a curve in from a time on."""
+    """Write the positions of a curve that begins at a time into ``places``."""
     inside = times >= begin
     places[inside] = curve(np.minimum(times[inside] - begin, float(curve.end)))
 
 
 def _slack(what: Moving, radius: float, times: Array, places: Array, upright: Mask) -> float:
-    """Return the least distance from something that moves beyond the clearance from it, metres.
+    """Return the least slack over the clearance from something that moves, metres.
 
-    radius : of the body, which is all that counts at the pad
+    radius : of the body, which is the clearance at the pad
     """
     needs = _needs(what, radius, upright)
     return float((distances(what.part, places - what.at(times)) - needs).min(initial=inf))
 
 
 def _apart(what: Moving, times: Array, places: Array) -> float:
-    """Return the least distance from something that moves beyond what is needed between shots, metres."""
+    """Return the least slack over the clearance of transfers from something that moves, metres."""
     if what.apart <= what.clearance or not len(times):
         return inf
     beside = places - what.at(times)
@@ -283,7 +293,7 @@ def _apart(what: Moving, times: Array, places: Array) -> float:
 
 
 def _needs(what: Moving, radius: float, upright: Mask) -> Array:
-    """Return the metres that are kept from something that moves, shape (M,)."""
+    """Return the clearance from something that moves, shape (M,), metres."""
     return np.where(upright & (not what.always), radius, what.clearance)
 
 
@@ -295,7 +305,9 @@ def _met(moving: Sequence[Moving], radius: float, course: _Course, times: Array)
 
 
 def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> Meeting:
-    """Return where a course is nearest to a target, looked at ever more closely: it is to stand the proof."""
+    """Return where a course is nearest to a target, with sampling refined around the minimum for
+    verification.
+    """
     step, most, when = STEP_S, -inf, float(times[0])
     for _ in range(1 + ZOOMS):
         lack = _needs(what, radius, course.upright(times)) - distances(

@@ -1,4 +1,4 @@
-"""The unfilmed ways that are tried from one pose to another: direct, round what passes, and over it."""
+"""Candidate transfers from one pose to another: direct, around what moves, and above it."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.path.legs import Flight, end_of, raised, take_off, way_home, way_to
 
-LIFTS_M = (4.0, 10.0, 20.0)  # metres over the higher end of a way
+LIFTS_M = (4.0, 10.0, 20.0)  # metres above the higher end of a transfer
 
 
 class Meanwhile(NamedTuple):
-    """What goes on while a drone is on its way; span : from when to when that is, mission time, seconds."""
+    """The other vehicles while a drone flies a transfer; span : mission times of start and end, seconds."""
 
     others: OtherVehicles
     span: tuple[float, float]
 
     def beside(self, flight: Flight) -> Flight:
-        """Return the flight in the free space that targets leave wherever they go meanwhile."""
+        """Return the flight with a free space that excludes all places of targets during that time."""
         return replace(flight, spaces=with_sweeps(flight.spaces, self.others.moving, self.span))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transit:
-    """A way from a pose to another, and the YAML path of what it is flown for."""
+    """A transfer from a pose to another, and the key path of the shot or drone that it is flown for."""
 
     mission: MissionIR
     flight: Flight
@@ -42,7 +42,9 @@ class Transit:
 def ways_home(
     flight: Flight, pose: Pose, direct: list[MovingLeg], meanwhile: Meanwhile
 ) -> Iterator[list[MovingLeg]]:
-    """Return the direct way home, the one round everything, and those first straight up."""
+    """Yield the direct way home, the one around everything that moves, and those that first rise
+    straight up.
+    """
     yield direct
     around = way_home(meanwhile.beside(flight), pose)
     if isinstance(around, list):
@@ -58,9 +60,9 @@ def ways_home(
 def ways_to(
     wanted: Transit, start: tuple[list[MovingLeg], Pose], direct: list[MovingLeg], meanwhile: Meanwhile
 ) -> Iterator[list[MovingLeg]]:
-    """Return the direct way, the one round everything, and those over what is met.
+    """Yield the direct transfer, the one around everything that moves, and those above it.
 
-    start : the take-off where the drone is on its pad, and the shot's first pose, which that turns to
+    start : the take-off legs where the drone is on its pad, and the shot's first pose, to which they turn
     """
     (lift, first), flight = start, wanted.flight
     pose, goal, path = wanted.pose, wanted.goal, wanted.path
@@ -70,7 +72,7 @@ def ways_to(
         yield [*lift, *around]
     for metres in LIFTS_M:
         high = max(pose[2], goal[2]) + metres
-        # Straight up from a pad there is the take-off already.
+        # From a pad, the take-off goes straight up already.
         stops = [pose, *([] if lift else [_at(pose, high)]), _at(goal, high), goal]
         found = _through(flight, stops, path)
         if found is not None:
@@ -80,7 +82,7 @@ def ways_to(
 
 
 def _lifted(wanted: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
-    """Return ways from the pad that rise higher straight up, where there is room for it."""
+    """Yield transfers with a higher take-off, where there is free space for it."""
     for metres in LIFTS_M:
         higher = raised(wanted.mission, wanted.flight, metres)
         if higher is None:
@@ -92,7 +94,7 @@ def _lifted(wanted: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
 
 
 def _through(flight: Flight, stops: list[Pose], path: KeyPath) -> list[MovingLeg] | None:
-    """Return the legs from each of some poses to the next."""
+    """Return legs through a sequence of poses, or None where two of them cannot be joined."""
     legs: list[MovingLeg] = []
     for a, b in pairwise(stops):
         way = way_to(flight, a, b, path)
@@ -103,5 +105,5 @@ def _through(flight: Flight, stops: list[Pose], path: KeyPath) -> list[MovingLeg
 
 
 def _at(pose: Pose, height: float) -> Pose:
-    """Return a pose moved straight up or down to a height."""
+    """Return a pose at another height."""
     return (*pose[:2], height, *pose[3:])

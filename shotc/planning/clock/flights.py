@@ -1,4 +1,4 @@
-"""The flights of drones on the mission's clock, as the time pass will fly their legs."""
+"""The flights of drones on the mission's clock, with the same timing as in the time pass."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from shotc.planning.timing.profile import Profile
 LATE_S = 1e-6  # seconds
 
 
-@lru_cache(maxsize=4)  # refiners ask again and again for the flights that a shot is refined beside
+@lru_cache(maxsize=4)  # refiners ask for the same flights repeatedly
 def flights(path: PathIR) -> Mapping[str, DroneTrajectory]:
-    """Return the flights of the drones of a path on the clock, by name; one has no others."""
+    """Return the flights of the drones of a path on the clock, by name; empty where only one drone flies."""
     return {} if len(path.timed) < 2 else _all(path)
 
 
@@ -32,10 +32,11 @@ def _all(path: PathIR) -> dict[str, DroneTrajectory]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FlownShot:
-    """A shot on a path as the time pass flies it in a mission with a clock.
+    """A shot on a path with the timing of the time pass, in a mission with a clock.
 
     start : mission time of its first frame, seconds
-    profile : its path parameter over seconds from the start; curve : channels CHANNELS over mission time
+    profile : its path parameter over seconds from the start
+    curve : channels CHANNELS over mission time
     """
 
     start: float
@@ -48,7 +49,10 @@ class FlownShot:
 
 
 def flown_shot(path: PathIR, shot: str) -> FlownShot:
-    """Return a shot on a path of a drone on the mission's clock, timed; KeyError where there is none."""
+    """Return a shot on a path of a drone on the mission's clock, timed.
+
+    Raises KeyError if there is no such shot.
+    """
     for flown in path.timed:
         leg = next((leg for leg in flown.legs if leg.shot == shot and isinstance(leg, PathLeg)), None)
         if leg is not None:
@@ -62,9 +66,10 @@ def flown_shot(path: PathIR, shot: str) -> FlownShot:
 
 
 def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> DroneTrajectory:
-    """Return a drone's flight as the time pass will fly it, up to a shot that it would be late for.
+    """Return a drone's flight with the timing of the time pass, up to the first shot that it would reach too
+    late.
 
-    ends : of the shots of drones before it, by id, seconds; its own are added
+    ends : mission times at which the shots of drones before it end, by id, seconds; its own are added
     """
     drone, made = mission.drone(flown.drone), Flight(flown.drone)
     after = {shot.id: shot.timing.after for shot in mission.shots}

@@ -1,4 +1,4 @@
-"""Where the camera of a shot on its own clock would be, at many times at once: ``ir.ideal`` for arrays."""
+"""The ideal camera position of a shot on its own clock at many times at once: ``ir.ideal`` for arrays."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from shotc.ir.terrain import ground_heights
 
 
 def ideal_places(mission: MissionIR, shot: Shot, start: float, times: Array) -> Array:
-    """Return the places at mission times of shape (M,), W, metres, shape (M, 3); as ``ideal_place``.
+    """Return the ideal camera positions in W, shape (M, 3), metres, at mission times (M,); as
+    ``ideal_place``.
 
-    start : mission time of the shot's first frame
+    start : mission time of the shot's first frame, seconds
     """
     ideal, duration = shot.ideal, shot.timing.duration
     assert ideal is not None

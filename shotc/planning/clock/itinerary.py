@@ -1,7 +1,7 @@
-"""The legs of a drone that films something on its own clock: each shot is planned for when it is flown.
+"""The legs of one drone on the mission's clock, shot by shot in the order of flight.
 
-A shot of a moving target has to know its first frame's time before it can be planned, so the legs before
-it are timed here as the time pass will time them.
+A shot of a moving target is planned for the time at which it starts. The legs before it are therefore timed
+here, in the same way as in the time pass.
 """
 
 from __future__ import annotations
@@ -60,13 +60,13 @@ from shotc.planning.timing.estimate import leg_time
 from shotc.rounding import up
 
 LATER_S = (2.0, 4.0, 7.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0, 35.0, 40.0)
-"""Seconds that a shot may begin later, for a motion or a way to it."""
+"""Seconds by which a start is put off, to find a motion or a transfer to it."""
 LATE_S = 1e-6  # seconds
-AMPLE_RATIO = 1.5  # times what a way takes, in which it is flown where nobody waits for the drone
+AMPLE_RATIO = 1.5  # time that a transfer without a deadline may take, over its direct duration
 
 
 class _State(NamedTuple):
-    """How far a drone's legs are planned: what an itinerary holds, by the same names."""
+    """A snapshot of an itinerary, with the same field names."""
 
     legs: tuple[Leg, ...]
     clock: float
@@ -78,7 +78,9 @@ class _State(NamedTuple):
 
 
 class _Last(NamedTuple):
-    """The last shot, where it is on its own clock: its start, the state before it, which ends lead aside."""
+    """The last shot, if it is on its own clock: its start, the state before it, and which of its ends lead
+    aside.
+    """
 
     placed: PlacedShot
     start: float
@@ -88,11 +90,12 @@ class _Last(NamedTuple):
 
 @dataclass(slots=True)
 class Itinerary:
-    """The legs of one drone while they grow, and the clock at their end.
+    """The legs of one drone planned so far, and the mission time at their end.
 
-    ends : of the shots of drones planned before, by id; this drone's are added
-    last : its last shot; slack : least distance beyond a clearance on the last way, metres
-    late : seconds by which the last way ends after the start that is written for its shot
+    ends : mission times at which shots of drones planned before end, by id; this drone's are added
+    last : its last shot on its own clock
+    slack : least slack over clearances on the last transfer, metres
+    late : seconds by which the last transfer ends after the fixed start of its shot
     """
 
     mission: MissionIR
@@ -109,16 +112,16 @@ class Itinerary:
 
     @property
     def drone(self) -> Drone:
-        """Who flies."""
+        """The drone that flies."""
         return self.flight.drone
 
     def copied(self, mission: MissionIR, flight: Flight) -> Itinerary:
-        """Return the same for another mission with the same shots so far, to try out what follows."""
+        """Return a copy for another mission with the same shots so far, to try changes."""
         lists = list(self.legs), self.clock, list(self.deviations), list(self.stats)
         return Itinerary(mission, flight, self.others, dict(self.ends), *lists, self.last, self.slack)
 
     def film(self, shot: PlannedShot | PlacedShot) -> ClockFailure | None:
-        """Add a shot and the way to it."""
+        """Add a shot and the transfer to it."""
         add = partial(self._path, shot) if isinstance(shot, PlannedShot) else partial(self._timed, shot)
         return self._leaving(add)
 
@@ -127,9 +130,10 @@ class Itinerary:
         return self._leaving(self._home)
 
     def _leaving(self, add: Callable[[], ClockFailure | None]) -> ClockFailure | None:
-        """Add what follows the last shot, which ends elsewhere where that helps.
+        """Add what follows the last shot, and plan that shot again with another end if this helps.
 
-        It ends aside where something is met otherwise, and straight on where leading aside takes too long.
+        The end leads aside where the transfer meets something otherwise, and straight on where leading aside
+        takes too long.
         """
         self.late = 0.0
         before = self._state()
@@ -152,9 +156,9 @@ class Itinerary:
         return found
 
     def _ended(self, ends: tuple[tuple[bool, bool], ...]) -> bool:
-        """Plan the last shot again with the first possible of some ends; tell whether there is one.
+        """Plan the last shot again with the first feasible pair of ends; return whether there is one.
 
-        ends : whether it begins and whether it ends where nothing passes
+        ends : whether the shot begins aside of what moves, and whether it ends so
         """
         if self.last is None:
             return False
@@ -193,13 +197,14 @@ class Itinerary:
         return None
 
     def track(self) -> DroneTrajectory:
-        """Return the drone's flight as far as it is planned, as the time pass will fly it."""
+        """Return the drone's flight as far as it is planned, with the timing of the time pass."""
         return flight(self.mission, TimedPath(self.drone.name, tuple(self.legs)), dict(self.ends))
 
     def _meanwhile(self, direct: list[MovingLeg], due: float | None) -> Meanwhile:
-        """Return what goes on while a drone is on its way.
+        """Return the other vehicles during a transfer.
 
-        direct : legs that take about as long; due : when the drone has to be there, if it has to
+        direct : legs that take about as long
+        due : deadline of the arrival, if there is one
         """
         until = due
         if until is None:
@@ -229,9 +234,10 @@ class Itinerary:
     def _way(
         self, goal: Pose, shot: PlannedShot | PlacedShot, due: float | None, ready: float = 0.0
     ) -> Transfer | Failure:
-        """Return the unfilmed legs from here, or from the pad, to a shot's first pose.
+        """Return the unfilmed legs from the current pose, or from the pad, to a shot's first pose.
 
-        due : when the drone has to be there, if it has to; ready : when a shot on a path may begin
+        due : deadline of the arrival, if there is one
+        ready : earliest start of a shot on a path
         """
         lift = [] if self.legs else [take_off(self.flight, goal)]
         pose = end_of(lift or self.legs)
@@ -283,7 +289,7 @@ class Itinerary:
         return None
 
     def _add(self, placed: PlacedShot, reached: Reached) -> None:
-        """Add a shot on its own clock with the way to it."""
+        """Add a shot on its own clock and the transfer to it."""
         self.last = _Last(placed, reached.shot.leg.start, self._state(), reached.aside)
         self._take(reached.way)
         leg = turned_leg(reached.shot.leg, end_of(self.legs))
@@ -294,7 +300,7 @@ class Itinerary:
         self.stats += reached.shot.stats
 
     def _late(self, placed: PlacedShot, reached: Reached) -> ClockFailure | None:
-        """Return what is wrong with when a shot is reached, or with how long it can last then."""
+        """Return the failure if the drone is late for a shot, or if the track ends before the shot does."""
         start, fixed = reached.shot.leg.start, placed.shot.timing.start
         if reached.late <= LATE_S:
             return outside(self.mission, placed, start)
@@ -309,9 +315,9 @@ class Itinerary:
         return self._too_late(reached, first, short)
 
     def _too_late(self, asked: Reached, first: Reached, short: OutsideTrack | None) -> TooLate:
-        """Return by how much a shot is late.
+        """Return the failure of a shot that the drone reaches too late.
 
-        first : the same shot at the first start at which it is not, or the last that was tried
+        first : the same shot at its earliest feasible start, or at the last start that was tried
         """
         leg, there = first.shot.leg, first.late <= LATE_S
         path = TimedPath(self.drone.name, (*self.legs, *first.way.legs, leg))
@@ -324,7 +330,7 @@ class Itinerary:
         return TooLate(asked.late, leg.start if there else None, short, tuple(before), run_up)
 
     def _later(self, placed: PlacedShot, start: float) -> Reached | None:
-        """Return the first of some later starts to which there is a way on which nothing is met."""
+        """Return the shot at the first of some later starts to which there is a clear transfer."""
         for more in LATER_S:
             reached = self._reached(placed, start + more)
             if isinstance(reached, Reached) and reached.late <= 0.0 and reached.way.clear:
@@ -332,11 +338,10 @@ class Itinerary:
         return None
 
     def _reached(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
-        """Plan a shot for a start, and the way to it.
+        """Plan a shot for a start, and the transfer to it.
 
-        Where every way to where it begins comes too near to a target, it begins aside or farther off, if that
-        helps; where the ways into the film or out of it lack the clearances of ways between shots, these lead
-        aside.
+        If every transfer to its first pose comes too near to a target, the shot begins aside or farther off,
+        if that helps. If the run-up or the run-out lacks clearances of transfers, it leads aside.
         """
         short = outside(self.mission, placed, start)
         if short is not None:
@@ -353,7 +358,7 @@ class Itinerary:
         return near
 
     def _reached_as(self, placed: PlacedShot, start: float, asked: tuple[Ask, ...]) -> Reached | ClockFailure:
-        """Plan the same with what is asked of where the shot begins and ends."""
+        """Plan a shot and the transfer to it, with given requirements on the shot's ends."""
         camera_task = CameraTask(self.mission, self.drone, placed.subjects)
         made = timed_shot(camera_task, (self.flight.spaces, self.others), placed, start, asked)
         if isinstance(made, NoMotion):
@@ -365,11 +370,13 @@ class Itinerary:
         return Reached(made, way, way.end - begins, asked[0].aside)
 
     def _put_off(self, placed: PlacedShot, start: float) -> Reached | ClockFailure:
-        """Plan a shot for the first start, from one on, at which the drone is there."""
+        """Plan a shot for the first start, from a given one on, that the drone reaches in time."""
         return put_off(self.mission, self._reached, placed, start, self._about(placed))
 
     def _about(self, placed: PlacedShot) -> Callable[[float], float]:
-        """Return by how many seconds the drone is late for a start of a shot, if it flies straight there."""
+        """Return an estimate of the seconds by which a straight flight to a shot is late, as a function of
+        its start.
+        """
         shot, limits = placed.shot, self.drone.limits
         here, ready = np.array(end_of(self.legs)[:3] if self.legs else self.flight.top), self.clock
         if not self.legs:

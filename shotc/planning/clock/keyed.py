@@ -1,8 +1,8 @@
-"""What the camera of a shot told by keyframes does at every instant: its lens, its aim, the places on screen.
+"""The camera of a shot with keyframes at every instant: its lens, its angles, and references on screen.
 
-At a keyframe it has that keyframe's field of view, and puts its target in its place or looks where it says.
-From one to the next all of it passes smoothly: the place on screen of a target that both have, or else the
-aim itself, while the camera leaves the one target for the other.
+At a keyframe the camera has that keyframe's field of view. It puts the keyframe's target at its place, or
+looks along the keyframe's angles. Between keyframes everything changes smoothly (minimum jerk): the reference
+on screen of a target that both keyframes share, or else the angles themselves, from one target to the other.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import KeyframeTime, Reference
 
-STEEP_SHARE = 0.1  # of a line of sight that is level, below which it has no bearing to turn to
-CALM = 1e-4  # half frames squared that a turn of 1 rad off the keyframes' own angles costs there
-ROUNDS = 8  # of Gauss and Newton
+STEEP_SHARE = 0.1  # horizontal share of a line of sight, below which its bearing is undefined
+CALM = 1e-4  # half frames squared per rad^2, damping of turns off the keyframes' angles there
+ROUNDS = 8  # Gauss-Newton iterations
 NUDGE_RAD = 1e-6  # rad
-MOST_RAD = 0.2  # rad of a step
+MOST_RAD = 0.2  # rad, largest step of an iteration
 SAME_S = 1e-9  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
-    """The way from a keyframe to the next one, or a hold, where both are the same; mission time, s.
+    """The interval from a keyframe to the next one, or a hold (then ``a`` is ``b``); mission time, seconds.
 
-    parts : of ``geom.ease``, in which the lens zooms
+    parts : number of parts in which the lens zooms, as in ``geom.ease``
     """
 
     start: float
@@ -48,18 +48,18 @@ class Stretch:
 
     @property
     def follows(self) -> bool:
-        """Whether one target is led from a place on screen to another."""
+        """Whether one target moves from a place on screen to another."""
         same = self.a.target is not None and self.a.target == self.b.target
         return same and self.a.reference is not None and self.b.reference is not None
 
     def share(self, times: Array) -> Array:
-        """Return how much of the way is done at times (M,)."""
+        """Return the progress from 0 to 1 at mission times (M,), shape (M,)."""
         x = np.clip((times - self.start) / (self.end - self.start), 0.0, 1.0)
         return minimum_jerk(x)
 
     @property
     def lens(self) -> Piecewise:
-        """The field of view, rad, over mission time."""
+        """The field of view over mission time, rad."""
         steps = control(self.parts)
         knots = [self.start + x * (self.end - self.start) for x, _, _ in steps]
         ctrl = [[(1.0 - y) * self.a.hfov + y * self.b.hfov for y in way] for _, _, way in steps]
@@ -68,10 +68,10 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Keyed:
-    """A shot told by keyframes, as it begins at one time.
+    """A shot with keyframes, for one start.
 
     stretches : in order and without gaps, from the first frame to the last
-    chosen : the field of view over mission time, rad, where a refiner chose it
+    chosen : field of view over mission time, rad, if a refiner chose it
     """
 
     mission: MissionIR
@@ -80,7 +80,7 @@ class Keyed:
     chosen: Piecewise | None = None
 
     def hfov(self, times: Array) -> Array:
-        """Return the field of view at times (M,), rad."""
+        """Return the field of view at mission times (M,), rad, shape (M,)."""
         if self.chosen is not None:
             return np.asarray(self.chosen(times)[:, 0])
         ends = np.array([[s.a.hfov, s.b.hfov] for s in self.stretches])
@@ -93,7 +93,10 @@ class Keyed:
         return wide
 
     def lens(self, breaks: Array) -> Piecewise:
-        """Return the field of view as a curve on breaks that hold all knots, constant beyond the film."""
+        """Return the field of view as a curve on given breaks, constant outside the film.
+
+        breaks : shape (P + 1,), mission times in seconds; they contain all knots
+        """
         film = self._lens
         knots = np.concatenate([breaks[:1], film.breaks, breaks[-1:]])
         first, last = (np.full((1, 6, 1), k.hfov) for k in (self.stretches[0].a, self.stretches[-1].b))
@@ -101,11 +104,11 @@ class Keyed:
 
     @property
     def _lens(self) -> Piecewise:
-        """The field of view, rad, over the film."""
+        """The field of view over the film, rad."""
         return concatenate([stretch.lens for stretch in self.stretches])
 
     def aims(self, times: Array, places: Array) -> Array:
-        """Return the yaw and the pitch from places (M, 3) at times (M,), shape (M, 2), rad."""
+        """Return yaw and pitch at times (M,) from camera positions (M, 3), shape (M, 2), rad."""
         angles, (share, of) = np.zeros((len(times), 2)), self._shares(times)
         for k in np.unique(of):
             here = of == k
@@ -113,7 +116,7 @@ class Keyed:
         return angles
 
     def framing(self, shot: str) -> tuple[Reference, ...]:
-        """Return what is framed when; a hand-over from one target to another is cut in its middle."""
+        """Return the references over time; a change from one target to another is split in its middle."""
         return tuple(_joined([span for stretch in self.stretches for span in _spans(shot, stretch)]))
 
     def _shares(self, times: Array) -> tuple[Array, IntArray]:
@@ -140,7 +143,9 @@ class Keyed:
         return np.asarray(here + share[:, None] * (there - here))
 
     def _at(self, keyframe: PlacedKeyframe, where: tuple[Array, Array], own: Array) -> Array:
-        """Return the aim that a keyframe has wherever the camera is; own : its angles, (M, 2)."""
+        """Return the angles that a keyframe asks for at given positions, (M, 2); own : its own angles, (M,
+        2).
+        """
         if keyframe.target is None or keyframe.reference is None:
             return own
         wanted = np.tile(np.array(keyframe.reference), (len(own), 1))
@@ -148,9 +153,9 @@ class Keyed:
         return np.column_stack([own[:, 0] + wrapped(found[:, 0] - own[:, 0]), found[:, 1]])
 
     def _following(self, name: str, wanted: Array, where: tuple[Array, Array], own: Array) -> Array:
-        """Return the aim that has a target at places on screen, (M, 2).
+        """Return the angles that put a target at its places on screen, (M, 2).
 
-        Straight above it or below it that does not say which way to turn: there the aim stays near ``own``.
+        Straight above or below the target the yaw is undefined: there the angles stay near ``own``.
         """
         times, places = where
         target = self.mission.target(name)
@@ -170,14 +175,14 @@ class Keyed:
 
 
 def keyed_of(mission: MissionIR, drone: Drone, placed: PlacedShot, start: float) -> Keyed | None:
-    """Return a shot placed for its start as what its camera does, or None where no keyframes tell it."""
+    """Return the camera of a shot placed for its start; None where it has no keyframes."""
     if not is_keyed(placed.shot):
         return None
     return Keyed(mission, drone, tuple(_stretches(placed, start, drone.lens)))
 
 
 def keyframe_times(placed: PlacedShot, start: float) -> tuple[KeyframeTime, ...]:
-    """Return when the keyframes of a shot on its own clock are reached."""
+    """Return the mission times at which the keyframes of a shot on its own clock are reached."""
     if not is_keyed(placed.shot):
         return ()
     return tuple(KeyframeTime(placed.shot.id, i, start + t) for i, t in enumerate(arrivals(placed.shot)))
@@ -218,7 +223,7 @@ def _spans(shot: str, stretch: Stretch) -> Iterator[Reference]:
 
 
 def _joined(spans: Sequence[Reference]) -> Iterator[Reference]:
-    """Yield spans of one target that follow one another as one."""
+    """Yield the references with consecutive ones of the same target joined."""
     last: Reference | None = None
     for span in spans:
         if last is not None and last.target == span.target and last.end == span.start:
@@ -237,7 +242,7 @@ def _joined(spans: Sequence[Reference]) -> Iterator[Reference]:
 
 
 def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array) -> Array:
-    """Return the angles near ``own`` that show points at places on screen, (M, 2): damped least squares."""
+    """Return the angles near ``own`` that put points at places on screen, (M, 2), by damped least squares."""
     turned = np.zeros_like(own)
     for _ in range(ROUNDS):
         here = _off(offsets, wanted, lens, own + turned)
@@ -255,7 +260,7 @@ def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array
 
 
 def _off(offsets: Array, wanted: Array, lens: tuple[Array, Array], aim: Array) -> Array:
-    """Return how far points are from their places on screen, half frames, (M, 2)."""
+    """Return the distances of points from their places on screen, half frames, (M, 2)."""
     yaw, pitch = aim.T
     camera = View(np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch), *lens)
     x, y, z = offsets.T

@@ -1,7 +1,8 @@
-"""What a shot is flown clear of: targets and drones that move, and everything that stands.
+"""Obstacles of a shot on the clock: moving targets, other drones, and everything that stands.
 
-On each piece of a spline its motion is taken as linear; by how much it leaves that is added to the
-clearance, so that a plane beside the linear motion keeps clear of the true one.
+On each piece of a spline an obstacle's motion is approximated as linear. The deviation bound of this
+approximation is added to the clearance, so that a half-space beside the linear motion also keeps clear of the
+true one.
 """
 
 from __future__ import annotations
@@ -29,19 +30,22 @@ from shotc.planning.free_space import MARGIN_M, NO_HALF_SPACES, HalfSpaces, six
 from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.spline_problem import HalfSpaceRows
 
-SAMPLES_PER_PIECE = 8  # a piece, at which motion is compared with linear motion
-REACH_M = 4.0  # metres beyond its clearance within which something that moves counts
-TOUCH_M = 1e-3  # metres by which a proved piece may seem too near
-COMFORT_M = 0.3  # metres kept beyond a clearance where there is room
+SAMPLES_PER_PIECE = 8  # samples of the deviation from the linear motion
+REACH_M = 4.0  # metres beyond its clearance, within which an obstacle counts
+TOUCH_M = 1e-3  # metres, tolerance of the distance
+COMFORT_M = 0.3  # metres kept beyond a clearance where there is free space
 
 
 @dataclass(frozen=True, slots=True)
 class Moving:
-    """A convex solid about the origin of a motion, kept ``clearance`` metres away from.
+    """A convex solid that moves, and the clearance from it in metres.
 
-    owner : as in geom.corridor; at : places p_W (M, 3) at times (M,)
-    always : whether it is kept away from while a drone rises from its pad or sinks to it, too
-    apart : the clearance on ways between shots, metres; required : whether the mission writes that down
+    owner : as in ``ir.owners``
+    part : the solid about the origin of its motion
+    at : positions p_W (M, 3) at mission times (M,)
+    always : whether the clearance also holds during take-off and landing
+    apart : clearance on transfers, metres
+    required : whether the mission states that clearance
     """
 
     owner: Owner
@@ -54,7 +58,7 @@ class Moving:
 
 
 def standing(spaces: FreeSpaces) -> tuple[Moving, ...]:
-    """Return the obstacles of free spaces, as motions that stay where they are."""
+    """Return the obstacles of free spaces as motions that stay at their places."""
     return tuple(
         Moving(o.owner, o.part, o.clearance, _nowhere, apart=w.clearance, required=o.owner in spaces.required)
         for o, w in zip(spaces.flight.obstacles, spaces.transit.obstacles, strict=True)
@@ -67,9 +71,11 @@ def _nowhere(times: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LinearMotion:
-    """A motion linearised on each piece: its ends (P, 2, 3), and how far at most the true one leaves it (P,).
+    """A motion linearised on each piece.
 
-    wide : the clearance at each control point of the pieces, (P, 6), where it is not that of all phases
+    ends : positions at the ends of each piece, (P, 2, 3)
+    deviation_bound : largest distance of the true motion from the linear one, (P,), metres
+    wide : clearance at each control point, (P, 6), where it differs from the normal one
     """
 
     what: Moving
@@ -79,20 +85,20 @@ class LinearMotion:
 
     @property
     def needs(self) -> Array:
-        """What is needed of the distance at the control points of the pieces, shape (P, 6), metres."""
+        """The distances needed at the control points of the pieces, shape (P, 6), metres."""
         clearance = (
             np.full((len(self.deviation_bound), 6), self.what.clearance) if self.wide is None else self.wide
         )
         return np.asarray(clearance + self.deviation_bound[:, None])
 
     def on(self, pieces: IntArray) -> LinearMotion:
-        """Return the motion on some of its pieces, by their numbers."""
+        """Return the motion on a subset of its pieces, by their indices."""
         wide = None if self.wide is None else self.wide[pieces]
         return LinearMotion(self.what, self.ends[pieces], self.deviation_bound[pieces], wide)
 
 
 def moving_targets(mission: MissionIR, drone: Drone) -> tuple[Moving, ...]:
-    """Return the targets that move, each a solid about its centre."""
+    """Return the targets that move, each as a solid about its centre."""
     clearance = mission.rules.beside_target(drone.radius)
     motions = []
     for target in mission.targets:
@@ -113,16 +119,17 @@ def linearised(what: Moving, breaks: Array) -> LinearMotion:
     at = what.at(times.ravel()).reshape(*times.shape, 3)
     ends = at[:, [0, -1]]
     linear = ends[:, :1] + share[:, None] * (ends[:, 1:] - ends[:, :1])
-    # A track may have a corner between two samples: at most its neighbours' distance from the line.
+    # A track may have a corner between two samples, hence the factor 1.2.
     deviation_bound = np.linalg.norm(at - linear, axis=2).max(axis=1)
     return LinearMotion(what, ends, 1.2 * deviation_bound)
 
 
 def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
-    """Put a plane between every piece and everything that comes near it; owners index the motions.
+    """Return a half-space for every piece and every obstacle near it; owners are indices of the motions.
 
-    hulls : shape (P, m, 3), points whose hull holds each piece, evenly in time from its start to its end
-    Where a run of pieces comes too near, all of them pass on one side.
+    Consecutive pieces that are too near all pass on the same side.
+
+    hulls : shape (P, m, 3), points whose convex hull contains each piece, evenly spaced in time
     """
     rows: list[HalfSpaces] = []
     for index, motion in enumerate(motions):
@@ -136,9 +143,10 @@ def sides(motions: Sequence[LinearMotion], hulls: Array) -> HalfSpaces:
 
 
 def _beside(motion: LinearMotion, relative: Array, pieces: IntArray) -> HalfSpaces:
-    """Put planes between pieces and one motion, where it comes near; without an owner.
+    """Return half-spaces between pieces and one motion where it is near; without an owner.
 
-    relative : their hulls as the motion sees them; pieces : their numbers, (P,)
+    relative : hulls relative to the motion, (P, m, 3)
+    pieces : their indices, (P,)
     """
     part, need = motion.what.part, motion.needs
     normal, gap = separate(part, relative)
@@ -158,15 +166,16 @@ def _beside(motion: LinearMotion, relative: Array, pieces: IntArray) -> HalfSpac
 
 
 def motion_rows(breaks: Array, planes: HalfSpaces, first: int) -> HalfSpaceRows:
-    """Return the half-spaces as rows of a programme.
+    """Return half-spaces as rows of a programme.
 
-    breaks : shape (P + 1,); first : index of the first motion among the owners
+    breaks : shape (P + 1,)
+    first : index of the first motion among the owners
     """
     return rows_of(breaks, replace(planes, owner=first + planes.owner))
 
 
 def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> Array:
-    """Return by how much pieces are farther away than is needed, as planes with these normals tell, (P,)."""
+    """Return the slack of pieces over their needed distances from planes with these normals, (P,), metres."""
     if motion.wide is None:
         return np.asarray(gap - motion.needs[:, 0])
     along = np.einsum("pmd,pd->pm", relative, normal)
@@ -176,13 +185,16 @@ def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> 
 
 
 def shortfalls(motions: Sequence[LinearMotion], hulls: Array) -> Array:
-    """Return by how much each piece fails to prove its clearances, metres; shape (P,), <= 0 is proved."""
+    """Return the metres by which the clearances of each piece are not proved; shape (P,), <= 0 is proved.
+
+    hulls : shape (P, m, 3), as in ``sides``
+    """
     worst = np.full(len(hulls), -np.inf)
     seen = [(m.what.part, m.what.clearance + m.deviation_bound, relative_to(m, hulls)) for m in motions]
     most = [needed - box_gap(relative, part) for part, needed, relative in seen]
     for k in sorted(range(len(seen)), key=lambda k: -most[k].max(initial=-np.inf)):
         part, needed, relative = seen[k]
-        # What is farther away than another one is short of it by less.
+        # An obstacle is skipped on pieces where its bound shows that another one lacks more.
         pieces = np.flatnonzero(most[k] > worst)
         if len(pieces):
             _, gap = separate(part, relative[pieces])
@@ -191,13 +203,15 @@ def shortfalls(motions: Sequence[LinearMotion], hulls: Array) -> Array:
 
 
 def relative_to(motion: LinearMotion, hulls: Array) -> Array:
-    """Return hulls (P, m, 3), evenly in time over their pieces, as a motion sees them."""
+    """Return hulls (P, m, 3), evenly spaced in time, relative to a linear motion."""
     share = np.linspace(0.0, 1.0, hulls.shape[1])[:, None]
     return np.asarray(hulls - (motion.ends[:, :1] + share * (motion.ends[:, 1:] - motion.ends[:, :1])))
 
 
 def _runs(pieces: IntArray, too_near: Mask) -> list[IntArray]:
-    """Return where those too near stand among pieces (P,), in runs without a gap of more than one."""
+    """Return the indices of pieces that are too near, in runs with gaps of at most one piece; pieces
+    : (P,).
+    """
     indices = np.flatnonzero(too_near)
     if not len(indices):
         return []
@@ -205,9 +219,9 @@ def _runs(pieces: IntArray, too_near: Mask) -> list[IntArray]:
 
 
 def _way_round(part: Solid, relative: Array, need: Array) -> Array:
-    """Return the direction in which a run of pieces is pushed out of a solid by the least, shape (3,).
+    """Return the direction in which a run of pieces leaves a solid with the smallest shift, shape (3,).
 
-    Over it, or to either side of the way past it.
+    The candidates are upwards and to either side of the course.
     """
     way = relative[-1, -1] - relative[0, 0]
     across = np.array([-way[1], way[0], 0.0])
@@ -220,7 +234,7 @@ def _way_round(part: Solid, relative: Array, need: Array) -> Array:
 
 
 def _push(part: Solid, relative: Array, need: Array, normal: Array) -> Array:
-    """Return by how much pieces have to be moved along a direction to be clear; negative is clear."""
+    """Return how far pieces have to move along a direction to be clear, metres; negative is clear."""
     n = np.broadcast_to(normal, (len(relative), 3))
     reach = np.einsum("pmd,pd->pm", relative, n).min(axis=1)
     return np.asarray(support(part, n) + need - reach)

@@ -1,4 +1,4 @@
-"""The other drones, as what a drone keeps away from: in flight, and on their pads."""
+"""The other drones as moving obstacles: in flight and on their pads."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ POINT = point((0.0, 0.0, 0.0))
 
 
 def other_drones(mission: MissionIR, name: str, flights: Mapping[str, DroneTrajectory]) -> tuple[Moving, ...]:
-    """Return every drone but one that films something; those that do not are part of the free space.
+    """Return the other drones that film as moving obstacles; parked drones are part of the free space.
 
-    flights : by drone, of those that are planned; the others count as standing on their pads
+    name : of the drone that is planned
+    flights : of the drones planned so far, by name; the others stand on their pads
     """
     parked = {drone.name for drone in mission.parked}
     motions = []

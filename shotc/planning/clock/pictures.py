@@ -1,4 +1,6 @@
-"""How far the drones of a path are out of each other's pictures, sampled: for whoever changes a path."""
+"""Distance of the drones of a path from each other's pictures, sampled; for refiners and passes that change a
+path.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +14,13 @@ from shotc.ir.bodies import flying
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV, PathIR
 from shotc.planning.clock.flights import flights
 
-STEP_S = 0.1  # seconds between the pictures that are looked at
+STEP_S = 0.1  # seconds between samples
 
 
 def least_out(path: PathIR) -> float:
-    """Return how far a drone is out of the picture of one that films at worst; negative inside.
+    """Return the least distance of any drone from the picture of another one that films; negative inside.
 
-    Metres, or, where the rules keep a cone free, radians out of that; infinite where nobody looks.
+    The unit is metres; where the rules define a cone, radians outside the cone. Infinite if no drone films.
     """
     mission = path.keyframes.mission
     rules, found, least = mission.rules, flights(path), inf

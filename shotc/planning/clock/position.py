@@ -1,4 +1,4 @@
-"""Where the camera is: the spline over time nearest to the ideal that the limits and the free space allow."""
+"""Camera position over mission time: the spline nearest to the ideal that keeps limits and clearances."""
 
 from __future__ import annotations
 
@@ -26,29 +26,31 @@ from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, Spline
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
-SAMPLES_PER_PIECE = 3  # of the ideal, a piece
-FAINT_WEIGHT = 1e-3  # weight of the ideal's course beyond the film's ends, against that in the film
-UNSEEN_WEIGHT = 0.005  # weight of jerk beyond the film's ends, against that in the film
+SAMPLES_PER_PIECE = 3  # samples of the ideal
+FAINT_WEIGHT = 1e-3  # weight of the reference outside the film, over that in the film
+UNSEEN_WEIGHT = 0.005  # weight of the jerk outside the film, over that in the film
 ROUNDS = 6
-PICTURE_ROUNDS = 5  # rounds in which pictures are kept free
-SAME_SHARE = 0.02  # of its distance from whom it films, by which a camera moves for what is not written
-NEAR_M = 0.35  # metres beyond a clearance, within which a place of rest is held: planes keep COMFORT
-CLEARANCE_ROUNDS = 3  # rounds in which the clearances of ways between shots are sought
-REACH_M = 4.0  # metres beyond its clearance within which something that stands counts
+PICTURE_ROUNDS = 5  # rounds for free pictures
+SAME_SHARE = 0.02  # share of the distance to the subject that an unstated clearance may cost
+NEAR_M = 0.35  # metres beyond a clearance, within which half-spaces bind a place of rest
+CLEARANCE_ROUNDS = 3  # rounds for the clearances of transfers
+REACH_M = 4.0  # metres beyond its clearance, within which a standing obstacle counts
 SHARES = (0.5, 0.95)  # as in planning.path.position
 PROVED_M = 1e-6  # metres
 ROUNDING_S = 1e-9  # seconds
 GAIN_SHARE = 0.01
-ASTRAY_M = 50.0  # metres off its ideal on average over the film: a motion so far off is none
-HOPE_SHARE = 0.8  # what is left of the lack by which a picture is not free, from round to round, to go on
+ASTRAY_M = 50.0  # metres, mean distance from the ideal beyond which a motion is refused
+HOPE_SHARE = 0.8  # largest share of the lack that may remain after a round, to go on
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flown:
     """The position over mission time, or why there is none.
 
-    objective : m^2 s; rounds : programmes solved
-    freed : whether it gives way to keep pictures free; given_up : what that would cost, where it does not
+    objective : m^2 s
+    rounds : number of programmes solved
+    freed : whether it deviates to keep pictures free
+    given_up : the price of free pictures, where they are given up
     """
 
     curve: Piecewise | None
@@ -61,9 +63,10 @@ class Flown:
 
 
 def fly(task: Task) -> Flown:
-    """Return the position curve of a shot, proved clear by its hulls, out of pictures as far as it can be.
+    """Return the position curve of a shot, with clearances proved by its convex hulls.
 
-    As if nobody looked, where that is only preferred and takes more than a preference may, or does not do.
+    It stays out of pictures as far as possible. Where free pictures are only preferred, and their price is
+    too high or they stay occupied, the result ignores them.
     """
     task, plain = _apart(task, _fly(task, ()))
     if plain.curve is None:
@@ -90,9 +93,10 @@ def fly(task: Task) -> Flown:
 
 
 def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
-    """Return the motion whose ways into and out of the film keep the clearances of such ways, and its task.
+    """Return the motion whose run-up and run-out keep the clearances of transfers, and its task.
 
-    Where they are not written down they hardly move the film: where they would, it is the plain motion.
+    Clearances that the mission does not state may hardly change the film; otherwise the plain motion is
+    returned.
     """
     if plain.curve is None or not task.motions:
         return task, plain
@@ -116,7 +120,7 @@ def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
 
 
 def _apart_floors(task: Task, course: Piecewise) -> tuple[HalfSpaceRows, ...]:
-    """Return half-spaces beside a course for the clearances of the ways into the film and out of it."""
+    """Return half-spaces for the clearances of the run-up and the run-out beside a course."""
     span, breaks, first = (task.clock.start, task.clock.end), task.clock.breaks, len(task.walls.owners)
     ways = motion_rows(breaks, sides_apart(task.motions, course, span), first)
     stands = zip(standing_apart(task.motions, course, span), (0, -1), strict=True)
@@ -131,10 +135,11 @@ def _kept(task: Task, course: Piecewise) -> Kept:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Round:
-    """What the next programme is set up about, and what came of those before it.
+    """The state of the sequential convex programme: the linearisation of the next round, and results so far.
 
     hulls, reach, share : as of ``planning.corridor.Around``
-    relaxation : of the last one that had no solution; lacked : metres that it lacked, all together
+    relaxation : of the last infeasible programme
+    lacked : metres that it lacked, summed
     """
 
     hulls: Array
@@ -149,7 +154,7 @@ class _Round:
 
 
 def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
-    """Return the position curve under half-spaces that keep pictures free."""
+    """Return the position curve under additional half-spaces that keep pictures free."""
     breaks, base = task.clock.breaks, _base(task)
     places = ideal_of(task, breaks) if task.course is None else task.course.places
     chords = np.stack([places[:-1], places[1:]], axis=1)
@@ -177,19 +182,20 @@ def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
 
 
 def _astray(task: Task, solution: SplineSolution) -> bool:
-    """Tell whether a motion is nowhere near its ideal.
+    """Return whether a motion is far from its ideal.
 
-    Planes that all but contradict each other leave room only where they cross, kilometres away.
+    Planes that almost contradict each other leave a feasible point only where they cross, kilometres away.
     """
     return solution.objective > ASTRAY_M**2 * (task.clock.end - task.clock.start)
 
 
 def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _Round:
-    """Return what follows a programme without a solution.
+    """Return the round that follows an infeasible programme.
 
-    hope : how much of what lacked before may lack now for it to be worth going on
-    Planes about a course that runs through something may contradict each other; about the curve that breaks
-    them least there are better ones.
+    Half-spaces about a course that runs through an obstacle may contradict each other. The curve that
+    violates them least gives a better linearisation.
+
+    hope : largest ratio of the lack to the one before, for which it is worth going on
     """
     found = relax(problem, len(task.owners)) if now.status is Status.INFEASIBLE else None
     after = replace(now, relaxation=found)
@@ -201,7 +207,7 @@ def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _R
 
 
 def _improved(now: _Round, solution: SplineSolution, points: Array, *, done: bool) -> _Round:
-    """Return what follows a motion that holds; done : there is nothing that it could be put beside anew."""
+    """Return the round that follows a feasible motion; done : there is nothing to linearise again."""
     best = now.best
     if best is not None and solution.objective > (1 - GAIN_SHARE) * best.objective:
         return replace(now, ended=True)
@@ -214,7 +220,7 @@ def _points(breaks: Array, coef: Array) -> Array:
 
 
 def _lack(task: Task, points: Array) -> float:
-    """Return the most metres by which the hulls of a motion do not prove that it is clear."""
+    """Return the largest lack of proved clearance of a motion, metres."""
     lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
     standing = (shortfalls(end.passing, end.place).max() for end in _stands(task, points))
     return float(max(lacking.max(), *standing))
@@ -240,10 +246,10 @@ def _base(task: Task) -> SplineProblem:
 
 
 def _through(task: Task, rest: Equalities) -> Equalities:
-    """Return the rest at both ends, and the places that the author gave to keyframes at their times.
+    """Return the constraints of rest at both ends, and of the keyframes' places at their times.
 
-    Where the camera stands still in the world for a while, all coefficients of that stretch are its place;
-    beside a target it is there when a hold begins and when it ends.
+    Where the camera stands still in W for a while, all coefficients of that interval equal its place. For a
+    hold beside a moving target the place is constrained at the start and at the end of the hold.
     """
     breaks, rows, values = task.clock.breaks, [rest.rows], [rest.value]
     for bound in task.bound:
@@ -259,7 +265,7 @@ def _through(task: Task, rest: Equalities) -> Equalities:
 
 
 def _coefficients(first: int, last: int, pieces: int) -> Rows:
-    """Return rows that are the coefficients of a spline from one index up to another, which is left out."""
+    """Return rows that select the spline coefficients from index ``first`` to ``last``, exclusive."""
     index = np.arange(first, last)
     piece = np.minimum(index, pieces - 1)
     return Rows(piece, np.eye(DEGREE + 1)[index - piece])
@@ -279,9 +285,10 @@ def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: 
 def standing_by(
     motions: Sequence[Moving], breaks: Array, seconds: float
 ) -> tuple[tuple[LinearMotion, ...], tuple[LinearMotion, ...]]:
-    """Return what passes while the drone stands so long where a motion begins, and where it ends.
+    """Return the obstacles' motions while the drone stands at the start of a motion, and at its end.
 
     breaks : shape (P + 1,), mission times of the motion, seconds
+    seconds : how long it stands
     """
     begin, end = breaks[0], breaks[-1]
     windows = np.array([[begin - seconds, begin], [end, end + seconds]])
@@ -290,14 +297,14 @@ def standing_by(
 
 
 def held_where_it_rests(task: Task, curve: Piecewise) -> bool:
-    """Tell whether a motion rests so near to what passes there that this may move it."""
+    """Return whether a motion rests so near to something that the half-spaces there may bind."""
     return any(
         shortfalls(end.passing, end.place).max(initial=-inf) > -NEAR_M for end in _stands(task, curve.ctrl)
     )
 
 
 class _Stand(NamedTuple):
-    """An end of a motion: what passes while the drone stands there, where that is, and its control row.
+    """An end of a motion: the obstacles while the drone stands there, its place, and its control row.
 
     place : as a piece's hull, shape (1, 2, 3)
     """
@@ -317,7 +324,7 @@ def _stands(task: Task, hulls: Array) -> tuple[_Stand, ...]:
 
 
 def _standing(breaks: Array, beside: HalfSpaces, first: int, row: int) -> HalfSpaceRows:
-    """Return the half-spaces in which a control point stays all the while."""
+    """Return the half-spaces that hold for a control point the whole time."""
     every, number = control_rows(breaks), len(beside.piece)
     rows = Rows(np.repeat(every.piece[[row]], number), np.repeat(every.weight[[row]], number, axis=0))
     return HalfSpaceRows(

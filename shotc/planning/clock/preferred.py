@@ -1,7 +1,8 @@
-"""What it may cost a shot that drones are only preferred to keep out of each other's pictures.
+"""The price of free pictures for a shot, where drones are only preferred to stay out of each other's
+pictures.
 
-By ``ir.preference`` it moves a camera by at most a share of its distance to whom it films, and crops nobody
-whom the shot would show whole. Where that does not free the pictures the shot stays as it is.
+By the rule in ``ir.preference`` the camera may move by at most a share of its distance to the subjects, and
+may not crop a target that it would show whole. If that does not free the pictures, the shot stays as it is.
 """
 
 from __future__ import annotations
@@ -19,15 +20,16 @@ from shotc.ir.preference import MOST_MOVED, UNWATCHED
 from shotc.ir.target import Target
 from shotc.planning.clock.aims import CameraTask, aims_at
 
-STEP_S = 0.1  # seconds between the moments that are looked at
+STEP_S = 0.1  # seconds between samples
 
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """What a preference takes from a shot, where it takes the largest share of what it may.
+    """The price of a preference at the time where it is largest.
 
-    moved : metres from the place without it; share : the same over the distance from whom it films
-    crops : whether somebody is cropped whom the shot would show whole
+    moved : distance from the position without the preference, metres
+    share : the same over the distance to the nearest subject
+    crops : whether a target is cropped that the shot would show whole
     """
 
     moved: float
@@ -36,14 +38,14 @@ class Cost:
 
     @property
     def little(self) -> bool:
-        """Whether the rule allows it."""
+        """Whether the rule allows this price."""
         return self.share <= MOST_MOVED and not self.crops
 
 
 def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, freer: Piecewise) -> Cost:
-    """Return what a course that keeps pictures free costs against the plain one.
+    """Return the price of a course that keeps pictures free, against the plain course.
 
-    span : of the film, seconds
+    span : mission times of the first and the last frame, seconds
     """
     times = np.linspace(*span, max(2, round((span[1] - span[0]) / STEP_S)) + 1)
     before, after = plain(times)[:, :3], freer(times)[:, :3]
@@ -60,7 +62,7 @@ def cost(camera_task: CameraTask, span: tuple[float, float], plain: Piecewise, f
 
 
 def _whole(camera_task: CameraTask, target: Target, times: Array, places: Array) -> Mask:
-    """Tell when a target is whole in the frame of a camera that looks where it has to, (M,)."""
+    """Return whether a target is whole in the frame of a camera with the task's angles, (M,)."""
     aims = aims_at(camera_task, times, places)
     still = places - _places(target, times) + np.array(target.centre)
     cameras = Cameras(still, aims[:, 0], aims[:, 1], camera_task.hfov(times), camera_task.drone.aspect)

@@ -1,7 +1,8 @@
-"""What would let a shot on its own clock past a scene or buildings, tried out before it is said.
+"""Remedies for a shot on its own clock that a scene or buildings block. Each is planned before it is
+proposed.
 
-How far a mesh would have to give way is no help: what a programme lacks is counted from the half-spaces that
-it was given, and a wall is not moved. A smaller clearance and a higher path can be written, and planned.
+The lack that a programme reports is no remedy: it is measured from linearised half-spaces, and a mesh cannot
+move. A smaller clearance or a higher path can be written into the mission, and planned.
 """
 
 from __future__ import annotations
@@ -22,15 +23,17 @@ from shotc.planning.clock.shot import ASKED, NoMotion, timed_shot
 from shotc.planning.free_space import FreeSpace, bounds_slack
 from shotc.planning.obstacles import free_spaces_of
 
-STEP_S = 0.25  # between places of a shot that are looked at
-FINE_M = 0.1  # of a clearance that is told
-SHARES = (1, 2, 4)  # of what is lacked, by which the clearance is lowered
+STEP_S = 0.25  # seconds between samples of a shot
+FINE_M = 0.1  # metres, resolution of a proposed clearance
+SHARES = (1, 2, 4)  # multiples of the lack by which the clearance is lowered
 LIFTS_M = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50)
-"""By which a shot is raised."""
+"""Metres by which a shot is raised."""
 
 
 class Blocked(NamedTuple):
-    """Where a shot's place lacks the most room beside a mesh: when, how much, metres, and beside what."""
+    """The sample of a shot that lacks the most clearance from a mesh: time, lack in metres, and the mesh's
+    owner.
+    """
 
     t: float
     lack: float
@@ -38,28 +41,28 @@ class Blocked(NamedTuple):
 
 
 class Remedy(NamedTuple):
-    """A change with which a shot was planned: another clearance from meshes, or so much higher, metres."""
+    """A change with which the shot can be planned: a clearance from meshes, or a rise of the path, metres."""
 
     clearance: float | None = None
     higher: float | None = None
 
 
 class BesideMeshes(NamedTuple):
-    """What is said of a shot that is not flown clear of meshes; remedy : None where none was found."""
+    """The report on a shot that meshes block; remedy : None if none was found."""
 
     blocked: Blocked | None
     remedy: Remedy | None
 
 
 def beside_meshes(itinerary: Itinerary, placed: PlacedShot, trouble: NoMotion) -> BesideMeshes | None:
-    """Return what stands in a shot's way and what helps; None where no mesh does."""
+    """Return where meshes block a shot and what helps; None if no mesh blocks it."""
     mission, space = itinerary.mission, itinerary.flight.space
     lacks = {owner: lack for owner, lack in trouble.lacks if any(m.owner == owner for m in space.meshes)}
     if not lacks or placed.shot.ideal is None:
         return None
     places = _places(mission, placed, trouble.start)
     blocked, lack = _blocked(space, *places), max(lacks.values())
-    # The ways to the shot and from it need a little more room than the shot.
+    # The transfers to and from the shot need slightly more free space than the shot.
     drops = [share * lack + FINE_M / 2 for share in SHARES]
     drops += [] if blocked is None else [blocked.lack + FINE_M]
     found = _closer(itinerary, placed, trouble.start, drops)
@@ -67,7 +70,7 @@ def beside_meshes(itinerary: Itinerary, placed: PlacedShot, trouble: NoMotion) -
 
 
 def _places(mission: MissionIR, placed: PlacedShot, start: float) -> tuple[Array, Array]:
-    """Return times of a shot's film, (M,), and where its camera would be then, (M, 3)."""
+    """Return times of a shot's film, (M,), and its ideal positions at those times, (M, 3)."""
     lasts = placed.shot.timing.duration or 0.0
     times = start + np.linspace(0.0, lasts, max(2, int(lasts / STEP_S)))
     return times, ideal_places(mission, placed.shot, start, times)
@@ -84,7 +87,7 @@ def _blocked(space: FreeSpace, times: Array, places: Array) -> Blocked | None:
 
 
 def _closer(itinerary: Itinerary, placed: PlacedShot, start: float, drops: list[float]) -> Remedy | None:
-    """Return a smaller clearance with which the shot is flown; drops : by how much, what is tried, metres."""
+    """Return a smaller clearance with which the shot is feasible; drops : candidate reductions, metres."""
     mission = itinerary.mission
     for drop in sorted(drops):
         steps = np.floor((mission.rules.obstacle_clearance - drop) / FINE_M)
@@ -98,7 +101,9 @@ def _closer(itinerary: Itinerary, placed: PlacedShot, start: float, drops: list[
 
 
 def _higher(itinerary: Itinerary, placed: PlacedShot, start: float, places: Array) -> Remedy | None:
-    """Return by how much higher the shot is flown; it is tried where its places are free."""
+    """Return the rise with which the shot is feasible; only rises that leave its ideal in free space are
+    tried.
+    """
     mission, shot = itinerary.mission, placed.shot
     ideal, space = shot.ideal, itinerary.flight.space
     if ideal is None or (*shot.path, "altitude") not in mission.origins.values:
@@ -115,7 +120,7 @@ def _higher(itinerary: Itinerary, placed: PlacedShot, start: float, places: Arra
 
 
 def _flown(itinerary: Itinerary, mission: MissionIR, placed: PlacedShot, start: float) -> bool:
-    """Tell whether a shot has a motion in another mission, and a way to it."""
+    """Return whether a shot has a motion in another mission, and a transfer to it."""
     spaces = free_spaces_of(mission, itinerary.drone)
     task = CameraTask(mission, itinerary.drone, placed.subjects)
     if isinstance(timed_shot(task, (spaces, itinerary.others), placed, start, ASKED), NoMotion):

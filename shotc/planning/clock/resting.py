@@ -1,8 +1,8 @@
-"""Where a drone rests before a film or after it so that nothing passes it there for long.
+"""Places where a drone rests before or after a film, such that nothing passes it there for a long time.
 
-A way into a film goes straight on, and so does one out of it: beside a subject that follows the camera, both
-begin or end where the subject is some seconds earlier or later. Where no way leads to such a place, or away
-from it, the drone rests aside of it.
+The run-up and the run-out go straight on by default. Beside a subject that follows the camera they begin or
+end where the subject is some seconds earlier or later. If no transfer leads to such a place or away from it,
+the drone rests aside of it.
 """
 
 from __future__ import annotations
@@ -17,20 +17,23 @@ from shotc.geom.solid_arrays.points import distances
 from shotc.planning.clock.moving import COMFORT_M, Moving
 from shotc.planning.free_space import MARGIN_M, FreeSpace, bounds_slack
 
-LONG_S = 20.0  # seconds before a film, or after it, for which nothing comes near
-STEP_S = 0.1  # seconds between the moments that are looked at
-FARTHEST_M, RING_M = 15.0, 1.0  # metres aside that are tried, and from one ring of places to the next
+LONG_S = 20.0  # seconds before or after a film in which nothing comes near
+STEP_S = 0.1  # seconds between samples
+FARTHEST_M, RING_M = 15.0, 1.0  # metres, largest shift and distance of rings
 PLACES_ON_RING = 16  # places on a ring
-RISES_RAD = (0.0, 0.5, 1.0)  # rad by which they lie over the place, besides straight up
+RISES_RAD = (0.0, 0.5, 1.0)  # rad, elevations of the rings, besides straight up
 
 
 def aside_of_what_passes(
     near: Sequence[Moving], space: FreeSpace, rest: Array, span: tuple[float, float]
 ) -> Array:
-    """Return the shortest of some shifts of a place to one where nothing passes; none where there is none.
+    """Return the shortest shift of a place of rest to where nothing passes, shape (3,); zero if there is
+    none.
 
-    near : what stands and what moves; space : what the drone is held to
-    rest : W, shape (3,), metres; span : from when to when, mission time, seconds
+    near : obstacles, standing and moving
+    space : free space of the drone
+    rest : place in W, shape (3,), metres
+    span : start and end of the rest, mission times, seconds
     """
     times = np.arange(span[0], span[1] + STEP_S, STEP_S)
     tracks = [(what, what.at(times)) for what in near]

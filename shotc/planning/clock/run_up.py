@@ -1,6 +1,7 @@
-"""The ways into the motion of a shot and out of it: straight, between rest and the speed of the film's ends.
+"""The run-up to a shot's motion and the run-out after it: straight, between rest and the speed at the film's
+ends.
 
-The place of rest is free, so that such a way takes the least time from rest to its speed.
+The place of rest is free, so that each takes the least time between rest and that speed.
 """
 
 from __future__ import annotations
@@ -21,23 +22,26 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.planning.timing.straight import Bounds
 
 STEP_S = 0.5  # seconds over which the speed at the ends of a shot is measured
-SPLINE_RATIO = 1.05  # of the least time, that a spline takes: its control points keep the limits
-SETTLE_S = 0.4  # seconds beyond that, in which the camera comes to its turn too, and the place settles
-SHORTEST_S = 2.0  # seconds of any way: a shorter one has too few pieces for a refiner to ease it
+SPLINE_RATIO = 1.05  # time of a spline over the least time, because its control points keep the limits
+SETTLE_S = 0.4  # seconds beyond that, in which camera and position settle
+SHORTEST_S = 2.0  # least seconds: a shorter one has too few pieces for a refiner
 
 GOES_ON, ACROSS = 0.4, 0.7
-"""Shares of a way to aside: for which it goes on as fast as the film, and in which it is aside."""
+"""Of a run-up that leads aside: the share flown at the film's speed, and the share in which the shift is
+done.
+"""
 
 Places = Callable[[float], tuple[float, float, float]]
-"""Where a camera is to be at a mission time, metres."""
+"""The reference position of a camera at a mission time, metres."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunUp:
-    """A way between rest and an end of a film.
+    """A motion between rest and an end of a film.
 
-    seconds : that it takes; place, velocity : at the film's end of it, shape (3,), metres and m/s
-    aside : from where it would be at rest to where it is, shape (3,), metres
+    seconds : its duration
+    place, velocity : at its film end, shape (3,), metres and m/s
+    aside : shift of the place of rest from the straight course, shape (3,), metres
     """
 
     seconds: float
@@ -47,15 +51,17 @@ class RunUp:
 
     @property
     def rest(self) -> Array:
-        """Where a drone is at rest before the film, shape (3,), metres."""
+        """The place of rest before the film, shape (3,), metres."""
         return np.asarray(self.at(np.array([-self.seconds]))[0])
 
     def lasting(self, times: float) -> RunUp:
-        """Return the way that takes so many times as long."""
+        """Return the run-up with its duration multiplied by ``times``."""
         return replace(self, seconds=times * self.seconds)
 
     def led(self, aside: Array, limits: Limits) -> RunUp:
-        """Return the way that ends so far aside, and takes the time for that."""
+        """Return the run-up that ends shifted by ``aside``, shape (3,), metres, with the duration that this
+        needs.
+        """
         level, rise = float(np.hypot(aside[0], aside[1])), abs(float(aside[2]))
         needed = max(
             _bounds(limits, _either_way(limits, aside)).rest_to_rest(level),
@@ -65,10 +71,12 @@ class RunUp:
         return replace(self, seconds=least / (1.0 - GOES_ON) if aside.any() else self.seconds, aside=aside)
 
     def at(self, away: Array) -> Array:
-        """Return places (M, 3) so many seconds from the film, negative before it; at rest beyond the way.
+        """Return positions (M, 3) at times (M,) relative to the film's end, seconds; negative is before the
+        film.
 
-        The speed goes evenly eased from nothing to the film's. A way from aside, or to there, goes at the
-        film's for a while: what follows the camera would run into one that slows down first.
+        The speed changes smoothly between zero and the film's speed; beyond the run-up the drone rests. A
+        run-up with a shift keeps the film's speed for a part of its duration: a subject that follows the
+        camera would run into a drone that slows down first.
         """
         x = np.clip(1.0 - np.abs(away) / self.seconds, 0.0, 1.0)
         goes_on = GOES_ON if self.aside.any() else 0.0
@@ -81,12 +89,12 @@ class RunUp:
 
 
 def lead_in(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> RunUp:
-    """Return the way into a shot whose first frame is at ``start``."""
+    """Return the run-up to a shot whose first frame is at ``start``."""
     return _run_up(drone, partial(ideal_place, mission, shot, start), start, STEP_S)
 
 
 def run_ups(mission: MissionIR, drone: Drone, shot: Shot, start: float) -> tuple[RunUp, RunUp]:
-    """Return the ways into and out of a shot whose first frame is at ``start``."""
+    """Return the run-up and the run-out of a shot whose first frame is at ``start``."""
     end = start + (shot.timing.duration or 0.0)
     after = _run_up(drone, partial(ideal_place, mission, shot, start), end, -STEP_S)
     return lead_in(mission, drone, shot, start), after
@@ -104,7 +112,12 @@ def _run_up(drone: Drone, place: Places, t: float, step: float) -> RunUp:
 
 
 def way_time(limits: Limits, way: Array) -> float:
-    """Return the seconds of a straight way from rest to rest, shape (3,), metres; its two parts at once."""
+    """Return the least time of a straight transfer from rest to rest, seconds.
+
+    Horizontal and vertical motion are at the same time; the slower one decides.
+
+    way : displacement, shape (3,), metres
+    """
     fastest = limits.speed_along(float(way[0]), float(way[1]))
     level = _bounds(limits, fastest).rest_to_rest(float(np.linalg.norm(way[:2])))
     speed = limits.climb if way[2] > 0.0 else limits.descent
@@ -116,6 +129,6 @@ def _bounds(limits: Limits, speed: float = inf) -> Bounds:
 
 
 def _either_way(limits: Limits, way: Array) -> float:
-    """Return the speed over ground that can be had there and back, m/s."""
+    """Return the ground speed that is feasible in both directions of a displacement, m/s."""
     east, north = float(way[0]), float(way[1])
     return min(limits.speed_along(east, north), limits.speed_along(-east, -north))

@@ -1,8 +1,8 @@
-"""Ways between placed keyframes on the clock, led to where the shot's targets are seen.
+"""Ways between placed keyframes on the clock, led to where the shot's targets are visible.
 
-The motion through the keyframes is looked at first. Where zones, terrain, scenes or buildings hide a target
-from it, the ways between its keyframes are led aside, and a second motion is drawn to them. It is taken where
-less is hidden from it, and its pictures are as whole. Keyframes keep their places and their times.
+The motion through the keyframes is found first. Where zones, terrain, scenes or buildings hide a target, the
+way is led around them. The new motion is taken only if less is hidden and no more frames crop the target.
+Keyframes keep their places and times.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ from shotc.planning.clock.task import Task
 from shotc.planning.free_space import MARGIN_M
 from shotc.planning.layered import Course, Passing, Watched, led_round
 
-STEP_S = 0.1  # seconds between the frames that are compared
-ABOUT_M = 1.0  # metres by which a target that a way is led for is larger than it is: motions are a little off
-LESS_SHARE = 0.9  # of the share that is hidden, with which a led motion is taken
-CROPS_SHARE = 1e-3  # of the frames: as many are as whole
-AIM_RAD = 2e-3  # radians farther off its aim at a keyframe, within which a camera is as near to it
+STEP_S = 0.1  # seconds between samples
+ABOUT_M = 1.0  # metres by which a target is enlarged, because the motion deviates from the course
+LESS_SHARE = 0.9  # largest ratio of hidden shares with which a led motion is taken
+CROPS_SHARE = 1e-3  # share of the frames, tolerance of the cropped ones
+AIM_RAD = 2e-3  # rad, tolerance of the angles at a keyframe
 
 
 class Way(NamedTuple):
-    """The way from one keyframe to the next one that films a target, mission time, seconds."""
+    """The way from one keyframe to the next that films a target; mission times, seconds."""
 
     start: float
     end: float
@@ -48,7 +48,7 @@ class Way(NamedTuple):
 
 
 def ways_of(task: Task) -> tuple[Way, ...]:
-    """Return the ways between keyframes that may be led for the one target that both ends show."""
+    """Return the ways between keyframes that may be led, each for the target that both ends show."""
     mission, shot, start = task.mission, task.shot, task.clock.start
     hides = mission.meshes or mission.terrain or mission.opaque_zones
     if not hides or not is_keyed(shot) or shot.ideal is None or shot.ideal.placed or hidden_on_purpose(shot):
@@ -61,7 +61,7 @@ def ways_of(task: Task) -> tuple[Way, ...]:
 
 
 def led_to_see(task: Task, ways: tuple[Way, ...], motion: Piecewise) -> Task | None:
-    """Return the task with ways led from a motion to where their targets are seen; None where none is.
+    """Return the task with ways led to where their targets are visible; None where no way is changed.
 
     motion : x, y, z over the task's clock
     """
@@ -83,7 +83,7 @@ def _led(task: Task, target: Target, times: Array, places: Array) -> Course:
 
 
 def _watched(mission: MissionIR, target: Target, times: Array) -> Watched:
-    """Return a target at times as larger than it is, and what that stands may hide it."""
+    """Return an enlarged target at times (M,), and the standing occluders that may hide it."""
     surfaces = tuple(surface for _, surface in surfaces_before(mission, target.name))
     zones = tuple(zone.solid for zone in mission.opaque_zones)
     centres = np.array(target.centre) + moved(target, times) + np.array([0.0, 0.0, 0.5 * ABOUT_M])
@@ -92,7 +92,10 @@ def _watched(mission: MissionIR, target: Target, times: Array) -> Watched:
 
 
 def _no_nearer(target: Target, times: Array, places: Array) -> Moving:
-    """Return a target as what is passed no nearer than places (N, 3) at times are: it would be cropped."""
+    """Return a target as an obstacle with the least distance of places (N, 3) at times (N,) as its clearance.
+
+    A nearer camera would crop it.
+    """
     least = distances(target.kept_clear, places - moved(target, times)).min()
     return Moving(target_owner(target), target.kept_clear, float(least) - MARGIN_M, partial(moved, target))
 
@@ -101,9 +104,9 @@ def _no_nearer(target: Target, times: Array, places: Array) -> Moving:
 class Shown:
     """What a motion with its camera shows on some ways.
 
-    hidden : mean share of the outlines that something covers
-    cropped : share of the frames that do not show all of their target
-    astray : most that its camera is off its aim at the keyframes, radians
+    hidden : mean covered share of the targets' outlines
+    cropped : share of the frames that do not show the whole target
+    astray : largest error of the camera angles at keyframes, rad
     """
 
     hidden: float
@@ -111,7 +114,7 @@ class Shown:
     astray: float
 
     def better(self, than: Shown) -> bool:
-        """Tell whether notably less is hidden, no more is cropped and keyframes are composed as well."""
+        """Return whether notably less is hidden, no more is cropped, and keyframes are composed as well."""
         return (
             self.hidden <= LESS_SHARE * than.hidden
             and self.cropped <= than.cropped + CROPS_SHARE

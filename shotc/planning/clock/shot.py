@@ -1,4 +1,4 @@
-"""A shot on its own clock, planned: its leg from rest to rest, and how far it leaves its ideal."""
+"""Plan a shot on its own clock: its leg from rest to rest, and its deviation from the ideal."""
 
 from __future__ import annotations
 
@@ -41,24 +41,25 @@ from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.obstacles import FreeSpaces
 from shotc.solvers.conic import Status
 
-LESS_SHARE = 0.8  # of what a motion leaves its place, with which another is better
-FAR_M = 5.0  # off the ideal, which are not worth where a drone rests, even if something else may hold it
-NOTICE_M = 0.5  # metres off the ideal that are worth telling
-LEFT_M = 0.1  # metres off that belong to a stretch worth telling
-LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # times as long, that a shot with keyframes out of reach is tried
+LESS_SHARE = 0.8  # ratio of deviations below which another motion is better
+FAR_M = 5.0  # metres off the ideal, above which a freer place of rest is tried
+NOTICE_M = 0.5  # metres off the ideal, above which a deviation is reported
+LEFT_M = 0.1  # metres off the ideal, above which a sample belongs to a reported stretch
+LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # factors of the duration, tried if keyframes are out of reach
 ON_PLACE_M = 1e-3  # metres
 SAME_S = 1e-6  # seconds
-SEEING_ROUNDS = 3  # motions that are drawn to where targets are seen, each from the one before
-SETTLES = 2  # times that a place aside is looked for
-STEP_S = 0.1  # seconds between the places that are compared with the ideal
+SEEING_ROUNDS = 3  # rounds of leading the motion to where targets are visible
+SETTLES = 2  # searches for a place of rest aside
+STEP_S = 0.1  # seconds between samples of the deviation
 PICTURES = "the pictures of other drones"
 
 
 class Ask(NamedTuple):
-    """What is asked of the ends of a motion.
+    """Requirements on the ends of a motion.
 
-    stand : seconds that the drone may stand there; longer : times as long as need be that the ways into the
-    film and out of it take; aside : whether it rests where nothing passes, before the film and after it
+    stand : seconds that the drone may stand there with all clearances
+    longer : durations of run-up and run-out over the least ones; aside : whether they lead to where nothing
+        passes
     """
 
     stand: float
@@ -67,13 +68,13 @@ class Ask(NamedTuple):
 
 
 ASKED = (Ask(3.0, 1.0), Ask(1.0, 1.0), Ask(0.0, 1.0), Ask(0.0, 2.0))
-"""The first with which there is a motion is taken."""
+"""Requirements from strict to weak; the first feasible ones are used."""
 FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
-"""The same where no way leads to where such a motion begins: it begins farther off."""
+"""The same where no transfer leads to the start of such a motion: it begins farther off."""
 
 
 def aside(before: bool, after: bool) -> tuple[Ask, ...]:
-    """Return the same where the drone rests aside of what passes, before the film or after it or both."""
+    """Return requirements with rest aside of what moves, before the film, after it, or both."""
     if not (before or after):
         return ASKED
     return tuple(
@@ -83,22 +84,22 @@ def aside(before: bool, after: bool) -> tuple[Ask, ...]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OtherVehicles:
-    """What goes on around a shot: what moves, and whose pictures count."""
+    """The moving obstacles of a shot, and the pictures of others that count."""
 
     moving: tuple[Moving, ...]
     visibility: Visibility
 
 
 Around = tuple[FreeSpaces, OtherVehicles]
-"""What stands around a shot, and what moves."""
+"""The free spaces of a shot, and the other vehicles."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TimedShot:
-    """A planned shot, what of its ideal was given up, and what the solvers reported.
+    """A planned shot, its deviations from the ideal, and the solver's statistics.
 
-    off : metres that it leaves its ideal by at most
-    lacks : metres by which the ways into the film and out of it lack the clearances of ways between shots
+    off : largest deviation from the ideal, metres
+    lacks : metres that the run-up and the run-out lack of the clearances of transfers
     """
 
     leg: ClockLeg
@@ -109,10 +110,11 @@ class TimedShot:
 
 
 class Away(NamedTuple):
-    """How far the motion nearest to its shot's way passes a keyframe, metres, and when.
+    """How far the motion that is nearest to the shot's course passes a keyframe, metres, and when.
 
     keyframe : its index
-    owner : of what is too near to its place then, if anything is; lack : by how much, metres
+    owner : of the obstacle that is too near to its place then, if there is one
+    lack : by how much it is too near, metres
     """
 
     keyframe: int
@@ -127,7 +129,7 @@ class Missed:
     """Keyframes that a drone cannot pass at their times.
 
     away : the farthest first
-    longer : times as long that the shot and its keyframes' times would do, or None where none was found
+    longer : feasible factor of the duration and the keyframes' times; None if none was found
     """
 
     away: tuple[Away, ...]
@@ -136,10 +138,10 @@ class Missed:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NoMotion:
-    """Why a shot has no motion: the solver's word, and by how much each owner would have to give way.
+    """Why a shot has no motion: the solver's status, and the lack of each owner in metres.
 
-    missed : which keyframes are out of reach, where that is why
-    start : mission time of the first frame for which it has none
+    missed : keyframes out of reach, if these are the reason
+    start : mission time of the first frame, seconds
     """
 
     status: Status
@@ -152,12 +154,12 @@ class NoMotion:
 def timed_shot(
     camera_task: CameraTask, around: Around, placed: PlacedShot, start: float, asked: tuple[Ask, ...] = ASKED
 ) -> TimedShot | NoMotion:
-    """Return the motion of a shot whose first frame is at mission time ``start``.
+    """Return the motion of a shot whose first frame is at mission time ``start``, or why there is none.
 
-    asked : what is asked of its ends, the first with which there is a motion
+    If feasible, nothing passes its first and last place for some seconds before and after, so that a drone
+    has time to arrive and leave. The clearances of the transfers are checked separately.
 
-    Where it begins and ends nothing passes for some seconds before and after, if that can be, so that a drone
-    that comes or leaves has time to. The ways to and from there are held to what passes by themselves.
+    asked : requirements on its ends; the first feasible ones are used
     """
     mission, drone = camera_task.mission, camera_task.drone
     placed = placed_at(mission, placed, start)
@@ -188,7 +190,9 @@ def timed_shot(
 
 
 def _with_camera(task: Task, position: Piecewise) -> Piecewise | Status:
-    """Return a motion with its camera's angles and its lens, all channels, or why its camera has no turn."""
+    """Return a motion with camera angles and lens, all channels; or the solver's status if there are no
+    angles.
+    """
     ideal = task.shot.ideal
     kept = None if ideal is None else ideal.aim
     turned = turn(AngleTask(task.camera_task, kept), task.clock, position)
@@ -199,7 +203,7 @@ def _with_camera(task: Task, position: Piecewise) -> Piecewise | Status:
 
 
 class _Motion(NamedTuple):
-    """A motion that is found: what for, its place, and all channels of it."""
+    """A motion: its task, its position, and all channels of it."""
 
     task: Task
     flown: Flown
@@ -207,7 +211,7 @@ class _Motion(NamedTuple):
 
 
 def _seeing(best: _Motion) -> _Motion:
-    """Return the motion with its ways between keyframes led to where targets are seen, if that helps."""
+    """Return the motion with ways between keyframes led to where targets are visible, if that helps."""
     task = best.task
     ways = ways_of(task)
     if not ways:
@@ -231,10 +235,10 @@ def _seeing(best: _Motion) -> _Motion:
 def _flown(
     camera_task: CameraTask, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
 ) -> tuple[Task, Flown]:
-    """Return the first motion of some for which ever less is asked, or the last one that was not found.
+    """Return the motion with the strictest feasible requirements, or the last infeasible one.
 
-    What is asked of the ends is not to move the film: one that leaves its place gives way to one that does so
-    much less.
+    The requirements must not move the film: a motion that deviates from its ideal is replaced by one with
+    weaker requirements that deviates much less.
     """
     best, least = None, np.inf
     for ask in asked:
@@ -251,7 +255,7 @@ def _flown(
 
 
 def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
-    """Return what is to be flown, from where to where so much is asked."""
+    """Return the task of the position for given requirements."""
     spaces, others = around
     near = (*standing(spaces), *others.moving)
     ways = _ways(camera_task, shot, start, ask, (near, spaces.flight))
@@ -267,7 +271,7 @@ def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask
 def _ways(
     camera_task: CameraTask, shot: Shot, start: float, ask: Ask, around: tuple[tuple[Moving, ...], FreeSpace]
 ) -> tuple[RunUp, RunUp]:
-    """Return the ways into a film and out of it; around : what stands and moves, and the free space."""
+    """Return the run-up and the run-out; around : obstacles and the free space."""
     end = start + (shot.timing.duration or 0.0)
     before, after = (
         way.lasting(ask.longer) for way in run_ups(camera_task.mission, camera_task.drone, shot, start)
@@ -282,19 +286,19 @@ def _ways(
 def _led(
     way: RunUp, sign: float, film: float, around: tuple[tuple[Moving, ...], FreeSpace], drone: Drone
 ) -> RunUp:
-    """Return a way before a film, sign -1, or after it, 1, that leads aside of what passes where it rests."""
+    """Return a run-up (sign -1) or a run-out (sign 1) shifted to where nothing passes its place of rest."""
     led = way
-    for _ in range(SETTLES):  # farther aside takes longer, and the film's motion leads on meanwhile
+    for _ in range(SETTLES):  # a longer shift takes longer, which moves the straight end
         rest = film + sign * led.seconds
         straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
-        # What would pass there while the drone is on its way would meet it on its way.
+        # The span includes the run-up, because an obstacle that passes then would meet the drone.
         span = (rest - LONG_S, film) if sign < 0.0 else (film, rest + LONG_S)
         led = way.led(aside_of_what_passes(*around, straight, span), drone.limits)
     return led
 
 
 def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:
-    """Return which keyframes are out of reach, or None where the shot cannot be flown without them either."""
+    """Return which keyframes are out of reach; None if the shot is infeasible without them as well."""
     free = fly(replace(task, free=True)).curve
     if free is None:
         return None
@@ -313,7 +317,7 @@ def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Mis
 
 
 def _lens(camera_task: CameraTask, clock: Clock) -> Array:
-    """Return the control points of the field of view on the pieces of a clock, shape (P, 6, 1)."""
+    """Return the control points of the field of view on a clock's pieces, shape (P, 6, 1), rad."""
     if camera_task.keyed is not None:
         return camera_task.keyed.lens(clock.breaks).ctrl
     return np.full((len(clock.breaks) - 1, 6, 1), camera_task.drone.hfov)
@@ -337,9 +341,9 @@ def _framing(placed: PlacedShot, start: float, end: float) -> tuple[Reference, .
 
 
 def _place_curve(known: Sequence[tuple[float, Vec2]], start: float, end: float) -> Piecewise:
-    """Return the curve of a subject's place on screen, from the times of its shot at which it is known.
+    """Return the curve of a subject's reference on screen, from the times of its shot at which it is given.
 
-    Three equal control points at either end: the fifth degree that rests there, as ``ir.setpoints`` has it.
+    Three equal control points at either end make the quintic that rests there, as in ``ir.setpoints``.
     """
     places = [place for _, place in known]
     breaks = [start + t for t, _ in known]
@@ -351,7 +355,7 @@ def _place_curve(known: Sequence[tuple[float, Vec2]], start: float, end: float) 
 
 
 def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, ...]:
-    """Return, for each stretch on which the motion leaves the ideal, the worst of it; as ``_away`` has it."""
+    """Return the worst deviation of each interval off the ideal; away : as of ``_away``."""
     times = _filmed(task)
     return tuple(
         ClockDeviation(task.shot.id, float(away[i]), float(times[i]), _cause(task, flown, float(times[i])))
@@ -360,12 +364,12 @@ def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, 
 
 
 def _filmed(task: Task) -> Array:
-    """Return the times of the film at which it is compared with its ideal, shape (M,)."""
+    """Return the times at which the film is compared with its ideal, shape (M,)."""
     return np.append(np.arange(task.clock.start, task.clock.end, STEP_S), task.clock.end)
 
 
 def _away(task: Task, curve: Piecewise) -> Array:
-    """Return how far the camera is from its ideal at those times, metres, shape (M,)."""
+    """Return the distances of the camera from its ideal at those times, metres, shape (M,)."""
     times = _filmed(task)
     ideal = ideal_places(task.mission, task.shot, task.clock.start, times)
     return np.asarray(np.linalg.norm(curve(times) - ideal, axis=1))
@@ -383,7 +387,7 @@ def _cause(task: Task, flown: Flown, t: float) -> str:
 
 
 def _in_the_way(task: Task, place: Array, t: float) -> tuple[Owner, float] | None:
-    """Return the owner of what a place, shape (3,), is too near to at a time, and by how much, metres."""
+    """Return the owner of an obstacle too near to a place, shape (3,), at a time, and the lack in metres."""
     near = breaches(task.space, place)
     if near:
         return near[0].owner, near[0].lack

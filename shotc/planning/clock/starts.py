@@ -1,8 +1,8 @@
-"""When a shot on its own clock can begin at the earliest, for its target moves on while its start is put off.
+"""The earliest start of a shot on its own clock. Its target moves on while the start is put off.
 
-Each try plans the shot for a start, and the way to where it begins then. The next start is the first at which
-the drone is there by a rough estimate of its lateness, corrected by how far that was off at the tries before.
-So a shot whose target comes to the drone begins as it comes by, not once the drone has followed it.
+Each try plans the shot for a start, and the transfer to its first pose. The next start is the first that the
+drone reaches in time by an estimate of its lateness. The estimate is corrected by its errors at the tries
+before. So a shot whose target approaches the drone begins when the target comes by.
 """
 
 from __future__ import annotations
@@ -26,25 +26,26 @@ from shotc.planning.path.shots import Failure
 from shotc.rounding import down, up
 
 TRIES = 10
-GIVES_UP = 4  # tries, after which a drone that falls behind ever more is given up
-CLOSE_S = 0.3  # seconds between starts that are late and in time, the second of which is taken
-SPARE_S = 0.1  # seconds by which a drone is early where the mission does not fix the start
-STEEPEST_RATE = 0.95  # seconds that an estimate may get worse by with each second that the start is put off
-HORIZON_S = 300.0  # seconds that a start may be put off by
-FINE_S = 0.1  # seconds between the first starts that are looked at
-COARSER = 100  # of them, after which they lie twice as far apart
-SHORTEST_S = 1.0  # seconds of track that are worth a shot
+GIVES_UP = 4  # tries, after which a drone that falls further behind is given up
+CLOSE_S = 0.3  # seconds between a late start and one in time, at which the search ends
+SPARE_S = 0.1  # seconds by which a drone is early if the start is free
+STEEPEST_RATE = 0.95  # largest growth of the correction per second of delay
+HORIZON_S = 300.0  # longest delay of a start, seconds
+FINE_S = 0.1  # seconds between the first candidates
+COARSER = 100  # candidates after which their spacing has doubled
+SHORTEST_S = 1.0  # least seconds of track for a shot
 ROUNDING_S = 1e-6  # seconds
-SLIGHT_M = 0.02  # metres, of which nobody takes notice
+SLIGHT_M = 0.02  # metres, tolerance of a deviation
 SOON_S, WHOLE_S = 40.0, 1.0
-"""Seconds by which a start is put off for a fence, and between the starts that are looked at."""
+"""Longest delay of a start for a fence, and spacing of the candidates, seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class OutsideTrack:
-    """A shot that cannot be filmed while its target's track lasts.
+    """A shot that lasts longer than its target's track.
 
-    start : when it would begin at the earliest; left : what there is of the track then, both seconds
+    start : earliest start, mission time in seconds
+    left : rest of the track from then on, seconds
     """
 
     target: str
@@ -54,9 +55,9 @@ class OutsideTrack:
 
 @dataclass(frozen=True, slots=True)
 class Meets:
-    """An unfilmed way on which a target is met, whichever way it is.
+    """A transfer that comes too near to a target in all its variants.
 
-    start : seconds, a start of the shot that it leads to with which nothing is met; None if none was found
+    start : a start of the next shot with a clear transfer, seconds; None if none was found
     """
 
     met: Meeting
@@ -65,11 +66,13 @@ class Meets:
 
 @dataclass(frozen=True, slots=True)
 class TooLate:
-    """A shot whose drone is not there at the start that the mission fixes.
+    """A shot that its drone cannot reach at the fixed start.
 
-    late : seconds, at that start; earliest : a start at which it is there, or None
-    outside : the target whose track is too short for the shot from then on, or None
-    before : what the drone does until then, or until it is there too late; run_up : the last of that, seconds
+    late : delay at that start, seconds
+    earliest : a feasible start, or None
+    outside : the target whose track is too short from then on, or None
+    before : phases of the drone until then, or until it arrives too late
+    run_up : duration of the run-up, seconds
     """
 
     late: float
@@ -81,9 +84,9 @@ class TooLate:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reached:
-    """A planned shot, the way to it, and by how many seconds the drone is late there.
+    """A planned shot, the transfer to it, and the drone's delay there in seconds.
 
-    aside : whether it begins and whether it ends aside of what passes
+    aside : whether the shot begins, and whether it ends, aside of what moves
     """
 
     shot: TimedShot
@@ -92,7 +95,9 @@ class Reached:
     aside: tuple[bool, bool]
 
     def better(self, near: Reached) -> bool:
-        """Tell whether a shot whose ends lead elsewhere is better than one whose ways are in trouble."""
+        """Return whether this shot, with other ends, is better than one whose transfer or run-ups lack
+        clearances.
+        """
         if self.way.met is not None or self.late > max(0.0, near.late):
             return False
         return near.way.met is not None or (
@@ -103,13 +108,15 @@ class Reached:
 
 ClockFailure = Failure | NoMotion | OutsideTrack | Meets | TooLate
 Lateness = Callable[[float], float]
-"""By how many seconds a drone is late for a start."""
+"""The drone's delay in seconds for a start."""
 Reach = Callable[[PlacedShot, float], Reached | ClockFailure]
-"""Plans a shot for a start, and the way to it."""
+"""Plans a shot for a start, and the transfer to it."""
 
 
 def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrack | None:
-    """Return the target whose track ends before a shot that begins at ``start`` does; None without one."""
+    """Return the target whose track ends before a shot that begins at ``start`` does; None if there
+    is none.
+    """
     end = start + (placed.shot.timing.duration or 0.0)
     for name in carriers(placed.shot):
         track = mission.target(name).track
@@ -119,9 +126,9 @@ def outside(mission: MissionIR, placed: PlacedShot, start: float) -> OutsideTrac
 
 
 def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: float) -> float:
-    """Return the first start, from one on, at which no fence keeps the camera from its place.
+    """Return the first start, from ``start`` on, at which the shot's ideal lies within all fences.
 
-    Its target may still be where no drone may go. The start that is given, where there is none soon.
+    Its target may be outside of them at first. If no such start comes soon, ``start`` is returned.
     """
     lasts = placed.shot.timing.duration or 0.0
     for more in np.arange(0.0, SOON_S + WHOLE_S, WHOLE_S):
@@ -138,17 +145,16 @@ def inside(mission: MissionIR, space: FreeSpace, placed: PlacedShot, start: floa
 def put_off(
     mission: MissionIR, reach: Reach, placed: PlacedShot, start: float, about: Lateness
 ) -> Reached | ClockFailure:
-    """Return a shot planned for the first start, from ``start`` on, at which its drone is there.
+    """Return a shot planned for the first start, from ``start`` on, that its drone reaches in time.
 
-    about : by how many seconds it is late for a start, roughly
-    Where the track ends too soon, the shot is planned as long as the track lasts. One that is returned late
-    has a drone that does not catch up.
+    If the track ends too soon, the shot is planned for the rest of the track. A result that is late means
+    that the drone does not catch up.
+
+    about : estimate of the delay for a start
     """
-    there: Reached | None = None  # the first start known at which it is there
-    span = (start, inf)  # the last start known at which it is late, and that one
-    off: list[
-        tuple[float, float]
-    ] = []  # starts that were tried, and by how much later they are than estimated
+    there: Reached | None = None  # earliest start known to be in time
+    span = (start, inf)  # last start known to be late, and that one
+    off: list[tuple[float, float]] = []  # starts tried, and errors of the estimate
     now: float | None = start
     reached: Reached | ClockFailure
     for _ in range(TRIES):
@@ -168,10 +174,10 @@ def put_off(
 
 
 def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, float]) -> float | None:
-    """Return the first start inside a span at which a drone is there by the corrected estimate; or None.
+    """Return the first start within a span that is in time by the corrected estimate; None if there is none.
 
-    That the correction grew may be the cost of another way there, which is paid once: a few times it is taken
-    to stay as it is before the drone is given up.
+    If the correction grew, that may be the cost of another transfer, which occurs once. Therefore the
+    correction is taken as constant for a few tries before the drone is given up.
     """
     (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
     rate = (lack - less) / (last - before) if last != before else 0.0
@@ -182,7 +188,7 @@ def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, f
 def _soonest(
     about: Lateness, off: list[tuple[float, float]], span: tuple[float, float], rate: float
 ) -> float | None:
-    """Return the same, for an estimate that gets worse at a rate from the last try on."""
+    """Return the same for a correction that grows at ``rate`` from the last try on."""
     (last, lack), begin = off[-1], span[0] + FINE_S
     until = min(span[1] - CLOSE_S, off[0][0] + HORIZON_S)
     steps = 0
@@ -194,18 +200,18 @@ def _soonest(
 
 
 def _as_long(mission: MissionIR, reach: Reach, placed: PlacedShot, start: float) -> Reached | ClockFailure:
-    """Plan a shot for a start, as long as it is to be or as the track lasts."""
+    """Plan a shot for a start, with its own duration or the rest of the track."""
     short = outside(mission, placed, start)
     if short is None:
         return reach(placed, start)
-    # Keyframes have their times: what they tell is not cut short.
+    # A shot with keyframes is not cut short, because they have their times.
     if short.left < SHORTEST_S or is_keyed(placed.shot):
         return short
     return reach(lasting(placed, short.left), start)
 
 
 def lasting(placed: PlacedShot, seconds: float) -> PlacedShot:
-    """Return a shot that is to last so long, less what is lost to rounding."""
+    """Return a shot with another duration, rounded down."""
     shot = placed.shot
     timing = shot.timing._replace(duration=down(seconds))
     return placed._replace(shot=shot._replace(timing=timing))

@@ -1,6 +1,6 @@
-"""All that a shot on its own clock is flown clear of, as half-spaces over time and as a proof.
+"""The obstacles of a shot on its own clock, as half-spaces over time and as a proof of clearance.
 
-For refiners: they put their motion beside the same solids as the convex guide, and prove it the same way.
+This is for refiners. They use the same solids as the convex guide, and prove their motion in the same way.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ from shotc.planning.obstacles import free_spaces_of
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Surroundings:
-    """What is near a motion over mission time.
+    """The obstacles near a motion over mission time.
 
     breaks : of the motion's pieces, shape (P + 1,), seconds
     walls : the free space without its obstacles
-    motions : its obstacles and what moves, linearised on those pieces
-    pictures : of the other drones' flights, those that count
+    motions : standing and moving obstacles, linearised on those pieces
+    pictures : visibility constraints with the other drones' flights
     """
 
     breaks: Array
@@ -56,10 +56,12 @@ class Surroundings:
     pictures: Visibility
 
     def free(self, camera_task: CameraTask, span: tuple[float, float], course: Piecewise) -> HalfSpaces:
-        """Put half-spaces beside pictures, linearised about a course on these pieces.
+        """Return half-spaces that keep pictures free, linearised about a course on these pieces.
 
-        span : of the film. On each piece the one that the course is nearest to counts, as far as the course
-        itself keeps it.
+        On each piece only the half-space nearest to the course is used, relaxed as far as the course violates
+        it.
+
+        span : mission times of the first and the last frame, seconds
         """
         half_spaces = keep_free(camera_task, self.pictures, span, self.breaks, course).half_spaces
         if not half_spaces:
@@ -78,17 +80,18 @@ class Surroundings:
         return beside(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
 
     def lacking(self, hulls: Array) -> Array:
-        """Return by how much pieces fail to prove their clearances, metres; shape (P,), <= 0 is proved.
+        """Return the metres by which the clearances of pieces are not proved; shape (P,), <= 0 is proved.
 
-        hulls : shape (P, 6, 3), Bernstein points
+        hulls : shape (P, 6, 3), Bernstein control points
         """
         return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls))
 
     def half_spaces(self, hulls: Array, reach: float, share: float) -> HalfSpaces:
-        """Put half-spaces between pieces and what is near them.
+        """Return half-spaces between pieces and the obstacles near them.
 
-        hulls : as in ``lacking``; reach : metres beyond its clearance within which a wall counts
-        share : of the room that a piece has beyond a wall, kept
+        hulls : as in ``lacking``
+        reach : metres beyond its clearance within which a wall counts
+        share : share of a piece's slack beyond a wall that is kept
         """
         planes = []
         for normals, offsets in self._bounds(hulls):
@@ -100,7 +103,9 @@ class Surroundings:
         return sides(self.motions, hulls).and_also(*planes)
 
     def _bounds(self, hulls: Array) -> Sequence[tuple[Array, Array]]:
-        """Return normals (P, 3) and offsets (P,) of walls, and of the tangents of discs beside pieces."""
+        """Return normals (P, 3) and offsets (P,) of the walls, and of tangents to the discs beside the
+        pieces.
+        """
         spans = []
         for wall in self.walls.walls:
             n = np.tile(np.array(wall.normal), (len(hulls), 1))
@@ -115,11 +120,11 @@ class Surroundings:
 
 
 def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: bool = True) -> Surroundings:
-    """Return what a drone of a path keeps clear of on pieces of mission time.
+    """Return the obstacles of a drone on pieces of mission time.
 
     breaks : shape (P + 1,), seconds
-    standing_too : whether what stands counts, or only what moves: a shot on a path is proved clear of what
-        stands whatever its time
+    standing_too : whether standing obstacles are included; a shot on a path is proved clear of these without
+        its time
     """
     mission = path.keyframes.mission
     space, stands = FreeSpace((), (), ()), tuple[Moving, ...]()
@@ -139,9 +144,10 @@ def surroundings(path: PathIR, drone: Drone, breaks: Array, *, standing_too: boo
 def _led(
     path: PathIR, drone: Drone, motions: tuple[LinearMotion, ...], breaks: Array
 ) -> tuple[LinearMotion, ...]:
-    """Return motions with the clearances that the mission writes down, before the guide's film and after it.
+    """Return motions with the stated clearances of transfers before and after the guide's film.
 
-    The others are no reason for a refiner to fail: it begins from a guide that keeps them.
+    Other clearances of transfers are left out, so that they are no reason for a refiner to fail; its initial
+    guess, the guide, keeps them.
     """
     legs = [leg for flown in path.timed if flown.drone == drone.name for leg in flown.legs]
     guide = next((leg for leg in legs if isinstance(leg, ClockLeg) and _spans(leg, breaks)), None)
@@ -153,5 +159,5 @@ def _led(
 
 
 def _spans(leg: ClockLeg, breaks: Array) -> bool:
-    """Tell whether times are those of a leg, cut."""
+    """Return whether breaks span the whole time of a leg."""
     return bool(leg.curve.start == breaks[0] and leg.curve.end == breaks[-1])

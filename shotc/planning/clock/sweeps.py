@@ -1,7 +1,7 @@
-"""Targets that move, as what stands for a while: each the hull of where it is meanwhile.
+"""Moving targets as standing obstacles for a while: each is the hull of its places in that time.
 
-A way led round those is clear of them whenever in that time it is flown. It is one way more to be tried, and
-the shortest beside a target that stands still until it is filmed.
+A transfer led around these hulls is clear whenever it is flown within that time. It is one more candidate,
+and the shortest one beside a target that stands until it is filmed.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import FreeSpace, Obstacle
 from shotc.planning.obstacles import FreeSpaces
 
-STEP_S = 0.5  # seconds between the places that a hull is drawn about
-STILL_M = 1e-3  # metres: less is standing
-CORNERS = 8  # of the prism about a cylinder
+STEP_S = 0.5  # seconds between the samples of a hull
+STILL_M = 1e-3  # metres, below which a target stands
+CORNERS = 8  # corners of the prism around a cylinder
 
 
 def with_sweeps(spaces: FreeSpaces, moving: Sequence[Moving], span: tuple[float, float]) -> FreeSpaces:
-    """Return free spaces in which all targets are where they are between two mission times, seconds."""
+    """Return free spaces that exclude all places of targets between two mission times, seconds."""
     swept = [(m, _swept(m, span)) for m in moving if not m.always]
     flight = (Obstacle(m.owner, part, m.clearance) for m, part in swept)
     transit = (Obstacle(m.owner, part, m.apart) for m, part in swept)

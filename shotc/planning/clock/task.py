@@ -1,4 +1,4 @@
-"""One shot to be flown on its own clock, and the places that its motion is drawn to."""
+"""The task of one shot on its own clock, and the reference positions of its motion."""
 
 from __future__ import annotations
 
@@ -29,16 +29,18 @@ ROUNDING_S = 1e-9  # seconds
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Task:
-    """One shot to be flown.
+    """One shot to be planned.
 
-    camera_task : who flies, and whom it films
-    ways : into the film and out of it
-    passing : what passes while it stands where the motion begins, and where it ends
-    space : what stands; motions : its obstacles and what moves, even on the clock's pieces
-    visibility : whose pictures count
-    bound : where it has to be when; free : whether that does not count
-    apart : half-spaces in which the ways into the film and out of it keep the clearances of such ways
-    course : places at the clock's breaks about which corridors are begun; the ideal's, where it is None
+    camera_task : the drone and its subjects
+    ways : run-up and run-out
+    motions : standing and moving obstacles, linearised on the clock's pieces
+    passing : obstacles while the drone stands at the start of the motion, and at its end
+    space : free space of the drone
+    visibility : pictures of others that count
+    bound : places that it passes at given times
+    free : whether ``bound`` is ignored
+    apart : half-spaces for the clearances of transfers in run-up and run-out
+    course : initial guess at the clock's breaks, for corridors; the ideal where it is None
     """
 
     camera_task: CameraTask
@@ -61,12 +63,12 @@ class Task:
 
     @property
     def drone(self) -> Drone:
-        """Who flies."""
+        """The drone that flies."""
         return self.camera_task.drone
 
     @property
     def owners(self) -> tuple[Owner, ...]:
-        """Everything that may stop the motion, by index: the walls' owners, then the motions'."""
+        """Owners of all obstacles, by index: those of the walls, then those of the motions."""
         return (*self.walls.owners, *(m.what.owner for m in self.motions))
 
     @property
@@ -76,7 +78,7 @@ class Task:
 
 
 def ideal_of(task: Task, times: Array) -> Array:
-    """Return where the camera would be: at its ideal in the film, on straight ways before and after it.
+    """Return the reference positions: the ideal in the film, and the run-up and run-out outside of it.
 
     times : shape (M,), mission time; result (M, 3)
     """
@@ -89,14 +91,14 @@ def ideal_of(task: Task, times: Array) -> Array:
 
 
 def led(task: Task) -> Task:
-    """Return the task with a course led round what is of triangles, and to where its subject is seen."""
+    """Return the task with a course around meshes, and to where its subject is visible."""
     breaks, near = task.clock.breaks, [motion.what for motion in task.motions]
     course = led_round(task.walls, near, (breaks, ideal_of(task, breaks)), _watched(task))
     return replace(task, course=course)
 
 
 def _watched(task: Task) -> Watched | None:
-    """Return whom the camera is to see at the clock's breaks; None where its places are the author's own."""
+    """Return the subject to see at the clock's breaks; None where the author gave the camera's places."""
     mission, camera_task, ideal = task.mission, task.camera_task, task.shot.ideal
     bound = (
         not (mission.meshes or mission.terrain)
@@ -114,7 +116,7 @@ def _watched(task: Task) -> Watched | None:
 
 
 def drawn_to(task: Task, times: Array) -> Array:
-    """Return where the camera is drawn to: its ideal, or its course where that is led to see the subject.
+    """Return the reference positions: the ideal, or the course where that leads to see the subject.
 
     times : shape (M,), mission time; result (M, 3)
     """

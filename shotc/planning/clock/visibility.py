@@ -1,7 +1,7 @@
-"""Pictures that drones keep out of: those of the drones planned before, and those of them in their own.
+"""Visibility constraints between drones: this drone stays out of others' pictures, and others out of its own.
 
-How far a body is out of a picture is linearised about the last course, so that the guide stays convex;
-a few rounds settle it. What is claimed of the result is verification's.
+The other drones are those planned before. The distance of a body from a picture is linearised about the last
+course, so that the programme stays convex; a few rounds converge. Verification judges the result.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clock.aims import CameraTask, aims_at
 from shotc.solvers.spline_problem import HalfSpaceRows
 
-MARGIN_M = 0.3  # metres that a body is kept out of a picture by
-NEAR_M = 4.0  # metres out of a picture beyond which nothing is asked
-NUDGE_M = 1e-3  # metres of the numeric slopes
-SAMPLES_PER_PIECE = 3  # instants a piece
-FLAT_SLOPE = 0.05  # slope below which to move does not help
+MARGIN_M = 0.3  # metres, margin between a body and a picture
+NEAR_M = 4.0  # metres out of a picture, beyond which there is no constraint
+NUDGE_M = 1e-3  # metres, step of the numeric gradient
+SAMPLES_PER_PIECE = 3  # samples of each piece
+FLAT_SLOPE = 0.05  # norm of the gradient below which moving does not help
 
 Outside = Callable[[Array, Array], Array]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Watcher:
-    """Another drone while it films: mission time of its film, and its camera at times (M,)."""
+    """Another drone while it films: start and end in mission time, and its camera at times (M,)."""
 
     start: float
     end: float
@@ -45,7 +45,7 @@ class Watcher:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """Another drone as it is seen: its radius, and its places at times (M,)."""
+    """Another drone as a body: its radius, and its positions (M, 3) at times (M,)."""
 
     radius: float
     at: Callable[[Array], Array]
@@ -53,10 +53,10 @@ class Body:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Visibility:
-    """Whose pictures a drone keeps out of, and whom it keeps out of its own.
+    """The pictures that a drone stays out of, and the bodies that stay out of its own.
 
-    half_angle : as in ``ir.mission.Rules``; preferred : whether they are kept free only by the rule of
-        ``ir.preference``
+    half_angle : as in ``ir.mission.Rules``
+    preferred : whether free pictures are only preferred, by the rule of ``ir.preference``
     """
 
     watchers: tuple[Watcher, ...] = ()
@@ -66,7 +66,7 @@ class Visibility:
 
 
 def visibility_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneTrajectory]) -> Visibility:
-    """Return the visibility constraints that count for a drone, of the flights planned before its own."""
+    """Return the visibility constraints of a drone with respect to the flights planned before its own."""
     if mission.rules.visibility == "off":
         return Visibility()
     watchers, bodies = [], []
@@ -78,7 +78,7 @@ def visibility_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneT
         watchers += [Watcher(p.start, p.end, camera) for p in flight.phases if p.shot is not None]
         bodies.append(Body(other.radius, partial(flying, flight.curve)))
     if not prefers_free_pictures(mission):
-        # No shot is bent for a pad that is only preferred not to be seen.
+        # A preference does not move a shot for a parked drone.
         bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
     preferred = prefers_free_pictures(mission)
     return Visibility(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
@@ -90,7 +90,7 @@ def _camera(curve: Piecewise, aspect: float, times: Array) -> Cameras:
 
 
 def _out(camera: Cameras, places: Array, radius: float, half_angle: float | None) -> Array:
-    """Return how far balls are out of a picture, metres: beyond its edges, or along the arc out of a cone."""
+    """Return the distances of balls from a picture, metres: from its edges, or along the arc from a cone."""
     if half_angle is None:
         return outside(camera, places, radius)
     far = np.linalg.norm(places - camera.position, axis=1)
@@ -99,7 +99,7 @@ def _out(camera: Cameras, places: Array, radius: float, half_angle: float | None
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kept:
-    """Half-spaces that keep pictures free, and by how much the course itself is out of them, metres."""
+    """Half-spaces that keep pictures free, and the least distance of the course from pictures, metres."""
 
     half_spaces: tuple[HalfSpaceRows, ...]
     worst: float
@@ -112,10 +112,11 @@ def keep_free(
     breaks: Array,
     course: Callable[[Array], Array],
 ) -> Kept:
-    """Return what keeps a course out of others' pictures, and others out of its own.
+    """Return half-spaces that keep a course out of others' pictures, and others out of its own.
 
-    span : of the film; breaks : shape (P + 1,), mission times
-    course : places (M, 3) at times (M,), about which all is linearised
+    span : mission times of the first and the last frame
+    breaks : shape (P + 1,), mission times
+    course : positions (M, 3) at times (M,), the point of linearisation
     """
     middle = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
     times = (breaks[:-1, None] + np.diff(breaks)[:, None] * middle).ravel()
@@ -137,9 +138,10 @@ def keep_free(
 
 
 def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -> float:
-    """Return how far a drone on its way is out of others' pictures at worst, metres; negative inside.
+    """Return the least distance of a drone from others' pictures on a transfer, metres; negative inside.
 
-    times : shape (M,), mission time; places : shape (M, 3)
+    times : shape (M,), mission time
+    places : shape (M, 3)
     """
     least = np.inf
     for watcher in visibility.watchers:
