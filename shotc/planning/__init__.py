@@ -1,1 +1,1 @@
-"""Planning: missions in, curves out. No diagnostic is made here; faults are values that a pass explains."""
+"""Planning: from missions to curves. No diagnostic is made here; a fault is a value that a pass explains."""

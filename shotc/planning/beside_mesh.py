@@ -1,4 +1,4 @@
-"""Where the centre of a drone is far enough from the triangles of a scene or of buildings."""
+"""The distance of a drone's centre from the triangles of a scene or of buildings."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from shotc.geom.surface.planes import Kept, Planes, half_spaces, separate
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.owners import Owner, part_owner
 
-FAR_M = 4.0  # metres beyond the clearance to which distances are told: what is farther is infinitely far
-CLOSED_M = 5e-7  # metres: gap to which distances of pieces are proved
+FAR_M = 4.0  # metres beyond the clearance, up to which distances are measured
+CLOSED_M = 5e-7  # metres, gap of the proved distances of pieces
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BesideMesh:
     """A mesh from whose triangles the drone's centre keeps ``clearance`` metres.
 
-    A way that begins outside of what is closed, and keeps away from all triangles, stays outside.
+    A path that starts outside of closed parts, and keeps away from all triangles, stays outside.
     """
 
     owner: Owner
@@ -30,25 +30,26 @@ class BesideMesh:
     clearance: float
 
     def owner_at(self, p: Array) -> Owner:
-        """Return the owner of what is nearest to a point (3,): a building, a part of a scene."""
+        """Return the owner of the part nearest to a point (3,): a building, or a part of a scene."""
         x, y, z = map(float, p)
         return part_owner(self.mesh, (x, y, z))
 
     def lowered(self, metres: float) -> BesideMesh:
-        """Return the same with a clearance that much smaller, 0 at least."""
+        """Return the mesh with its clearance reduced by ``metres``, to 0 at least."""
         return replace(self, clearance=max(0.0, self.clearance - metres))
 
     def slack(self, p: Array) -> Array:
-        """Return how much farther than the clearance points (N, 3) are, metres, inf beyond FAR_M; (N,).
+        """Return the slack of points (N, 3) over the clearance, metres, inf beyond FAR_M; (N,).
 
-        Points inside of what is closed lack the clearance and their distance, up to FAR_M of it.
+        Inside of closed parts the slack is minus the clearance and the distance to the surface, up to FAR_M
+        of it.
         """
         return self.mesh.signed_distance(p, self.clearance + FAR_M) - self.clearance
 
     def stops(self, a: Array, b: Array, margin: float) -> Mask:
-        """Tell which segments a-b, shapes (N, 3), come too near; (N,).
+        """Return which segments a-b, shapes (N, 3), are too near; (N,).
 
-        margin : metres kept beyond the clearance, less where an end is nearer (``free_space.margin_at``)
+        margin : metres kept beyond the clearance, less where an end is nearer (as in ``free_space.required``)
         """
         room = np.minimum(margin, 0.5 * np.maximum(np.minimum(self.slack(a), self.slack(b)), 0.0))
         near = comes_within(self.mesh.surface, a, b, self.clearance + room - 1e-9)
@@ -57,14 +58,16 @@ class BesideMesh:
     def planes(self, hulls: Array, reach: float, kept: Kept) -> Planes:
         """Return half-spaces for the pieces that come within ``reach`` metres of the clearance.
 
-        hulls : shape (P, m, 3); kept : the margin, given how much more than the clearance there is, metres
+        hulls : shape (P, m, 3)
+        kept : margin as a function of the slack, metres
         """
         return half_spaces(self.mesh.surface, hulls, self.clearance, reach, kept)
 
     def lack(self, hulls: Array) -> Array:
-        """Return by how much each piece, shape (P, m, 3), fails to prove its clearance; (P,), <= 0 is proved.
+        """Return the metres by which each piece, shape (P, m, 3), lacks its clearance; (P,), <= 0 is proved.
 
-        Planes between the pieces and the triangles are quick; a piece that they do not prove is bounded.
+        Planes between the pieces and the triangles are tried first; pieces that they do not prove are bounded
+        by branch and bound.
         """
         pairs = within(self.mesh.surface, hulls.min(axis=1), hulls.max(axis=1), self.clearance)
         gap = np.full(len(hulls), np.inf)

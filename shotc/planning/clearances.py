@@ -1,7 +1,8 @@
-"""What a drone keeps clear of, and by how much: the rule of the language's checks and of all planners.
+"""What a drone keeps clear of, and by how much: one rule for the language's checks and for all planners.
 
-The two distances are those of ``Rules``. The judge has its own (``passes.verify.space``), and a test holds
-one against the other. Plain Python. With it stand how much a place lacks, and the shortest way out.
+The distances are those of ``Rules``. Verification has its own rule (``passes.verify.space``), and a test
+compares the two. This module also computes the lack of a place, and the shortest move to a free place. It is
+plain Python.
 """
 
 from collections.abc import Iterator
@@ -28,14 +29,15 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
     from shotc.ir.show import Fleet
 
 ROUNDING_M = 1e-6  # metres
-NUDGE_M = 0.01  # metres that a proposed place lies farther off than it must
+NUDGE_M = 0.01  # metres that a proposed place keeps beyond the clearance
 WINDS = ("east", "north-east", "north", "north-west", "west", "south-west", "south", "south-east")
 
 
 class Clearance(NamedTuple):
-    """Something that stands and is kept away from, or stayed inside of, by a distance.
+    """A standing solid that a drone keeps outside of, or inside of, at a distance.
 
-    inside : whether the solid is to be stayed in; metres : from the body's centre, its radius included
+    inside : whether the drone stays inside the solid
+    metres : distance from the body's centre, its radius included
     """
 
     owner: Owner
@@ -44,16 +46,16 @@ class Clearance(NamedTuple):
     inside: bool = False
 
     def lack(self, p: Vec3) -> float:
-        """Return how many metres of room are missing at ``p``; 0 or less where there is enough."""
+        """Return the missing distance at ``p``, metres; 0 or less where there is enough."""
         return self.metres - self._clear(p)
 
     def _clear(self, p: Vec3) -> float:
-        """Return the free distance: to the solid, or into it for a keep-in zone; negative beyond its face."""
+        """Return the distance to the solid, or to its border from inside; negative on the wrong side."""
         gap = signed_distance(self.solid, p)
         return -gap if self.inside else gap
 
     def relation(self, p: Vec3) -> str:
-        """Say how ``p`` stands to the obstacle."""
+        """Return a phrase for the position of ``p`` relative to the obstacle."""
         clear = self._clear(p)
         if self.inside:
             how = "outside" if clear <= 0 else "too close to the border of"
@@ -61,7 +63,7 @@ class Clearance(NamedTuple):
         return f"is {'inside' if clear <= 0 else 'too close to'} {self.owner.words}"
 
     def measure(self, p: Vec3, radius: float) -> str:
-        """Give the numbers: how deep or how close ``p`` is, and how much room it needs."""
+        """Return the numbers as a phrase: how deep or how near ``p`` is, and the distance it needs."""
         clear = self._clear(p)
         if self.inside:
             where = f"{abs(clear):.2f} m outside" if clear <= 0 else f"{clear:.2f} m from its border"
@@ -74,7 +76,7 @@ class Clearance(NamedTuple):
         return f"it is {where}; {need} must be free"
 
     def free_of(self) -> str:
-        """Say where a whole path would be free of it."""
+        """Return a phrase for where a whole path is clear of it."""
         low, high = self.solid.bottom + self.metres, self.solid.top - self.metres
         if self.inside:
             return f"stay {self.metres:.2f} m inside of it, from z = {at_least(low)} to {at_most(high)}"
@@ -87,13 +89,13 @@ class Clearance(NamedTuple):
         return aside + above
 
     def ways_out(self, p: Vec3) -> Iterator[Vec3]:
-        """Yield places near ``p`` that may have the room: up, down and sideways."""
+        """Yield places near ``p`` that may keep the distance: above, below and sideways."""
         room = self.metres + NUDGE_M
         if self.inside:
             z = min(max(p[2], self.solid.bottom + room), self.solid.top - room)
             yield (p[0], p[1], z)
             level = list(_sideways(self.solid, (p[0], p[1]), -room))
-            # Off a corner, two walls are in the way: from the nearest wall on, to the next.
+            # Near a corner two sides are too near: move away from the nearest, then from the next.
             near = min(level, key=lambda q: dist(q, p[:2]), default=(p[0], p[1]))
             yield from ((x, y, z) for x, y in (*level, *_sideways(self.solid, near, -room)))
             return
@@ -106,9 +108,9 @@ class Clearance(NamedTuple):
 
 
 def clearances_of(mission: MissionIR, body: "Drone | Fleet", *, at_pad: bool = False) -> list[Clearance]:
-    """Return all that stands and that a body keeps clear of; the ground and parked drones excepted.
+    """Return the clearances from all standing obstacles, except the ground and parked drones.
 
-    at_pad : whether it rises from its pad or sinks to it, where a target's clearance does not count
+    at_pad : whether the drone takes off or lands; then only its radius counts beside a target
     """
     beside = body.radius if at_pad else mission.rules.beside_target(body.radius)
     zones = [Clearance(zone_owner(z), z.solid, body.radius, z.keep == "in") for z in mission.zones]
@@ -117,7 +119,7 @@ def clearances_of(mission: MissionIR, body: "Drone | Fleet", *, at_pad: bool = F
 
 
 def from_parked(mission: MissionIR, drone: Drone) -> list[Clearance]:
-    """Return what another drone keeps from those that film nothing and stand on their pads."""
+    """Return the clearances from parked drones, which film nothing and stand on their pads."""
     return [
         Clearance(drone_owner(other), point(other.home), mission.rules.separation)
         for other in mission.parked
@@ -126,13 +128,13 @@ def from_parked(mission: MissionIR, drone: Drone) -> list[Clearance]:
 
 
 def free_move(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> str:
-    """Return in words the shortest move out of an obstacle to a place that is free of all, or nothing."""
+    """Return the shortest move out of an obstacle to a free place, in words; empty if there is none."""
     place = free_place(mission, drone, p, obstacle)
     return "" if place is None else move(p, place)
 
 
 def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -> Vec3 | None:
-    """Return the nearest place out of an obstacle that is free of all, or None."""
+    """Return the nearest place outside of an obstacle that is clear of all obstacles, or None."""
     others = clearances_of(mission, drone)
     places = [outward(p, q) for q in obstacle.ways_out(p)]
     high = [q for q in places if q[2] >= mission.lowest(q, drone.radius) - ROUNDING_M]
@@ -141,20 +143,20 @@ def free_place(mission: MissionIR, drone: Drone, p: Vec3, obstacle: Clearance) -
 
 
 def move(p: Vec3, q: Vec3) -> str:
-    """Return in words the move from one place to another."""
-    place = ", ".join(f"{round(c, 2) + 0.0:.2f}" for c in q)  # adding zero takes the sign off -0.00
+    """Return the move from one place to another in words."""
+    place = ", ".join(f"{round(c, 2) + 0.0:.2f}" for c in q)  # adding zero turns -0.00 into 0.00
     return f"move it {dist(p, q):.2f} m {_direction(p, q)}, to [{place}]"
 
 
 def outward(p: Vec3, q: Vec3) -> Vec3:
-    """Round ``q`` to centimetres away from ``p``, so that the numbers given are enough."""
+    """Return ``q`` rounded to centimetres away from ``p``, so that the printed numbers are sufficient."""
     return tuple(  # type: ignore[return-value]
         (up(b) if b > a else down(b)) if abs(b - a) > 1e-9 else b for a, b in zip(p, q, strict=True)
     )
 
 
 def _sideways(solid: Solid, p: Vec2, room: float) -> Iterator[Vec2]:
-    """Yield places level with ``p`` whose distance to the solid's side is ``room``; negative is inside."""
+    """Yield places at the height of ``p`` at distance ``room`` from the solid's side; negative is inside."""
     if isinstance(solid, Cylinder):
         yield from _from_axis(solid, p, room)
         return
@@ -173,7 +175,7 @@ def _from_axis(solid: Cylinder, p: Vec2, room: float) -> Iterator[Vec2]:
 
 
 def _from_edge(solid: Prism, a: Vec2, b: Vec2, p: Vec2, room: float) -> Vec2:
-    """Return the place off the edge's nearest point: along its outward normal, or away from a corner."""
+    """Return the place off the nearest point of an edge: along its outward normal, or away from a corner."""
     foot = closest_on_segment(a, b, p)
     length = dist(a, b)
     outward = ((b[1] - a[1]) / length, (a[0] - b[0]) / length)  # the polygon runs counter-clockwise

@@ -1,4 +1,6 @@
-"""The corridor as constraints: every piece's Bernstein points inside half-spaces and discs."""
+"""A corridor as constraints of a programme: the Bernstein points of each piece lie in half-spaces and
+discs.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +17,10 @@ from shotc.solvers.spline_problem import Cones, HalfSpaceRows, SplineProblem
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Around:
-    """What the corridor is built round.
+    """The linearisation of a corridor.
 
-    hulls : shape (P, m, 3), for each piece points whose hull holds it, or is to hold it
+    breaks : shape (P + 1,)
+    hulls : shape (P, m, 3), for each piece points whose convex hull contains it
     reach : obstacles within this distance beyond their clearance count, metres
     share : see ``free_space.corridor``
     """
@@ -30,7 +33,7 @@ class Around:
 
 
 def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
-    """Return the problem with every piece kept clear of all that is near; owners index space.owners."""
+    """Return the problem with the corridor's constraints; owners are indices of ``space.owners``."""
     index = {name: i for i, name in enumerate(around.space.owners)}
     planes = corridor(around.space, around.hulls, around.reach, around.share)
     obstacles = [index[o.owner] for o in around.space.obstacles]
@@ -43,7 +46,7 @@ def with_corridor(base: SplineProblem, around: Around) -> SplineProblem:
 
 
 def rows_of(breaks: Array, planes: HalfSpaces) -> HalfSpaceRows:
-    """Return half-spaces as rows of a programme, whose owners they index; breaks : shape (P + 1,)."""
+    """Return half-spaces as rows of a programme, with the same owners; breaks : shape (P + 1,)."""
     rows, owner = points_of(breaks, planes.piece), np.repeat(planes.owner, 6)
     return HalfSpaceRows(rows, np.repeat(planes.normal, 6, axis=0), planes.offset.ravel(), owner)
 

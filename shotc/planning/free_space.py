@@ -1,8 +1,8 @@
-"""Where one drone's centre may be, and convex corridors through it.
+"""The free space of one drone's centre, and convex corridors through it.
 
-A ``FreeSpace`` is the intersection of half-spaces, upright discs and the outside of convex obstacles, each
-with the clearance the drone's centre must keep. A corridor piece keeps one half-space an obstacle: if
-all Bernstein points of a piece lie beyond it, the whole piece does.
+A ``FreeSpace`` is the intersection of half-spaces, vertical discs and the outside of convex obstacles, each
+with its clearance from the drone's centre. A piece of a corridor has one half-space per obstacle: if all
+Bernstein points of a piece lie in it, the whole piece does.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from shotc.ir.owners import Owner
 from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.over_ground import OverGround
 
-COMFORT_M = 0.5  # kept beyond that by a curve where there is room, metres
-STEEPER_RATIO = 1.4  # times the slope of what is needed: planned curves leave their polylines a little
-MARGIN_M = 0.05  # kept beyond what verification asks, metres: later stages interpolate the path
+COMFORT_M = 0.5  # metres that a curve keeps beyond the clearance where there is free space
+STEEPER_RATIO = 1.4  # slope of a planned taper over the needed one, because curves leave their polyline
+MARGIN_M = 0.05  # metres beyond the clearances of verification; later stages interpolate
 
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """A convex solid that the drone's centre keeps ``clearance`` metres away from.
+    """A convex solid from which the drone's centre keeps ``clearance`` metres.
 
-    owner : what it is part of; several obstacles may share one owner
+    owner : the part of the mission that it belongs to; several obstacles may share one owner
     """
 
     owner: Owner
@@ -44,9 +44,9 @@ class Obstacle:
 
 @dataclass(frozen=True, slots=True)
 class Wall:
-    """A half-space the drone's centre stays in: n.p >= offset, n a unit vector of W.
+    """A half-space in which the drone's centre stays: n.p >= offset, with n a unit vector of W.
 
-    clearance : the part of the offset that is not the border itself but the room to keep from it
+    clearance : the part of the offset that is the distance from the border
     """
 
     owner: Owner
@@ -57,7 +57,7 @@ class Wall:
 
 @dataclass(frozen=True, slots=True)
 class Disc:
-    """An upright cylinder of unbounded height the drone's centre stays in."""
+    """A vertical cylinder of unbounded height in which the drone's centre stays."""
 
     owner: Owner
     centre: tuple[float, float]
@@ -66,10 +66,10 @@ class Disc:
 
 @dataclass(frozen=True, slots=True)
 class FreeSpace:
-    """All of it, for one drone.
+    """All constraints on the position of one drone's centre.
 
-    ends : places, metres, from which the clearances of obstacles that are nearer taper (``geom.taper``)
-    terrain : the heights above ground that is not flat, the least one first
+    ends : places, metres, from which the clearances of nearer obstacles taper (``geom.taper``)
+    terrain : bounds of the height above terrain, the least height first
     meshes : scenes and buildings
     """
 
@@ -82,23 +82,23 @@ class FreeSpace:
 
     @property
     def surfaces(self) -> tuple[OverGround | BesideMesh, ...]:
-        """Everything that is of triangles."""
+        """All constraints from triangle meshes: terrain, scenes and buildings."""
         return (*self.terrain, *self.meshes)
 
     @property
     def owners(self) -> tuple[Owner, ...]:
-        """Everything that may stop a path, each once, in a fixed order."""
+        """The owners of all constraints, each once, in a fixed order."""
         names = [o.owner for o in self.obstacles] + [w.owner for w in self.walls]
         names += [d.owner for d in self.discs] + [g.owner for g in self.surfaces]
         return tuple(dict.fromkeys(names))
 
     @property
     def bounds(self) -> FreeSpace:
-        """The free space without its obstacles: walls, discs, the ground and meshes."""
+        """The free space without its obstacles: walls, discs, terrain and meshes."""
         return FreeSpace((), self.walls, self.discs, terrain=self.terrain, meshes=self.meshes)
 
     def without(self, owner: Owner) -> FreeSpace:
-        """Return the free space with everything of one owner taken away."""
+        """Return the free space without the constraints of one owner."""
         return FreeSpace(
             tuple(o for o in self.obstacles if o.owner != owner),
             tuple(w for w in self.walls if w.owner != owner),
@@ -108,11 +108,11 @@ class FreeSpace:
         )
 
     def lent(self, metres: float) -> FreeSpace:
-        """Return the free space with every clearance that much smaller (never below zero for obstacles)."""
+        """Return the free space with every clearance reduced (for obstacles to zero at least)."""
         return self.giving(dict.fromkeys(self.owners, metres))
 
     def giving(self, metres: Mapping[Owner, float]) -> FreeSpace:
-        """Return the free space with the clearances of some owners that much smaller, as in ``lent``."""
+        """Return the free space with the clearances of some owners reduced, as in ``lent``."""
 
         def of(part: Obstacle | Wall | Disc) -> float:
             return metres.get(part.owner, 0.0)
@@ -128,7 +128,7 @@ class FreeSpace:
 
 @dataclass(frozen=True, slots=True)
 class Breach:
-    """A point too near to something: by how many metres it misses the clearance."""
+    """A constraint that a point violates, and the lack in metres."""
 
     owner: Owner
     lack: float
@@ -136,7 +136,7 @@ class Breach:
 
 
 def bounds_slack(space: FreeSpace, p: Array) -> Array:
-    """Return how far points (N, 3) are inside the nearest of the space's bounds, metres; shape (N,)."""
+    """Return the least slack of points (N, 3) over walls, discs, terrain and meshes, metres; shape (N,)."""
     slack = _linear_slack(space, p)
     for surface in space.surfaces:
         slack = np.minimum(slack, surface.slack(p))
@@ -144,7 +144,7 @@ def bounds_slack(space: FreeSpace, p: Array) -> Array:
 
 
 def _linear_slack(space: FreeSpace, p: Array) -> Array:
-    """Return the same for walls and discs: what holds for control points holds for their curve."""
+    """Return the same for walls and discs, where the slack of control points bounds that of their curve."""
     slack = np.full(len(p), np.inf)
     for wall in space.walls:
         slack = np.minimum(slack, p @ np.array(wall.normal) - wall.offset)
@@ -154,7 +154,7 @@ def _linear_slack(space: FreeSpace, p: Array) -> Array:
 
 
 def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach]:
-    """Return what one point (3,) is too near to, the worst first."""
+    """Return the constraints that one point (3,) violates, the largest lack first."""
     found = []
     for o in space.obstacles:
         lack = o.clearance - float(distances(o.part, p))
@@ -173,15 +173,18 @@ def breaches(space: FreeSpace, p: Array, tolerance: float = 2e-6) -> list[Breach
 def required(obstacle: Obstacle, p: Array, margin: float) -> Array:
     """Return the distance to keep near points (N, 3): clearance and margin, less where p is closer.
 
-    A keyframe may lie anywhere beyond the clearance; where it leaves less room than the margin, half
-    of what there is must do.
+    A keyframe may lie anywhere beyond the clearance. Where its slack is small, half of the slack replaces the
+    margin.
     """
     space = distances(obstacle.part, p) - obstacle.clearance
     return np.asarray(obstacle.clearance + np.minimum(margin, 0.5 * np.maximum(space, 0.0)))
 
 
 def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN_M) -> Mask:
-    """Tell for segments a-b, shapes (N, 3), what they come too near to; (N, obstacles and then meshes)."""
+    """Return which obstacles and meshes segments are too near to; (N, obstacles and then meshes).
+
+    a, b : ends of the segments, shapes (N, 3)
+    """
     solids = len(space.obstacles)
     out = np.zeros((len(a), solids + len(space.meshes)), dtype=bool)
     low, high = np.minimum(a, b), np.maximum(a, b)
@@ -201,9 +204,10 @@ def blocked(space: FreeSpace, a: Array, b: Array, margin: float = MARGIN_M) -> M
 class HalfSpaces:
     """Half-spaces n . p >= offset for the control points of pieces of a curve.
 
-    piece : shape (R,), which piece; normal : (R, 3), units of W
-    offset : (R, 6), metres, for each of the piece's six control points
-    owner : shape (R,), index of what it keeps the piece away from
+    piece : index of the piece, shape (R,)
+    normal : unit vectors of W, (R, 3)
+    offset : metres, for each of the piece's six control points, (R, 6)
+    owner : index of the obstacle, shape (R,)
     """
 
     piece: IntArray
@@ -212,7 +216,7 @@ class HalfSpaces:
     owner: IntArray
 
     def and_also(self, *others: HalfSpaces) -> HalfSpaces:
-        """Return these and those of others."""
+        """Return these half-spaces together with others."""
         every = (self, *others)
         return HalfSpaces(
             np.concatenate([each.piece for each in every]),
@@ -228,19 +232,20 @@ NO_HALF_SPACES = HalfSpaces(
 
 
 def beside(piece: IntArray, normal: Array, ends: Array) -> HalfSpaces:
-    """Return half-spaces whose offsets, shape (R, 2), are those at the pieces' ends and linear between."""
+    """Return half-spaces with offsets linear along each piece; ends : offsets at its ends, shape (R, 2)."""
     x = np.linspace(0.0, 1.0, 6)
     offset = (1.0 - x) * ends[:, :1] + x * ends[:, 1:]
     return HalfSpaces(piece, normal, offset, np.zeros(len(piece), dtype=np.intp))
 
 
 def corridor(space: FreeSpace, hulls: Array, reach: float, share: float = 0.5) -> HalfSpaces:
-    """Separate every piece from every obstacle within ``reach`` metres beyond its clearance.
+    """Return half-spaces between each piece and each obstacle within ``reach`` metres beyond its clearance.
 
-    hulls : shape (P, m, 3), points whose hull holds each piece
-    share : of the distance a piece has beyond the clearance, this much is kept, COMFORT_M at most
-    A piece that is itself too near gets a plane at the full clearance, which its points do not meet.
-    Owners are indices of obstacles; those of surfaces come after them.
+    A piece that is itself too near gets a half-space at the full clearance, which its points violate. Owners
+    are indices of obstacles, then of surfaces.
+
+    hulls : shape (P, m, 3), points whose convex hull contains each piece
+    share : share of a piece's slack beyond the clearance that is kept, COMFORT_M at most
     """
     planes: list[HalfSpaces] = []
     middle, size = hulls.mean(axis=1), np.linalg.norm(np.ptp(hulls, axis=1), axis=1)
@@ -270,8 +275,9 @@ def beside_surface(
 ) -> HalfSpaces:
     """Return half-spaces for a height above terrain, or beside a mesh.
 
-    hulls : shape (P, m, 3), points whose hull holds each piece
-    room : reach and share, as of ``corridor``; owner : their index
+    hulls : shape (P, m, 3), points whose convex hull contains each piece
+    room : reach and share, as in ``corridor``
+    owner : their index
     """
     reach, share = room
     planes = surface.planes(hulls, reach, lambda slack: kept(slack, share))
@@ -280,13 +286,13 @@ def beside_surface(
 
 
 def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:
-    """Return what is needed of the distance from an obstacle in a free space whose clearances taper."""
+    """Return the tapered clearance from an obstacle in a free space with ends."""
     ends = np.array(space.ends, dtype=np.float64).reshape(-1, 3)
     return Taper(obstacle.clearance, STEEPER_RATIO * SLOPE, ends, distances(obstacle.part, ends))
 
 
 def six(hulls: Array) -> Array:
-    """Return where the control points of pieces are, shape (P, 6, 3), or are to be on chords."""
+    """Return the six control points of pieces, shape (P, 6, 3); for chords, evenly spaced points on them."""
     if hulls.shape[1] == 6:
         return hulls
     x = np.linspace(0.0, 1.0, 6)[:, None]
@@ -294,14 +300,16 @@ def six(hulls: Array) -> Array:
 
 
 def kept(slack: Array, share: float) -> Array:
-    """Return the margin to keep (...), metres, where there is ``slack`` (...) beyond the clearance."""
+    """Return the margin to keep (...), metres, for a ``slack`` (...) beyond the clearance."""
     return np.minimum(COMFORT_M, share * np.maximum(slack, 0.0))
 
 
 def shortfall(space: FreeSpace, hulls: Array) -> Array:
-    """Return by how much each piece fails to prove its clearances; shape (P,), metres, <= 0 is proved.
+    """Return the metres by which each piece lacks its clearances; shape (P,), <= 0 is proved.
 
-    A piece whose ball about its middle keeps clear needs no plane; its number is that of the ball.
+    A piece inside a ball that is clear needs no plane; its number is then that of the ball.
+
+    hulls : shape (P, m, 3)
     """
     worst = -_linear_slack(space, hulls.reshape(-1, 3)).reshape(hulls.shape[:2]).min(axis=1)
     middle = hulls.mean(axis=1)

@@ -1,11 +1,11 @@
-"""The course of a shot led round what is of triangles, and to where that does not hide its subject.
+"""The course of a shot around meshes, and to where they do not hide its subject.
 
-It is the cheapest way through layers of places. Each moment has a layer: its ideal place, and places about
-it. A way takes one place of each layer; it costs how far its places are from the ideal, by how much that
-changes, and where they do not see the subject (a layered graph as of Jeon, Lee and Kim, Integrated Motion
-Planner for Real-time Aerial Videography with a Drone, 2020). Straight ways between places
-of a course that was found are tested; where one is not free, all ways between its two layers are tested, and
-the search is repeated.
+It is the cheapest path through layers of places. Each sampled time has a layer: the ideal position, and
+places around it. A path takes one place of each layer. Its cost is the distance of its places from the ideal,
+the change of that distance, and the hidden share of the subject (a layered graph as of Jeon, Lee and Kim,
+Integrated Motion Planner for Real-time Aerial Videography with a Drone, 2020). The segments of a course are
+tested after it is found. If one is blocked, all segments between its two layers are tested, and the search is
+repeated.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from shotc.geom.surface.tree import Surface
 from shotc.ir.hiding_surfaces import share_behind, share_hidden
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 
-RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from their ideal
+RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from the ideal
 TURNS, RISES_RAD = 12, (0.0, 0.5, 1.0)
-CHANGE_S = 2.0  # seconds: a change of so many times a distance from the ideal costs as much as that distance
-FASTEST_M_S = 12.0  # by which a distance from the ideal may change
-BLOCKED = 1e9  # cost of what is not free
-UNSEEN_SHARE = 0.7  # of the distance to its subject, off the ideal, that costs as much as to hide it
-FOR_SIGHT_SHARE = 0.4  # of that distance by which a shot is led for its subject to be seen
-SPREAD_S = 1.0  # seconds about a time at which a subject is hidden, in which a course is led for it
-LEAST_S = 0.4  # seconds between layers at least
+CHANGE_S = 2.0  # seconds, weight of the rate of change of the offset over the offset
+FASTEST_M_S = 12.0  # fastest change of the offset from the ideal
+BLOCKED = 1e9  # cost of a blocked place or segment
+UNSEEN_SHARE = 0.7  # offset, over the distance to the subject, that costs as much as hiding it
+FOR_SIGHT_SHARE = 0.4  # largest offset, over that distance, to see the subject
+SPREAD_S = 1.0  # seconds around a hidden sample in which the course is led
+LEAST_S = 0.4  # least seconds between layers
 
 
 class Passing(Protocol):
-    """What a course keeps clear of at its times: a solid about the origin of a motion."""
+    """A moving obstacle of a course: a solid about the origin of a motion."""
 
     @property
     def part(self) -> Solid:
@@ -46,20 +46,21 @@ class Passing(Protocol):
 
     @property
     def clearance(self) -> float:
-        """The distance that is kept from it, metres."""
+        """The clearance from it, metres."""
 
     @property
     def at(self) -> Callable[[Array], Array]:
-        """Return places (M, 3) of its origin at times (M,)."""
+        """A function from times (M,) to positions (M, 3) of its origin."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Watched:
-    """A subject that a shot is to see.
+    """A subject that a shot should see.
 
-    places : of its centre, (N, 3), at the times of a course; filmed : at which of those it is filmed, (N,)
-    radius, height : of the upright cylinder about it, metres
-    surfaces, solids : what may hide it, one at least
+    places : positions of its centre at the times of a course, (N, 3)
+    filmed : at which of these times it is filmed, (N,)
+    radius, height : of the vertical cylinder around it, metres
+    surfaces, solids : possible occluders, at least one
     """
 
     places: Array
@@ -70,9 +71,9 @@ class Watched:
     solids: tuple[Solid, ...] = ()
 
     def hidden(self, eyes: Array) -> Array:
-        """Return the share of the subject that is hidden from places (L, C, 3), one layer a time; (L, C).
+        """Return the hidden share of the subject from places (L, C, 3), one layer a time; (L, C).
 
-        What stands within its own radius belongs to it.
+        Occluders within its own radius belong to it.
         """
         centres = np.broadcast_to(self.places[:, None], eyes.shape).reshape(-1, 3)
         at, size = (eyes.reshape(-1, 3), centres), (self.radius, self.height)
@@ -83,13 +84,13 @@ class Watched:
         return most * self.filmed[:, None]
 
     def at(self, which: IntArray) -> Watched:
-        """Return it at some of the times."""
+        """Return it at some of the times, by index."""
         return replace(self, places=self.places[which], filmed=self.filmed[which])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """Places over time, (N, 3), and how far a shot is led there for its subject to be seen, (N,), 0 to 1."""
+    """Positions over time, (N, 3), and how far the course is led there to see the subject, (N,), 0 to 1."""
 
     places: Array
     for_sight: Array
@@ -104,13 +105,15 @@ def led_round(
     *,
     joined: bool = True,
 ) -> Course:
-    """Return a course that is led round surfaces; its ideal if it can.
+    """Return a course around surfaces; the ideal where that is free and sees the subject.
 
-    course : mission times (N,), and its ideal places then, (N, 3); these are returned where they are free and
-        see the subject, and where no course is found
-    space : what a drone is held to but for what moves and for solids; near : those
-    held : at which times it stays at its ideal where that is free, (N,)
-    joined : whether straight ways between its places have to be free; else others lead the ways between them
+    If no course is found, the ideal is returned.
+
+    course : mission times (N,), and the ideal positions, (N, 3)
+    space : walls, discs, terrain and meshes of the drone
+    near : standing and moving obstacles
+    held : times at which it stays at its ideal where that is free, (N,)
+    joined : whether the segments between its places have to be free; otherwise the caller joins them
     """
     times, ideal = course
     still = Course(ideal, np.zeros(len(times)))
@@ -144,7 +147,8 @@ def _course(
 ) -> Array | None:
     """Return offsets (L, 3) from the ideal at the layers' times; None where no course is free.
 
-    ideal : those times (L,), its places then (L, 3), and ``held`` of ``led_round``; joined : as there
+    ideal : times (L,), ideal positions (L, 3), and ``held`` of ``led_round``
+    joined : as there
     """
     times, at_ideal, held = ideal
     rings = np.array(RINGS_M)[:, None, None] * directions(TURNS, RISES_RAD)
@@ -155,7 +159,7 @@ def _course(
     if watched is not None:
         far = np.linalg.norm(shifts, axis=1)
         away = np.linalg.norm(watched.places - at_ideal, axis=1)[:, None]
-        most = np.where(room[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # what is blocked is left anyway
+        most = np.where(room[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # a blocked ideal is left anyway
         unseen = np.where(far <= most, watched.hidden(places), watched.filmed[:, None])
         price += (UNSEEN_SHARE * away) ** 2 * unseen
     stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED)
@@ -181,7 +185,7 @@ def _course(
 
 
 def _room(space: FreeSpace, near: Sequence[Passing], times: Array, places: Array) -> Array:
-    """Return how much room beyond what is needed places of layers (L, C, 3) have at their times; (L, C)."""
+    """Return the slack of places of layers (L, C, 3) over their clearances and a margin; (L, C), metres."""
     room = bounds_slack(space, places.reshape(-1, 3)).reshape(places.shape[:2])
     for what in near:
         beside = places - what.at(times)[:, None]
@@ -191,7 +195,7 @@ def _room(space: FreeSpace, near: Sequence[Passing], times: Array, places: Array
 
 
 def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Array, float]:
-    """Return the place of each layer on the cheapest course, (L,), and what it costs (Viterbi 1967)."""
+    """Return the place of each layer on the cheapest course, (L,), and its cost (Viterbi 1967)."""
     cost, before = stay[0], []
     for k in range(len(step)):
         ways = cost[:, None] + change / step[k]
@@ -205,10 +209,13 @@ def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Arra
 
 
 def _shut(space: FreeSpace, places: Array, room: Array, near: Mask) -> Mask:
-    """Tell which ways from places of one layer to those of the next one are stopped; (C, C).
+    """Return which segments from places of one layer to those of the next are blocked; (C, C).
 
-    places : (2, C, 3), and their room (2, C), metres; near : the ways that count, (C, C)
-    A way between two places that have more room than it is long is free.
+    A segment is free if the slacks of its ends together are at least its length.
+
+    places : (2, C, 3)
+    room : their slack (2, C), metres
+    near : segments that count, (C, C)
     """
     long = np.linalg.norm(places[0][:, None] - places[1][None], axis=2)
     free = near & (room[0] >= 0.0)[:, None] & (room[1] >= 0.0)
@@ -219,7 +226,7 @@ def _shut(space: FreeSpace, places: Array, room: Array, near: Mask) -> Mask:
 
 
 def _stopped(space: FreeSpace, a: Array, b: Array) -> Mask:
-    """Tell which straight ways a-b, shapes (N, 3), come too near to a mesh; (N,)."""
+    """Return which segments a-b, shapes (N, 3), are too near to a mesh; (N,)."""
     if not space.meshes:
         return np.zeros(len(a), dtype=bool)
     meshes = replace(space, obstacles=(), terrain=())

@@ -1,4 +1,4 @@
-"""From a mission's zones, targets and rules to the free space of one drone's centre."""
+"""The free space of one drone's centre, from a mission's zones, targets and rules."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from shotc.planning.over_ground import heights_over
 
 
 class FreeSpaces(NamedTuple):
-    """Where a drone may be: with the clearances of all phases, and with those of ways between shots.
+    """The free spaces of a drone: with the clearances of all phases, and with those of transfers.
 
-    required : owners whose clearances on ways the mission writes down
+    required : owners whose clearances on transfers the mission states
     """
 
     flight: FreeSpace
@@ -31,9 +31,9 @@ class FreeSpaces(NamedTuple):
 
 
 def flight_space(mission: MissionIR, drone: Drone) -> FreeSpace:
-    """Return the free space of every phase but take-off and landing, as far as it stands.
+    """Return the free space of every phase except take-off and landing, from standing obstacles only.
 
-    A drone that films nothing stands on its pad; those that fly are no part of a free space.
+    Parked drones are part of it; drones that fly are not.
     """
     over_ground, terrain = mission.rules.over_ground(drone.radius), mission.terrain
     most = mission.rules.max_height or inf
@@ -53,7 +53,7 @@ def _beside_meshes(mission: MissionIR, clearance: float) -> tuple[BesideMesh, ..
 
 
 def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:
-    """Return the free space of flight, and that with the clearances that are kept on ways between shots."""
+    """Return the free space of flight, and the one with the clearances of transfers."""
     space, wide = flight_space(mission, drone), _kept_on_ways(mission)
 
     def widened(obstacle: Obstacle) -> Obstacle:
@@ -73,9 +73,10 @@ def _kept_on_ways(mission: MissionIR) -> dict[Owner, Apart | None]:
 
 
 def pad_space(mission: MissionIR, drone: Drone) -> FreeSpace:
-    """Return the free space of take-off and landing: no clearances, no ground, no keep-in floors.
+    """Return the free space of take-off and landing.
 
-    Zones, meshes and the targets' own bodies still bind, and so does the separation from parked drones.
+    It has no clearances beyond the radius, no ground and no floors of keep-in zones. Zones, meshes, the
+    bodies of targets and the separation from parked drones still hold.
     """
     around = (*clearances_of(mission, drone, at_pad=True), *from_parked(mission, drone))
     space = _space(around, [], floors=False)
@@ -85,7 +86,8 @@ def pad_space(mission: MissionIR, drone: Drone) -> FreeSpace:
 def _space(around: Iterable[Clearance], walls: list[Wall], *, floors: bool) -> FreeSpace:
     """Return clearances as a free space.
 
-    walls : half-spaces that come first; floors : whether the floors of keep-in zones bind
+    walls : half-spaces that come first
+    floors : whether the floors of keep-in zones hold
     """
     kept = list(around)
     obstacles = [

@@ -1,4 +1,4 @@
-"""Who stands on its pad when, of a fleet that takes off in layers."""
+"""Which drones of a fleet that takes off in layers stand on their pads, and when."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shotc.planning.take_off import take_off_of
 
 
 def standing(fleet: Fleet, coef: Array) -> Mask | None:
-    """Tell of every drone and piece whether it stands, shape (n, P); None where all rise at once.
+    """Return whether each drone stands on each piece, shape (n, P); None where all take off at once.
 
     coef : shape (n, P + 3, 3), as in ``geom.fleet_spline``
     """
@@ -20,7 +20,7 @@ def standing(fleet: Fleet, coef: Array) -> Mask | None:
 
 
 def standing_at(fleet: Fleet, flight: FleetTrajectory, times: Array) -> Mask:
-    """Tell of every drone and time whether it stands, shape (n, T); nobody does where all rise at once."""
+    """Return whether each drone stands at each time, shape (n, T); all False where all take off at once."""
     found = standing(fleet, flight.coef)
     if found is None:
         return np.zeros((len(flight.coef), len(times)), dtype=np.bool_)

@@ -1,7 +1,7 @@
 """Terrain as a part of a drone's free space: the least height above it, and the greatest.
 
-Both are upright: the centre of the drone is so many metres above the ground below it. The greatest height is
-the least one upside down.
+Heights are vertical: from the ground below the drone's centre to the centre. The greatest height is
+implemented as the least height over the ground turned upside down.
 """
 
 from __future__ import annotations
@@ -20,21 +20,22 @@ from shotc.geom.surface.planes import Kept, Planes
 from shotc.geom.surface.tree import in_plan, surface_of
 from shotc.ir.owners import CEILING, GROUND, Owner
 
-OUTSIDE_M = 1e3  # what is lacking where there is no ground
-WIDTH_M, WIDTH_SHARE = 1.0, 0.1  # and of the reach: how far beyond a piece's box its plane is above ground
+OUTSIDE_M = 1e3  # metres of lack where there is no ground
+WIDTH_M, WIDTH_SHARE = 1.0, 0.1  # metres, plus a share of the reach: ground around a piece below its plane
 NARROWER_M = (0.3, 0.0)
-"""The same where the plane would not leave a piece where it is, as one between slopes that rise beside it."""
-FITS_M = 1e-9  # by which a piece may be below its plane and still be where it is
-CLOSED_M = 5e-7  # gap to which heights of pieces are proved
+"""The same if the plane would exclude a piece as it is, for instance between slopes on both sides."""
+FITS_M = 1e-9  # metres, tolerance of a piece below its plane
+CLOSED_M = 5e-7  # metres, gap of the proved heights of pieces
 _UPSIDE_DOWN = np.array([1.0, 1.0, -1.0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OverGround:
-    """Where the centre of a drone is high enough above ground, or low enough where all is upside down.
+    """A bound on the height of a drone's centre above ground; the greatest height, where all is upside down.
 
-    owner : of the rule that asks for it; clearance : metres above the ground, upright
-    flipped : whether the ground is given upside down, z for -z, and the clearance with it
+    owner : of the rule that states it
+    clearance : vertical distance from the ground, metres
+    flipped : whether ground and clearance are given upside down, z for -z
     """
 
     owner: Owner
@@ -43,38 +44,39 @@ class OverGround:
     flipped: bool = False
 
     def owner_at(self, _: Array) -> Owner:
-        """Return the owner: ground is one thing everywhere."""
+        """Return the owner, which is the same everywhere."""
         return self.owner
 
     def lowered(self, metres: float) -> OverGround:
-        """Return the same with a clearance that much smaller."""
+        """Return the bound with its clearance reduced by ``metres``."""
         return replace(self, clearance=self.clearance - metres)
 
     def lowest(self, xy: Array) -> Array:
-        """Return the least heights at places (N, 2), metres of W; where there is no ground, out of reach.
+        """Return the least heights at places (N, 2), metres of W; unreachable ones without ground.
 
-        Of ground that is not flipped.
+        The ground must not be flipped.
         """
         height = height_at(self.ground, xy)
         return np.where(np.isnan(height), OUTSIDE_M, height) + self.clearance
 
     def highest(self, xy: Array) -> Array:
-        """Return the greatest heights at places (N, 2), metres of W; where there is no ground, any.
+        """Return the greatest heights at places (N, 2), metres of W; infinite without ground.
 
-        Of ground that is flipped.
+        The ground must be flipped.
         """
         height = height_at(self.ground, xy)
         return np.where(np.isnan(height), np.inf, -height - self.clearance)
 
     def slack(self, p: Array) -> Array:
-        """Return how far points (N, 3) are within the height that is asked, metres; shape (N,)."""
+        """Return the slack of points (N, 3) over the bound, metres; shape (N,)."""
         height, z = height_at(self.ground, p[:, :2]), self._turned(p)[:, 2]
         return np.where(np.isnan(height), -OUTSIDE_M, z - height - self.clearance)
 
     def planes(self, hulls: Array, reach: float, kept: Kept) -> Planes:
-        """Return half-spaces for the pieces that come within ``reach`` metres of the height that is asked.
+        """Return half-spaces for the pieces that come within ``reach`` metres of the bound.
 
-        hulls : shape (P, m, 3); kept : the margin, given how much more than the clearance there is, metres
+        hulls : shape (P, m, 3)
+        kept : margin as a function of the slack, metres
         """
         hulls, parts = self._turned(hulls), []
         left = np.arange(len(hulls))
@@ -96,9 +98,10 @@ class OverGround:
         )
 
     def lack(self, hulls: Array) -> Array:
-        """Return by how much each piece, shape (P, m, 3), fails to prove its clearance; (P,), <= 0 is proved.
+        """Return the metres by which each piece, shape (P, m, 3), lacks its clearance; (P,), <= 0 is proved.
 
-        A plane above the ground below a piece is quick; where it does not prove it, the piece is bounded.
+        A plane above the ground below a piece is tried first; pieces that it does not prove are bounded by
+        branch and bound.
         """
         hulls = self._turned(hulls)
         found = ground_planes(self.ground, hulls, 0.0, self.clearance, np.zeros_like)
@@ -113,7 +116,7 @@ class OverGround:
         return lack
 
     def _ends_below(self, hulls: Array) -> Mask:
-        """Tell of pieces, shape (P, m, 3), whether the ground may end below them: a hole is in their box."""
+        """Return whether the ground may end below pieces, shape (P, m, 3): an edge is in their box."""
         low, high = hulls[..., :2].min(axis=1), hulls[..., :2].max(axis=1)
         below = np.zeros(len(hulls), dtype=bool)
         below[in_plan(self.ground.edge, low, high).item] = True
@@ -124,7 +127,9 @@ class OverGround:
 
 
 def heights_over(ground: Ground, least: float, greatest: float | None) -> tuple[OverGround, ...]:
-    """Return the least height of a drone's centre above ground, and the greatest, if there is one, metres."""
+    """Return the bounds of the height of a drone's centre above ground, metres; the greatest only if
+    given.
+    """
     low = OverGround(GROUND, ground, least)
     if greatest is None:
         return (low,)
@@ -133,7 +138,7 @@ def heights_over(ground: Ground, least: float, greatest: float | None) -> tuple[
 
 @lru_cache(maxsize=2)
 def _upside_down(ground: Ground) -> Ground:
-    """Return ground upside down; kept, since a mission asks for it many times, and a tree takes a while."""
+    """Return ground upside down; cached, because a mission asks for it often and its tree takes time."""
     return replace(ground, surface=surface_of(ground.surface.triangles * _UPSIDE_DOWN))
 
 

@@ -1,4 +1,4 @@
-"""The shortest way through a vertical section, between a least and a greatest height at each place."""
+"""The shortest polyline through a vertical section, between a least and a greatest height at each place."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from shotc.geom.bernstein import Array
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Section:
-    """Heights between which a way may pass, metres; straight ways between two places keep what both keep.
+    """Bounds of the height along a path, metres; between neighbouring places they are linear.
 
-    along : shape (N,), metres from the begin of the way, increasing; low, high : (N,)
-    The first and the last place have the heights of the way's ends, as both.
+    along : distance from the start of the path, metres, increasing, shape (N,)
+    low, high : (N,); at the first and the last place both are the heights of the path's ends
     """
 
     along: Array
@@ -24,11 +24,11 @@ class Section:
 
 
 def taut(section: Section) -> Array:
-    """Return the corners (K, 2), along and height, of the shortest way through a section, ends included.
+    """Return the corners (K, 2), distance and height, of the shortest path through a section, ends included.
 
-    From each corner on, the slopes that pass every place so far narrow; where none is left, the place that
-    bounds them on the other side is the next corner (Lee and Preparata 1984, in two dimensions). Where the
-    greatest height is below the least one, the way has the least.
+    From each corner the interval of slopes that pass all places so far shrinks. Where it becomes empty, the
+    place that bounds it on the other side is the next corner (Lee and Preparata 1984, in two dimensions).
+    Where the greatest height is below the least one, the path takes the least.
     """
     along, low = section.along, section.low
     high = np.maximum(section.high, low)
@@ -51,9 +51,12 @@ def taut(section: Section) -> Array:
 
 
 def fewer(section: Section, corners: Array, apart: float) -> Array:
-    """Return a way with one corner in place of two that are nearer than so many metres, where there is room.
+    """Return a path with one corner in place of two that are nearer than ``apart`` metres.
 
-    corners : shape (K, 2), as of the section; the one is where the legs beside the two meet
+    The new corner is the intersection of the segments before and after the two. It replaces them only where
+    it keeps the bounds.
+
+    corners : shape (K, 2), as of the section
     """
     way = [(float(x), float(z)) for x, z in corners]
     k = 1
@@ -68,7 +71,7 @@ def fewer(section: Section, corners: Array, apart: float) -> Array:
 
 
 def cut(corners: Array, most: float) -> Array:
-    """Return a way with corners put in, so that they are at most so many metres apart along it.
+    """Return a path with additional corners, at most ``most`` metres apart along it.
 
     corners : shape (K, 2), as of a section
     """

@@ -1,10 +1,10 @@
-"""How a fleet rises from its pads: all at once, or in layers where pads are nearer than the separation.
+"""The take-off of a fleet: all at once, or in layers where pads are nearer than the separation.
 
-Drones of one layer have pads that are the horizontal separation apart, so they rise side by side. Each layer
-stops one vertical separation above the next. The highest rises first; the next one leaves its pads when those
-before it are that far up, and never comes nearer to them. The fleet comes down the other way round, the
-lowest layer first. While a drone stands on its pad its rotors are off, and what others keep from it is that
-bodies do not touch: twice the radius, and the margin. Plain Python.
+The pads of one layer are the horizontal separation apart, so its drones rise side by side. Each layer stops
+one vertical separation above the next one. The highest layer rises first. The next one leaves its pads when
+those before it are that far up, and never comes nearer to them. The fleet lands in reverse order, the lowest
+layer first. While a drone stands on its pad its rotors are off; then the separation is twice the radius, and
+the margin. This module is plain Python.
 """
 
 from __future__ import annotations
@@ -21,14 +21,15 @@ if TYPE_CHECKING:
     from shotc.ir.show import Apart, Fleet
 
 MOST_LAYERS = 64
-"""Layers of a take-off; pads that ask for more are an error (D001)."""
+"""Most layers of a take-off; pads that need more are an error (D001)."""
 
 
 class TakeOff(NamedTuple):
     """The layers of a fleet.
 
-    layer : of every pad, by its number, 0 the highest; heights : of the layers above their pads, m, falling
-    step : by which one layer is above the next, at least, at every instant at which both are in the air, m
+    layer : of each pad, by its number; 0 is the highest
+    heights : of the layers above their pads, metres, decreasing
+    step : least vertical distance between two layers while both are in the air, metres
     """
 
     layer: tuple[int, ...]
@@ -37,7 +38,7 @@ class TakeOff(NamedTuple):
 
     @property
     def layered(self) -> bool:
-        """Tell whether there is more than one."""
+        """Whether there is more than one layer."""
         return len(self.heights) > 1
 
     def top(self, pad: int) -> float:
@@ -46,12 +47,12 @@ class TakeOff(NamedTuple):
 
 
 def take_off_of(fleet: Fleet) -> TakeOff:
-    """Return how a fleet rises."""
+    """Return the layers in which a fleet takes off."""
     return _take_off(fleet.pads, fleet.apart, fleet.rise)
 
 
 def bodies_of(fleet: Fleet) -> Apart:
-    """Return what is kept between drones of which one stands on its pad, centre to centre, metres."""
+    """Return the separation between two drones of which one stands on its pad, centre to centre, metres."""
     return fleet.apart._replace(shape="ellipsoid", horizontal=2 * fleet.radius, vertical=2 * fleet.radius)
 
 

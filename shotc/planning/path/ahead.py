@@ -1,9 +1,9 @@
-"""Ways on which the body heads where the drone flies, within the half-angle of ``rules.look_ahead``.
+"""Transfers on which the body heads along the course, within the half-angle of ``rules.look_ahead``.
 
-The body's yaw over s is a spline near the course, all of it in the cone about the course. It begins and ends
-as near as the cone lets it to the headings that the shots before and after have; the drone turns by the rest
-before it moves, and after it has come to rest. A camera that its gimbal pans turns with the body, and evenly
-from where it is against the body at the one end to where it is at the other. ``filmed_ahead`` is for shots.
+The body yaw over s is a spline near the course and inside the cone about it. It begins and ends as near as
+the cone allows to the headings of the shots before and after. The drone makes the rest of each turn at rest,
+before or after the transfer. The camera turns with the body; its pan angle changes linearly from its value at
+one end to that at the other. ``filmed_ahead`` does the same for shots.
 """
 
 from __future__ import annotations
@@ -23,18 +23,20 @@ from shotc.planning.path.body import FAINT_WEIGHT, UPRIGHT_SLOPE
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 
-FINER = (4, 8, 16, 32)  # pieces for each one of the way
-HALVINGS = 12  # of the pieces on which the course turns by much of the cone
+FINER = (4, 8, 16, 32)  # pieces for each piece of the position curve
+HALVINGS = 12  # halvings of pieces on which the course turns by much of the cone
 SAMPLES_PER_PIECE = 4
-KEPT_SHARE = 0.97  # of the half-angle that is used: the course is sampled
-ANY_RAD = 1e3  # rad: bounds of a yaw where there is no course
+KEPT_SHARE = 0.97  # share of the half-angle that is used, because the course is sampled
+ANY_RAD = 1e3  # rad, bounds of the yaw where there is no course
 
 
 class Course(NamedTuple):
-    """The course of a way over s, and the bounds of a yaw that is near it.
+    """The course of a transfer over s, and the bounds of a yaw in the cone about it.
 
-    breaks : (P + 1,); at, yaw : samples, (M,), unwrapped; moves : whether there is a course, (M,)
-    low, high : of the yaw on each piece, (P,), rad
+    breaks : shape (P + 1,)
+    at, yaw : samples of s and of the course, shape (M,), unwrapped
+    moves : whether there is a course at each sample, shape (M,)
+    low, high : bounds of the yaw on each piece, shape (P,), rad
     """
 
     breaks: Array
@@ -46,18 +48,21 @@ class Course(NamedTuple):
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Bounds of the yaw where the way begins, and where it ends."""
+        """Bounds of the yaw at the start and at the end."""
         return (float(self.low[0]), float(self.high[0])), (float(self.low[-1]), float(self.high[-1]))
 
     def wound(self, near: float) -> Course:
-        """Return the same by whole turns, so that it begins nearest to a yaw."""
+        """Return the course shifted by whole turns, so that it begins nearest to a yaw."""
         low, high = self.ends[0]
         turns = 2 * pi * round((near - 0.5 * (low + high)) / (2 * pi))
         return self._replace(yaw=self.yaw + turns, low=self.low + turns, high=self.high + turns)
 
 
 def course_of(drone: Drone, position: Piecewise, half_angle: float) -> Course | None:
-    """Return the course of a way, x, y, z over s; None where it goes straight up or down, or has corners."""
+    """Return the course of a position curve, x, y, z over s.
+
+    None if the curve is vertical, or if its corners leave no yaw in the cone.
+    """
     for finer in FINER:
         course = _sampled(drone, position, half_angle, subdivide(position.breaks, finer))
         if course is None or (course.low < course.high).all():
@@ -66,9 +71,9 @@ def course_of(drone: Drone, position: Piecewise, half_angle: float) -> Course | 
 
 
 def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: float) -> Course | None:
-    """Return the same with pieces so short that bounds are at least ``room`` apart, rad; None as there.
+    """Return the course on pieces so short that the bounds are at least ``room`` apart, rad; None as there.
 
-    A way that turns back goes round in little of its length.
+    Where the curve reverses, its course turns within a short part of its length.
     """
     breaks = subdivide(position.breaks, FINER[0])
     for _ in range(HALVINGS):
@@ -83,7 +88,7 @@ def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: flo
 
 
 def _sampled(drone: Drone, position: Piecewise, half_angle: float, breaks: Array) -> Course | None:
-    """Return the course on pieces, whose bounds may leave nothing between them; None where there is none."""
+    """Return the course on given pieces, whose bounds may be empty; None if there is no course."""
     share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
     at = breaks[:-1, None] + np.diff(breaks)[:, None] * share
     rate = position.derivative()(at.ravel())
@@ -99,9 +104,11 @@ def _sampled(drone: Drone, position: Piecewise, half_angle: float, breaks: Array
 
 
 def _moves(drone: Drone, rate: Array) -> Array:
-    """Tell where a drone may be so fast over ground that it has a course; rate : of its place over s, (M, 3).
+    """Return where a drone may be fast enough over ground to have a course, (M,).
 
-    It rises and sinks no faster than it can, so that on a steep way it is slow over ground.
+    Climb and descent rates are limited, so that the drone is slow over ground on a steep path.
+
+    rate : derivative of its position over s, (M, 3)
     """
     level, rise = np.linalg.norm(rate[:, :2], axis=1), rate[:, 2]
     fastest = np.where(rise > 0.0, drone.limits.climb, drone.limits.descent)
@@ -111,10 +118,10 @@ def _moves(drone: Drone, rate: Array) -> Array:
 def headed(
     drone: Drone, position: Piecewise, course: Course, ends: tuple[Pose, Pose | None]
 ) -> Piecewise | Status:
-    """Return all channels of a way whose body heads along its course, or the solver's word.
+    """Return all channels of a transfer whose body heads along its course, or the solver's status.
 
-    ends : the poses where it begins and ends; without the latter the body's yaw is free there, and the camera
-        keeps its angle against it
+    ends : poses at the start and at the end; without the latter the body yaw is free there, and the camera
+        keeps its angle relative to the body
     """
     start, goal = ends
     breaks = course.breaks
@@ -152,9 +159,10 @@ def headed(
 def near_course(
     drone: Drone, course: Course, wish: Array, anchors: Sequence[tuple[float, float]]
 ) -> Piecewise | Status:
-    """Return a yaw in the cone about a course, one channel on its breaks, or the solver's word.
+    """Return a yaw in the cone about a course, one channel on its breaks, or the solver's status.
 
-    wish : what it is to be near, at the course's samples; anchors : (s, yaw) that it passes
+    wish : reference of the yaw at the course's samples, shape (M,)
+    anchors : pairs (s, yaw) that it passes
     """
     breaks, points = course.breaks, (len(course.breaks) - 1, 6)
     long = float(breaks[-1] - breaks[0])
@@ -180,10 +188,10 @@ def near_course(
 def nearest_ends(
     course: Course, start: Pose, goal: Pose | None
 ) -> tuple[Course, Pose, Pose | None, Pose | None]:
-    """Return the course, and in which poses a way begins and ends from one pose to another.
+    """Return the course, and the poses in which a transfer from one pose to another begins and ends.
 
-    The course is wound as the start is. The poses are as near to those asked for as the cone about the course
-    lets the body be; the last one is the pose asked for, by whole turns from where the way ends.
+    The course is unwrapped to the start's winding. The body yaws of both poses are as near to the given ones
+    as the cone allows. The last result is the given goal, shifted by whole turns to the end of the transfer.
     """
     wound = course.wound(start[BODY_YAW])
     first, last = wound.ends
@@ -196,7 +204,7 @@ def nearest_ends(
 
 
 def _turned(pose: Pose, body: float) -> Pose:
-    """Return a pose with another body yaw, its camera turned with it."""
+    """Return a pose with another body yaw, and the camera turned with it."""
     found = list(pose)
     found[BODY_YAW], found[CAM_YAW] = body, pose[CAM_YAW] + body - pose[BODY_YAW]
     return tuple(found)

@@ -1,8 +1,8 @@
-"""Camera angles along a shot: the composition is kept between keyframes, not only at them.
+"""Camera angles along a shot that keep the composition between keyframes, not only at them.
 
-Where two neighbouring keyframes frame a target, its screen place moves from one reference to the next
-(C2 in path parameter), and the angles that put it there follow in closed form; a spline is fitted to
-them, exact at the keyframes. Elsewhere the camera turns steadily from one keyframe to the next.
+Where two neighbouring keyframes frame a target, its reference on screen moves from one to the other (C2 in
+the path parameter). The angles that put the target there follow in closed form. A spline is fitted to them,
+exact at the keyframes. Elsewhere the camera turns monotonically from one keyframe to the next.
 """
 
 from __future__ import annotations
@@ -33,21 +33,22 @@ from shotc.solvers.spline_fit import Fit, fit, within
 PIECES_PER_STRETCH = 3  # per stretch between keyframes, at least
 SAMPLES_PER_PIECE = 6  # per piece
 FINER = (1, 2, 4, 8)
-CLOSE_RAD = 1.5e-3  # rad on the sphere that the fit may miss the samples by before the grid is refined
-STIFF_WEIGHT = 1e-13  # weight of smoothness against the samples, both made dimensionless by keyframe spacing
-FAINT_WEIGHT = 1e-2  # weight of samples where nothing is framed against those where something is
-NEAR_SHARE = 1e-3  # of a piece: a keyframe that the path only passes by may be so near to a break
-NOTICE_RAD = 5e-3  # rad beyond the gimbal's range that are worth a warning
+CLOSE_RAD = 1.5e-3  # rad on the sphere, error of the fit above which the grid is refined
+STIFF_WEIGHT = 1e-13  # weight of smoothness over that of samples, both without dimension
+FAINT_WEIGHT = 1e-2  # weight of samples where nothing is framed, over the others
+NEAR_SHARE = 1e-3  # share of a piece, least distance of a keyframe from a break
+NOTICE_RAD = 5e-3  # rad beyond the gimbal's range, above which there is a warning
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KeyedPath:
-    """The keyframes of one shot on its path, in order, one entry a keyframe.
+    """The keyframes of one shot on its path, in order.
 
-    s      : shape (K,), path parameter, not decreasing
-    exact  : whether the path passes the keyframe itself, so that its angles hold there
+    s : path parameters, shape (K,), not decreasing
+    exact : whether the path passes each keyframe itself, so that its angles hold there
     position : p_WC over s
-    pace : share of the drone's limits; headings : method of ``solvers.headings`` that chooses turns
+    pace : share of the drone's limits
+    headings : method of ``solvers.headings`` that chooses turns
     """
 
     keyframes: tuple[PlacedKeyframe, ...]
@@ -60,9 +61,11 @@ class KeyedPath:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cut:
-    """Between which keyframes the gimbal cannot show the target in its place, and by how much.
+    """The interval in which the gimbal cannot show the target at its place.
 
-    excess : rad beyond its pitch range, or None where no roll-free camera could
+    index : keyframe before it
+    s : worst path parameter
+    excess : rad beyond the pitch range, or None where no camera without roll could
     """
 
     index: int
@@ -72,10 +75,10 @@ class Cut:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CameraLine:
-    """Camera yaw, pitch and field of view over s: ``angles`` has those three channels.
+    """Camera yaw, pitch and field of view over s: the three channels of ``angles``.
 
-    error : rad by which the fit misses the wanted direction at worst, at path parameter ``worst``
-    unsolved : stretches whose yaw the method of headings did not plan: the camera turns steadily there
+    error : largest error of the fitted direction, rad, at path parameter ``worst``
+    unsolved : intervals whose yaw the headings method did not plan; there the camera turns monotonically
     """
 
     angles: Piecewise
@@ -98,7 +101,7 @@ class _Known(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Samples:
-    """Wanted angles in tracked stretches, s, yaw, pitch of shape (M,); binding ones at keyframes, (A,).
+    """Reference angles on framed intervals (s, yaw, pitch, shape (M,)), and fixed ones at keyframes, (A,).
 
     planned, unsolved : as in ``unwrapping.Turned``
     """
@@ -114,7 +117,7 @@ class _Samples:
     unsolved: int = 0
 
     def planned_at(self, s: Array) -> tuple[Mask, Array]:
-        """Return where a yaw is planned, and that yaw; 0 elsewhere, of the shape of s."""
+        """Return where a yaw is planned, and that yaw, both of the shape of s; the yaw is 0 elsewhere."""
         where, yaw = np.zeros(len(s), dtype=bool), np.zeros(len(s))
         for turn in self.planned:
             here = turn.covers(s) & ~where
@@ -123,17 +126,17 @@ class _Samples:
         return where, yaw
 
     def steady(self, limits: tuple[float, float]) -> Piecewise:
-        """Return the turn through the binding angles alone: yaw and pitch."""
+        """Return the monotone turn through the fixed angles alone: yaw and pitch."""
         pitch = np.clip(self.anchor_pitch, *limits)
         yaw, pitch = (steady(self.anchor_s, v).ctrl for v in (self.anchor_yaw, pitch))
         return Piecewise(self.anchor_s, np.concatenate([yaw, pitch], axis=2))
 
 
 def camera_line(mission: MissionIR, drone: Drone, keyed: KeyedPath) -> CameraLine:
-    """Return the camera's angles along a shot, on breaks that hold those of the position curve.
+    """Return the camera's angles along a shot, on breaks that contain those of the position curve.
 
-    A fit that no grid makes possible, or that is the worse one, gives way to the steady turn from keyframe to
-    keyframe.
+    Where the fit is infeasible on every grid, or is the worse one, the result is the monotone turn between
+    keyframes.
     """
     base = _grid(keyed)
     hfov = lens_line(keyed.keyframes, keyed.s)
@@ -166,7 +169,7 @@ def _line(curve: Piecewise, samples: _Samples, hfov: Piecewise, status: Status) 
 
 
 def _off_plan(curve: Piecewise, samples: _Samples) -> float:
-    """Return by how much a fit misses the yaw that is planned where nothing is followed, rad at most."""
+    """Return the largest error of a fit against the planned yaw where nothing is framed, rad."""
     loose = _untracked(samples.s, curve.breaks)
     where, yaw = samples.planned_at(loose)
     at = curve(loose)
@@ -174,12 +177,14 @@ def _off_plan(curve: Piecewise, samples: _Samples) -> float:
 
 
 def _across(pitch: Array) -> Array:
-    """Return by how much of itself an error in yaw moves the picture: cos(pitch), never quite nothing."""
+    """Return the factor from an error in yaw to an error on the sphere: cos(pitch), bounded away from
+    zero.
+    """
     return np.asarray(np.maximum(np.cos(pitch), 0.03))
 
 
 def framing_spans(keyed: KeyedPath) -> tuple[FramingSpan, ...]:
-    """Return the stretches with one target each; a hand-over is cut in the middle."""
+    """Return the intervals with one target each; a change of target is split in its middle."""
     spans: list[FramingSpan] = []
     run: list[int] = []
     last = len(keyed.keyframes) - 1
@@ -221,7 +226,9 @@ def _watched(keyed: KeyedPath, i: int) -> list[FramingSpan]:
 
 
 def _grid(keyed: KeyedPath) -> Array:
-    """Return breaks that hold the position's and the keyframes', several to a keyframe interval."""
+    """Return breaks that contain those of the position and the keyframes, with several pieces per
+    interval.
+    """
     merged = [float(b) for b in keyed.position.breaks]
     near = NEAR_SHARE * float(np.diff(merged).min())
     for s in keyed.s:
@@ -235,7 +242,7 @@ def _grid(keyed: KeyedPath) -> Array:
 
 
 def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> tuple[Status, Piecewise]:
-    """Return yaw and pitch near the samples, and where there are none near the steady turn."""
+    """Return yaw and pitch fitted to the samples, and to the monotone turn where there are none."""
     spacing = float(breaks[-1] - breaks[0]) / max(len(turn.breaks) - 1, 1)
     density = (breaks[-1] - breaks[0]) / (len(breaks) - 1) / SAMPLES_PER_PIECE / spacing
     stiff = (1e-3 * STIFF_WEIGHT * spacing, STIFF_WEIGHT * spacing**5)
@@ -261,7 +268,7 @@ def _fitted(drone: Drone, samples: _Samples, breaks: Array, turn: Piecewise) -> 
 
 
 def _untracked(tracked: Array, breaks: Array) -> Array:
-    """Return sample parameters on the pieces where no sample speaks."""
+    """Return sample parameters on the pieces without samples."""
     silent = np.histogram(tracked, breaks)[0] == 0
     every = subdivide(breaks, SAMPLES_PER_PIECE)[:-1].reshape(-1, SAMPLES_PER_PIECE)
     half = 0.5 * np.diff(breaks)[:, None] / SAMPLES_PER_PIECE
@@ -269,7 +276,7 @@ def _untracked(tracked: Array, breaks: Array) -> Array:
 
 
 def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, hfov: Piecewise) -> _Samples:
-    """Return the wanted angles inside tracked stretches and the binding ones, yaw unwrapped."""
+    """Return the reference angles on framed intervals and the fixed ones, with the yaw unwrapped."""
     samples: list[_Known] = []
     anchors: list[_Known] = []
     cuts: list[Cut] = []
@@ -302,7 +309,9 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
 
 
 def _places(keyed: KeyedPath, samples: list[_Known], anchors: list[_Known]) -> list[Known]:
-    """Return what fixes the turns: the keyframes, and of what is followed the first and the last picture."""
+    """Return the yaws that fix the turns: those of keyframes, and the first and last of each framed
+    interval.
+    """
     ends: dict[int, list[_Known]] = {}
     for k in samples:
         ends[k.group] = [ends.get(k.group, [k])[0], k]
@@ -315,7 +324,7 @@ def _places(keyed: KeyedPath, samples: list[_Known], anchors: list[_Known]) -> l
 
 
 def _rests(keyed: KeyedPath, i: int) -> bool:
-    """Tell whether the camera stands still at a keyframe: it holds there, or turns on the spot."""
+    """Return whether the camera stands still at a keyframe: it holds there, or turns on the spot."""
     near = [j for j in (i - 1, i + 1) if 0 <= j < len(keyed.s)]
     ways = [
         np.linalg.norm(keyed.position(float(keyed.s[j])) - keyed.position(float(keyed.s[i]))) for j in near
@@ -324,7 +333,7 @@ def _rests(keyed: KeyedPath, i: int) -> bool:
 
 
 def _inner(breaks: Array, start: float, end: float) -> Array:
-    """Return sample parameters in a stretch, evenly on each of its pieces."""
+    """Return sample parameters in an interval, evenly spaced on each of its pieces."""
     eps = 1e-9 * (breaks[-1] - breaks[0])
     inside = breaks[(breaks >= start - eps) & (breaks <= end + eps)]
     return subdivide(inside, SAMPLES_PER_PIECE)[1:-1] if len(inside) > 1 else np.empty(0)

@@ -1,9 +1,10 @@
-"""Ways bent at their ends, so that a drone turns while it flies and not on the spot.
+"""Transfers with bends at their ends, so that a drone turns while it flies and not on the spot.
 
-Where ``rules.look_ahead`` keeps the nose near the course, a drone that looks elsewhere has to turn before it
-flies. Or it leaves in a direction that it looks ahead in already, and the way bends from there to the old
-one: place and heading change together. A bend is a quintic that begins in such a direction and joins the old
-way with its rate and its bend. Which of them serves best is for who asks: by how long the whole way takes.
+Where ``rules.look_ahead`` keeps the heading near the course, a drone with another heading has to turn before
+it flies. Alternatively it departs in a direction that is within the cone about its heading, and the path
+bends from there to the old one: position and heading change together. A bend is a quintic that begins in such
+a direction and joins the old path with equal first and second derivatives. The caller chooses the candidate
+with the shortest total time.
 """
 
 from __future__ import annotations
@@ -21,17 +22,17 @@ from shotc.geom.vec import wrapped
 from shotc.planning.free_space import FreeSpace, shortfall, taper
 from shotc.planning.obstacles import FreeSpaces
 
-LENGTHS = (0.2, 0.45)  # of bends, shares of the way
-LONGEST_M = 30.0  # of a bend: a drone is at full speed by then
-SHARES = (0.4, 1.0)  # of the turn on the spot, that a bend saves
-LEAST_RAD = 0.02  # of a turn on the spot: less is not worth a bend
-PIECES = 8  # of a bend, by which it is proved clear
-SAMPLES = 200  # of a way, at which clearances of transits are compared
+LENGTHS = (0.2, 0.45)  # lengths of bends over that of the transfer
+LONGEST_M = 30.0  # longest bend; a drone is at full speed by then
+SHARES = (0.4, 1.0)  # shares of the turn on the spot that a bend saves
+LEAST_RAD = 0.02  # least turn on the spot for which a bend is tried
+PIECES = 8  # pieces of a bend, for the proof of its clearances
+SAMPLES = 200  # samples of a transfer, for the clearances of transfers
 ROUNDING_M = 1e-6
 
 
 def bent_starts(position: Piecewise, over: float) -> Iterator[Piecewise]:
-    """Yield a way with other beginnings; over : rad that its course there is to be turned by, at most."""
+    """Yield position curves with other beginnings; over : largest turn of the course there, rad."""
     if abs(over) < LEAST_RAD:
         return
     breaks = position.breaks
@@ -51,25 +52,27 @@ def bent_starts(position: Piecewise, over: float) -> Iterator[Piecewise]:
 
 
 def bent_ends(position: Piecewise, over: float) -> Iterator[Piecewise]:
-    """Yield a way with other ends; over : as in ``bent_starts``, of its course where it ends."""
-    # Backwards the course is the opposite one, and turns by as much.
+    """Yield position curves with other ends; over : as in ``bent_starts``, at the end."""
+    # In reverse the course is opposite, and the angle is the same.
     yield from (backwards(way) for way in bent_starts(backwards(position), over))
 
 
 def backwards(curve: Piecewise) -> Piecewise:
-    """Return a curve flown from its end to its beginning, over the same parameters."""
+    """Return a curve in reverse, over the same parameters."""
     ends = curve.breaks[0] + curve.breaks[-1]
     return Piecewise((ends - curve.breaks)[::-1], curve.ctrl[::-1, ::-1])
 
 
 def over_cone(course: float, heading: float, half_angle: float) -> float:
-    """Return by how much a course has to turn, rad, for a heading to be in the cone about it."""
+    """Return the least angle by which a course has to turn, rad, to have a heading in the cone about it."""
     off = float(wrapped(heading - course))
     return copysign(max(0.0, abs(off) - half_angle), off)
 
 
 def as_clear(spaces: FreeSpaces, way: Piecewise, than: Piecewise) -> bool:
-    """Tell whether a way is proved clear, and keeps the clearances of transits as well as another one."""
+    """Return whether a curve is proved clear, and keeps the clearances of transfers as well as
+    another one.
+    """
     return bool(
         shortfall(spaces.flight, way.ctrl).max() <= 0.0
         and _lack(spaces.transit, way) <= max(0.0, _lack(spaces.transit, than)) + ROUNDING_M

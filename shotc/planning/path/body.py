@@ -1,7 +1,7 @@
 """Body yaw along a leg, a curve of its own, with the camera always within the gimbal's yaw range.
 
-``follow-camera`` is the camera's yaw; ``forward`` follows the horizontal motion as far as the gimbal
-lets it; ``free`` turns as little as the gimbal lets it.
+With ``follow-camera`` it equals the camera yaw. With ``forward`` it follows the course as far as the gimbal
+range allows. With ``free`` it turns as little as the gimbal range allows.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit, within
 
 SAMPLES_PER_PIECE = 3  # per piece
-FAINT_WEIGHT = 1e-4  # weight that keeps a body in place where nothing else does
-FREE_PULL_PER_M = 1e-8  # 1/m: picks one of the headings that need no turn at all
-UPRIGHT_SLOPE = 0.02  # sideways for each metre of path, below which a flight has no course to point along
-SWITCH_RAD2 = 1.0  # rad^2: what it costs to change over from one gimbal stop to the other
+FAINT_WEIGHT = 1e-4  # weight that makes the programme regular
+FREE_PULL_PER_M = 1e-8  # 1/m, selects one of the headings that need no turn
+UPRIGHT_SLOPE = 0.02  # horizontal metres per metre of path, below which there is no course
+SWITCH_RAD2 = 1.0  # rad^2, price of a change from one gimbal stop to the other
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyTask:
-    """One leg: p_WC and camera yaw over s, on the same breaks, and the ends where they are given.
+    """One leg: p_WC and camera yaw over s, on the same breaks, and the body yaws at the ends where given.
 
-    speed : m/s at which the leg is flown, for how sharply the body may turn
-    cone : the least and the greatest yaw of the body on each piece, (P,), rad, or None where all are good
+    speed : speed of the leg, m/s, which determines how sharply the body may turn
+    cone : lower and upper bounds of the body yaw on each piece, (P,), rad; None where there are none
     """
 
     position: Piecewise
@@ -41,13 +41,13 @@ class BodyTask:
 
 
 def body_line(drone: Drone, task: BodyTask) -> tuple[Status, Piecewise]:
-    """Return the body's yaw over s on the task's breaks, one channel."""
+    """Return the solver's status and the body yaw over s on the task's breaks, one channel."""
     if drone.body == "follow-camera":
         return Status.SOLVED, task.cam_yaw
     breaks = task.cam_yaw.breaks
     at = _samples(breaks)
     cam = task.cam_yaw(at)[:, 0]
-    # No turn is spread over more than the whole leg; on a short one the numbers would part too far.
+    # The smoothing length is at most the leg's; more would be badly scaled on a short leg.
     length = min(max(0.5 * task.speed / drone.limits.yaw_rate, 1e-3), float(breaks[-1] - breaks[0]))
     if drone.body == "forward":
         value, weight = _forward(drone, task, at, cam)
@@ -87,11 +87,11 @@ def allowed_body(drone: Drone, cam_yaw: float, wanted: float) -> float:
 
 
 def _relatives(drone: Drone, wanted: float) -> list[tuple[float, float]]:
-    """Return gimbal yaws for one wanted (any winding), each with its distance from a winding of it."""
+    """Return gimbal yaws near a wanted one, and their distances from it, for each winding; best first."""
     low, high = drone.gimbal.yaw
     first, last = floor((low - wanted) / (2 * pi)), ceil((high - wanted) / (2 * pi))
     windings = [wanted + 2 * pi * k for k in range(first, last + 1)]
-    # Of equally good ones the smaller angle is taken.
+    # Among equals the smaller angle comes first.
     options = [(_clip(w, (low, high)), abs(w - _clip(w, (low, high)))) for w in windings]
     return sorted(options, key=lambda c: (round(c[1], 9), abs(c[0])))
 
@@ -107,7 +107,7 @@ def _forward(drone: Drone, task: BodyTask, at: Array, cam: Array) -> tuple[Array
 
 
 def _best_windings(options: list[list[tuple[float, float]]], weight: Array, first: float | None) -> Array:
-    """Choose one gimbal yaw a sample: near the course, with few jumps between stops (Viterbi)."""
+    """Return one gimbal yaw per sample, near the course and with few jumps between stops (Viterbi)."""
     width = max(len(o) for o in options)
     value = np.array([[o[min(k, len(o) - 1)][0] for k in range(width)] for o in options])
     price = np.array([[o[min(k, len(o) - 1)][1] for k in range(width)] for o in options])

@@ -1,8 +1,8 @@
-"""Shots on a path whose nose is kept near the course, where ``rules.look_ahead`` asks for it and may.
+"""Shots on a path that keep the heading near the course, where ``rules.look_ahead`` asks for it.
 
-A camera that looks along its path (``ir.ahead.looks_along``) is led into the cone about the course, the body
-with it. A camera that films something stays as it is, and the body that turns under it is kept in the cone,
-where the gimbal leaves it room there all along the shot. Elsewhere nothing is planned, and nothing judged.
+If the camera looks along its path (``ir.ahead.looks_along``), camera and body are moved into the cone about
+the course. If the camera films something, it stays as it is, and the body below it is kept in the cone if the
+gimbal range allows this along the whole shot. Otherwise the rule is neither planned nor verified.
 """
 
 from __future__ import annotations
@@ -24,13 +24,14 @@ from shotc.solvers.conic import Status
 
 YAW = 0
 ROOM_SHARES = (0.3, 0.6, 0.8)
-"""Of the cone's opening, that are left to a yaw on each piece: more where no way is found with less."""
+"""Least width of the yaw bounds over the cone's opening; larger ones are tried if smaller ones fail."""
 
 
 class Ahead(NamedTuple):
-    """What a shot is asked.
+    """The look-ahead constraint of a shot.
 
-    half_angle : of the cone about the course, rad; along : whether its camera looks along its path
+    half_angle : of the cone about the course, rad
+    along : whether its camera looks along its path
     """
 
     half_angle: float
@@ -38,7 +39,7 @@ class Ahead(NamedTuple):
 
 
 class Faced(NamedTuple):
-    """A shot's camera, channels yaw, pitch and more, and the body's yaw, on the breaks of its position."""
+    """A shot's camera (channels yaw, pitch and more) and its body yaw, on the breaks of its position."""
 
     position: Piecewise
     camera: Piecewise
@@ -46,15 +47,15 @@ class Faced(NamedTuple):
 
 
 def ahead_in(mission: MissionIR, shot: Shot) -> Ahead | None:
-    """Return what a shot is asked; None where the mission does not limit where noses look."""
+    """Return the look-ahead constraint of a shot; None where the mission has none."""
     half_angle = mission.rules.look_ahead
     return None if half_angle is None else Ahead(half_angle, looks_along(shot))
 
 
 def faced(drone: Drone, ahead: Ahead, task: BodyTask, camera: Piecewise) -> Faced | None:
-    """Return a shot whose body looks ahead all along it; None where its framing leaves no room for that.
+    """Return a shot whose body heads along the course throughout; None where its framing prevents that.
 
-    camera : yaw, pitch and what else, on the task's breaks; its yaw is the task's
+    camera : yaw, pitch and further channels on the task's breaks; its yaw is the task's
     """
     if drone.body == "follow-camera" and not ahead.along:
         return None
@@ -76,7 +77,7 @@ def faced(drone: Drone, ahead: Ahead, task: BodyTask, camera: Piecewise) -> Face
 
 
 def _along(drone: Drone, ahead: Ahead, course: Course, camera: Piecewise) -> Piecewise | None:
-    """Return the camera led into the cone about its course, unless it is there; None without a way."""
+    """Return the camera moved into the cone about its course, unless it is there; None if infeasible."""
     yaw = camera.ctrl[:, :, YAW]
     if (yaw >= course.low[:, None]).all() and (yaw <= course.high[:, None]).all():
         return camera
@@ -89,7 +90,7 @@ def _along(drone: Drone, ahead: Ahead, course: Course, camera: Piecewise) -> Pie
 
 
 def _cone(drone: Drone, course: Course, camera: Piecewise) -> tuple[Array, Array] | None:
-    """Return the bounds of the body's yaw on each piece, rad; None where the gimbal leaves no room."""
+    """Return the bounds of the body yaw on each piece, (P,), rad; None where the gimbal prevents any."""
     yaw = camera.ctrl[:, :, YAW]
     if drone.body == "follow-camera":
         low, high = yaw.max(axis=1), yaw.min(axis=1)

@@ -1,4 +1,4 @@
-"""Why there is no way: which zone alone opens one, and how wide the gap is that would do."""
+"""Find the reason why there is no path: which obstacle alone blocks it, and which gap is too narrow."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from shotc.planning.path.route import find_route
 from shotc.rounding import down
 
 HALVINGS = 7
-OFF_M = 0.3  # metres that a gap may be off the one that a loan opens
-LACK_SHARE = 0.8  # of the body's radius that a smaller drone may lack
+OFF_M = 0.3  # metres, tolerance between a gap's lack and the loan's
+LACK_SHARE = 0.8  # largest loan over the least clearance
 
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """What fits through: a note with the numbers and what would help."""
+    """A narrow gap: a note with the numbers, and a remedy."""
 
     note: str
     help: str
 
 
 def opening(space: FreeSpace, start: Array, end: Array) -> tuple[Owner, ...]:
-    """Return the owners each of which, taken away alone, leaves a way; the ground cannot be taken away.
+    """Return the owners whose removal alone opens a path; the ground is never removed.
 
     start, end : shape (3,)
     """
@@ -41,7 +41,7 @@ def opening(space: FreeSpace, start: Array, end: Array) -> tuple[Owner, ...]:
 
 
 def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) -> float | None:
-    """Return the ground clearance, metres, rounded down, that leaves a way; None if none does.
+    """Return the ground clearance that opens a path, metres, rounded down; None if none does.
 
     start, end : shape (3,)
     """
@@ -60,7 +60,7 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
 
 
 class _Pair(NamedTuple):
-    """Two owners, the gap between them and what it should be, metres."""
+    """Two owners, the gap between them and the gap that is needed, metres."""
 
     owners: tuple[Owner, Owner]
     gap: float
@@ -68,16 +68,16 @@ class _Pair(NamedTuple):
 
     @property
     def lack(self) -> float:
-        """By how much the gap is too narrow."""
+        """How much too narrow the gap is."""
         return self.needed - self.gap
 
     def off(self, lent: float) -> float:
-        """Return how far the gap is from the one that a loan opens: it lacks the loan on either side."""
+        """Return how much its lack differs from twice the loan: a loan opens the gap on both sides."""
         return abs(self.lack - 2 * lent)
 
 
 def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
-    """Return the narrowest place that closes the way and what would have to change; None if nothing fits.
+    """Return the narrowest gap that closes the path, and a remedy; None if no smaller clearance opens one.
 
     start, end : shape (3,)
     """
@@ -99,7 +99,7 @@ def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner,
 
 
 def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
-    """Return the least clearance to give up everywhere so that a way opens, by bisection."""
+    """Return the least reduction of all clearances that opens a path, metres, by bisection."""
     clearances = [*(o.clearance for o in space.obstacles), *(m.clearance for m in space.meshes)]
     most = LACK_SHARE * min(clearances, default=0.0)
     if most <= 0.0 or find_route(space.lent(most), start, end) is None:
@@ -115,7 +115,7 @@ def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
 
 
 def _closing_pair(space: FreeSpace, openers: tuple[Owner, ...], lent: float) -> _Pair | None:
-    """Return the two owners between whom the gap is best what the loan opens."""
+    """Return the two owners whose gap fits the loan best."""
     best: _Pair | None = None
     for a, b in combinations(space.obstacles, 2):
         if a.owner == b.owner or (openers and not {a.owner, b.owner} & set(openers)):
@@ -137,7 +137,7 @@ def _closer(best: _Pair | None, lent: float, pair: _Pair) -> _Pair | None:
 
 
 def _between(a: Obstacle, b: Obstacle) -> float:
-    """Return the distance of two convex solids, by alternating projections, metres."""
+    """Return the distance between two convex solids, metres, by alternating projections."""
     p = np.array([[0.0, 0.0, 0.0]])
     q = closest_points(a.part, p)
     for _ in range(200):
@@ -147,7 +147,7 @@ def _between(a: Obstacle, b: Obstacle) -> float:
 
 
 def _to_wall(o: Obstacle, w: Wall) -> float:
-    """Return the distance of an obstacle from a wall's border, metres."""
+    """Return the distance of an obstacle from the border of a half-space, metres."""
     n = np.array(w.normal)
     nearest = -float(support(o.part, -n[None])[0])
     return nearest - (w.offset - w.clearance)

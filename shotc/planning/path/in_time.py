@@ -1,8 +1,8 @@
-"""Refined shots of a drone on the mission's clock: every leg keeps the time that it took.
+"""Refined shots of a drone on the mission's clock: every leg keeps its duration.
 
-Other drones and the shots that wait for these were planned beside the convex legs. So a refined shot begins
-and ends when its convex path did, and where its camera looks elsewhere at its ends, the unfilmed legs beside
-it fly the same places in the same time with other angles.
+Other drones, and shots that wait for these, are planned beside the convex legs. Therefore a refined shot
+starts and ends at the times of its convex path. Where its camera angles at the ends differ, the unfilmed legs
+next to it keep their positions and durations and get new angles.
 """
 
 from __future__ import annotations
@@ -25,9 +25,11 @@ from shotc.planning.timing.estimate import lateness, leg_time
 
 
 def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewise]) -> TimedPath:
-    """Return a drone's legs with some shots' cameras replaced, each leg in its old time.
+    """Return a drone's legs with the cameras of some shots replaced, each leg with its old duration.
 
-    cameras : as in ``rejoined``. NoTransit where a leg cannot be flown in its time, or does not join.
+    cameras : as in ``rejoined``
+
+    Raises NoTransit if a leg is infeasible in its duration, or if it does not join the next one.
     """
     if not any(isinstance(leg, MovingLeg) and leg.shot in cameras for leg in flown.legs):
         return flown
@@ -48,7 +50,10 @@ def in_time(mission: MissionIR, flown: TimedPath, cameras: Mapping[str, Piecewis
 
 
 def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
-    """Return a new leg at the length that an old one has; NoTransit where it takes longer at full limits."""
+    """Return a new leg with the duration of an old one.
+
+    Raises NoTransit if the new leg takes longer at full limits.
+    """
     asked = leg_time(drone, old)
     made = replace(new, duration=asked if old.duration is None else old.duration)
     if lateness(drone, made) > 0.0:
@@ -60,7 +65,7 @@ def lasting(drone: Drone, old: MovingLeg, new: MovingLeg) -> MovingLeg:
 
 
 def _led(mission: MissionIR, drone: Drone, leg: MovingLeg, ends: tuple[Pose, Pose]) -> MovingLeg:
-    """Return an unfilmed leg between two poses, of which only the angles may be new."""
+    """Return an unfilmed leg between two poses that differ from its own in their angles only."""
     if _same(leg.pose, ends[0]) and _same(end_of([leg]), ends[1]):
         return leg
     turned = turned_way(drone, leg, ends, mission.rules.look_ahead)

@@ -1,4 +1,4 @@
-"""The unfilmed legs: up from the pad, between shots, back and down; and joining all legs up."""
+"""The unfilmed legs: take-off, transfers, return and landing; and the sequence of all legs of a drone."""
 
 from __future__ import annotations
 
@@ -49,9 +49,10 @@ CurveLeg = TypeVar("CurveLeg", MovingLeg, ClockLeg)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flight:
-    """What every unfilmed leg of one drone needs to know.
+    """The data that all unfilmed legs of one drone share.
 
-    top : the transit point over the pad; look_ahead : as in ``ir.rules``, rad
+    top : transit point above the pad, shape (3,)
+    look_ahead : as in ``ir.rules``, rad
     """
 
     drone: Drone
@@ -67,7 +68,7 @@ class Flight:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Blocked:
-    """What stands in a way, and the shot that the way leads to; None is home."""
+    """Why a transfer is infeasible, and the shot that it leads to; None for the way home."""
 
     failure: Failure
     shot: PlannedShot | None
@@ -89,7 +90,7 @@ def drone_legs(flight: Flight, shots: list[PlannedShot]) -> tuple[PathLeg, ...] 
 
 
 def take_off(flight: Flight, goal: Pose) -> MovingLeg:
-    """Return the leg up from the pad, on the way to a shot that begins at ``goal``."""
+    """Return the take-off leg from the pad, before a shot that begins at ``goal``."""
     lift = _lift(flight, _at_pad(flight, goal), "takeoff")
     ctrl = lift.curve.ctrl.copy()
     ctrl[-1, -1, :3] = flight.top
@@ -97,7 +98,7 @@ def take_off(flight: Flight, goal: Pose) -> MovingLeg:
 
 
 def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
-    """Return the flight with its transit point so much higher; None where that cannot be."""
+    """Return the flight with a higher transit point; None where that is not free."""
     top = flight.top + np.array([0.0, 0.0, metres])
     home, pad = np.array(flight.drone.home), pad_space(mission, flight.drone)
     free = bounds_slack(pad, top[None])[0] >= 0.0 and not breaches(flight.space, top)
@@ -106,9 +107,9 @@ def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
 
 
 def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[MovingLeg] | Failure:
-    """Return the unfilmed leg from a pose to a shot's first one, none where they are the same.
+    """Return the unfilmed leg from a pose to a shot's first pose; empty where they are equal.
 
-    path : of the shot
+    path : key path of the shot
     """
     return _transit(flight, pose, goal, "transit", path)
 
@@ -126,7 +127,7 @@ def way_home(flight: Flight, pose: Pose) -> list[MovingLeg] | Failure:
 
 
 def _at_pad(flight: Flight, first: Pose) -> Pose:
-    """Return the pad's pose: heading of the first frame, or, flying nose first, of the way there."""
+    """Return the pose on the pad, with the heading of the first frame or of the transfer to it."""
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
     yaw = first[CAM_YAW]
@@ -139,12 +140,12 @@ def _at_pad(flight: Flight, first: Pose) -> Pose:
 
 
 def turns_to(goal: Pose, pose: Pose) -> float:
-    """Return the whole turns, rad, that bring a pose's camera nearest to another's."""
+    """Return the whole turns, rad, that bring a goal's camera yaw nearest to a pose's."""
     return 2 * pi * round((pose[CAM_YAW] - goal[CAM_YAW]) / (2 * pi))
 
 
 def nearest(goal: Pose, pose: Pose) -> Pose:
-    """Return a pose whose yaws are whole turns from a goal's, so that its camera is nearest to another's."""
+    """Return the goal with its yaws shifted by whole turns, so that its camera yaw is nearest to a pose's."""
     shift, near = turns_to(goal, pose), list(goal)
     near[CAM_YAW] += shift
     near[BODY_YAW] += shift
@@ -152,7 +153,7 @@ def nearest(goal: Pose, pose: Pose) -> Pose:
 
 
 def turned(drone: Drone, shot: PlannedShot, pose: Pose) -> PlannedShot:
-    """Shift a shot's yaws by whole turns, so that its start is nearest to where the last leg ended."""
+    """Return a shot with its yaws shifted by whole turns, so that its start is nearest to the last pose."""
     leg = shot.leg
     if isinstance(leg, HoldLeg):
         start = list(nearest(leg.pose, pose))
@@ -166,7 +167,7 @@ def turned(drone: Drone, shot: PlannedShot, pose: Pose) -> PlannedShot:
 
 
 def turned_leg(leg: CurveLeg, pose: Pose) -> CurveLeg:
-    """Shift the yaws of a leg by whole turns, so that its start is nearest to a pose."""
+    """Return a leg with its yaws shifted by whole turns, so that its start is nearest to a pose."""
     ctrl = leg.curve.ctrl.copy()
     ctrl[:, :, (CAM_YAW, BODY_YAW)] += turns_to(leg.pose, pose)
     return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))
@@ -184,7 +185,7 @@ def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> MovingLeg:
 def _transit(
     flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath
 ) -> list[MovingLeg] | Failure:
-    """Return the leg from one pose to another; none where they are the same."""
+    """Return the leg from one pose to another; empty where they are equal."""
     a, b = np.array(start[:3]), np.array(goal[:3])
     free_end = phase == "return"
     curves: list[Piecewise] | AngleFailure
@@ -205,7 +206,7 @@ def _transit(
 
 
 def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> list[Piecewise] | AngleFailure:
-    """Return the turn from a pose to another one in the same place, none where they are the same."""
+    """Return the turn on the spot from one pose to another; empty where they are equal."""
     a, b = np.array(start[:3]), np.array(goal[:3])
     turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
     if turn < SAME_ANGLE and np.array_equal(a, b):
@@ -218,9 +219,11 @@ def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> l
 def _soonest(
     flight: Flight, position: Piecewise, start: Pose, goal: Pose | None
 ) -> list[Piecewise] | AngleFailure | None:
-    """Return a way that looks ahead, bent at its ends where that takes less time than turns on the spot.
+    """Return the fastest transfer that looks ahead: bent at its ends, or with turns on the spot.
 
-    position : x, y, z over s; None where the mission does not ask for it, or the way has no course
+    None where the mission does not ask for it, or the transfer has no course.
+
+    position : x, y, z over s
     """
     drone, half_angle = flight.drone, flight.look_ahead
     course = None if half_angle is None else course_of(drone, position, half_angle)
@@ -250,7 +253,7 @@ def _seconds(drone: Drone, curves: list[Piecewise]) -> float:
 def _looking_ahead(
     drone: Drone, way: tuple[Piecewise, Course], start: Pose, goal: Pose | None
 ) -> list[Piecewise] | AngleFailure:
-    """Return a way on which the body heads along its course, and the turns on the spot before and after it.
+    """Return a transfer with the body along its course, and the turns on the spot before and after it.
 
     way : x, y, z over s, and its course
     """
@@ -268,7 +271,7 @@ def _looking_ahead(
 def _with_angles(
     drone: Drone, position: Piecewise, start: Pose, goal: Pose, *, free_end: bool
 ) -> Piecewise | AngleFailure:
-    """Let the camera turn evenly along an unfilmed leg, and the body as its mode says."""
+    """Return a leg whose camera turns linearly in s, with the body yaw of the drone's mode."""
     straight = len(position.breaks) == 2 and (
         drone.body == "follow-camera" or start[BODY_YAW] == goal[BODY_YAW]
     )
@@ -279,7 +282,7 @@ def _with_angles(
 def turned_way(
     drone: Drone, leg: MovingLeg, ends: tuple[Pose, Pose], look_ahead: float | None
 ) -> MovingLeg | AngleFailure:
-    """Return an unfilmed leg through the same places, from other angles to others; ends : its poses."""
+    """Return an unfilmed leg with the same positions and other angles; ends : its poses."""
     position, (start, goal) = leg.curve.channels(0, 1, 2), ends
     course = None if look_ahead is None else course_of(drone, position, look_ahead)
     if course is not None:
@@ -294,7 +297,7 @@ def turned_way(
 def _stacked(
     drone: Drone, position: Piecewise, start: Pose, goal: Pose, *, free_end: bool
 ) -> Piecewise | AngleFailure:
-    """Return a position curve with a camera that turns evenly, and the body that goes with it."""
+    """Return a position curve with a camera that turns linearly in s, and the body yaw for it."""
     breaks = position.breaks
     camera = restrict(_even(position, start, goal), breaks)
     yaw = camera.channels(0)
@@ -311,7 +314,7 @@ def _stacked(
 
 
 def _even(position: Piecewise, start: Pose, goal: Pose) -> Piecewise:
-    """Yaw and pitch linear in s, the field of view from rest to rest; one piece."""
+    """Return yaw and pitch linear in s, and a field of view that rests at both ends; one piece."""
     x = np.linspace(0.0, 1.0, 6)
     step = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
     ctrl = [start[k] + (goal[k] - start[k]) * (step if k == HFOV else x) for k in (CAM_YAW, CAM_PITCH, HFOV)]
@@ -319,7 +322,7 @@ def _even(position: Piecewise, start: Pose, goal: Pose) -> Piecewise:
 
 
 def _plain(phase: PhaseName, curves: Sequence[Piecewise], path: KeyPath) -> MovingLeg:
-    """Return the unfilmed leg along curves that begin at 0; it rests from each to the next."""
+    """Return the unfilmed leg along curves that begin at 0; the drone rests between them."""
     ends = np.cumsum([0.0, *(curve.end for curve in curves)])
     curve = concatenate([Piecewise(c.breaks + s, c.ctrl) for c, s in zip(curves, ends, strict=False)])
     stops = tuple(Stop(float(s), 0.0) for s in ends)
@@ -327,5 +330,5 @@ def _plain(phase: PhaseName, curves: Sequence[Piecewise], path: KeyPath) -> Movi
 
 
 def end_of(legs: Sequence[Leg]) -> Pose:
-    """Return the pose at the end of the last of some legs."""
+    """Return the end pose of the last leg."""
     return legs[-1].end_pose

@@ -11,13 +11,13 @@ from shotc.ir.keyframes import PlacedKeyframe
 
 
 def lens_line(keyframes: Sequence[PlacedKeyframe], at: Array) -> Piecewise:
-    """Return the field of view over s: monotone between keyframes, and at rest at those the user placed.
+    """Return the field of view over s: monotone between keyframes, with zero slope at placed ones.
+
+    Generated keyframes between which the zoom continues have the slope of the parabola through them and their
+    neighbours (at the ends, through the last three). It is at most 5/4 of the smaller slope of the two
+    neighbouring chords: then the control points of the quintics stay in order.
 
     at : path parameters of the keyframes, (K,), not decreasing
-
-    Generated ones that go on zooming are passed at the slope of the parabola through them and their
-    neighbours, at the ends of the one through the last three, but at 5/4 of the lesser slope beside them at
-    most: then the control points of the quintics stay in order.
     """
     keys = [i for i in range(len(at)) if i == 0 or at[i] > at[i - 1]]
     s, wide = at[keys], np.array([keyframes[i].hfov for i in keys])

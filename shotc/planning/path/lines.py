@@ -1,7 +1,7 @@
-"""From keyframes to polylines: which keyframes bind, how to get round what lies between them.
+"""From keyframes to polylines: which keyframes bind, and how the path avoids the obstacles between them.
 
-A keyframe the user placed binds. One that a kind generated is an ideal: where it lies too near to
-something it is dropped, its neighbours only pull, and the way leads round.
+A keyframe that the user placed binds. A generated keyframe is an ideal: where it is too near to an obstacle
+it is dropped, its neighbours only attract the path, and the path leads around the obstacle.
 """
 
 from __future__ import annotations
@@ -23,21 +23,23 @@ from shotc.planning.layered import Watched, led_round
 from shotc.planning.path.over import over_ground
 from shotc.planning.path.route import NODE_MARGIN_M, find_route
 
-TURN_LENGTH_M_RAD = 2.0  # metres of path parameter for each radian turned on the spot
+TURN_LENGTH_M_RAD = 2.0  # metres of path parameter per radian of a turn on the spot
 SAME_PLACE_M = 1e-3  # metres
-PACE_M_S = 3.0  # metres a second between keyframes, for what it costs to leave them
-RINGS_M = np.geomspace(0.1, 60.0, 33)  # metres about a place beside a mesh, at which a free one is sought
+PACE_M_S = 3.0  # m/s, nominal speed between keyframes in the price of a deviation
+RINGS_M = np.geomspace(0.1, 60.0, 33)  # metres around a place near a mesh, candidates of free places
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
     """A polyline with the path parameter at its corners.
 
-    corners : shape (M, 3); s : shape (M,), not decreasing
-    of      : for each corner, the keyframe that stands there, or -1
-    dropped : keyframes that the way leaves out; moved: whether the first, the last stand elsewhere
-    drawn : places that generated keyframes draw the way to, shape (K, 3); None where they are their own
-    aside : corners that draw ways between placed keyframes
+    corners : shape (M, 3)
+    s : shape (M,), not decreasing
+    of : keyframe at each corner, or -1
+    dropped : keyframes that the path leaves out
+    moved : whether the first, and the last, keyframe is moved
+    drawn : places that attract the path instead of generated keyframes, (K, 3); None where these do
+    aside : corners that attract ways between placed keyframes
     """
 
     corners: Array
@@ -50,15 +52,16 @@ class Line:
 
     @property
     def loose(self) -> bool:
-        """Whether generated keyframes only draw the way towards them."""
+        """Whether generated keyframes only attract the path."""
         return bool(self.dropped) or self.drawn is not None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NoWay:
-    """Nothing leads from one point to the next.
+    """There is no free path from one point to the next.
 
-    start, end : shape (3,); keyframes : their indices in the shot, or (-1, -1) outside shots
+    start, end : shape (3,)
+    keyframes : their indices in the shot, or (-1, -1) outside shots
     """
 
     start: Array
@@ -68,7 +71,7 @@ class NoWay:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TooNear:
-    """A point that binds but is nearer to something than the drone may come."""
+    """A point that binds but is nearer to an obstacle than its clearance."""
 
     point: Array
     keyframe: int
@@ -76,7 +79,7 @@ class TooNear:
 
 
 def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | TooNear:
-    """Return the way between two points of shape (3,) that are not filmed."""
+    """Return the polyline of a transfer between two points of shape (3,)."""
     for p in (start, end):
         near = breaches(space, p)
         if near:
@@ -94,7 +97,7 @@ def shot_line(
 ) -> Line | NoWay | TooNear:
     """Return the polyline through a shot's keyframes.
 
-    watched : the subject that generated keyframes are led for, at the keyframes; None without one
+    watched : the subject at the keyframes, to which generated keyframes are led; None without one
     """
     points = np.array([k.at for k in keyframes], dtype=np.float64)
     drawn = None if watched is None else _drawn(space, keyframes, points, watched)
@@ -145,9 +148,9 @@ def line_beside(
 def _drawn(
     space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], points: Array, watched: Watched
 ) -> Array | None:
-    """Return keyframes' places (K, 3), those of generated ones led for their subject; None where none is.
+    """Return keyframes' places, (K, 3), with generated ones led to see the subject; None if none is moved.
 
-    The ends stay, and so does what the author placed.
+    The ends and the keyframes of the author stay.
     """
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     held = np.array([k.placed for k in keyframes])
@@ -173,7 +176,7 @@ def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoW
 
 
 def _joined(keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int], ways: list[Array]) -> Line:
-    """Return the polyline of the ways from node to node; nodes : the keyframe that each is, or -1."""
+    """Return the polyline of the ways from node to node; nodes : keyframe of each node, or -1."""
     corners, s, of = [start], [0.0], [nodes[0]]
     for (i, j), way in zip(pairwise(nodes), ways, strict=True):
         if len(way) == 2 and np.linalg.norm(way[1] - way[0]) < SAME_PLACE_M:
@@ -194,13 +197,13 @@ def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:
 
 
 def _nearest_free(space: FreeSpace, p: Array) -> Array | None:
-    """Return a free point near one that is not: pushed sideways or up out of each obstacle it is in."""
+    """Return a free point near one that is not, moved sideways or up out of each obstacle."""
     tries = [p]
     for o in space.obstacles:
         reach = o.clearance + NODE_MARGIN_M
         angle = np.linspace(0.0, 2 * pi, 32, endpoint=False)
         rays = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(32)])
-        # The way out along each ray: the support of the solid seen from p, and the clearance.
+        # Distance out along each ray: the support of the solid relative to p, plus the clearance.
         out = support(o.part, rays) - rays @ p + reach
         tries += list(p + rays[out > 0] * out[out > 0, None])
         if o.part.top < FAR_M:

@@ -1,4 +1,4 @@
-"""Ways led over ground that rises, and below the greatest height above it."""
+"""Polylines led above rising ground, and below the greatest height above it."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from shotc.geom.bernstein import Array
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 from shotc.planning.profile import Section, cut, fewer, taut
 
-STEP_M = 1.0  # between the places at which the ground below a way is looked at
-STRIP_M = 3.0  # to either side of a way in which the ground counts
-ROOM_M = 0.5  # kept beyond the clearance and its margin
-GROWS = 0.1  # metres of that, and of the strip five times as much, for each metre from an end
-APART_M = 8.0  # corners that are nearer become one where there is room
-LONGEST_M = 15.0  # leg: its pieces are short, so that ground far beside it does not count
-PROVED_M = 1e-6  # by which a straight leg may fail to prove its heights
+STEP_M = 1.0  # metres between samples of the ground below a path
+STRIP_M = 3.0  # metres on either side of a path in which the ground counts
+ROOM_M = 0.5  # metres kept beyond the clearance and its margin
+GROWS = 0.1  # growth of ROOM_M per metre from an end; five times that for the strip
+APART_M = 8.0  # metres, nearer corners are merged where there is free space
+LONGEST_M = 15.0  # metres of a leg; on short pieces ground far away does not count
+PROVED_M = 1e-6  # metres, tolerance of the proof for a straight leg
 
 
 def over_ground(space: FreeSpace, route: Array | None) -> Array | None:
-    """Return a way, corners (K, 3), within its heights above ground; None where something hangs there."""
+    """Return a polyline, corners (K, 3), within its heights above ground; None if obstacles block it."""
     if route is None or not space.terrain:
         return route
     legs = [_leg(space, a, b) for a, b in pairwise(route)]
@@ -32,7 +32,7 @@ def over_ground(space: FreeSpace, route: Array | None) -> Array | None:
 
 
 def _leg(space: FreeSpace, a: Array, b: Array) -> Array:
-    """Return the corners of a leg, straight in the plan: the shortest that keeps the heights."""
+    """Return the corners of a leg, straight in plan: the shortest that keeps the heights."""
     straight = np.stack([a, b])
     flat = float(np.linalg.norm(b[:2] - a[:2]))
     if flat < 2.0 * STEP_M or max(g.lack(straight[None])[0] for g in space.terrain) <= PROVED_M:
@@ -46,7 +46,7 @@ def _leg(space: FreeSpace, a: Array, b: Array) -> Array:
 
 
 def _section(space: FreeSpace, a: Array, b: Array) -> Section:
-    """Return the heights that are kept along a leg, in a strip that is narrow at its ends."""
+    """Return the bounds of the height along a leg, from a strip that is narrow at its ends."""
     flat = float(np.linalg.norm(b[:2] - a[:2]))
     along = np.linspace(0.0, flat, int(np.ceil(flat / STEP_M)) + 1)
     place = a[:2] + (along / flat)[:, None] * (b[:2] - a[:2])

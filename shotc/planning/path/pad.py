@@ -1,4 +1,4 @@
-"""The transit point: where a drone that rose straight from its pad starts to fly by the rules."""
+"""The transit point: where a drone that rises vertically from its pad reaches the clearances of flight."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from shotc.ir.drone import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 
-PAD_MARGIN_M = 0.1  # metres that the transit altitude keeps beyond what clearances ask
+PAD_MARGIN_M = 0.1  # metres that the transit point keeps beyond clearances
 LEAST_LIFT_M = 1.0  # metres above the pad at least
-STEP_M, HIGHEST_M = 0.5, 150.0  # metres between heights over a pad that are looked at, and how far up
-CUSTOM_LIFT_M = 3.0  # metres above the pad where nothing forbids it: below, PX4 refuses a mission's take-off
+STEP_M, HIGHEST_M = 0.5, 150.0  # metres between candidate heights above a pad, and the highest
+CUSTOM_LIFT_M = 3.0  # metres above the pad by default; PX4 refuses a lower take-off
 
 
 @dataclass(frozen=True, slots=True)
 class PadBlocked:
-    """Why a pad cannot be left straight up.
+    """Why a drone cannot leave its pad vertically.
 
     owner : what stops it
-    why   : "above" something hangs over the pad, "outside" the pad is beyond a rim,
-            "beside" something is too near at every height, "ceiling" no height is left
-    needs, has : metres of clearance; for a ceiling the lowest height of the drone's centre the other
-            rules allow, and the highest
+    why : "above" an obstacle is above the pad, "outside" the pad is outside a fence, "beside" an obstacle is
+        too near at every height, "ceiling" no height is left
+    needs, has : clearance in metres; for a ceiling the lowest height of the drone's centre that the other
+        rules allow, and the highest
     """
 
     owner: Owner
@@ -38,9 +38,9 @@ class PadBlocked:
 
 
 def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | PadBlocked:
-    """Return the point (3,) over the pad where flight's rules hold and that is reached straight up.
+    """Return the point (3,) above the pad where the rules of flight hold and the column below it is free.
 
-    It is the lowest from the customary height on, or failing that the lowest of all.
+    It is the lowest from the default height on; if there is none, the lowest of all.
     """
     home = np.array(drone.home, dtype=np.float64)
     outside = breaches(FreeSpace((), tuple(w for w in pad.walls if w.normal[2] == 0.0), pad.discs), home)
@@ -69,7 +69,7 @@ def transit_point(flight: FreeSpace, pad: FreeSpace, drone: Drone) -> Array | Pa
 
 
 def _beside_meshes(flight: FreeSpace, home: Array, above: float) -> list[float]:
-    """Return heights over a pad, from one on, at which meshes begin to be far enough."""
+    """Return the heights above a pad, from one on, at which the distance from meshes becomes sufficient."""
     column = above + np.arange(0.0, HIGHEST_M, STEP_M)
     points = np.column_stack([np.tile(home[:2], (len(column), 1)), column])
     free = np.ones(len(column), dtype=bool)

@@ -1,8 +1,8 @@
 """The position curve of one stretch: least jerk through its anchors, inside a convex corridor.
 
-The corridor's planes first separate the polyline that was routed, then the curve that came out, until
-the curve stops getting better; every curve handed out has been proved clear by its Bernstein hulls.
-Where the polyline is one straight line, which routing has found to be free, it is the curve.
+The half-spaces of the corridor first separate the routed polyline from obstacles, then the last solution,
+until the objective stops improving. The Bernstein hulls of every returned curve prove its clearances. If the
+polyline is one straight line, which routing has found to be free, it is the curve.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
 from shotc.solvers.spline_qp import SplineSolution, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
-PIECES_PER_CHORD = 3  # per straight stretch of the polyline
-PULL_WEIGHT = 100.0  # weight of a generated keyframe that does not bind, against the energy in m^2
-SIGHT_WEIGHT = 1e4  # of a place that draws a way to where its target is seen
-EXCESS_PRICE = 10.0  # of speed and acceleration above nominal, against the energy in m^2
+PIECES_PER_CHORD = 3  # pieces per segment of the polyline
+PULL_WEIGHT = 100.0  # weight of a generated keyframe that does not bind, over the energy in m^2
+SIGHT_WEIGHT = 1e4  # weight of a place that leads a way to see its target
+EXCESS_PRICE = 10.0  # price of speed and acceleration above nominal, over the energy in m^2
 ROUNDS = 4
-FIRST_SHARE = 0.5  # of its distance from an obstacle a chord may give up half
-LATER_SHARE = 0.95  # a solved curve hardly any, or the margins would melt away round by round
+FIRST_SHARE = 0.5  # share of its slack that a chord keeps
+LATER_SHARE = 0.95  # the same for a solved curve; less would use up the margins
 FINER = (1, 2, 4)
 STRAIGHT_M = 1e-9  # metres
 GAIN_SHARE = 0.01  # a round that improves the objective by less ends the iteration
@@ -47,13 +47,14 @@ GAIN_SHARE = 0.01  # a round that improves the objective by less ends the iterat
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
-    """A polyline to be made a smooth curve.
+    """A polyline to be smoothed.
 
-    corners : shape (M, 3); s : shape (M,), path parameter at the corners
-    bound   : indices of corners the curve must pass, ends included
-    pulled  : points it should pass near, with their parameters, shapes (G, 3) and (G,)
-    pace    : share of the limits at which it is to be smooth
-    pull    : weight of a pulled point, against the energy in m^2
+    corners : shape (M, 3)
+    s : path parameter at the corners, shape (M,)
+    bound : indices of corners that the curve passes, ends included
+    pulled, pulled_at : points near which it should pass, and their parameters, shapes (G, 3) and (G,)
+    pace : share of the limits at which it should be smooth
+    pull : weight of a pulled point, over the energy in m^2
     """
 
     corners: Array
@@ -79,8 +80,10 @@ class Solved:
     """A curve, or why there is none.
 
     curve : position over s, or None
-    status : the solver's word; objective : m^2; rounds : how many programmes were solved
-    relaxation, owners : where no curve was found: the least give-way, per owner of a constraint
+    status : of the solver
+    objective : m^2
+    rounds : number of programmes solved
+    relaxation, owners : least relaxation per owner of a constraint, where no curve was found
     """
 
     curve: Piecewise | None
@@ -96,7 +99,7 @@ def solve_stretch(
 ) -> Solved:
     """Return the curve of one stretch, proved clear in a free space.
 
-    wide : the same with larger clearances, which the curve is to keep as the polyline does
+    wide : the same free space with larger clearances, which the curve keeps as far as the polyline does
     """
     if stretch.straight:
         return Solved(_line(stretch), Status.SOLVED, 0.0, 0)
@@ -126,7 +129,7 @@ def _line(stretch: Stretch) -> Piecewise:
 
 
 class _Iterated(NamedTuple):
-    """The last programme, its best solution or why there is none, and how many were solved."""
+    """The last programme, its best solution or the status, and the number of programmes solved."""
 
     problem: SplineProblem
     best: SplineSolution | Status
@@ -136,9 +139,9 @@ class _Iterated(NamedTuple):
 def _iterate(
     spaces: tuple[FreeSpace, FreeSpace], stretch: Stretch, limits: Limits, breaks: Array
 ) -> _Iterated:
-    """Return the last programme, its best solution or why there is none, and how many were solved.
+    """Return the result of sequential convex programming on given breaks.
 
-    spaces : what solutions are proved in, and what they are held to
+    spaces : the free space for the proof, and the one for the constraints
     """
     space, wide = spaces
     polyline = np.column_stack([np.interp(breaks, stretch.s, stretch.corners[:, k]) for k in range(3)])
@@ -155,7 +158,7 @@ def _iterate(
             return _Iterated(problem, best or solution.status, used)
         points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)
         if shortfall(space, points).max() > 1e-6:
-            # The curve swung into something that was out of reach of the corridor: widen it.
+            # The curve meets an obstacle that was out of the corridor's reach, so the reach grows.
             reach *= 4.0
             hulls, share = chords, FIRST_SHARE
             continue
@@ -201,10 +204,10 @@ def _nominal(stretch: Stretch, limits: Limits, breaks: Array) -> tuple[Array, Ar
 
 
 def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> tuple[Cones, ...]:
-    """Return speed and acceleration at nominal path velocity, as priced norm bounds.
+    """Return speed and acceleration at nominal path velocity, as norm bounds with a price.
 
-    v = q' sd and a = q'' sd^2 at constant sd; the time pass enforces the real limits, these only
-    shape the path.
+    v = q' sd and a = q'' sd^2 at constant sd. These bounds only shape the path; the time pass enforces the
+    real limits.
     """
     share = np.diff(breaks) / scale
     first, second = control_rows(breaks, 1), control_rows(breaks, 2)
@@ -224,7 +227,7 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
 
 
 def _pinned(curve: Piecewise, stretch: Stretch) -> Piecewise:
-    """Put the ends exactly where they belong: the solver is good to 1e-8 m, joints are to be equal."""
+    """Set the ends to their exact values, so that joints are equal; the solver is accurate to 1e-8 m."""
     ctrl = curve.ctrl.copy()
     ctrl[0, 0], ctrl[-1, -1] = stretch.corners[0], stretch.corners[-1]
     return Piecewise(curve.breaks, ctrl)

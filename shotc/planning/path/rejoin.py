@@ -1,7 +1,7 @@
-"""Refined shots put back into a path: the body turned anew, the unfilmed legs led to the new ends.
+"""Put refined shots back into a path: new body yaw for them, and unfilmed legs to their new ends.
 
-What a refiner hands back is where the camera is and where it looks; the rest of the path follows from
-that, so no refiner has to plan transits or bodies.
+A refiner returns the position and the angles of the camera. The rest of the path follows from these, so that
+no refiner has to plan transfers or body yaw.
 """
 
 from __future__ import annotations
@@ -22,13 +22,16 @@ from shotc.planning.path.with_camera import NoTransit, same, with_camera
 
 
 def rejoined(path: PathIR, cameras: Mapping[str, Piecewise]) -> PathIR:
-    """Return the path with some shots' cameras replaced.
+    """Return the path with the cameras of some shots replaced.
 
-    cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2, on
-        breaks that hold those of the leg; a sixth channel is the field of view, else the leg's own stays
-    Legs whose ends stay the same keep the unfilmed legs around them. Drones on the mission's clock keep the
-    time of every leg (see ``in_time``). NoTransit where there is no way to a new end, or none in time;
-    ValueError where a curve does not cover its leg.
+    Where the ends of legs stay the same, the unfilmed legs around them stay as they are. Drones on the
+    mission's clock keep the duration of every leg (see ``in_time``).
+
+    cameras : by shot id, curves of x, y, z, cam_yaw, cam_pitch over the leg's own s, quintic, C2, on breaks
+        that contain those of the leg; a sixth channel replaces the leg's field of view
+
+    Raises NoTransit if there is no transfer to a new end, or none in time. Raises ValueError if a curve does
+    not cover its leg.
     """
     return replace(
         path,

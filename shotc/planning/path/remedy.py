@@ -1,4 +1,4 @@
-"""What would let a smooth path through a corridor that is too tight, tried out before it is said."""
+"""Remedies for a corridor that is too tight for a smooth path. Each is planned before it is proposed."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from shotc.planning.path.shots import PlannedShot, Stuck, shot_curve
 from shotc.planning.path.transit import smooth
 from shotc.rounding import up
 
-LEAST_M = 5e-3  # metres of give-way that count as part of a conflict: less is printed as nothing
-FACTORS = (1, 2, 4)  # of the least give-way: with more room the way leads along other corners
+LEAST_M = 5e-3  # metres, least relaxation that counts as part of a conflict
+FACTORS = (1, 2, 4)  # multiples of the least relaxation; the polyline changes with them
 
 Gives = Mapping[Owner, float]
-"""By how many metres owners give way, on every side."""
+"""Metres by which each owner is relaxed, on every side."""
 
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
-    """Owners that cannot all stay as they are, and points of the stretch, most metres first.
+    """Owners that cannot all stay as they are, and points of the stretch, the largest relaxation first.
 
-    points : index of an anchor of the stretch, and by how far it would have to move
+    points : index of an anchor of the stretch, and the metres that it would have to move
     """
 
     owners: tuple[tuple[Owner, float], ...]
@@ -34,7 +34,7 @@ class Conflict:
 
 
 def conflict(what: Stuck) -> Conflict:
-    """Return the smallest set of requirements in conflict; empty where none need give way."""
+    """Return the constraints in conflict, from the relaxation; empty where there is none."""
     relaxation = what.solved.relaxation
     if relaxation is None:
         return Conflict((), ())
@@ -48,7 +48,9 @@ def conflict(what: Stuck) -> Conflict:
 def remedy(
     mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: Stuck
 ) -> str | None:
-    """Return a change with which the stretch was planned, as an imperative; None if none was found."""
+    """Return a change with which the stretch is feasible, as an imperative sentence; None if none was
+    found.
+    """
     owners = conflict(what).owners
     for factor in FACTORS:
         for some in (owners[:1], owners) if len(owners) > 1 else (owners,):
@@ -60,7 +62,7 @@ def remedy(
 
 
 def needed(mission: MissionIR, owner: Owner, metres: float) -> str:
-    """Say by how much an owner would have to give way."""
+    """Return a sentence that states how much an owner would have to be relaxed."""
     if owner == GROUND:
         return f"rules.ground_clearance would have to be {metres:.2f} m lower"
     if owner == CEILING:
@@ -83,10 +85,10 @@ def _holds_in(mission: MissionIR, owner: Owner) -> bool:
 
 
 def _giving(mission: MissionIR, space: FreeSpace, gives: Gives) -> FreeSpace | None:
-    """Return the free space with owners that give way; None where one would give more than it has.
+    """Return the free space with relaxed owners; None where one would be relaxed by more than its clearance.
 
-    To come nearer to a solid by less than its clearance is as good as to shrink it: a shrunk solid grown
-    again by what it lost lies inside the old one.
+    A clearance reduced by d has the same effect as a solid shrunk by d: the shrunk solid grown by d lies
+    inside the old one.
     """
     if gives.get(GROUND, 0.0) > mission.rules.ground_clearance:
         return None

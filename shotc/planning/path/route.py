@@ -1,11 +1,10 @@
-"""The shortest way between two points round and over obstacles: A* on a visibility graph.
+"""The shortest polyline between two points around and over obstacles: A* on a visibility graph.
 
-Where meshes are in the way, voxels tell it (``planning.path.voxels``).
-
-Obstacles are grown into convex prisms; the graph's nodes are the corners of the grown footprints at a
-few heights; an edge is free where the segment misses every grown prism, which clipping a segment
-against half-spaces decides exactly. Climbing and flying over an obstacle cost extra, so that what can
-be passed beside at a similar length is not flown over.
+Obstacles are grown to convex prisms. The graph's nodes are the corners of the grown footprints at a few
+heights. An edge is free if its segment misses every grown prism, which is decided exactly by clipping the
+segment against half-spaces. Climbing and flight above an obstacle have a price, so that a drone flies beside
+an obstacle if that is of similar length. Where meshes block the path, a voxel search finds it
+(``planning.path.voxels``).
 """
 
 from __future__ import annotations
@@ -25,14 +24,14 @@ from shotc.geom.solids import Cylinder, Solid
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, blocked, bounds_slack
 from shotc.planning.path.voxels import route_through
 
-ROUTE_MARGIN_M = 2 * MARGIN_M  # the route leaves the corridor some play
-NODE_MARGIN_M = 2.4 * MARGIN_M  # nodes stand clear of the prisms that edges are tested against
-ROOMY_RATIO = 10.0  # times these margins where there is room for it
-DETOUR_RATIO = 1.15  # how much longer a roomy way may be than one that scrapes past
+ROUTE_MARGIN_M = 2 * MARGIN_M  # margin of the route, which the corridor needs
+NODE_MARGIN_M = 2.4 * MARGIN_M  # nodes lie outside of the prisms against which edges are tested
+ROOMY_RATIO = 10.0  # factor of these margins where there is free space for it
+DETOUR_RATIO = 1.15  # largest ratio of lengths between a route with this factor and one without
 SAME_PLACE_M = 1e-6  # metres
-NARROW_SHARES = (0.2, 0.05)  # of these margins, tried in turn: a narrow gap is better than no way
-CLIMB_PRICE = 0.3  # extra length for each metre up or down
-OVERFLIGHT_PRICE = 0.3  # extra length for each metre above an obstacle
+NARROW_SHARES = (0.2, 0.05)  # shares of these margins for narrow gaps, tried in turn
+CLIMB_PRICE = 0.3  # extra length per metre of climb or descent
+OVERFLIGHT_PRICE = 0.3  # extra length per metre above an obstacle
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,10 +46,12 @@ class _Grown:
 
 
 def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
-    """Return the corners of the way from start to end, shape (K, 3), both included; None if there is none.
+    """Return the corners of the route, shape (K, 3), both ends included; None if there is none.
 
-    Both points must themselves be free. Nodes come from the obstacles in the way; more obstacles join
-    as they turn out to block, so far ones cost nothing.
+    Nodes come from the obstacles that block the straight line. Other obstacles are added when they block an
+    edge, so that distant ones cost nothing.
+
+    start, end : free points, shape (3,)
     """
     first = blocked(space, start[None], end[None], MARGIN_M)[0]
     if not first.any():
@@ -63,7 +64,7 @@ def find_route(space: FreeSpace, start: Array, end: Array) -> Array | None:
 
 
 def _round_solids(space: FreeSpace, first: Mask, start: Array, end: Array) -> Array | None:
-    """Return the way round solids, some of which stop the straight one; meshes may be in its way."""
+    """Return the route around solids, some of which block the straight line; meshes are ignored."""
     grown = [_grow(o) for o in space.obstacles]
     near = _search(_Scene(space, grown, 1.0), first, start, end)
     if near is not None:
@@ -85,18 +86,18 @@ def length(route: Array) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Scene:
-    """What a search runs in; ``share`` is the part of the usual margins that it keeps."""
+    """The input of a search; ``share`` is the share of the usual margins that it keeps."""
 
     space: FreeSpace
     grown: list[_Grown]
     share: float
 
     def reach(self, j: int) -> float:
-        """Return how far obstacle j is grown for testing edges, metres."""
+        """Return how far obstacle j is grown for the test of edges, metres."""
         return self.grown[j].clearance + self.share * ROUTE_MARGIN_M
 
     def node_reach(self, j: int) -> float:
-        """Return how far obstacle j is grown for placing nodes, metres."""
+        """Return how far obstacle j is grown for its nodes, metres."""
         return self.grown[j].clearance + self.share * NODE_MARGIN_M
 
 
@@ -127,7 +128,7 @@ class _Graph:
         self.touched = np.zeros(len(scene.grown), dtype=bool)
 
     def search(self) -> tuple[Array | None, Mask]:
-        """Return the cheapest way found, and which obstacles stopped an edge."""
+        """Return the cheapest route, and which obstacles blocked an edge."""
         nodes = self.nodes
         cost = np.full(len(nodes), np.inf)
         cost[0] = 0.0
@@ -175,13 +176,13 @@ class _Graph:
         return np.asarray(price)
 
     def _hits(self, j: int, a: Array, b: Array, enter: Array, leave: Array) -> Mask:
-        """Edges that cut the grown prism, given where they are above or below its footprint."""
+        """Return which edges cut the grown prism; enter, leave : interval above its footprint."""
         g, reach = self.scene.grown[j], self.scene.reach(j)
         low, high = _clip_heights(a[:, 2], b[:, 2] - a[:, 2], g.bottom - reach, g.top + reach)
         return np.asarray(np.maximum(enter, low) < np.minimum(leave, high) - 1e-9)
 
     def _close(self, j: int, i: int, others: IntArray) -> Mask:
-        """Edges whose start or end point of the whole way stands inside the grown prism."""
+        """Return which edges start or end at an end of the route that lies inside the grown prism."""
         inside = _inside(self.scene.grown[j], self.nodes[:2], self.scene.reach(j) + 1e-6)
         if i <= 1 and inside[i]:
             return np.ones(len(others), dtype=np.bool_)
@@ -202,7 +203,7 @@ def _grow(obstacle: Obstacle) -> _Grown:
 
 def _sides(part: Solid, clearance: float) -> tuple[Array, Array]:
     if isinstance(part, Cylinder):
-        # Circumscribed so that no corner sticks out by more than a quarter of a metre.
+        # A circumscribed polygon whose corners stick out by at most 0.25 m.
         sides = min(32, max(8, ceil(pi / np.sqrt(0.5 / (part.radius + clearance + 0.5)))))
         angle = 2 * pi * np.arange(sides) / sides
         normals = np.stack([np.cos(angle), np.sin(angle)], axis=1)
@@ -232,7 +233,7 @@ def _corners(g: _Grown, growth: float) -> Array:
 
 
 def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) -> Array:
-    """Corners of one grown obstacle at the heights a way may want to pass them."""
+    """Return the corners of one grown obstacle at the candidate heights, shape (N, 3)."""
     xy = _corners(scene.grown[j], scene.node_reach(j))
     way = end[:2] - start[:2]
     progress = np.clip((xy - start[:2]) @ way / max(float(way @ way), 1e-9), 0.0, 1.0)
@@ -247,7 +248,9 @@ def _nodes(scene: _Scene, j: int, active: IntArray, start: Array, end: Array) ->
 
 
 def _crossings(scene: _Scene, j: int, xy: Array, start: Array, end: Array) -> list[Array]:
-    """Places to pass over or under an obstacle: where the direct way meets its rim, and along its sides."""
+    """Return nodes above or below an obstacle: where the straight line crosses its rim, and along its
+    sides.
+    """
     g, reach = scene.grown[j], scene.node_reach(j)
     enter, leave = _clip(g, start[None], end[None], reach)
     rim = [0.5 * (xy + np.roll(xy, -1, axis=0))]
@@ -264,7 +267,7 @@ def _inside(g: _Grown, p: Array, reach: float) -> Mask:
 
 
 def _clip(g: _Grown, a: Array, b: Array, reach: float) -> tuple[Array, Array]:
-    """Clip segments to the grown footprint (Cyrus-Beck); returns the stretch [enter, leave] of [0, 1]."""
+    """Clip segments to the grown footprint (Cyrus-Beck); return the interval [enter, leave] of [0, 1]."""
     rate = (b[:, :2] - a[:, :2]) @ g.normals.T
     space = g.offsets + reach - a[:, :2] @ g.normals.T
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -287,7 +290,7 @@ def _clip_heights(z: Array, rise: Array, low: float, high: float) -> tuple[Array
 
 
 def _level(space: FreeSpace, path: Array) -> Array:
-    """Let the height change evenly along the way where that is still free."""
+    """Return the route with its height linear in length, where that is still free."""
     if len(path) < 3:
         return path
     flat = np.linalg.norm(np.diff(path[:, :2], axis=0), axis=1)
@@ -302,6 +305,6 @@ def _level(space: FreeSpace, path: Array) -> Array:
 
 
 def _apart(path: Array) -> Array:
-    """Leave out corners that stand where the next one does: corners above one another that were levelled."""
+    """Return the route without corners that coincide with the next one after levelling."""
     steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
     return np.asarray(path[np.append(steps > SAME_PLACE_M, True)])

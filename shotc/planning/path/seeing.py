@@ -1,7 +1,7 @@
-"""Ways between keyframes that their author placed, led to where the shot's targets are seen.
+"""Ways between placed keyframes, led to where the shot's targets are visible.
 
-The curve through the keyframes is looked at first. Where surfaces hide a target from it, places beside it
-that see more draw a second curve, which is taken where less is hidden from it. Keyframes stay where they are.
+The curve through the keyframes is found first. Where surfaces hide a target from it, places beside it that
+see more attract a second curve, which is used if less is hidden from it. Keyframes keep their places.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ from shotc.planning.free_space import MARGIN_M, FreeSpace, breaches
 from shotc.planning.layered import Watched, led_round
 from shotc.planning.path.lines import PACE_M_S, SAME_PLACE_M
 
-STEP_M = 1.0  # metres of path between the places that are led, at least
-MOST = 80  # of such places between two keyframes
-FINER = 2  # times as many, at which curves are compared
-ABOUT_M = 1.5  # metres by which a target that a way is led for is larger than it is
-SMOOTHINGS = 6  # times that the places that draw a way are smoothed
-ROUNDS = 4  # curves that are drawn, each from the one before
-MOST_SHARE = 1 / 3  # of a target that may be hidden somewhere on a way that is not led
-LESS_SHARE = 0.9  # of the time for which a plain curve's targets are hidden, with which a led one serves
-LONGER_RATIO = 2.0  # times as long as the plain curve that the led one may take
+STEP_M = 1.0  # least metres of path between led places
+MOST = 80  # most led places between two keyframes
+FINER = 2  # factor of their number, for the comparison of curves
+ABOUT_M = 1.5  # metres by which a target is enlarged
+SMOOTHINGS = 6  # smoothing passes over the led places
+ROUNDS = 4  # rounds, each from the last curve
+MOST_SHARE = 1 / 3  # hidden share of a target above which a way is led
+LESS_SHARE = 0.9  # largest ratio of hidden times between a led curve and the plain one
+LONGER_RATIO = 2.0  # largest ratio of durations between a led curve and the plain one
 NO_LENGTH = 1e-9
 
 
@@ -43,8 +43,9 @@ class FilmedCurve:
     """A curve through placed keyframes.
 
     at : path parameters of the keyframes, (K,), not decreasing
-    watched : whom keyframes name, by name, each at one time
-    limits : of the drone; pace : share of its speed that is flown
+    watched : the targets of keyframes, by name, each at one time
+    limits : of the drone
+    pace : share of its speed
     """
 
     keyframes: tuple[PlacedKeyframe, ...]
@@ -56,10 +57,10 @@ class FilmedCurve:
 
     @cached_property
     def seconds(self) -> tuple[float, float]:
-        """Return about how long the curve takes, and for how much of that its targets are hidden.
+        """Return the approximate duration of the curve, and how long its targets are hidden, seconds.
 
-        Where one is hidden in part, its share counts. The speed is that which bends and the way from rest to
-        rest allow; jerk is left out.
+        Where a target is hidden in part, its hidden share counts. The speed keeps limits of speed, lateral
+        and tangential acceleration; jerk is ignored.
         """
         s = [self._samples(k, FINER) for k in range(len(self.at) - 1)]
         every = np.concatenate(s)
@@ -68,12 +69,14 @@ class FilmedCurve:
         return float(steps.sum()), float((0.5 * (shares[1:] + shares[:-1]) * steps).sum())
 
     def serves(self, plain: FilmedCurve) -> bool:
-        """Tell whether targets are hidden notably less than from a plain curve, in not too long a time."""
+        """Return whether targets are hidden notably less than from a plain curve, at an acceptable
+        duration.
+        """
         (takes, hidden), (least, most) = self.seconds, plain.seconds
         return hidden <= LESS_SHARE * most and takes <= LONGER_RATIO * least
 
     def beside(self, space: FreeSpace) -> tuple[Array, ...]:
-        """Return places that draw each way to where its target is seen, (N, 3), in order; none if it is."""
+        """Return places that lead each way to see its target, (N, 3), in order; empty where it is visible."""
         places = [np.zeros((0, 3))] * (len(self.at) - 1)
         for k, who in self._ways():
             if self._hidden[k].max() > MOST_SHARE:
@@ -82,7 +85,7 @@ class FilmedCurve:
 
     @cached_property
     def _hidden(self) -> dict[int, Array]:
-        """The shares of its target that are hidden on each way that films one, at samples."""
+        """The hidden shares of its target on each way that films one, at samples."""
         found = {}
         for k, who in self._ways():
             s = self._samples(k, FINER)
@@ -101,7 +104,7 @@ class FilmedCurve:
         return np.linspace(self.at[k], self.at[k + 1], finer * min(MOST, max(2, round(long / STEP_M))) + 1)
 
     def _steps(self, s: Array) -> Array:
-        """Return about how many seconds pass from each of some path parameters (N,) to the next, (N - 1,)."""
+        """Return the approximate seconds between path parameters (N,), shape (N - 1,)."""
         first, second = self.curve.derivative()(s), self.curve.derivative(2)(s)
         along = np.maximum(np.linalg.norm(first, axis=1), NO_LENGTH)
         bend = np.linalg.norm(np.cross(first, second), axis=1) / along**3
@@ -117,7 +120,7 @@ class FilmedCurve:
         return np.asarray(2.0 * long / np.maximum(speed[1:] + speed[:-1], NO_LENGTH))
 
     def _led(self, space: FreeSpace, k: int, who: Watched) -> Array:
-        """Return places of the way after a keyframe, (N, 3), led to where its target is seen."""
+        """Return places of the way after a keyframe, (N, 3), led to where its target is visible."""
         places = self.curve(self._samples(k, 1))
         steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
         times = np.concatenate([[0.0], np.cumsum(steps)]) / PACE_M_S
@@ -134,7 +137,7 @@ class FilmedCurve:
 
 
 def watched_at_keyframes(mission: MissionIR, placed: PlacedShot) -> Watched | None:
-    """Return whom the keyframes of a shot are to see; None where nothing of triangles may hide it."""
+    """Return the subject that a shot's keyframes should see; None where no mesh or terrain may hide it."""
     keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
     name = next((name for name in names if name is not None), None)
     if name is None or not is_led(mission, placed.shot):
@@ -145,12 +148,12 @@ def watched_at_keyframes(mission: MissionIR, placed: PlacedShot) -> Watched | No
 
 
 def is_led(mission: MissionIR, shot: Shot) -> bool:
-    """Tell whether a shot is led to where its targets are not hidden by anything of triangles."""
+    """Return whether a shot is led around meshes and terrain that hide its targets."""
     return bool(mission.meshes or mission.terrain) and not hidden_on_purpose(shot)
 
 
 def watched_at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> Watched:
-    """Return a target as it is watched at places, metres of W."""
+    """Return a target as it is watched at places of W, metres."""
     target, surfaces = mission.target(name), tuple(s for _, s in surfaces_before(mission, name))
     filmed = np.ones(len(places), dtype=bool)
     return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
@@ -158,7 +161,7 @@ def watched_at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> Watched
 
 @dataclass(frozen=True, slots=True)
 class _Standing:
-    """An obstacle as what a course keeps clear of, about the origin of W."""
+    """A standing obstacle as a solid about the origin of W, with its clearance."""
 
     part: Solid
     clearance: float
@@ -169,20 +172,23 @@ class _Standing:
 
 
 def _no_nearer(who: Watched, places: Array) -> _Standing:
-    """Return a target as what is passed no nearer than places (N, 3) are: nearer by, it would be cropped."""
+    """Return a target as an obstacle with the least distance of places (N, 3) as its clearance.
+
+    A nearer camera would crop it.
+    """
     x, y, z = who.places[0].tolist()
     body = Cylinder((x, y), who.radius, z - 0.5 * who.height, z + 0.5 * who.height)
     return _Standing(body, float(distances(body, places).min()) - MARGIN_M)
 
 
 def _larger(who: Watched) -> Watched:
-    """Return a target on the same ground that is larger: a curve is a little off the places that draw it."""
+    """Return an enlarged target on the same ground, because a curve deviates from its led places."""
     higher = who.places + np.array([0.0, 0.0, 0.5 * ABOUT_M])
     return replace(who, places=higher, radius=who.radius + ABOUT_M, height=who.height + ABOUT_M)
 
 
 def _smooth(off: Array) -> Array:
-    """Return offsets (N, 3) with less of a change from one to the next; both ends stay."""
+    """Return smoothed offsets (N, 3); both ends stay."""
     off = off.copy()
     for _ in range(SMOOTHINGS):
         off[1:-1] = 0.25 * off[:-2] + 0.5 * off[1:-1] + 0.25 * off[2:]

@@ -1,4 +1,4 @@
-"""One shot as a curve: position, camera angles, body yaw, marks, stops and what is framed."""
+"""One shot on a path: position, camera angles, body yaw, marks, stops and references."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ from shotc.planning.timing.estimate import lateness
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 
-NOTICE_M = 0.1  # metres off a generated keyframe that are worth telling
-PLACES_BETWEEN = 65  # places between two keyframes at which a path is compared with the straight way
+NOTICE_M = 0.1  # metres off a generated keyframe, above which a deviation is reported
+PLACES_BETWEEN = 65  # samples between two keyframes, for the comparison with their chord
 BETWEEN = "what lies between its keyframes"
-LEFT_M = 0.02  # metres off that belong to a stretch worth telling
+LEFT_M = 0.02  # metres off, above which a keyframe belongs to a reported run
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlannedShot:
-    """A shot's leg on its own s from 0, and what there is to say of it."""
+    """A shot's leg on its own s from 0, and the notes for its report."""
 
     shot: PlacedShot
     leg: PathLeg
@@ -47,14 +47,14 @@ class PlannedShot:
     stats: tuple[tuple[str, float | str], ...]
 
     def lasting(self, seconds: float | None) -> PlannedShot:
-        """Return the same with a duration, seconds, where the mission leaves its time free."""
+        """Return the shot with a duration, seconds, where the mission leaves its duration free."""
         asked = self.shot.shot.timing.duration
         return replace(self, leg=replace(self.leg, duration=seconds if asked is None else asked))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stuck:
-    """A stretch whose programme has no solution; ``first`` is its first keyframe."""
+    """A stretch whose programme has no solution; ``keyframes`` are the indices of those on it."""
 
     solved: Solved
     corners: Array
@@ -63,7 +63,7 @@ class Stuck:
 
 @dataclass(frozen=True, slots=True)
 class AngleFailure:
-    """The angle programme was not solved."""
+    """The programme of the camera angles or of the body yaw has no solution."""
 
     what: str
     status: Status
@@ -75,7 +75,7 @@ Failure = NoWay | TooNear | Stuck | AngleFailure
 def shot_curve(
     mission: MissionIR, drone: Drone, space: FreeSpace, placed: PlacedShot, headings: str = DEFAULT
 ) -> PlannedShot | Failure:
-    """Return a shot's geometry, or what stands in its way; ``headings`` is how turns are chosen."""
+    """Return a shot's geometry, or why there is none; headings : method that chooses turns."""
     line = shot_line(space, placed.keyframes, watched_at_keyframes(mission, placed))
     if not isinstance(line, Line):
         return line
@@ -94,7 +94,7 @@ def shot_curve(
 
 
 class _Drawn(NamedTuple):
-    """A shot's line and its curve; headings : how turns are chosen."""
+    """A shot's polyline and its curve; headings : method that chooses turns."""
 
     placed: PlacedShot
     line: Line
@@ -103,7 +103,7 @@ class _Drawn(NamedTuple):
 
 
 def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) -> PlannedShot | AngleFailure:
-    """Return a shot along a curve: its camera, its body, and its marks."""
+    """Return a shot along a curve, with its camera, body yaw and marks."""
     placed, line, (curve, solved), headings = drawn
     keyed = replace(_keyed(placed, line, curve), pace=placed.shot.pace, headings=headings)
     camera = camera_line(mission, drone, keyed)
@@ -145,7 +145,7 @@ def _along(mission: MissionIR, drone: Drone, space: FreeSpace, drawn: _Drawn) ->
 
 
 def _serves(drone: Drone, plain: PlannedShot | AngleFailure, led: PlannedShot | AngleFailure) -> bool:
-    """Tell whether a shot that is led aside is in time, and its camera shows what the plain one's does."""
+    """Return whether a led shot is as timely as the plain one, and its camera shows as much."""
     if not isinstance(led, PlannedShot) or not isinstance(plain, PlannedShot):
         return isinstance(led, PlannedShot)
     legs = [one.leg for one in (led, plain)]
@@ -154,7 +154,7 @@ def _serves(drone: Drone, plain: PlannedShot | AngleFailure, led: PlannedShot | 
 
 
 def stack(*curves: Piecewise) -> Piecewise:
-    """Put curves on the same breaks side by side."""
+    """Return the channels of curves on the same breaks as one curve."""
     return Piecewise(curves[0].breaks, np.concatenate([c.ctrl for c in curves], axis=2))
 
 
@@ -179,7 +179,7 @@ def _still(placed: PlacedShot, line: Line) -> PlannedShot:
 
 
 def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> list[float]:
-    """Return when a camera that stands is at each of its keyframes, s: in order, the last at the end."""
+    """Return when a camera that stands reaches each keyframe, seconds: in order, the last one at the end."""
     times: list[float] = []
     now = 0.0
     for k in keyframes:
@@ -193,7 +193,7 @@ def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> 
 def _position(
     space: FreeSpace, drone: Drone, placed: PlacedShot, line: Line
 ) -> tuple[Piecewise, list[Solved]] | Stuck:
-    """Solve stretch by stretch; the drone rests wherever the camera turns on the spot."""
+    """Solve each stretch; the drone rests where the camera turns on the spot."""
     curves: list[Piecewise] = []
     solved: list[Solved] = []
     for first, last in _sections(line):
@@ -218,13 +218,13 @@ def _led_to_see(
     line: Line,
     position: tuple[Piecewise, list[Solved]],
 ) -> tuple[Line, tuple[Piecewise, list[Solved]]] | None:
-    """Return a line through placed keyframes and its curve, led to where less of their targets is hidden.
+    """Return a polyline through placed keyframes and its curve, led to where less of the targets is hidden.
 
-    None where that is not asked for, or not found; line, position : those that are not led
+    None where this does not apply, or where no better curve was found; line, position : those without it
     """
     drone, space = who
     named = dict.fromkeys(k.target for k in placed.keyframes if k.target is not None)
-    # The points of a path that its author drew are the way itself.
+    # On a path drawn by its author, the points are the path itself.
     if placed.shot.kind != "keyframes" or not is_led(mission, placed.shot):
         return None
     watched = {name: watched_at(mission, name, [mission.target(name).centre]) for name in named}
@@ -248,7 +248,7 @@ def _led_to_see(
 
 
 def _sections(line: Line) -> list[tuple[int, int]]:
-    """Cut the polyline where the camera turns on the spot; repeated keyframes fall out."""
+    """Return the corner ranges between turns on the spot; repeated keyframes are left out."""
     moving = np.linalg.norm(np.diff(line.corners, axis=0), axis=1) >= SAME_PLACE_M
     sections: list[tuple[int, int]] = []
     for i, moves in enumerate(moving):
@@ -289,7 +289,7 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
 
 
 def _keyed(placed: PlacedShot, line: Line, curve: Piecewise) -> KeyedPath:
-    """Say where on the curve every keyframe is; dropped ones where the curve comes nearest."""
+    """Return where on the curve each keyframe lies; for dropped ones the nearest place."""
     keyframes = placed.keyframes
     s = np.full(len(keyframes), np.nan)
     for corner, k in enumerate(line.of):
@@ -309,7 +309,7 @@ def _keyed(placed: PlacedShot, line: Line, curve: Piecewise) -> KeyedPath:
 
 
 def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float) -> float:
-    # Kept off both ends, so that parameters increase.
+    # Both ends are excluded, so that parameters increase.
     at = np.linspace(low, high, 66)[1:-1]
     away = np.linalg.norm(curve(at) - np.array(keyframe.at), axis=1)
     return float(at[int(away.argmin())])
@@ -335,7 +335,7 @@ def _marks(placed: PlacedShot, keyed: KeyedPath) -> tuple[Mark, ...]:
 
 
 class _Away(NamedTuple):
-    """How far a curve is from a place of its path, metres, and at which s."""
+    """The distance of a curve from a place of its path, metres, and the s of it."""
 
     distance: float
     s: float
@@ -345,11 +345,11 @@ class _Away(NamedTuple):
 def _deviations(
     space: FreeSpace, placed: PlacedShot, keyed: KeyedPath, otherwise: str
 ) -> tuple[PathDeviation, ...]:
-    """Return, for each run of keyframes that the path leaves, the worst of it, and the worst way between two.
+    """Return the worst deviation of each run of keyframes, and the worst one between two keyframes.
 
     Between generated keyframes a path may bow out by a share of their distance.
 
-    otherwise : the cause where nothing stands at the keyframe
+    otherwise : the cause where no obstacle is near the keyframe
     """
     points = np.array([k.at for k in placed.keyframes], dtype=np.float64)
     away = np.linalg.norm(keyed.position(keyed.s) - points, axis=1)
@@ -368,7 +368,7 @@ def _deviations(
 
 
 def _bowed(keyed: KeyedPath, points: Array, k: int) -> _Away:
-    """Return where the curve bows out the most from the straight way from keyframe k on, and by how much."""
+    """Return where the curve bows out the most from the chord after keyframe k, and by how much."""
     s = np.linspace(keyed.s[k], keyed.s[k + 1], PLACES_BETWEEN)
     flown, along = keyed.position(s), points[k + 1] - points[k]
     share = np.clip((flown - points[k]) @ along / max(float(along @ along), 1e-12), 0.0, 1.0)

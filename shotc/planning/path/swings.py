@@ -1,4 +1,4 @@
-"""Where following a target turns the picture round: a camera that passes nearly straight over it."""
+"""Find where following a target turns the picture round: where a camera passes almost vertically above it."""
 
 from __future__ import annotations
 
@@ -13,19 +13,22 @@ from shotc.ir.mission import MissionIR
 from shotc.planning.path.angles import NOTICE_RAD, CameraLine, KeyedPath
 
 SAMPLES_PER_PIECE = 6  # per piece
-STEEP_RAD = radians(75)  # beyond this pitch a turn of the camera is a turn of the picture
-ROUND_RAD = radians(60)  # turns of the picture that are worth a warning
-SLOW_SLOPE = 0.05  # metres flown sideways for each metre of path, below which there is no course
+STEEP_RAD = radians(75)  # pitch beyond which a turn of the camera turns the picture
+ROUND_RAD = radians(60)  # turn of the picture above which there is a warning
+SLOW_SLOPE = 0.05  # horizontal metres per metre of path, below which there is no course
 
 
 @dataclass(frozen=True, slots=True)
 class Swing:
-    """A place where the camera swings round, or is not where it should be.
+    """A place where the picture turns round, or where the camera misses its reference.
 
-    index : the keyframe before it; s : path parameter; target : its name
-    turn : rad that the picture turns by; 0 where the camera only misses its aim
-    pitch : of the camera there, rad; aside : metres beside the target from which there is no such turn
-    miss : rad by which the camera misses its aim at worst
+    index : the keyframe before it
+    s : path parameter
+    target : its name
+    turn : turn of the picture, rad; 0 where the camera only misses its reference
+    pitch : of the camera there, rad
+    aside : metres beside the target from which there is no such turn
+    miss : largest error of the camera's direction, rad
     """
 
     index: int
@@ -38,9 +41,9 @@ class Swing:
 
 
 def worst_swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine) -> Swing | None:
-    """Return the worst place of a shot, None where the camera turns as a viewer would expect.
+    """Return the worst place of a shot; None where the camera turns as a viewer expects.
 
-    Turning along with the course is expected: a narrow orbit far above its target turns all the time.
+    A turn together with the course is expected, as on a narrow orbit high above its target.
     """
     at = subdivide(camera.angles.breaks, SAMPLES_PER_PIECE)
     yaw, pitch, _ = camera.angles(at).T
@@ -66,14 +69,14 @@ def _swing(mission: MissionIR, keyed: KeyedPath, camera: CameraLine, s: float, t
 
 
 def _followed(keyed: KeyedPath, at: Array) -> np.ndarray:
-    """Tell at which parameters both neighbouring keyframes have a target in its place."""
+    """Return at which parameters both neighbouring keyframes have a target with a place on screen."""
     composed = [k.target is not None and k.reference is not None for k in keyed.keyframes]
     after = np.clip(np.searchsorted(keyed.s, at, side="right"), 1, len(composed) - 1)
     return np.asarray(np.array(composed)[after] & np.array(composed)[after - 1])
 
 
 def _course(position: Piecewise, at: Array) -> Array:
-    """Return the direction of flight, unwrapped; where there is none, the last one."""
+    """Return the course, unwrapped; where there is none, the last one."""
     rate = position.derivative()(at)[:, :2]
     moves = np.linalg.norm(rate, axis=1) > SLOW_SLOPE
     if not moves.any():

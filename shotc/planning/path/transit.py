@@ -1,9 +1,9 @@
-"""The position curve of an unfilmed leg, which keeps the clearances of transits from what stands.
+"""The position curve of an unfilmed leg, with the clearances of transfers from standing obstacles.
 
-Where an end of the leg is nearer to something, the way leads out from there to where there is room, as short
-as the taper of the clearances allows (``geom.taper``), and in to the other end likewise. Where no way has
-such clearances, or only one that is much longer, it keeps less, from as few things as it must; verification
-tells what it comes nearer to, or refuses it where the mission writes its clearances down.
+Where an end of the leg is nearer to an obstacle, the path leads from there to where the full clearance holds,
+as short as the taper of the clearances allows (``geom.taper``); at the other end likewise. If no path has
+these clearances, or only a much longer one, it keeps smaller ones, from as few obstacles as possible.
+Verification reports what it is too near to, and refuses it where the mission states the clearances.
 """
 
 from __future__ import annotations
@@ -34,20 +34,20 @@ from shotc.planning.path.shots import Stuck
 LONGER_RATIO, LONGER_M = (
     1.5,
     20.0,
-)  # how much longer than without the clearances a way may be, times and metres
-HALVINGS = 4  # of the share to which clearances are lessened where there is no way with all of them
-STEP_M = 0.2  # metres between the places of a ray that are compared
+)  # largest length of a path over that without the clearances: factor and metres
+HALVINGS = 4  # bisection steps for the share to which clearances are reduced
+STEP_M = 0.2  # metres between samples of a ray
 RAYS = 24  # rays around an end
-RISES_RAD = (0.0, 0.6, 1.2, -0.6)  # rad that rays point upwards
-PLACES_TRIED = 60  # places beside a short way that it may lead over
-PLAY_M = 3.0 * MARGIN_M  # metres beyond the clearances at which a way out of an end is at its end
+RISES_RAD = (0.0, 0.6, 1.2, -0.6)  # rad, elevations of rays
+PLACES_TRIED = 60  # intermediate places tried for a short path
+PLAY_M = 3.0 * MARGIN_M  # metres beyond the clearances, at which the path out of an end stops
 ROUNDING_M = 1e-6  # metres
 
 
 def transit_curve(
     spaces: FreeSpaces, drone: Drone, a: Array, b: Array
 ) -> Piecewise | NoWay | TooNear | Stuck:
-    """Return the position curve from one place to another, shapes (3,), that are not the same."""
+    """Return the position curve between two different places, shapes (3,), or why there is none."""
     near = straight_line(spaces.flight, a, b)
     if not isinstance(near, Line):
         return near
@@ -70,9 +70,9 @@ def smooth(space: FreeSpace, drone: Drone, line: Line, wide: FreeSpace | None = 
 
 
 def _widest(spaces: FreeSpaces, near: Array) -> Iterator[FreeSpace]:
-    """Return free spaces with the widest clearances for which there may be a way: all, else few of them less.
+    """Yield free spaces with the full clearances first, then with as few reduced ones as possible.
 
-    near : the way without them, shape (K, 3)
+    near : polyline without these clearances, shape (K, 3)
     """
     if spaces.transit == spaces.flight:
         return
@@ -85,7 +85,9 @@ def _widest(spaces: FreeSpaces, near: Array) -> Iterator[FreeSpace]:
 
 
 def _greatest(spaces: FreeSpaces, owners: frozenset[Owner], near: Array) -> float | None:
-    """Return the greatest share, for some owners, of their clearances with which there is a way."""
+    """Return the greatest share of some owners' clearances for which there is a path; None if there
+    is none.
+    """
     low, high = 0.0, 1.0
     if not owners or _line(spaces, _lessened(spaces, owners, low), near) is None:
         return None
@@ -97,7 +99,7 @@ def _greatest(spaces: FreeSpaces, owners: frozenset[Owner], near: Array) -> floa
 
 
 def _needed(spaces: FreeSpaces, owners: frozenset[Owner], share: float, near: Array) -> frozenset[Owner]:
-    """Return those of some owners whose clearances have to be lessened for a way."""
+    """Return those of some owners whose clearances have to be reduced for a path."""
     found = _line(spaces, _lessened(spaces, owners, share), near)
     assert found is not None
     less = owners & _passed_nearer(replace(spaces.transit, ends=_ends(near)), found.corners)
@@ -108,7 +110,7 @@ def _needed(spaces: FreeSpaces, owners: frozenset[Owner], share: float, near: Ar
 
 
 def _lessened(spaces: FreeSpaces, owners: frozenset[Owner], share: float) -> FreeSpace:
-    """Return the free space of transits, with a share of what some owners ask beyond that of all phases."""
+    """Return the free space of transfers, with a share of some owners' additional clearance."""
     pairs = zip(spaces.flight.obstacles, spaces.transit.obstacles, strict=True)
     obstacles = tuple(
         replace(wide, clearance=own.clearance + share * (wide.clearance - own.clearance))
@@ -127,9 +129,9 @@ def _passed_nearer(space: FreeSpace, corners: Array) -> frozenset[Owner]:
 
 
 def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
-    """Return a polyline that keeps clearances that taper towards its ends; None where none is short enough.
+    """Return a polyline with clearances that taper towards its ends; None where none is short enough.
 
-    near : the polyline that keeps those of all phases, shape (K, 3)
+    near : polyline with the clearances of all phases, shape (K, 3)
     """
     a, b, flight = near[0], near[-1], spaces.flight
     full, wide = _settled(wide, near[[0, -1]]), replace(wide, ends=_ends(near))
@@ -150,13 +152,13 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
 
 
 def _joined(a: Array, route: Array, b: Array) -> Array:
-    """Return a route with its ends a and b; what is an end but for rounding is that end."""
+    """Return a route with its ends a and b; points that differ from these by rounding are left out."""
     between = [p for p in route if min(np.linalg.norm(p - a), np.linalg.norm(p - b)) > ROUNDING_M]
     return np.array([a, *between, b])
 
 
 def _settled(space: FreeSpace, ends: Array) -> FreeSpace:
-    """Return the free space with clearances that an end of a way all but has as large as the end has them."""
+    """Return the free space with clearances reduced to an end's distance, where it lacks only a little."""
 
     def settled(o: Obstacle) -> Obstacle:
         gap = float(distances(o.part, ends).min())
@@ -171,7 +173,7 @@ def _of(corners: Array) -> Line:
 
 
 def _kept(space: FreeSpace, corners: Array) -> bool:
-    """Tell whether a polyline keeps clearances that taper."""
+    """Return whether a polyline keeps tapered clearances."""
     points = _along(corners)
     return bool(_keeps(space, points).all())
 
@@ -186,7 +188,7 @@ def _along(corners: Array) -> Array:
 
 
 def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING_M) -> Mask:
-    """Tell which places (..., 3) are as far from everything as is needed there, and so much more."""
+    """Return which places (..., 3) keep their tapered clearances, and ``more`` metres beyond them."""
     fine = np.ones(points.shape[:-1], dtype=np.bool_)
     for o in space.obstacles:
         fine &= distances(o.part, points) >= taper(space, o).needs(points) + more
@@ -194,14 +196,14 @@ def _keeps(space: FreeSpace, points: Array, more: float = -ROUNDING_M) -> Mask:
 
 
 def _outside(flight: FreeSpace, wide: FreeSpace, end: Array, goal: Array) -> Array | None:
-    """Return where a straight way out of an end first has the full clearances, nearest on the way to a goal.
+    """Return where a straight ray from an end first has the full clearances, nearest to a goal.
 
-    The end itself where it has them; None where no way out is clear.
+    The end itself where it has them; None where no ray is clear.
     """
     lack = max((o.clearance - float(distances(o.part, end)) for o in wide.obstacles), default=0.0)
     if lack <= 0.0:
         return end
-    # What is needed grows by the slope at least until it is had.
+    # The needed distance grows by the slope at least, until it is reached.
     reach = np.arange(STEP_M, (lack + PLAY_M) / SLOPE + 2.0 * STEP_M, STEP_M)
     points = end + reach[:, None] * directions(RAYS, RISES_RAD)[:, None, :]
     fine = _keeps(wide, points)
@@ -212,9 +214,10 @@ def _outside(flight: FreeSpace, wide: FreeSpace, end: Array, goal: Array) -> Arr
 
 
 def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | None:
-    """Return the shortest way over one place beside the middle that keeps clearances; None without one.
+    """Return the shortest path over one place beside the middle that keeps clearances; None if there is none.
 
-    Between two near ends the clearances do not grow to the full ones, so that no way has to lead out so far.
+    Between two ends that are near, the tapered clearances do not reach the full ones, so that a shorter
+    detour is enough.
     """
     apart = float(np.linalg.norm(b - a))
     reach = np.arange(STEP_M, 0.5 * apart + 2.0 * STEP_M, STEP_M)
@@ -226,7 +229,7 @@ def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | Non
 
 
 def _shortest(a: Array, places: Array, b: Array) -> Array | None:
-    """Return the place, of some, shape (N, 3), over which it is the shortest from one place to another."""
+    """Return the place, of shape (N, 3), that gives the shortest path from a over it to b."""
     ways = np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1)
     return None if not len(places) else np.asarray(places[int(ways.argmin())])
 

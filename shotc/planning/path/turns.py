@@ -1,4 +1,4 @@
-"""A turn through given angles that never swings beyond them: for cameras that follow nothing."""
+"""A monotone turn through given angles, for cameras that follow no target."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 
-STEEPEST_RATIO = 1.25  # of the chord's slope, with which a quintic without curvature at its ends still rises
+STEEPEST_RATIO = 1.25  # largest slope over the chord's, for a monotone quintic
 
 
 def steady(at: Array, value: Array) -> Piecewise:
     """Return the C2 quintics through values at parameters, monotone between neighbours, one channel.
 
-    at : shape (K,), increasing, K >= 2; value : shape (K,)
     Slopes are weighted harmonic means of the neighbouring chords' (Fritsch and Butland, A method for
-    constructing local monotone piecewise cubic interpolants), held to what keeps quintics with no
-    second derivative at their ends monotone; so even turns stay even.
+    constructing local monotone piecewise cubic interpolants). They are limited so that quintics with zero
+    second derivative at their ends stay monotone. Turns of constant rate are reproduced.
+
+    at : shape (K,), increasing, K >= 2
+    value : shape (K,)
     """
     h = np.diff(at)
     slope = _slopes(h, np.diff(value) / h)
@@ -39,7 +41,7 @@ def _slopes(h: Array, chord: Array) -> Array:
 
 
 def _end(chord: float, inner: float) -> float:
-    """Return the slope at an outer end: that of a turn which changes its rate evenly, if it may be."""
+    """Return the slope at an outer end: that of a turn with a constant change of rate, within its limits."""
     return float(
         np.sign(chord) * np.clip((3 * abs(chord) - abs(inner)) / 2, 0.0, STEEPEST_RATIO * abs(chord))
     )

@@ -1,10 +1,10 @@
-"""Which way round the camera turns where it follows nothing: the turns of a whole stretch together.
+"""The direction of turns where the camera follows no target, decided for a whole interval together.
 
-Following a target fixes the turn between two keyframes, a heading of 360 deg or more states it; all others
-are chosen by a method of ``solvers.headings``, over the time that the stretch takes about. Of most methods
-only the choice is taken: the curve is the steady turn through the angles chosen (``turns.steady``), monotone
-from keyframe to keyframe, where a curve of least acceleration swings back before it turns. Of those in
-``solvers.headings.FLOWN`` the curve is flown, too.
+Between two keyframes that follow a target the turn is fixed. A heading of 360 deg or more states it. All
+other turns are chosen by a method of ``solvers.headings``, with approximate times. For most methods only the
+choice is used: the curve is the monotone turn through the chosen angles (``turns.steady``), because a curve
+of least acceleration swings back before it turns. For methods in ``solvers.headings.FLOWN`` the curve is used
+as well.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ from shotc.solvers.headings import DEFAULT, FLOWN
 from shotc.solvers.headings.solve import solve_headings
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns
 
-EASE_RATIO = 1.3  # times the shortest turn from rest to rest, which an interval takes at least
-SLOWER = (1.0, 1.5, 2.0, 3.0)  # times that time, where a curve that is to be flown needs more
-LONGEST_KEYFRAMES = 24  # keyframes that are decided together
+EASE_RATIO = 1.3  # least time of an interval over the shortest turn from rest to rest
+SLOWER = (1.0, 1.5, 2.0, 3.0)  # factors of that time, tried for methods whose curve is flown
+LONGEST_KEYFRAMES = 24  # most keyframes that are decided together
 TURNS = ".headings"
-"""Of statistics: how the turns of a shot are flown."""
+"""Key of statistics: how the turns of a shot are flown."""
 
 
 @dataclass(frozen=True, slots=True)
 class Turning:
     """How a shot's camera may turn.
 
-    method : of ``solvers.headings.METHODS``; speed : m/s along the path
-    rate, acceleration : rad/s and rad/s^2 of the camera over ground
+    method : of ``solvers.headings.METHODS``
+    speed : along the path, m/s
+    rate, acceleration : of the camera yaw in W, rad/s and rad/s^2
     """
 
     method: str
@@ -48,16 +49,17 @@ class Turning:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlannedTurn:
-    """A yaw that a method has planned from one rest to the next.
+    """A yaw curve that a method planned from one rest to the next.
 
-    clock : about when a path parameter is passed, seconds, over s; yaw : over these seconds, rad
+    clock : approximate time at which a path parameter is passed, seconds, over s
+    yaw : over these seconds, rad
     """
 
     clock: Piecewise
     yaw: Piecewise
 
     def covers(self, s: Array) -> Mask:
-        """Tell which path parameters it is planned for."""
+        """Return for which path parameters it is planned."""
         return np.asarray((s >= self.clock.start) & (s <= self.clock.end))
 
     def at(self, s: Array) -> Array:
@@ -67,10 +69,11 @@ class PlannedTurn:
 
 
 class Turned(NamedTuple):
-    """How a shot's camera turns.
+    """The turns of a shot's camera.
 
-    shifts : by how many rad each group is to be turned, whole turns all
-    planned : turns whose curves are to be flown; unsolved : stretches whose curve the method did not find
+    shifts : whole turns by which each group is shifted, rad
+    planned : turns whose curves are flown
+    unsolved : number of intervals for which the method found no curve
     """
 
     shifts: list[float]
@@ -80,11 +83,12 @@ class Turned(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """A yaw that is known: at a keyframe, or in a picture on the way that follows a target.
+    """A known yaw: at a keyframe, or at an end of an interval that follows a target.
 
-    s : path parameter, increasing from one to the next; yaw : rad, any winding
-    group : known yaws of one group keep the turns between them
-    turn : stated from the known one before to this one, rad; None where it is free
+    s : path parameter, increasing from one to the next
+    yaw : rad, any winding
+    group : within a group the turns between yaws are fixed
+    turn : stated turn from the known yaw before to this one, rad; None where it is free
     rest : whether the camera stands still here
     """
 
@@ -96,7 +100,7 @@ class Known:
 
 
 def turning(drone: Drone, pace: float, method: str = DEFAULT) -> Turning:
-    """Return how a drone's camera turns at a share of its limits."""
+    """Return how a drone's camera may turn at a share of its limits."""
     limits, gimbal = drone.limits, drone.gimbal
     own = drone.body != "follow-camera"
     rate = limits.yaw_rate + (gimbal.rate if own else 0.0)
@@ -105,7 +109,7 @@ def turning(drone: Drone, pace: float, method: str = DEFAULT) -> Turning:
 
 
 def turned(known: list[Known], how: Turning) -> Turned:
-    """Return how the camera turns through what is known; groups count from 0."""
+    """Return the turns of the camera through known yaws; groups count from 0."""
     found = [0.0] * (known[-1].group + 1)
     planned, unsolved = list[PlannedTurn](), 0
     angle, start = known[0].yaw, 0
@@ -128,7 +132,7 @@ def turned(known: list[Known], how: Turning) -> Turned:
 
 
 def _chosen(known: list[Known], how: Turning) -> tuple[Array, Headings]:
-    """Return about when each is passed, seconds, and the turns."""
+    """Return the approximate times of known yaws, seconds, and the chosen turns."""
     yaw = np.array([k.yaw for k in known])
     stated = tuple(_fixed(a, b) for a, b in pairwise(known))
     turns = np.abs([n if t is None else t for t, n in zip(stated, nearest_turns(yaw), strict=True)])
@@ -139,7 +143,7 @@ def _chosen(known: list[Known], how: Turning) -> tuple[Array, Headings]:
         found = solve_headings(task, how.method)
         if found.curve is not None:
             break
-    # Without a solution the first choice is as good: the time pass gives the turn the time that it needs.
+    # Without a curve the choice is still valid, because the time pass gives a turn enough time.
     return task.at, found
 
 
@@ -148,7 +152,7 @@ def _fixed(a: Known, b: Known) -> float | None:
         return b.yaw - a.yaw
     if b.turn is None:
         return None
-    # Yaws on the path are those of the keyframes but for what bending the path took.
+    # Yaws on the path differ from those of the keyframes where the path deviates from these.
     return b.turn + wrapped(b.yaw - a.yaw - b.turn)
 
 
@@ -160,9 +164,11 @@ def _shortest(turn: Array, how: Turning) -> Array:
 
 
 def turns_of(shot: str, unsolved: int, method: str) -> tuple[tuple[str, str], ...]:
-    """Return whether the turns of a shot are flown as a method plans them, where its curves are flown.
+    """Return a statistic that tells whether a shot's turns are flown as the method plans them.
 
-    unsolved : stretches whose curve the method did not find
+    Empty for methods whose curves are not flown.
+
+    unsolved : number of intervals for which the method found no curve
     """
     if method not in FLOWN:
         return ()

@@ -1,7 +1,7 @@
-"""The way round, over and through what is of triangles: Dijkstra over free voxels, pulled straight.
+"""The route around, above and through meshes: Dijkstra over free voxels, then shortcuts.
 
-That two voxels are free does not prove the edge between them. Edges of the way that was found are tested
-exactly; those that fail are removed, and the way is searched again (lazy search, Bohlin and Kavraki 2000).
+Two free voxels do not prove the edge between them. Therefore the edges of the route are tested exactly; those
+that fail are removed, and the search is repeated (lazy search, Bohlin and Kavraki 2000).
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ from shotc.geom.surface.triangles import halved
 from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 
-AROUND_M = (15.0, 45.0, 135.0)  # metres beyond both ends in which a way is sought, in turn
-FINEST_M = 1.0  # side of a voxel at least
-MOST_VOXELS = (120_000, 600_000)  # of one search, in turn: coarse ones first
-SEARCHES = 60  # of one grid, after edges that failed
-ROOM_M = 1.0  # metres beyond a clearance within which a way is dearer
-NEAR_PRICE = 1.0  # times the length, of what is at its clearance
-UNSURE_RATIO = 1.5  # times the length, of an edge that its voxels do not prove
-CLIMB_PRICE = 0.3  # extra length for each metre up or down
+AROUND_M = (15.0, 45.0, 135.0)  # metres around both ends in which a route is searched, in turn
+FINEST_M = 1.0  # least side of a voxel
+MOST_VOXELS = (120_000, 600_000)  # most voxels of one search, in turn
+SEARCHES = 60  # searches in one grid, after edges that failed
+ROOM_M = 1.0  # metres beyond a clearance within which a route has a higher price
+NEAR_PRICE = 1.0  # additional price over length, at the clearance itself
+UNSURE_RATIO = 1.5  # price factor of an edge that its voxels do not prove
+CLIMB_PRICE = 0.3  # extra length per metre of climb or descent
 REMOVED = 1e9  # price of an edge that failed
 SHORTCUTS_AT_ONCE = 16
-LONGEST_M = 15.0  # leg: its pieces are short, so that they need few planes
-ROOMY_M, ROUTE_MARGIN_M = 0.5, 2.0 * MARGIN_M  # kept beyond clearances by shortcuts, in turn
-DETOUR_RATIO = 1.15  # how much longer a roomy way may be than one that scrapes past
-_IN_VOXEL = 0.5 * 3.0**0.5  # sides: how far a point of a voxel is from its middle
-_IN_TRIANGLE = 3.0**-0.5  # longest edges: how far a point of a triangle is from its nearest corner
+LONGEST_M = 15.0  # metres of a leg; short pieces need few half-spaces
+ROOMY_M, ROUTE_MARGIN_M = 0.5, 2.0 * MARGIN_M  # metres kept beyond clearances by shortcuts, in turn
+DETOUR_RATIO = 1.15  # largest ratio of lengths between a route with ROOMY_M and one without
+_IN_VOXEL = 0.5 * 3.0**0.5  # sides: largest distance of a point of a voxel from its middle
+_IN_TRIANGLE = 3.0**-0.5  # longest edges: largest distance in a triangle from the nearest corner
 _STEPS = np.array(
     [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if (x, y, z) > (0, 0, 0)]
 )
@@ -46,9 +46,11 @@ _STEPS = np.array(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Grid:
-    """Voxels about two places.
+    """A grid of voxels around two places.
 
-    low : middle of the first one, W; side : metres; shape : voxels along each axis
+    low : middle of the first voxel in W, metres
+    side : metres
+    shape : number of voxels along each axis
     """
 
     low: Array
@@ -61,9 +63,9 @@ class _Grid:
 
 
 def route_through(space: FreeSpace, start: Array, end: Array) -> Array | None:
-    """Return the corners of a way, shape (K, 3), both ends included; None if none was found.
+    """Return the corners of a route, shape (K, 3), both ends included; None if none was found.
 
-    Both points must themselves be free.
+    start, end : free points, shape (3,)
     """
     sides = set[tuple[float, float]]()
     for around in AROUND_M:
@@ -79,7 +81,7 @@ def route_through(space: FreeSpace, start: Array, end: Array) -> Array | None:
 
 
 def _grid(space: FreeSpace, ends: tuple[Array, Array], around: float, most: int) -> _Grid:
-    """Return voxels about two places, so that one of them is the middle of a voxel."""
+    """Return a grid around two places, such that the first is the middle of a voxel."""
     low, high = np.minimum(*ends) - around, np.maximum(*ends) + around
     floors = [wall.offset for wall in space.walls if wall.normal == (0.0, 0.0, 1.0)]
     ceilings = [-wall.offset for wall in space.walls if wall.normal == (0.0, 0.0, -1.0)]
@@ -111,7 +113,7 @@ class _Search:
         self.graph = csr_array(coo_array((price, (np.minimum(a, b), np.maximum(a, b))), shape=(count, count)))
 
     def way(self) -> Array | None:
-        """Return the cheapest way all of whose edges are free, shape (K, 3); None without any."""
+        """Return the cheapest route whose edges are all free, shape (K, 3); None if there is none."""
         for _ in range(SEARCHES):
             cost, before = dijkstra(self.graph, directed=False, indices=0, return_predecessors=True)
             if not cost[1] < REMOVED:
@@ -134,7 +136,7 @@ class _Search:
 
 
 def stopped(space: FreeSpace, a: Array, b: Array, margin: float) -> Mask:
-    """Tell which segments a-b, shapes (N, 3), between free places come too near to something; (N,)."""
+    """Return which segments a-b, shapes (N, 3), between free places are too near to an obstacle, (N,)."""
     found: Mask = np.any(blocked(space, a, b, margin), axis=1)
     for ground in space.terrain:
         some = np.flatnonzero(~found)
@@ -144,7 +146,7 @@ def stopped(space: FreeSpace, a: Array, b: Array, margin: float) -> Mask:
 
 
 def _room(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
-    """Tell which voxels' middles are free, and how much more room than that they have at least, metres."""
+    """Return which voxels' middles are free, and lower bounds of their slack beyond a margin, metres."""
     every = np.arange(int(np.prod(grid.shape)))
     slack = np.full(len(every), ROOM_M)
     for mesh in space.meshes:
@@ -159,10 +161,10 @@ def _room(space: FreeSpace, grid: _Grid) -> tuple[Mask, Array]:
 
 
 def _beside(beside: BesideMesh, grid: _Grid) -> Array:
-    """Return how much farther than the clearance voxels' middles are, at least, metres; at most about ROOM_M.
+    """Return lower bounds of the slack of voxels' middles from a mesh, metres, at most about ROOM_M.
 
-    The distance from the nearest voxel with a corner of a small triangle tells it roughly; where that does
-    not do, the distance is measured.
+    The distance from the nearest voxel with a corner of a small triangle gives a rough bound. Where that is
+    not enough, the distance is measured.
     """
     side, shape, surface = grid.side, grid.shape, beside.mesh.surface
     reach = beside.clearance + ROOM_M + (_IN_VOXEL + _IN_TRIANGLE) * side
@@ -202,7 +204,7 @@ def _neighbours(grid: _Grid, free: Mask) -> IntArray:
 
 
 def _to_ends(nodes: Array, side: float) -> IntArray:
-    """Return pairs of the two ends, nodes 0 and 1, and what is near them."""
+    """Return pairs of the two ends, nodes 0 and 1, and the nodes near them."""
     pairs = []
     for end in (0, 1):
         away = np.linalg.norm(nodes[2:] - nodes[end], axis=1)
@@ -212,13 +214,13 @@ def _to_ends(nodes: Array, side: float) -> IntArray:
 
 
 def _pulled(space: FreeSpace, way: Array) -> Array:
-    """Return a way pulled straight: with room where that is hardly longer."""
+    """Return a route with shortcuts, with a large margin where that is hardly longer."""
     roomy, close = (_taut(space, way, margin) for margin in (ROOMY_M, ROUTE_MARGIN_M))
     return roomy if _length(roomy) <= DETOUR_RATIO * _length(close) else close
 
 
 def _taut(space: FreeSpace, way: Array, margin: float) -> Array:
-    """Return the corners that are left after the longest shortcuts that keep a margin."""
+    """Return the corners that remain after the longest shortcuts that keep a margin."""
     corners, i, last = [0], 0, len(way) - 1
     while i < last:
         i = _farthest(space, way, i, margin)
@@ -227,7 +229,7 @@ def _taut(space: FreeSpace, way: Array, margin: float) -> Array:
 
 
 def _farthest(space: FreeSpace, way: Array, i: int, margin: float) -> int:
-    """Return the last corner that is free to be flown to from one; the next one at least."""
+    """Return the last corner with a free segment from corner i; at least the next one."""
     for high in range(len(way), i + 1, -SHORTCUTS_AT_ONCE):
         some = np.arange(high - 1, max(i + 1, high - 1 - SHORTCUTS_AT_ONCE), -1)
         if not len(some):
@@ -243,7 +245,7 @@ def _length(way: Array) -> float:
 
 
 def _in_short_legs(way: Array) -> Array:
-    """Return a way with more corners, so that no leg is longer than LONGEST_M."""
+    """Return a route with more corners, so that no leg is longer than LONGEST_M."""
     parts = [way[:1]]
     for a, b in pairwise(way):
         count = int(np.ceil(np.linalg.norm(b - a) / LONGEST_M))

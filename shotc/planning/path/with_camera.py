@@ -1,4 +1,4 @@
-"""A refined camera put into its shot's leg, with a body that turns under it."""
+"""Put a refined camera into its shot's leg, with a body yaw for it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from shotc.planning.path.shots import stack
 from shotc.solvers.conic import Status
 
 SAME_END = 1e-9  # metres or radians
-LENS = 5  # the column of the field of view in a camera that has one
+LENS = 5  # channel of the field of view in a refined camera
 
 
 class NoTransit(Exception):
-    """A refined shot has no body or no way to it; the text says what cannot be kept.
+    """A refined shot has no body yaw, or no transfer to it; the text says what cannot be kept.
 
-    least : seconds that the shot would have to be given, where it is its time that cannot
+    least : least duration of the shot, seconds, where the duration is the reason
     """
 
     def __init__(self, what: str, least: float | None = None) -> None:
@@ -33,12 +33,15 @@ class NoTransit(Exception):
 
 @lru_cache(maxsize=64)
 def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | None = None) -> MovingLeg:
-    """Return a shot's leg with another camera (see ``rejoined``), and the body that goes with it.
+    """Return a shot's leg with another camera (see ``rejoined``), and the body yaw for it.
 
-    ahead : how the shot is to look ahead (``ahead_in``). A camera that looks along its path looks along the
-        new one; its pitch is kept.
-    The same leg for the same camera: a refiner looks at it before it is put back, and what was found of it
-    then (its times above all) holds for it afterwards.
+    The result is cached, so that the leg which a refiner examines is the one put back, with its cached times.
+
+    ahead : the look-ahead constraint (``ahead_in``); a camera that looks along its path looks along the new
+        one and keeps its pitch
+
+    Raises ValueError if the camera does not cover its leg. Raises NoTransit if no body yaw keeps the gimbal
+    range.
     """
     if isinstance(leg, HoldLeg):
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg: it stands still")
@@ -59,7 +62,7 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | No
         raise NoTransit("the gimbal's yaw range")
     curve = stack(camera, body, restrict(lens, camera.breaks))
     if kept:
-        # Fits are good to 1e-9; joints are to be equal.
+        # Fits are accurate to 1e-9, but joints have to be equal.
         ctrl = curve.ctrl.copy()
         ctrl[0, 0], ctrl[-1, -1] = old.ctrl[0, 0], old.ctrl[-1, -1]
         curve = Piecewise(curve.breaks, ctrl)
@@ -73,7 +76,7 @@ def _facing(drone: Drone, leg: MovingLeg, camera: Piecewise, ahead: Ahead) -> Fa
 
 
 def _body(drone: Drone, leg: MovingLeg, camera: Piecewise, ends: Piecewise | None) -> Piecewise | None:
-    """Return the body's yaw, with the ends of an earlier curve if there is one; None without a solution."""
+    """Return the body yaw, with the end values of an earlier curve if given; None if infeasible."""
     start, end = (None, None) if ends is None else ends.ctrl[[0, -1], [0, -1], BODY_YAW].tolist()
     task = BodyTask(camera.channels(0, 1, 2), camera.channels(3), start, end, leg.pace * drone.limits.speed)
     status, body = body_line(drone, task)
@@ -81,5 +84,5 @@ def _body(drone: Drone, leg: MovingLeg, camera: Piecewise, ends: Piecewise | Non
 
 
 def same(a: np.ndarray, b: np.ndarray) -> bool:
-    """Tell whether two poses are one."""
+    """Return whether two poses are equal within rounding."""
     return bool(np.abs(a - b).max() < SAME_END)
