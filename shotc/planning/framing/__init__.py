@@ -1,1 +1,1 @@
-"""Where targets stand on screen: camera angles of keyframes."""
+"""The camera angles of keyframes, from the places of targets on screen."""

@@ -1,8 +1,7 @@
-"""Where on the screen a target may stand, and which of those places is nearest to where it stood.
+"""Candidates for a target's place on screen, and the one nearest to the place that the author framed.
 
-Equations 1 and 2 of *framing*: screen places are compared as unit view directions, not as points of
-the picture. A place at which the target would be cropped, or that the gimbal cannot point to, is no
-candidate.
+By equations 1 and 2 of *framing*, screen places are compared as unit view directions, not as points of the
+picture. A place is no candidate if the target would be cropped there, or if the gimbal cannot point to it.
 """
 
 from collections.abc import Iterable
@@ -15,20 +14,23 @@ from shotc.geom.vec import Vec2, Vec3
 from shotc.ir.limits import Range
 from shotc.ir.mission import Composition
 
-# Metres out of the frame, or past the gimbal's stop at the target: half of what verification lets pass.
+# Metres out of the frame, or past the gimbal's stop at the target: half of verification's tolerance.
 TOUCH_M = 0.5 * ROUNDING_M
-TIE_DISTANCE = 1e-9  # a later candidate must be nearer by more than this, so that ties fall to the first
-LINE_SAMPLES = 32  # samples of a line where its nearest point is no candidate
+TIE_DISTANCE = 1e-9  # a later candidate must be nearer by more than this, so ties go to the first
+LINE_SAMPLES = 32  # samples of a line whose nearest point is no candidate
 HALVINGS = 40
 GOLDEN = (sqrt(5) - 1) / 2
 
 
 class Setting(NamedTuple):
-    """A camera that stands still and may turn, and the target it frames.
+    """A camera at a fixed position with free angles, and the target that it frames.
 
-    offset : target's centre less camera, W, m; shape : of the target
-    hfov : rad; aspect : width / height; pitch : gimbal's range, rad
-    yaw_if_vertical : yaw to take where the target is straight above or below, rad
+    offset : target's centre minus camera, W, metres
+    shape : of the target
+    hfov : rad
+    aspect : width / height
+    pitch : gimbal's range, rad
+    yaw_if_vertical : yaw where the target is vertically above or below, rad
     """
 
     offset: Vec3
@@ -39,16 +41,18 @@ class Setting(NamedTuple):
     yaw_if_vertical: float = 0.0
 
     def aim(self, uv: Vec2) -> Vec2 | None:
-        """Return (yaw, pitch) that shows the target's centre at ``uv``; None where no camera does."""
+        """Return (yaw, pitch) that shows the target's centre at ``uv``; None where no angles do."""
         return aim_at(self.offset, uv, self.hfov, self.aspect, self.yaw_if_vertical)
 
     def margin(self, aim: Vec2) -> float:
-        """Return how far inside the frame the whole target lies, metres; negative is cropped."""
+        """Return the margin of the whole target inside the frame, metres; negative is cropped."""
         camera = view(aim[0], aim[1], self.hfov, self.aspect)
         return float(min(frustum_margins(camera, self.offset, self.shape)))
 
     def slack(self, uv: Vec2) -> float:
-        """Return how far ``uv`` is from being no candidate, metres at the target; negative is none."""
+        """Return how far ``uv`` is inside the set of candidates, metres at the target; negative is
+        outside.
+        """
         aim = self.aim(uv)
         if aim is None:
             return -inf
@@ -56,16 +60,16 @@ class Setting(NamedTuple):
         return min(self.margin(aim), swing * hypot(*self.offset))
 
     def screen(self, aim: Vec2) -> Vec2 | None:
-        """Return (u, v) of the target's centre under this aim; None behind the camera."""
+        """Return (u, v) of the target's centre for these angles; None behind the camera."""
         u, v, forward = view(aim[0], aim[1], self.hfov, self.aspect).project(self.offset)
         return (u, v) if forward > 0 else None
 
     def shows(self, aim: Vec2) -> bool:
-        """Tell whether any of the target's outline box is in the frame."""
+        """Return whether any of the target's outline box is in the frame."""
         camera = view(aim[0], aim[1], self.hfov, self.aspect)
         if self.shape.nearest_depth(camera, self.offset) <= 0:
-            # It reaches past the image plane and has no outline; mirrored at the camera, what lies wholly
-            # outside one side of the frame lies wholly inside of it.
+            # It reaches past the image plane and has no outline. Mirrored at the camera, a target wholly
+            # outside one side of the frame lies wholly inside of that side.
             x, y, z = self.offset
             return bool(max(frustum_margins(camera, (-x, -y, -z), self.shape)) <= 0)
         left, right, low, high = self.shape.bounds(camera, self.offset)
@@ -84,7 +88,7 @@ class Setting(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the screen, u = c (upright) or v = c, run through by t in [-1, 1]."""
+    """A line of the screen, u = c (upright) or v = c, with parameter t in [-1, 1]."""
 
     c: float
     upright: bool
@@ -96,9 +100,9 @@ class Line(NamedTuple):
     def foot(self, setting: Setting, asked: Vec2) -> float:
         """Return the t whose view direction is nearest to that of ``asked``.
 
-        With m the asked direction, the line's unit direction has the product
-        (a + b t) / sqrt(k + g^2 t^2) with m. It has one extreme, at t = b k / (a g^2), and falls off
-        to both sides of it; so clamping to the frame keeps it nearest.
+        With m the asked direction, the product of the line's unit direction with m is (a + b t) / sqrt(k +
+        g^2 t^2). It has one extreme, at t = b k / (a g^2), and decreases on both sides of it; so the value
+        clamped to the frame is still the nearest.
         """
         half_w = tan(setting.hfov / 2)
         fixed, free = (half_w, half_w / setting.aspect)
@@ -112,7 +116,7 @@ class Line(NamedTuple):
 
 
 def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
-    """Return the place of the set nearest to ``asked`` that is a candidate, or None."""
+    """Return the candidate of the composition nearest to ``asked``, or None."""
     points = [p for p in composition.points if setting.slack(p) >= -TOUCH_M]
     lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
     place = _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
@@ -122,14 +126,14 @@ def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -
 def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
     """Return the nearest candidate on the vertical lines through the set's points, or None.
 
-    This is what remains where the target is cropped at every place of the set itself.
+    It is used where the target is cropped at every place of the set itself.
     """
     verticals = dict.fromkeys((*(u for u, _ in composition.points), *composition.u_lines))
     return _nearest(setting, asked, (_along(setting, Line(u, True), asked) for u in verticals))
 
 
 def roomiest(setting: Setting, composition: Composition) -> float:
-    """Return the largest slack on the set's points and lines and on the verticals through its points."""
+    """Return the largest slack on the set's points and lines, and on the verticals through its points."""
     points = (*composition.points, *composition.last)
     verticals = dict.fromkeys((*(u for u, _ in points), *composition.u_lines))
     lines = (*(Line(u, True) for u in verticals), *(Line(c, False) for c in composition.v_lines))
@@ -137,7 +141,7 @@ def roomiest(setting: Setting, composition: Composition) -> float:
 
 
 def has_candidate(setting: Setting, composition: Composition) -> bool:
-    """Tell whether the target can stand somewhere on the set itself."""
+    """Return whether the set itself has a candidate."""
     lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
     return any(setting.slack(p) >= -TOUCH_M for p in (*composition.points, *composition.last)) or any(
         setting.slack(line.point(_best(setting, line))) >= -TOUCH_M for line in lines
@@ -157,8 +161,8 @@ def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Ve
 def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
     """Return the candidate of the line nearest to ``asked``, or None.
 
-    Distance grows away from the foot, so going from it the first candidate on either side is that
-    side's nearest.
+    The distance increases away from the foot, so the first candidate on either side of it is the nearest of
+    that side.
     """
     foot = line.foot(setting, asked)
     if setting.slack(line.point(foot)) >= -TOUCH_M:
@@ -176,9 +180,10 @@ def _best(setting: Setting, line: Line) -> float:
 
 
 def _peaks(setting: Setting, line: Line) -> list[float]:
-    """Return the t of every local maximum of the slack that an even sample shows.
+    """Return the t of every local maximum of the slack in an even sample.
 
-    Slack may have several, of equal height on a level line: each is a stretch where the target may fit.
+    The slack may have several, of equal height on a level line; each belongs to an interval where the target
+    may fit.
     """
     steps = [-1.0 + 2.0 * i / LINE_SAMPLES for i in range(LINE_SAMPLES + 1)]
     slacks = [-inf, *(setting.slack(line.point(t)) for t in steps), -inf]
@@ -212,10 +217,10 @@ def _summit(setting: Setting, line: Line, middle: float) -> float:
 
 
 def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float | None:
-    """Walk the way from the foot to one end of the line; where candidates begin, bisect their border."""
+    """Return the first candidate from the foot to an end of the line, its border bisected; None if none."""
     foot, end = way
     steps = [foot + (end - foot) * i / LINE_SAMPLES for i in range(1, LINE_SAMPLES + 1)]
-    # A stretch of candidates too short for the sample is found at its peak.
+    # An interval of candidates too short for the sample is found at its peak.
     steps += [t for t in peaks if (t - foot) * (end - foot) > 0]
     steps.sort(key=lambda t: abs(t - foot))
     outside = foot
@@ -227,7 +232,7 @@ def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float
 
 
 def _border(setting: Setting, line: Line, outside: float, inside: float) -> float:
-    """Bisect for where candidates begin; the whole target is inside the frame there if it can be."""
+    """Return where candidates begin, by bisection; there the whole target is inside the frame if possible."""
     least = min(TOUCH_M, setting.slack(line.point(inside)))
     for _ in range(HALVINGS):
         middle = (outside + inside) / 2

@@ -1,7 +1,7 @@
-"""Keyframes of what moves: placed in the picture of the moment at which the camera is there.
+"""Keyframes of moving targets, placed by the picture at the time when the camera is there.
 
-What that picture is depends on when the shot begins. Where the mission does not say, it is placed for the
-earliest time there is, and again, by ``placed_at``, for the one at which it begins.
+That picture depends on the start of the shot. Where the mission does not fix the start, the shot is placed
+for the earliest one, and again by ``placed_at`` for the one at which it starts.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from shotc.rounding import up
 
 
 def placed_at(mission: MissionIR, placed: PlacedShot, start: float) -> PlacedShot:
-    """Return a placed shot as it is where its first frame is at ``start``, seconds."""
+    """Return a placed shot for a first frame at mission time ``start``, seconds."""
     shot = at_start(mission, placed.shot, start)
     if not is_keyed(shot) or shot is placed.shot:
         return placed._replace(shot=shot)
@@ -23,7 +23,7 @@ def placed_at(mission: MissionIR, placed: PlacedShot, start: float) -> PlacedSho
 
 
 def slowed(mission: MissionIR, placed: PlacedShot, start: float, times: float) -> PlacedShot:
-    """Return a shot that takes that many times as long, and is at its keyframes that much later."""
+    """Return a shot with its duration and its keyframes' times multiplied by ``times``."""
     shot = placed.shot
     timing = shot.timing._replace(duration=up((shot.timing.duration or 0.0) * times, 1))
     later = tuple(k if k.time is None else k._replace(time=up(k.time * times, 1)) for k in shot.keyframes)
@@ -32,12 +32,14 @@ def slowed(mission: MissionIR, placed: PlacedShot, start: float, times: float) -
 
 
 def moments(mission: MissionIR, shot: Shot, start: float) -> tuple[MissionIR, ...]:
-    """Return, for every keyframe, the mission with its targets where they are when the camera is there."""
+    """Return, for every keyframe, the mission with its targets at their places when the camera is there."""
     return tuple(frozen(mission, start + t) for t in arrivals(shot))
 
 
 def is_sure(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> bool:
-    """Tell whether what a keyframe shows is the same whenever its shot begins, or the mission says when."""
+    """Return whether a keyframe's picture is independent of the shot's start, or the mission fixes
+    the start.
+    """
     if shot.timing.start is not None or not is_keyed(shot):
         return True
     if keyframe.beside is not None and keyframe.beside.turns:

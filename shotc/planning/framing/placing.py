@@ -19,11 +19,11 @@ NORTH_RAD = pi / 2
 
 
 class Unmet(NamedTuple):
-    """A keyframe that does not have its composition.
+    """A keyframe whose composition is infeasible.
 
     aim : (yaw, pitch) as the author framed it, rad
-    asked : the place on screen that is asked for, None where the keyframe keeps what its author framed
-    place : where the target stands instead, None where no place shows it whole
+    asked : place on screen of that framing; None where the keyframe keeps its author's framing
+    place : where the target stands instead; None where no place shows it whole
     """
 
     keyframe: Keyframe
@@ -36,9 +36,9 @@ class Unmet(NamedTuple):
 def place_shot(
     mission: MissionIR, shot: Shot, moments: Sequence[MissionIR] = ()
 ) -> tuple[tuple[PlacedKeyframe, ...], tuple[Unmet, ...]]:
-    """Place one shot's keyframes; the misses are what its composition could not give.
+    """Return one shot's placed keyframes, and those whose composition is infeasible.
 
-    moments : for every keyframe the mission as it is when the camera is there, where something moves
+    moments : for every keyframe the mission at the time when the camera is there, if something moves
     """
     placed: list[PlacedKeyframe] = []
     misses: list[Unmet] = []
@@ -59,10 +59,10 @@ def _place(
         return _placed(keyframe, _own_aim(keyframe, drone, course), None, None), None
     setting = setting_of(mission, drone, keyframe, course)
     if shot.size is not None and shot.size > 1.0:
-        # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
+        # A shot of this size crops the target on purpose, so only its centre is placed.
         setting = setting._replace(shape=POINT)
     aim = own_framing(setting, keyframe, course)
-    # A camera that looks at its target holds it in the middle, to the last bit.
+    # A camera that looks at its target has it exactly in the middle.
     asked = (0.0, 0.0) if keyframe.aim is None else setting.screen(aim)
     composition = keyframe.composition
     if asked is None or composition.keep or composition.watches:
@@ -94,17 +94,17 @@ def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: flo
 
 
 def own_framing(setting: Setting, keyframe: Keyframe, course: float) -> Vec2:
-    """Return (yaw, pitch) of the camera as the user framed it, before composition."""
+    """Return (yaw, pitch) of the camera as the author framed it, before composition."""
     if keyframe.aim is None:
         return setting.aim((0.0, 0.0)) or (course, 0.0)
     return explicit_aim(keyframe.at, keyframe.aim, course)
 
 
 def explicit_aim(at: Vec3, aim: Vec2 | Vec3, course: float) -> Vec2:
-    """Return (yaw, pitch) of angles, or of a camera at ``at`` that looks at a point, rad."""
+    """Return (yaw, pitch) of given angles, or of a camera at ``at`` that looks at a point, rad."""
     if len(aim) == 2:
         return aim
-    # The middle of the screen can always be turned to a point, whatever the field of view.
+    # The middle of the screen can be turned to any point, with any field of view.
     return aim_at(minus(aim, at), (0.0, 0.0), 1.0, 1.0, course) or (course, 0.0)
 
 
@@ -129,7 +129,7 @@ def _placed(keyframe: Keyframe, aim: Vec2, asked: Vec2 | None, reference: Vec2 |
 
 
 def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> float:
-    """Return the yaw of the motion at a keyframe; where it does not move sideways, the last yaw."""
+    """Return the yaw of the motion at a keyframe; without horizontal motion, ``otherwise``."""
     around = keyframes[max(0, index - 1) : index + 2]
     for a, b in reversed(list(pairwise(around))):
         dx, dy = b.at[0] - a.at[0], b.at[1] - a.at[1]
@@ -139,5 +139,5 @@ def _course(keyframes: tuple[Keyframe, ...], index: int, otherwise: float) -> fl
 
 
 def _direction(angle: float) -> float:
-    # Not by way of the remainder where it need not be, which would change its last bits.
+    # The remainder is avoided where possible, because it would change the last bits.
     return angle if -pi < angle <= pi else direction(angle)

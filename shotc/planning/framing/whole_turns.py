@@ -1,7 +1,7 @@
-"""How often the camera goes round between keyframes, where the author says so.
+"""Whole turns of the camera between keyframes, where the author states them.
 
-A heading within a whole turn, either way, is a direction: how the camera gets there is free. One of 360 deg
-or more counts turns: it is led up to by just the turn from the number written before it.
+A heading within one whole turn, either way, is a direction, and the turn to it is free. A heading of 360 deg
+or more states turns: the camera turns by exactly the difference from the number written before it.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ def with_turns(
 ) -> tuple[PlacedKeyframe, ...]:
     """Return the placed keyframes with the turns that their headings state.
 
-    Where nothing is written before, the keyframe before counts with its heading from 0 to 360 deg. What
-    composition turns the camera by is added.
+    Where no heading is written before, that of the keyframe before counts, from 0 to 360 deg. The change of
+    angle due to composition is added.
     """
     done = placed[:1]
     for i in range(1, len(placed)):

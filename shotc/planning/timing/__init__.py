@@ -1,1 +1,1 @@
-"""Timing s(t): legs over time, within limits, by deadlines."""
+"""Timing s(t) of legs, within limits and deadlines."""

@@ -1,7 +1,8 @@
-"""Gives every move the time that a leg's duration and its keyframes' times ask for, or says what is too fast.
+"""Timing of a leg with deadlines: its duration and the times of its keyframes.
 
-Times fixed by the mission are anchors; between two of them all moves and parts of moves are slowed
-alike from the fastest that the limits allow. What follows the last anchor keeps its pace.
+Times fixed by the mission are anchors. Between two anchors all moves and parts of moves are slowed by the
+same factor from the fastest feasible ones. After the last anchor the leg keeps its pace. If the deadlines are
+infeasible, the result says which one, and how much later it could be.
 """
 
 from __future__ import annotations
@@ -20,18 +21,18 @@ from shotc.planning.timing.move import Move
 from shotc.planning.timing.profile import SAME
 from shotc.planning.timing.windows import windowed_move
 
-# What a flight is late at least that no single stretch makes late; seconds that are none.
+# Least relative lateness of a flight that no single interval makes late; seconds taken as none.
 LITTLE, SOON = 0.01, 1e-3
-# Rounding by which a time may be shorter than the shortest, relative and in seconds; and the share to which
-# the solver knows the shortest, a tenth of what it keeps from the limits: a move may be so much faster.
+# Relative rounding by which a time may be shorter than the least one; and the accuracy of the solver's least
+# time, by which a move may be faster: a tenth of its margin to the limits.
 ROUNDING, SOLVED_TO = 1e-9, 1e-7
-# The search for the least delay that would do: first try, seconds; doublings; halvings after that.
+# The search for the least feasible delay: first try, seconds; doublings; then bisection steps.
 FIRST_DELAY, DOUBLINGS, HALVINGS = 0.05, 9, 5
 
 
 @dataclass(frozen=True, slots=True)
 class Timed:
-    """The moves at the times asked for, and the plan with the waits that these need."""
+    """The moves that meet the deadlines, and the plan with the necessary waits."""
 
     plan: Plan
     moves: tuple[Move, ...]
@@ -39,11 +40,12 @@ class Timed:
 
 @dataclass(frozen=True, slots=True)
 class TooFast:
-    """The leg cannot be that fast.
+    """A deadline of a leg that is infeasible.
 
-    mark : the keyframe that is not reached in time; None for the end of the leg
-    asked, shortest : seconds from the leg's start; shortest is what would do, None if no delay of it does
-    shifts_rest : whether all later times have to move by as much
+    mark : keyframe that is not reached in time; None for the end of the leg
+    asked, shortest : seconds from the leg's start; shortest is the earliest feasible time, None if no delay
+        of it is feasible
+    shifts_rest : whether all later times have to move by the same amount
     """
 
     mark: Mark | None
@@ -54,7 +56,7 @@ class TooFast:
 
 @dataclass(frozen=True, slots=True)
 class _Anchor:
-    """A place with a time: the leg arrives there and leaves again, seconds from its start."""
+    """A place with fixed times of arrival and departure, seconds from the leg's start."""
 
     s: float
     arrives: float
@@ -67,7 +69,7 @@ class _Anchor:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """A part of a move: where it ends, how long it is to last, how long it does at least; its anchor."""
+    """A part of a move: its end, its duration, its least duration, seconds, and the anchor at its end."""
 
     move: int
     end: float
@@ -78,7 +80,7 @@ class _Part:
 
 @dataclass(frozen=True, slots=True)
 class _Late:
-    """The anchor that is not reached in time, and by how much if that is known."""
+    """The anchor that is not reached in time, and the missing seconds if they are known."""
 
     anchor: int
     lack: float = 0.0
@@ -86,9 +88,10 @@ class _Late:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DueLeg:
-    """A leg with times to meet.
+    """A leg with deadlines.
 
-    fast : its moves at full limits, which are ``ceiling``; paced : at its pace, for what has no time
+    fast : its moves at full limits, which are ``ceiling``
+    paced : its moves at its pace, for the part after the last deadline
     """
 
     leg: PathLeg
@@ -98,11 +101,11 @@ class DueLeg:
     ceiling: Ceiling
 
     def possible(self) -> bool:
-        """Tell whether the times can be met."""
+        """Return whether the deadlines are feasible."""
         return isinstance(_attempt(self, _anchors(self.leg, self.plan)), Timed)
 
     def lateness(self) -> float:
-        """Return by which share of the time between two anchors the fastest flight is late, at least 0."""
+        """Return the relative lateness of the fastest flight between two anchors, at least 0."""
         if self.possible():
             return 0.0
         late = LITTLE
@@ -112,7 +115,7 @@ class DueLeg:
         return late
 
     def meet(self) -> Timed | TooFast:
-        """Return the moves at the times asked for, or the first that cannot be met and what could."""
+        """Return the moves that meet the deadlines, or the first infeasible one and a feasible time."""
         anchors = _anchors(self.leg, self.plan)
         attempt = _attempt(self, anchors)
         if isinstance(attempt, Timed):
@@ -128,12 +131,12 @@ class DueLeg:
 
 
 def has_times(leg: PathLeg) -> bool:
-    """Tell whether a keyframe's time or the leg's length is given."""
+    """Return whether the leg has a duration or a keyframe with a time."""
     return leg.duration is not None or any(mark.time is not None for mark in leg.marks)
 
 
 def flying_times(leg: PathLeg) -> tuple[tuple[float, float], ...]:
-    """Return the places of a leg that have a time, its start first, each with the seconds of flight to it."""
+    """Return the places of a leg with a fixed time, its start first, and the flight time to each, seconds."""
     plan = plan_of(leg)
     anchors = _anchors(leg, plan)
     flown = accumulate((_room(plan, a, b) for a, b in pairwise(anchors)), initial=0.0)
@@ -141,7 +144,7 @@ def flying_times(leg: PathLeg) -> tuple[tuple[float, float], ...]:
 
 
 def _anchors(leg: PathLeg, plan: Plan) -> list[_Anchor]:
-    """Return the fixed times in order of s, the start first, one for each place."""
+    """Return the fixed times in order of s, the start first, one per place."""
     first = plan.stops[0]
     anchors = [_Anchor(first.s, 0.0, first.hold)]
     for mark in sorted(leg.marks, key=lambda m: (m.s, m.index)):
@@ -165,7 +168,7 @@ def _anchors(leg: PathLeg, plan: Plan) -> list[_Anchor]:
 
 
 def _room(plan: Plan, a: _Anchor, b: _Anchor) -> float:
-    """Return the seconds that there are for flying from one anchor to the next."""
+    """Return the flight time between two anchors, without holds, seconds."""
     return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
 
 
@@ -196,7 +199,7 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
 
 
 class _FlownPart(NamedTuple):
-    """What is flown of a move: its number, where the part ends, and how long it takes, seconds."""
+    """A part of a move: index of the move, end of the part, and its duration in seconds."""
 
     move: int
     end: float
@@ -204,7 +207,7 @@ class _FlownPart(NamedTuple):
 
 
 def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[_FlownPart]:
-    """Return what is flown between two places, move by move."""
+    """Return the parts of moves between two places."""
     parts = []
     for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):
         low, high = max(s0, start), min(s1, end)
@@ -224,7 +227,7 @@ def _made(timed: DueLeg, fast: Move, parts: list[_Part]) -> Move | None:
 
 
 def _least_delay(timed: DueLeg, anchors: list[_Anchor], late: _Late, shifts_rest: bool) -> float | None:
-    """Return by how much the late anchor (and all after it) has to move at least, or None."""
+    """Return the least feasible delay of the late anchor (and of all after it), seconds, or None."""
 
     def enough(delay: float) -> bool:
         k = late.anchor

@@ -1,4 +1,4 @@
-"""A leg over its own time: as the time pass flies it, or roughly in a moment for those who plan."""
+"""A leg over its own time: with the timing of the time pass, or as a fast estimate for planning."""
 
 from __future__ import annotations
 
@@ -20,9 +20,11 @@ LEAST_SPEED_M_S = 1e-3  # m/s along the path, at rest
 
 
 def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array]:
-    """Return parameters s and the seconds t at which a leg without its holds passes them; shapes (M,).
+    """Return parameters s and the estimated times t at which a leg without holds passes them; shapes (M,).
 
-    pace : share of the limits used. No jerk limit but at the ends: the flown time is a little longer.
+    Jerk is limited at the ends only, so the flown duration is slightly longer.
+
+    pace : share of the limits used
     """
     ceiling = ceiling_of(drone).scaled(pace)
     places, times = [np.array([leg.curve.start])], [np.zeros(1)]
@@ -38,9 +40,10 @@ def rough_times(drone: Drone, leg: MovingLeg, pace: float) -> tuple[Array, Array
 class LegTiming(NamedTuple):
     """A leg over its own time.
 
-    motion : from time 0; the fastest where the leg asks for less time, so that what follows can be judged;
-        None where the leg takes no time
-    too_fast : what it asks for and cannot have; fast : its moves as fast as they may be then
+    motion : from time 0; the fastest one where the deadlines are infeasible, so that later legs can be
+        checked; None where the leg takes no time
+    fast : the fastest moves, where the leg has deadlines
+    too_fast : the infeasible deadline, if there is one
     """
 
     motion: LegMotion | None
@@ -49,9 +52,9 @@ class LegTiming(NamedTuple):
 
 
 def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
-    """Time one leg by the length, the keyframe times, the pace and the smoothing that it asks for.
+    """Return the timing of one leg by its duration, keyframe times, pace and smoothing.
 
-    Times that are asked for go before smoothing.
+    Deadlines have priority over smoothing.
     """
     plan = plan_of(leg)
     if isinstance(leg, HoldLeg):
@@ -70,7 +73,7 @@ def time_leg(leg: PathLeg, ceiling: Ceiling) -> LegTiming:
 
 
 def can_be_timed(leg: MovingLeg, ceiling: Ceiling) -> bool:
-    """Tell whether a leg can have the times that it asks for below a ceiling."""
+    """Return whether a leg's deadlines are feasible below a ceiling."""
     plan = plan_of(leg)
     return _due(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
 
@@ -85,21 +88,21 @@ def _paced(leg: MovingLeg, ceiling: Ceiling) -> Ceiling:
 
 
 def leg_motion(drone: Drone, leg: PathLeg) -> LegMotion | None:
-    """Return a leg as the time pass will fly it, from time 0; what that refuses as fast as it may be.
+    """Return a leg with the timing of the time pass, from time 0; None where it takes no time.
 
-    None where it takes no time.
+    A leg with infeasible deadlines is as fast as possible.
     """
     return time_leg(leg, ceiling_of(drone)).motion
 
 
 def leg_time(drone: Drone, leg: PathLeg) -> float:
-    """Return the seconds of ``leg_motion``."""
+    """Return the duration of ``leg_motion``, seconds."""
     motion = leg_motion(drone, leg)
     return 0.0 if motion is None else motion.duration
 
 
 def lateness(drone: Drone, leg: PathLeg) -> float:
-    """Return by which share of a time asked for the fastest flight of a leg misses it, 0 if by none."""
+    """Return the relative lateness of a leg's fastest flight against its deadlines, at least 0."""
     ceiling, plan = ceiling_of(drone), plan_of(leg)
     fast = fastest_moves(leg, plan, ceiling)
     return DueLeg(leg, plan, fast, fast, ceiling).lateness()

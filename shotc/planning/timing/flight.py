@@ -1,4 +1,4 @@
-"""Puts the timed legs of one drone on mission time: phases, waits, keyframes, references."""
+"""Put the timed legs of one drone on mission time: phases, waits, keyframes and references."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from shotc.planning.timing.profile import Profile
 
 Array = NDArray[np.float64]
 
-# A reference over time gets more knots where it would be this far from the one over the path, half frames.
+# Error of a reference over time against the one over the path, half frames, above which it gets more knots.
 OFF = 2e-5
 SPLITS = 8
 
 
 @dataclass(slots=True)
 class Flight:
-    """A drone's trajectory while it grows, leg by leg."""
+    """A drone's trajectory while it grows leg by leg."""
 
     drone: str
     clock: float = 0.0
@@ -33,9 +33,9 @@ class Flight:
     framing: list[Reference] = field(default_factory=list)
 
     def wait(self, time: float, pose: tuple[float, ...]) -> None:
-        """Hover until a mission time; the wait belongs to the transit before it, or is one.
+        """Hover until a mission time, as part of the transit before it or as a transit of its own.
 
-        A drone that has not left its pad waits there.
+        A drone that has not taken off waits on its pad.
         """
         if time - self.clock < TINY:
             return
@@ -50,7 +50,7 @@ class Flight:
         self.clock = time
 
     def fly(self, leg: PathLeg, motion: LegMotion) -> None:
-        """Add a leg, from now on."""
+        """Add a leg that starts now."""
         start, end = self.clock, self.clock + motion.duration
         t = start + motion.profile.t
         t[-1] = end
@@ -70,7 +70,7 @@ class Flight:
             self.framing.append(_reference(leg.shot, span, leg, motion, start))
 
     def film(self, leg: ClockLeg) -> None:
-        """Add a shot on its own clock, which begins now; the ways into and out of its motion are transits."""
+        """Add a shot on its own clock that starts now; its run-up and run-out are transits."""
         self.curves.append(leg.curve)
         if self.phases and self.phases[-1].name == "transit":
             self.phases[-1] = Phase("transit", None, self.phases[-1].start, leg.start)
@@ -94,7 +94,7 @@ class Flight:
 
 
 def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, clock: float) -> Reference:
-    """Return a framing span over mission time; a hold at a joint of two spans belongs to the earlier."""
+    """Return a framing span over mission time; a hold at a joint of two spans belongs to the earlier one."""
     if isinstance(leg, HoldLeg):
         start, end = 0.0, motion.duration
     else:
@@ -109,7 +109,7 @@ def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, cl
 
 
 def _over_time(reference: Piecewise, profile: Profile, start: float, end: float) -> Piecewise:
-    """Return reference(s(t)) as quintics between two times, by the chain rule at the knots and others."""
+    """Return reference(s(t)) as quintics between two times, by the chain rule at sufficiently many knots."""
     inside = (profile.t > start + TINY) & (profile.t < end - TINY)
     t = np.concatenate([[start], profile.t[inside], [end]])
     motion = profile.curve()

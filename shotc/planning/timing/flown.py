@@ -1,4 +1,4 @@
-"""Holds flown quintics to the limits, at every instant, by their control points; and how much to slow."""
+"""Check flown quintics against the limits at every instant, by their control points."""
 
 from __future__ import annotations
 
@@ -15,20 +15,21 @@ from shotc.planning.timing.profile import Profile, fly
 
 Array = NDArray[np.float64]
 
-# Each piece is halved this often before its hull is taken: the bound is then tight to about 1e-4.
+# Halvings of each piece before its hull is taken; the bound is then tight to about 1e-4.
 HALVINGS = 3
-# Quintics that stray further than this from the path (metres or rad) get more knots, as do those that
-# leave a gimbal's range by more than the second; so many times at most.
+# Quintics whose error from the path exceeds the first (metres or rad) get more knots, as do those that leave
+# a gimbal's range by more than the second; at most this many times.
 STRAY, AT_END = 5e-4, 1e-7
 SPLITS = 5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Usage:
-    """How much of one limit each piece uses.
+    """The share of one limit that each piece uses.
 
-    name : of the limit in Ceiling; order : 1 rate, 2 acceleration, 3 jerk
-    share : shape (P,), upper bound of the norm over the limit
+    name : of the limit in Ceiling
+    order : 1 rate, 2 acceleration, 3 jerk
+    share : upper bound of the norm over the limit, shape (P,)
     """
 
     name: str
@@ -38,12 +39,12 @@ class Usage:
 
     @property
     def slowdown(self) -> Array:
-        """Return by how much each piece has to be slowed to keep the limit; shape (P,)."""
+        """The factor by which each piece has to be slowed to keep the limit; shape (P,)."""
         return np.asarray(self.share ** (1.0 / self.order))
 
 
 def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
-    """Return the use of every limit that a proof will ask for, proved for all t of each piece."""
+    """Return the use of every limit that is verified, proved for all t of each piece."""
     found = []
     derivatives = {order: curve.derivative(order) for order in (1, 2, 3)}
     for axis in limits:
@@ -56,12 +57,12 @@ def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
 
 
 def needed_scale(usage: tuple[Usage, ...]) -> Array:
-    """Return the slowdown of each piece (P,) that keeps every limit, a little to spare; may be below 1."""
+    """Return the slowdown of each piece (P,) that keeps every limit with a small margin; may be below 1."""
     return np.asarray(np.max([u.slowdown for u in usage], axis=0) / SHARE)
 
 
 def on_path(path: Piecewise, profile: Profile, ceiling: Ceiling) -> tuple[Profile, Piecewise]:
-    """Fly the profile, with more knots where the quintics would stray from the path or from a range."""
+    """Return the profile and its quintics, with more knots where these leave the path or a range."""
     flown = fly(path, profile)
     for _ in range(SPLITS):
         strays = straying(path, profile, flown, ceiling)
@@ -73,10 +74,10 @@ def on_path(path: Piecewise, profile: Profile, ceiling: Ceiling) -> tuple[Profil
 
 
 def straying(path: Piecewise, profile: Profile, flown: Piecewise, ceiling: Ceiling) -> NDArray[np.bool_]:
-    """Tell which flown pieces are too far from the path at the same s; shape (N,).
+    """Return which flown pieces are too far from the path at the same s; shape (N,).
 
-    The gimbal's ranges end sharply and the path may run along their ends, so there a piece has to be
-    nearly on the path.
+    The gimbal's ranges end sharply and the path may run along their ends, so there a piece has to be almost
+    on the path.
     """
     inside = np.array([0.25, 0.5, 0.75])
     t = profile.t[:-1, None] + inside * np.diff(profile.t)[:, None]
@@ -98,7 +99,7 @@ def _norm(vectors: Array) -> Array:
 
 
 def _peak(ctrl: Array, size: Callable[[Array], Array]) -> Array:
-    """Return an upper bound of a convex size on every piece, none below 0; shape (P,)."""
+    """Return an upper bound of a convex function on every piece, at least 0; shape (P,)."""
     pieces = len(ctrl)
     parts = ctrl
     for _ in range(HALVINGS):

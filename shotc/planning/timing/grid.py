@@ -1,4 +1,4 @@
-"""Gridpoints on s for one move: dense where it will be slow or change its speed, fitted to its kinks."""
+"""Gridpoints on s for one move: dense where it is slow or changes its speed, and aligned with its kinks."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from shotc.planning.timing.limits import Axis
 
 Array = NDArray[np.float64]
 
-# Seconds of motion a cell should span; bounds of the number of cells, the upper one growing with the
-# pieces of a path that bends often.
+# Seconds of motion per cell; bounds of the number of cells, the upper one growing with the pieces of a path
+# that bends often.
 CELL_TIME = 0.12
 FEWEST, MOST, PER_PIECE = 36, 100, 2
-# Shares of the cells that are spread evenly over the length and over changes of speed; the rest is
-# spread over the time.
+# Shares of the cells distributed evenly over the length and over changes of speed; the rest is distributed
+# over the time.
 OVER_LENGTH, OVER_CHANGE = 0.15, 0.25
-# Breaks where the third derivative jumps by less than this share of its maximum count as smooth.
+# Largest jump of the third derivative over its maximum, for a break that counts as smooth.
 KINK = 1e-2
-# Rounds that take the edges off a rough profile: with them it loses a third to the best, without 70 %.
+# Smoothing rounds of a rough profile: with them it loses a third against the best, without 70 %.
 EVENINGS = 8
-# sdot^2 where nothing else binds: paths are parametrised by metres, and nothing flies at 1000 m/s.
+# sdot^2 where nothing else binds: paths are parametrised in metres, and nothing flies at 1000 m/s.
 FASTEST = 1e6
 
 
 class Derivatives(NamedTuple):
-    """First, second and third derivatives of the combinations that an axis picks, each (N, 3, d)."""
+    """First, second and third derivatives of the combinations that an axis selects, each (N, 3, d)."""
 
     first: Array
     second: Array
@@ -55,13 +55,13 @@ class Samples:
         return np.diff(self.grid)
 
     def along(self, axis: Axis) -> Derivatives:
-        """Return the derivatives of the combinations that an axis picks, each (N, 3, d)."""
+        """Return the derivatives of the combinations that an axis selects, each (N, 3, d)."""
         turn = axis.pick.T
         return Derivatives(self.d1 @ turn, self.d2 @ turn, self.d3 @ turn)
 
 
 def sample(curve: Piecewise, grid: Array) -> Samples:
-    """Return the derivatives inside each cell; where a cell ends at a break, those of its own side.
+    """Return the derivatives inside each cell; at a break, those of the cell's own side.
 
     grid : shape (N + 1,)
     """
@@ -80,14 +80,14 @@ def sample(curve: Piecewise, grid: Array) -> Samples:
 
 
 def kinks(curve: Piecewise) -> Array:
-    """Return the breaks, shape (K,), where the third derivative jumps: no cell may cross them."""
+    """Return the breaks, shape (K,), where the third derivative jumps; no cell may contain one."""
     third = curve.derivative(3).ctrl[:, :, :HFOV]
     jump = np.abs(third[1:, 0] - third[:-1, -1]).max(axis=1)
     return np.asarray(curve.breaks[1:-1][jump > KINK * max(float(np.abs(third).max()), 1e-12)])
 
 
 def rate_cap(d1: Array, limits: tuple[Axis, ...]) -> Array:
-    """Return the largest b that the rates allow where the derivative is d1; shape (..., 7) to (...)."""
+    """Return the largest b that the rate limits allow for a derivative d1; shape (..., 7) to (...)."""
     cap = np.full(d1.shape[:-1], FASTEST)
     for axis in limits:
         if axis.rate is not None:
@@ -97,13 +97,13 @@ def rate_cap(d1: Array, limits: tuple[Axis, ...]) -> Array:
 
 
 def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ...]) -> tuple[Array, Array]:
-    """Return places s and a guess of b there, good enough to lay a grid: shapes (M,), (M,).
+    """Return places s and a guess of b there, good enough for a grid: shapes (M,), (M,).
 
-    Rates and bends bound b from above; from both ends it grows no faster than the acceleration
-    and, from rest, the jerk allows.
+    Rates and curvature bound b from above. From both ends it grows no faster than the acceleration and, from
+    rest, the jerk allows.
     """
     breaks = curve.breaks[(curve.breaks > s0) & (curve.breaks < s1)]
-    # Cubic towards the ends: at a constant jerk that is even in time.
+    # Cubic towards the ends, which is even in time at constant jerk.
     ends = (s1 - s0) * 0.5 * np.linspace(0.0, 1.0, 33)[1:-1] ** 3
     spread = np.linspace(0.0, 1.0, max(129, 4 * len(breaks) + 1))
     s = np.unique(np.concatenate([s0 + spread * (s1 - s0), s0 + ends, s1 - ends, breaks]))
@@ -132,16 +132,17 @@ def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ..
 
 
 def evened(b: Array) -> Array:
-    """Return the guess (N + 1,) without sharp tops, where the acceleration changes at once; never higher."""
+    """Return the guess (N + 1,) without sharp maxima, where the acceleration jumps; nowhere higher."""
     for _ in range(EVENINGS):
         b = np.concatenate([b[:1], np.minimum(b[1:-1], (b[:-2] + 2 * b[1:-1] + b[2:]) / 4), b[-1:]])
     return b
 
 
 def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
-    """Return gridpoints about even in time under the guess (s, b), with every kink and given node among them.
+    """Return gridpoints about even in time under the guess (s, b), with all kinks and given nodes among them.
 
-    s, b : shape (M,); nodes : shape (K,), places that have to be gridpoints, any order, may lie outside
+    s, b : shape (M,)
+    nodes : places that have to be gridpoints, shape (K,), in any order, possibly outside
     """
     sd = np.sqrt(b)
     step = 2.0 * np.diff(s) / np.maximum(sd[1:] + sd[:-1], 1e-9)
@@ -168,6 +169,6 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
 
 
 def split_cells(grid: Array, which: NDArray[np.bool_]) -> Array:
-    """Return the grid, shape (N + 1,), with the chosen cells halved; which : shape (N,)."""
+    """Return the grid, shape (N + 1,), with the selected cells halved; which : shape (N,)."""
     middle = 0.5 * (grid[1:] + grid[:-1])
     return np.sort(np.concatenate([grid, middle[which]]))

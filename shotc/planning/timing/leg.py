@@ -1,4 +1,4 @@
-"""One leg over time: its moves between stops with the holds put in, at the length it is asked to have."""
+"""One leg over time: its moves between stops, its holds, and its given duration."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from shotc.planning.timing.profile import SAME, Profile
 
 Array = NDArray[np.float64]
 
-# Seconds below which a hold is no hold.
+# Seconds below which a hold is ignored.
 TINY = 1e-6
 
 
@@ -26,7 +26,7 @@ class LegMotion:
 
     profile : s over t, with its holds
     curve : the seven channels; its breaks are the profile's knots
-    moves : what it is made of
+    moves : its moves
     """
 
     profile: Profile
@@ -41,25 +41,25 @@ class LegMotion:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The distinct stops of a leg, in order of s; between them it moves."""
+    """The distinct stops of a leg, in order of s, with a move between any two."""
 
     stops: tuple[Stop, ...]
 
     @property
     def spans(self) -> tuple[tuple[float, float], ...]:
-        """Return the stretches of s between stops."""
+        """The intervals of s between stops."""
         return tuple((a.s, b.s) for a, b in zip(self.stops[:-1], self.stops[1:], strict=True))
 
     def hold_at(self, s: float) -> float:
-        """Return the seconds it rests at a place, 0 where it does not stop."""
+        """Return the seconds that it rests at a place, 0 where it does not stop."""
         return sum(stop.hold for stop in self.stops if abs(stop.s - s) <= SAME)
 
     def holds_between(self, start: float, end: float) -> float:
-        """Return the seconds it rests strictly between two places."""
+        """Return the seconds that it rests strictly between two places."""
         return sum(stop.hold for stop in self.stops if start + SAME < stop.s < end - SAME)
 
     def rests_at(self, s: float) -> bool:
-        """Tell whether there is a stop at a place."""
+        """Return whether there is a stop at a place."""
         return any(abs(stop.s - s) <= SAME for stop in self.stops)
 
     def leaving(self, holds: dict[float, float]) -> Plan:
@@ -71,7 +71,7 @@ class Plan:
 
 
 def plan_of(leg: PathLeg) -> Plan:
-    """Return the leg's stops, those at the same place made one; a still leg lasts as long as asked."""
+    """Return the leg's stops, with those at the same place merged; a still leg lasts its given duration."""
     if isinstance(leg, HoldLeg):
         return Plan((Stop(0.0, leg.hold if leg.duration is None else leg.duration),))
     merged: list[Stop] = []
@@ -94,14 +94,14 @@ def fastest_moves(leg: PathLeg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...
 
 @dataclass(frozen=True, slots=True)
 class SamePath:
-    """A path that equals every other of the same numbers."""
+    """A path that compares equal to any other with the same numbers."""
 
     numbers: bytes
     path: Piecewise = field(compare=False)
 
     @staticmethod
     def of(path: Piecewise) -> SamePath:
-        """Return a path by its shape, breaks and control points."""
+        """Return a path, compared by shape, breaks and control points."""
         shape = np.array(path.ctrl.shape).tobytes()
         return SamePath(shape + path.breaks.tobytes() + path.ctrl.tobytes(), path)
 
@@ -110,17 +110,17 @@ class SamePath:
 def timed_once(
     path: SamePath, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...]
 ) -> Move:
-    """Return ``time_move`` of a path; arguments as there.
+    """Return ``time_move`` of a path, cached; arguments as there.
 
-    A leg is timed when it is laid out, again where other ways are tried, and when it is flown.
+    A leg is timed when it is planned, again where alternatives are tried, and in the time pass.
     """
     return time_move(path.path, span, ceiling, through)
 
 
 def assemble(leg: PathLeg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:
-    """Return the leg over time, or None where nothing moves and nothing is held.
+    """Return the leg over time, or None where it has neither moves nor holds.
 
-    duration : its exact length, to take rounding off the last knot; None to keep the sum
+    duration : its exact duration, which removes rounding from the last knot; None to keep the sum
     """
     parts: list[tuple[Profile, Piecewise]] = []
     clock = 0.0

@@ -1,7 +1,7 @@
-"""What binds a motion along its path: a drone's limits as norms of linear combinations of channels.
+"""Limits of a motion along its path: a drone's limits as norms of linear combinations of channels.
 
-Along q(s) with b = sdot^2 and a = sddot the rate is q' sqrt(b), the acceleration q'' b + q' a and the
-jerk sqrt(b) (q''' b + 3 q'' a + q' a'): for a fixed place all are linear in (b, a) up to the root.
+Along q(s) with b = sdot^2 and a = sddot the rate is q' sqrt(b), the acceleration q'' b + q' a and the jerk
+sqrt(b) (q''' b + 3 q'' a + q' a'): at a fixed place all are linear in (b, a) up to the root.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV, X, Y, Z
 
 Array = NDArray[np.float64]
 
-# Angular accelerations build up over this time, s; the mission sets no angular jerk, but a camera
-# that starts to turn with a jolt shows it in the picture.
+# Seconds over which angular accelerations build up. The mission sets no angular jerk, but the picture shows a
+# turn that starts abruptly.
 EASE = 0.2
 
-# A limit that a motion may use up to this share, so that proofs have room for rounding.
+# Share of a limit that a motion may use, as a margin for rounding in proofs.
 SHARE = 1.0 - 1e-6
 
-NEVER = 1e-300  # m/s, in place of none where it divides
+NEVER = 1e-300  # m/s, replaces zero in a division
 
 
 @dataclass(frozen=True, slots=True)
 class Ceiling:
-    """The limits that bind one move: SI, radians, names as a drone's and a gimbal's."""
+    """The limits of one move: SI units, radians, names as of a drone and a gimbal."""
 
     speed: float
     climb: float
@@ -43,41 +43,41 @@ class Ceiling:
     pitch: tuple[float, float] = (-inf, inf)
     """The range of the camera's pitch, rad."""
     yaw: tuple[float, float] = (-inf, inf)
-    """The range of the camera's yaw against the body's, rad."""
+    """The range of the camera's yaw relative to the body's, rad."""
     zoom_rate: float = inf
     """Of the field of view, rad/s."""
     wind: tuple[float, float] = (0.0, 0.0)
-    """Velocity of the air over ground, m/s, where it is known."""
+    """Velocity of the air relative to the ground, m/s, where it is known."""
     ease: float = EASE
     """Seconds over which angular accelerations build up."""
 
     def scaled(self, share: float) -> Ceiling:
-        """Return the ceiling with every limit but the ranges multiplied by ``share`` (a pace).
+        """Return the ceiling with every limit except the ranges multiplied by ``share`` (a pace).
 
-        The wind is, too: then every velocity is a share of one within the limits, and that, by convexity,
-        within them itself.
+        The wind is scaled, too: then every velocity is a share of one within the limits, and so, by
+        convexity, within them itself.
         """
         rates = (f.name for f in fields(self) if f.name not in {"pitch", "yaw", "wind", "ease"})
         wind = (share * self.wind[0], share * self.wind[1])
         return replace(self, wind=wind, **{name: share * getattr(self, name) for name in rates})
 
     def smoothed(self, smoother: float) -> Ceiling:
-        """Return the ceiling with accelerations that take longer to build up; smoother : as of ``Shot``.
+        """Return the ceiling with accelerations that build up more slowly; smoother : as of ``Shot``.
 
-        What is to be less smooth than normal has the limits of the drone all the same.
+        Below normal smoothing, the jerk limit of the drone still holds.
         """
         return replace(self, jerk=self.jerk / max(1.0, smoother), ease=self.ease * smoother)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Axis:
-    """One norm that is limited.
+    """One norm with limits.
 
-    pick : shape (d, 7), the combination of channels whose Euclidean norm counts
+    pick : combination of channels whose Euclidean norm counts, shape (d, 7)
     rate, acceleration, jerk : (name in Ceiling, limit), or None where nothing binds
     sign : 0 for a norm; +1 or -1 where only that direction of the rate of a single row counts
-    ease : whether jerk is our easing only, which no proof asks for
-    drift : the rate, two numbers, from which that of the two rows counts
+    ease : whether the jerk limit is only our easing, which is not verified
+    drift : rate of the two rows, two numbers, from which their rate counts
     """
 
     pick: Array
@@ -89,11 +89,11 @@ class Axis:
     drift: tuple[float, float] = (0.0, 0.0)
 
     def rate_used(self, along: Array) -> Array:
-        """Return what is held against the limit of the rate, for rates of the rows (..., d); shape (...).
+        """Return the value compared with the rate limit, for rates of the rows (..., d); shape (...).
 
-        It grows with the rate as this does. Of rates v that count from a drift w, |v - w| <= V, it is V times
-        the least k for which v / k is within the limit, the gauge of that disc, which is convex:
-        (sqrt((v.w)^2 + c |v|^2) - v.w) / c with c = V^2 - |w|^2.
+        It scales with the rate. For rates v relative to a drift w, |v - w| <= V, it is V times the least k
+        for which v / k is within the limit, the gauge of that disc, which is convex: (sqrt((v.w)^2 + c |v|^2)
+        - v.w) / c with c = V^2 - |w|^2.
         """
         if self.sign:
             return np.asarray(self.sign * along[..., 0])
@@ -103,7 +103,7 @@ class Axis:
         with_it, square = along @ drift, np.einsum("...d,...d->...", along, along)
         left = most**2 - float(drift @ drift)
         root = np.sqrt(with_it**2 + left * square)
-        # Of two equal forms the one without cancellation.
+        # The one of two equal forms that has no cancellation.
         ahead = square / np.maximum(root + with_it, NEVER)
         return np.asarray(most * np.where(with_it > 0.0, ahead, (root - with_it) / left))
 
@@ -131,8 +131,8 @@ def ceiling_of(drone: Drone) -> Ceiling:
 def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[Axis, ...]:
     """Return every norm that the ceiling limits.
 
-    zoom_only : whether nothing but the field of view moves; where nobody says how fast a lens zooms, that
-        takes what the gimbal would for the same angle
+    zoom_only : whether only the field of view changes; where the mission states no zoom rate, the gimbal's
+        limits are used for the same angle
     """
     zoom = Axis(_row({HFOV: 1.0})[None], rate=("zoom_rate", ceiling.zoom_rate))
     zooms = () if ceiling.zoom_rate == inf else (zoom,)

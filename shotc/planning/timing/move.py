@@ -1,4 +1,4 @@
-"""Times one move from rest to rest: the fastest profile, then a jerk-bounded one, then the flown quintics."""
+"""Time one move from rest to rest: the fastest profile, then a jerk-limited one, then the flown quintics."""
 
 from __future__ import annotations
 
@@ -37,22 +37,22 @@ from shotc.solvers.topp_problem import LinearLimits
 
 Array = NDArray[np.float64]
 
-# The convex steps stop when one changes the time by less than this share, or after so many.
+# The convex steps stop when one changes the duration by less than this share, or after this many.
 CHANGE = 5e-3
 STEPS = 6
-# A guess of sdot^2 that vanishes inside is raised to this share of its maximum.
+# Least sdot^2 of the initial guess inside the move, over its maximum.
 SLOWEST = 1e-9
-# Share of the last iterate that stays in the next: how the speed runs inside cells is taken from it,
-# which alone would overshoot to and fro by about 0.4 (measured); the first guess deserves less trust.
+# Share of the last iterate in the next one. It provides the speed inside cells, which would otherwise
+# oscillate by about 0.4 (measured); the initial guess has a smaller share.
 KEEP_FIRST, KEEP = 0.15, 0.3
-# A grid is refined where the flown quintics lose more than this share of time to scaling, or all over
-# where the solver gave nothing; so often at most, and not beyond so many cells.
+# A grid is refined where the flown quintics lose more than this share of time to scaling, or everywhere if
+# the solver failed; at most so often, and up to so many cells.
 LOSS = 0.015
 REFINEMENTS = 8
 MOST_CELLS = 20000
-# An inaccurate profile is good enough to be flown and checked.
+# An inaccurate profile is accepted, because the flown quintics are checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
-# Corners of the polygon that stands for the disc of accelerations in TOPP: 0.1 % of time lost.
+# Corners of the polygon that replaces the disc of accelerations in TOPP; costs 0.1 % of time.
 CORNERS = 32
 
 
@@ -60,12 +60,13 @@ CORNERS = 32
 class Move:
     """One timed move.
 
-    profile : s over local time from 0; curve : the flown quintics over the same knots
-    topp_time : the fastest time without a jerk limit; infinite where the solver gave none, which
-        costs convex steps but no safety
+    profile : s over local time from 0
+    curve : the flown quintics over the same knots
+    topp_time : the least time without a jerk limit; infinite where the solver found none, which costs convex
+        steps but no safety
     scale : final slowdown, at least 1
     steps, cells : convex steps solved, and pieces of the curve
-    held : None, or the limit that slows a rough profile down most, where the solver gave no better one
+    held : the limit that slows a rough profile down most, where the solver found no better one; else None
     """
 
     path: Piecewise
@@ -83,7 +84,7 @@ class Move:
         return self.profile.duration
 
     def stretched(self, factor: float) -> Move:
-        """Return the same move, slower by ``factor``."""
+        """Return the move slowed by ``factor``."""
         curve = Piecewise(self.curve.breaks * factor, self.curve.ctrl)
         return replace(self, profile=self.profile.stretched(factor), curve=curve)
 
@@ -91,14 +92,15 @@ class Move:
 def time_move(
     path: Piecewise, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...] = ()
 ) -> Move:
-    """Return the fastest jerk-bounded move along path(s) over a span of s, from rest to rest.
+    """Return the fastest jerk-limited move along path(s) over an interval of s, from rest to rest.
+
+    Where the solver finds no profile on any grid, a rough one is slowed until it keeps every limit.
 
     path : channels ir.path.CHANNELS, at least C2
-    through : places that are passed exactly; between gridpoints quintics may stray a little from the path
-    Where the solver gives no profile on any grid, a rough one is slowed until it keeps every limit.
+    through : places that are passed exactly; between gridpoints quintics may deviate slightly from the path
     """
     limits = axes_of(path, span, ceiling)
-    # The times of places between are sought on a grid, with a fastest move that is from one, too.
+    # The closed form is not used where times of inner places are fitted, which happens on a grid.
     inside = any(span[0] < s < span[1] for s in through)
     rate = None if inside else rate_of_line(path, span)
     bounds = None if rate is None else bounds_along(rate, limits)
@@ -139,7 +141,7 @@ def time_move(
 
 
 class _Opening(NamedTuple):
-    """The first grid, what to start from on it, and the fastest time without a jerk limit, seconds."""
+    """The first grid, the initial guess on it, and the least time without a jerk limit, seconds."""
 
     samples: Samples
     start: Iterate
@@ -149,7 +151,7 @@ class _Opening(NamedTuple):
 def _opening(
     path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...], through: tuple[float, ...]
 ) -> _Opening:
-    """Return the first grid, what to start from on it, and the fastest time without a jerk limit."""
+    """Return the first grid, the initial guess on it, and the least time without a jerk limit."""
     rough_s, rough_b = rough_profile(path, *span, limits)
     grid = lay_grid(path, rough_s, rough_b, np.array(through))
     samples = sample(path, grid)
@@ -162,10 +164,11 @@ def _opening(
 
 
 class _Tried:
-    """A profile flown.
+    """A profile with its flown quintics.
 
-    slowdown : what keeps every limit, at least 1; held : the limit that asks for it
-    coarse : shape (N,), the cells of the grid that need too much of it
+    slowdown : factor that keeps every limit, at least 1
+    held : the limit that determines it
+    coarse : cells of the grid that need too large a slowdown, shape (N,)
     """
 
     def __init__(
@@ -182,19 +185,19 @@ class _Tried:
 
     @property
     def seconds(self) -> float:
-        """How long it takes within every limit."""
+        """The duration within every limit."""
         return self.profile.duration * self.slowdown
 
 
 def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tuple[Axis, ...]:
-    """Return the norms to limit on a span: a zoom on the spot is the one motion without a limit."""
+    """Return the norms to limit on an interval; a zoom on the spot is limited by the zoom alone."""
     s = np.linspace(*span, 9)
     others = np.delete(path(s) - path(span[0]), HFOV, axis=1)
     return axes(ceiling, zoom_only=bool(np.abs(others).max() < 1e-9))
 
 
 def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
-    """Return the linear limits of the fastest profile: discs of accelerations become polygons inside them."""
+    """Return the linear limits of the fastest profile: discs of accelerations become inscribed polygons."""
     d1 = np.concatenate([samples.d1[:, 0], samples.d1[-1:, 2]])
     d2 = np.concatenate([samples.d2[:, 0], samples.d2[-1:, 2]])
     on_a, on_b = [], []
@@ -219,11 +222,13 @@ def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
 def bounded_profile(
     samples: Samples, limits: tuple[Axis, ...], start: Iterate, last: float
 ) -> tuple[Iterate | None, int]:
-    """Return b and a at the gridpoints, None where no step was solved, and the convex steps taken.
+    """Return b and a at the gridpoints, None where no step was solved, and the number of convex steps.
 
-    start : the better the fewer steps; last : seconds it takes where it is a solution, else infinite
-    Every step keeps the limits but for small change inside cells, so the last good one is kept if
-    a solver gives up.
+    Every step keeps the limits except for small changes inside cells, so the last good one is kept if a
+    solver fails.
+
+    start : initial guess
+    last : its duration in seconds where it is a solution, else infinite
     """
     problem = retiming_problem(samples, limits)
     best: Iterate | None = None
@@ -234,7 +239,7 @@ def bounded_profile(
         if status not in USABLE and best is not None:
             break
         if status not in USABLE:
-            # Slower guesses are safer ones.
+            # A slower guess is more likely feasible.
             current = start_from(problem.widths, current.b / 4.0)
             continue
         best = found

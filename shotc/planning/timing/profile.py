@@ -18,10 +18,10 @@ SAME = 1e-9
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Profile:
-    """Motion along a path from rest to rest, holds possibly among it.
+    """Motion along a path from rest to rest, possibly with holds.
 
-    t, s, sd, sdd : shape (N + 1,); t starts at 0 and rises, s does not fall (where it stays is a
-        hold), sd and sdd are zero at both ends
+    t, s, sd, sdd : shape (N + 1,); t starts at 0 and increases, s does not decrease (a hold where it is
+        constant), sd and sdd are zero at both ends
     """
 
     t: Array
@@ -35,11 +35,11 @@ class Profile:
         return float(self.t[-1])
 
     def stretched(self, factor: float) -> Profile:
-        """Return the same motion, slower by ``factor``."""
+        """Return the motion slowed by ``factor``."""
         return Profile(self.t * factor, self.s, self.sd / factor, self.sdd / factor**2)
 
     def split(self, which: NDArray[np.bool_]) -> Profile:
-        """Return the same motion with knots in the middle of the chosen stretches, shape (N,)."""
+        """Return the same motion with knots in the middle of the selected intervals, shape (N,)."""
         middle = 0.5 * (self.t[1:] + self.t[:-1])[which]
         curve = self.curve()
         s = np.clip(curve(middle)[:, 0], self.s[:-1][which], self.s[1:][which])
@@ -59,12 +59,12 @@ class Profile:
         return self._between(k - 1, s) if k == len(self.s) or self.s[k] - s > SAME else float(self.t[k])
 
     def departure(self, s: float) -> float:
-        """Return when path parameter ``s`` is left: later than its arrival only where there is a hold."""
+        """Return when path parameter ``s`` is left; later than its arrival only where there is a hold."""
         k = int(np.searchsorted(self.s, s + SAME)) - 1
         return self._between(k, s) if k < 0 or s - self.s[k] > SAME else float(self.t[k])
 
     def _between(self, knot: int, s: float) -> float:
-        """Return t at s after a knot, by bisection, since s(t) rises."""
+        """Return t at s after a knot, by bisection, since s(t) increases."""
         if not 0 <= knot < len(self.s) - 1:
             return float(self.t[0 if knot < 0 else -1])
         ends = slice(knot, knot + 2)
@@ -80,9 +80,10 @@ class Profile:
 def profile_of(s: Array, b: Array, a: Array) -> Profile:
     """Return the profile with b = sdot^2 and a = sddot at s, both zero at the ends.
 
+    The duration of each cell is that of constant jerk; where the numbers fit one, the quintic of s(t) is that
+    cubic.
+
     s, b, a : shape (N + 1,)
-    Each cell takes as long as it does at a constant jerk; where the numbers fit one, the quintic of
-    s(t) is that cubic.
     """
     times = cell_times(np.diff(s), b, a)
     return Profile(np.concatenate([[0.0], np.cumsum(times)]), s, np.sqrt(b), a)

@@ -1,9 +1,9 @@
 """The fastest motion along a straight line from rest to rest: up to seven phases of constant jerk.
 
 The least time from rest to a speed v, with acceleration a and jerk j bounded, is v / a + a / j where the
-acceleration reaches its bound, and 2 sqrt(v / j) where it does not: it is a trapezoid or a triangle
-(Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, Sec. 3.4). Half the
-way to a speed and half the way from it are flown at half of it on average.
+acceleration reaches its bound, and 2 sqrt(v / j) where it does not: the acceleration is a trapezoid or a
+triangle (Biagiotti and Melchiorri, Trajectory Planning for Automatic Machines and Robots, 2008, Sec. 3.4).
+The mean speed while speeding up, and while slowing down, is half the peak.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.planning.timing.limits import Axis
 from shotc.planning.timing.profile import Profile
 
-STEADY = 1e-9  # of its largest rate, by which the path of a straight line may change its rate
-NO_TIME = 1e-9  # of the whole time, below which a phase is left out
+STEADY = 1e-9  # largest change of the rate of a straight path, over its largest rate
+NO_TIME = 1e-9  # share of the time to the peak, below which a phase is left out
 
 
 class Bounds(NamedTuple):
@@ -29,13 +29,13 @@ class Bounds(NamedTuple):
     jerk: float
 
     def least_time(self, speed: float) -> float:
-        """Return the least seconds from rest to an even speed."""
+        """Return the least time from rest to a constant speed, seconds."""
         if speed >= self.acceleration**2 / self.jerk:
             return speed / self.acceleration + self.acceleration / self.jerk
         return 2.0 * sqrt(speed / self.jerk)
 
     def peak(self, distance: float) -> float:
-        """Return the speed that is reached over a distance > 0 from rest to rest."""
+        """Return the peak speed over a distance > 0 from rest to rest."""
         ease = self.acceleration / self.jerk
         peak = 0.5 * self.acceleration * (sqrt(ease**2 + 4.0 * distance / self.acceleration) - ease)
         if peak < self.acceleration * ease:
@@ -43,7 +43,7 @@ class Bounds(NamedTuple):
         return min(peak, self.speed)
 
     def rest_to_rest(self, distance: float) -> float:
-        """Return the least seconds over a distance from rest to rest."""
+        """Return the least time over a distance from rest to rest, seconds."""
         if distance <= 0.0:
             return 0.0
         peak = self.peak(distance)
@@ -51,7 +51,7 @@ class Bounds(NamedTuple):
         return 2.0 * turn + max(0.0, distance - peak * turn) / peak
 
     def profile(self, start: float, end: float) -> Profile:
-        """Return the motion of least time from one place on the line to a later one."""
+        """Return the fastest motion from one place on the line to a later one."""
         peak = self.peak(end - start)
         turn = self.least_time(peak)
         ease = min(self.acceleration / self.jerk, 0.5 * turn)
@@ -71,7 +71,9 @@ class Bounds(NamedTuple):
 
 
 def rate_of_line(path: Piecewise, span: tuple[float, float]) -> Array | None:
-    """Return dq/ds, shape (7,), where a path of that many channels goes evenly along one line over a span."""
+    """Return dq/ds, shape (7,), where a path is one line at constant rate over an interval of s; else
+    None.
+    """
     rates = path.derivative()
     inside = (path.breaks[1:] > span[0]) & (path.breaks[:-1] < span[1])
     ctrl = rates.ctrl[inside].reshape(-1, rates.ctrl.shape[-1])

@@ -1,4 +1,4 @@
-"""A move that passes given places at given times: the smoothest law of s over t that the limits allow."""
+"""A move that passes given places at given times: the smoothest time law s(t) within the limits."""
 
 from __future__ import annotations
 
@@ -16,25 +16,27 @@ from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
 
 Array = NDArray[np.float64]
 
-# Cells of the time law for the whole move, and at least for each stretch.
+# Cells of the time law for the whole move, and at least for each interval.
 CELLS, LEAST_CELLS = 72, 12
-# Rounds in which the limits are taken anew along the last law.
+# Rounds, each with the limits evaluated along the last law.
 ROUNDS = 8
-# The law is laid under this share of the limits, so that what happens inside cells fits too.
+# The law keeps this share of the limits, as a margin for the motion inside cells.
 MARGIN = 0.985
-# After so many rounds a law that still overdraws, and hardly less than the last, will go on to.
+# After so many rounds the search fails if a law violates limits by more than the second, and by hardly less
+# than the law before.
 SETTLED, LEFT = 3, 1e-3
-# An inaccurate law is good enough to be checked.
+# An inaccurate law is accepted, because it is checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
 
 
 def windowed_move(
     path: Piecewise, span: tuple[float, float], ceiling: Ceiling, ends: Array, seconds: Array
 ) -> Move | None:
-    """Return the move whose stretches of s, which end at ``ends``, last ``seconds`` each, or None.
+    """Return the move whose intervals of s, which end at ``ends``, take ``seconds`` each; None if infeasible.
 
-    ends, seconds : shape (W,); the last end is that of the span. Places are met by equality
-    constraints, to about 1e-7 s.
+    Places are met by equality constraints, to about 1e-7 s.
+
+    ends, seconds : shape (W,); the last end is that of the whole interval
     """
     limits = axes_of(path, span, ceiling)
     inner = axes_of(path, span, ceiling.scaled(MARGIN))
@@ -54,7 +56,7 @@ def windowed_move(
 
 
 def _knots(start: float, ends: Array, seconds: Array) -> tuple[Array, tuple[tuple[int, float], ...]]:
-    """Return knots of t, even inside each stretch, and the knots at which places are fixed."""
+    """Return knots of t, evenly spaced in each interval, and the knots at which places are fixed."""
     total = float(seconds.sum())
     parts, places, clock = [np.zeros(1)], [(0, start)], 0.0
     for end, time in zip(ends, seconds, strict=True):
@@ -83,7 +85,7 @@ def _path_limits(path: Piecewise, limits: tuple[Axis, ...], s: Array) -> PathLim
 
 
 def _profile(law: TimeLaw) -> Profile:
-    """Return the law as a profile: a cubic between its knots, as s(t) is in both."""
+    """Return the law as a profile; both are cubics between their knots."""
     v, a = np.maximum(law.v, 0.0), law.a.copy()
     v[[0, -1]] = a[[0, -1]] = 0.0
     return Profile(law.t, np.maximum.accumulate(law.s), v, a)
