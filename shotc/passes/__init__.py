@@ -1,1 +1,1 @@
-"""The compiler's passes, one module each."""
+"""The compiler's passes, one package each."""

@@ -1,4 +1,4 @@
-"""Words and places in the mission that the diagnostics of several passes share."""
+"""Labels and phrases that the diagnostics of several passes share."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def timing_value(mission: MissionIR, path: KeyPath, key: str) -> Label:
 
 
 def framing_label(mission: MissionIR, keyframe: Keyframe) -> Label:
-    """Return a label on a keyframe; on the aim of a shot that is one keyframe itself."""
+    """Return a label on a keyframe; if the shot itself is one keyframe, on its angles."""
     written = mission.origins.values
     own = [(*keyframe.path, key) for key in ("look_at", "heading") if len(keyframe.path) == 2]
     return mission.origins.value(next((path for path in own if path in written), keyframe.path))
 
 
 def phases_in_words(phases: tuple[Phase, ...]) -> str:
-    """Write what phases are and how long they last, in their order."""
+    """Return a list of phases with their durations, in order."""
     named = [f"{'shot `' + p.shot + '`' if p.shot else p.name} {p.end - p.start:.1f} s" for p in phases[:6]]
     rest = sum(p.end - p.start for p in phases[6:])
     return ", ".join(named) + (f" and {len(phases) - 6} more of {rest:.1f} s" if rest > 0 else "")

@@ -1,7 +1,7 @@
-"""What a refiner reports of its solver: the words for every way in which it does not succeed.
+"""Diagnostics for a refiner whose solver does not succeed.
 
-A refiner builds these from plain values and returns them beside the path. Each error labels the shot it
-is about, which is how the refine-path pass knows whose convex path to keep where the mission allows it.
+A refiner builds these from plain values and returns them with the path. Each error labels the shot that it is
+about. So the refine-path pass knows which shot keeps its convex path, where the mission allows this.
 """
 
 from __future__ import annotations
@@ -20,20 +20,22 @@ NO_NUMBERS = "the solver left no numbers by which a place or a constraint could 
 NOTHING_BROKEN = (
     "where it stopped no constraint is broken; it had not settled, so nothing there can be loosened"
 )
-STEEP = radians(80.0)  # pitch of a camera that is all but straight above or below what it films
+STEEP = radians(80.0)  # pitch of a camera almost vertically above or below its target
 
 
 class SolverState(NamedTuple):
-    """Where the problem of one shot stood when its solver gave up.
+    """The state of one shot's problem when its solver stopped.
 
     shot, refiner, solver : their names
-    stage : index of the worst stage from 0, of ``stages`` intervals, None where nothing was broken or the
-        solver left no numbers; s : its path parameter in metres, or mission time of a shot on its own clock
-    time : seconds from the shot's first frame, None where the solver had none
-    constraint : what was worst, as people call it ("gimbal pitch rate", "zone tree"), empty where none is
-    excess : by how much it was broken, in ``unit``, in SI and radians; NaN where it is not known
-    limit : where the mission writes the limit down; its shot where empty
-    inner : whether the constraint is the solver's own, which no mission can loosen
+    stage : index of the worst stage from 0, of ``stages`` intervals; None where nothing was violated or the
+        solver left no numbers
+    s : its path parameter, metres, or mission time for a shot on its own clock, seconds
+    time : seconds from the shot's first frame; None where the solver had none
+    constraint : the worst constraint in plain words ("gimbal pitch rate", "zone tree"); empty where there is
+        none
+    excess : its violation in ``unit``, in SI and radians; NaN where it is not known
+    limit : key path of the limit in the mission; empty for the shot itself
+    inner : whether the constraint is internal to the solver, so that no mission can relax it
     """
 
     shot: str
@@ -51,7 +53,7 @@ class SolverState(NamedTuple):
 
 
 def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
-    """Return the error of a solver whose iterate is not a number; ``state`` is the last one that was."""
+    """Return the error of a solver whose iterate is not a number; ``state`` is the last finite one."""
     return Diagnostic(
         "R010",
         f"{_who(state)} reached values that are not numbers in shot `{state.shot}`",
@@ -62,7 +64,7 @@ def solver_nan(path: PathIR, state: SolverState) -> Diagnostic:
 
 
 def stopped_early(path: PathIR, state: SolverState, after: str) -> Diagnostic:
-    """Return the error of a solver that stopped before it was done; after : e.g. "300 iterations"."""
+    """Return the error of a solver that stopped before convergence; after : e.g. "300 iterations"."""
     return Diagnostic(
         "R011",
         f"{_who(state)} stopped after {after} in shot `{state.shot}`, before it had a path",
@@ -73,7 +75,7 @@ def stopped_early(path: PathIR, state: SolverState, after: str) -> Diagnostic:
 
 
 def impossible(path: PathIR, state: SolverState) -> Diagnostic:
-    """Return the error of a problem in which constraints contradict one another near ``state``."""
+    """Return the error of a problem whose constraints contradict one another near ``state``."""
     return Diagnostic(
         "R012",
         f"{_who(state)} finds no path for shot `{state.shot}` that keeps {state.constraint or EVERYTHING}",
@@ -86,7 +88,8 @@ def impossible(path: PathIR, state: SolverState) -> Diagnostic:
 def fallback(path: PathIR, shot: str, solvers: tuple[str, str], why: str) -> Diagnostic:
     """Return the warning of a shot that a second solver had to solve.
 
-    solvers : the one that failed and the one used; why : the first one's word, e.g. "300 iterations"
+    solvers : the one that failed and the one used
+    why : reason of the first failure, e.g. "300 iterations"
     """
     first, second = solvers
     return Diagnostic(
@@ -99,7 +102,7 @@ def fallback(path: PathIR, shot: str, solvers: tuple[str, str], why: str) -> Dia
 
 
 def unrefined(path: PathIR, shot: str, why: str) -> Diagnostic:
-    """Return the warning of a shot that stays as it was; why : a clause, e.g. "no path is clear"."""
+    """Return the warning of a shot that is not refined; why : a clause, e.g. "no path is clear"."""
     mission = path.keyframes.mission
     return Diagnostic(
         UNREFINED,
@@ -116,7 +119,7 @@ def nearest_keyframe(leg: PathLeg, s: float) -> int | None:
 
 
 def place(leg: Leg, s: float) -> str:
-    """Write where on a leg something is."""
+    """Return a phrase for a place on a leg."""
     if isinstance(leg, ClockLeg):
         return f"at t = {s:.2f} s of the mission"
     if isinstance(leg, HoldLeg):
@@ -127,7 +130,7 @@ def place(leg: Leg, s: float) -> str:
 
 
 def _help(path: PathIR, state: SolverState, keyframes: str) -> str:
-    """Return what to change, if that is known; keyframes : of a shot that has any."""
+    """Return a remedy if one is known; keyframes : the remedy for a shot with keyframes."""
     if state.stage is None:
         return ""
     clocked = isinstance(filmed(path, state.shot), ClockLeg)
@@ -136,7 +139,7 @@ def _help(path: PathIR, state: SolverState, keyframes: str) -> str:
 
 
 def _steep(path: PathIR, shot: str) -> bool:
-    """Tell whether a keyframe of a shot is all but straight above or below what it films."""
+    """Return whether a keyframe of a shot is almost vertically above or below its target."""
     placed = next(p for p in path.keyframes.shots if p.shot.id == shot)
     return any(abs(keyframe.pitch) > STEEP for keyframe in placed.keyframes)
 

@@ -1,8 +1,8 @@
 """assign-drones: LoadedMission to LoadedMission, every `drone: auto` replaced by a drone.
 
-Takes a mission whose shape is right. Gives it with the choice of drones that films everything in time with
-the least work for the busiest drone, and of those the one with the least way; no drone is asked to be in two
-places at once. Where there is no such choice, it says at which time more drones are needed than there are.
+It takes a mission of valid form. It gives it with the choice of drones that films everything in time with the
+least work for the busiest drone, and among these the one with the least distance. No drone has to be in two
+places at once. If there is no such choice, the error states when more drones are needed than exist.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # the base install has no numpy
 
 
 class AssignDrones:
-    """The pass; kinds : every shot kind that is installed, by name."""
+    """The pass; kinds : every installed shot kind, by name."""
 
     name: ClassVar[str] = "assign-drones"
 
@@ -31,7 +31,9 @@ class AssignDrones:
         self.kinds: Final = kinds
 
     def run(self, ir: LoadedMission, ctx: PassContext) -> Outcome[LoadedMission]:
-        """Choose the drones of one mission; one that leaves none open stays as it is, and loads no solver."""
+        """Choose the drones of one mission; a mission without open drones is unchanged, and loads no
+        solver.
+        """
         spec = ir.spec
         if not any(shot.drone == AUTO for shot in spec.shots):
             return Outcome(ir)
@@ -42,7 +44,7 @@ class AssignDrones:
             return Outcome(None, tuple(nobody(spec, ir.origins)))
         tasks = tasks_of(ir, self.kinds)
         if tasks is None:
-            # A shot is wrong by itself, whoever films it: resolve says how.
+            # A shot is invalid with any drone, and resolve reports it.
             first = next(iter(spec.drones))
             return Outcome(_with(ir, dict.fromkeys(range(len(spec.shots)), first)))
         choice = choose(tasks, tuple(spec.drones))

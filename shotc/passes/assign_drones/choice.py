@@ -1,4 +1,4 @@
-"""The choice itself, as a mixed-integer linear programme."""
+"""The choice of drones as a mixed-integer linear programme."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from shotc.solvers.assignment import Programme, least_cost
 
 Choice = Mapping[int, str]
 
-LEAST_WAY = 1e-3  # seconds of work that a metre of way counts for
-EARLIER = 1e-6  # by which a drone is preferred to those written after it
+LEAST_WAY = 1e-3  # seconds of work per metre of distance
+EARLIER = 1e-6  # preference of a drone over those written after it
 SLACK = 1e-6
 
 Row = tuple[dict[int, float], float]
 
 
 def choose(tasks: Sequence[Task], drones: Sequence[str]) -> Choice | None:
-    """Return the drone of every task by its index, or None where there is no choice.
+    """Return the drone of every task by the task's index; None if infeasible.
 
-    The busiest drone has as little to do as can be, in seconds of film and of the ways there and back; of
-    such choices the one with the least way is taken, then the one with the drones written first.
+    The work of the busiest drone is minimal, in seconds of film and transfers. Among such choices the least
+    distance is taken, then the drones written first.
     """
     count = len(tasks) * len(drones)
     column = {(i, d): i * len(drones) + k for i, _ in enumerate(tasks) for k, d in enumerate(drones)}
@@ -48,7 +48,7 @@ def choose(tasks: Sequence[Task], drones: Sequence[str]) -> Choice | None:
 
 
 def _can(task: Task, drone: str) -> bool:
-    """Tell whether a drone may film a shot at all: it is its own, in reach in time, and in its endurance."""
+    """Return whether a drone can film a shot at all: by assignment, in time, and within its endurance."""
     if task.flown_by is not None:
         return task.flown_by == drone
     away = task.way(drone)
@@ -60,7 +60,7 @@ def _can(task: Task, drone: str) -> bool:
 def _work(
     tasks: Sequence[Task], drones: Sequence[str], column: Mapping[tuple[int, str], int], busiest: int
 ) -> Iterator[Row]:
-    """Yield that no drone has more to do than the busiest one, whose work is the last unknown."""
+    """Yield the constraints that no drone works more than the busiest one, whose work is the last unknown."""
     for d in drones:
         work = {
             column[i, d]: task.duration + 0.5 * (task.way(d) + task.back(d)) for i, task in enumerate(tasks)
@@ -71,7 +71,7 @@ def _work(
 def _clashes(
     tasks: Sequence[Task], drones: Sequence[str], column: Mapping[tuple[int, str], int]
 ) -> Iterator[Row]:
-    """Yield that no drone films two shots which it cannot get to one after the other."""
+    """Yield the constraints that no drone films two shots between which it has too little time."""
     for (i, a), (j, b) in combinations(enumerate(tasks), 2):
         if a.start is None or b.start is None:
             continue

@@ -1,4 +1,4 @@
-"""What there is to film, as far as the choice of a drone depends on it: where and when each shot is."""
+"""Shots as tasks for the choice of drones: where and when each is filmed."""
 
 from __future__ import annotations
 
@@ -18,14 +18,17 @@ from shotc.passes.resolve.lower.names import AUTO
 from shotc.spec.load import LoadedMission
 
 SLOWER = 2.0
-"""Times the least time of a way within which it is flown, with smooth starts and stops and round things."""
+"""Duration of a transfer over its least time, for smooth starts and stops and for obstacles."""
 
 
 class Task(NamedTuple):
     """One shot.
 
-    number : its index in the mission; start : seconds, None where that is open; duration : seconds at least
-    first, last : where the camera begins and ends; flown_by : its drone, None where that is open
+    number : its index in the mission
+    start : seconds, None where it is free
+    duration : least duration, seconds
+    first, last : where the camera begins and ends
+    flown_by : its drone, None where it is open
     drones : of the mission, by name
     """
 
@@ -39,27 +42,27 @@ class Task(NamedTuple):
     drones: Mapping[str, Drone]
 
     def way(self, drone: str) -> float:
-        """Return the seconds from a drone's home to the shot, at least."""
+        """Return the least time from a drone's home to the shot, seconds."""
         return least_travel([self.drones[drone].home, self.first], self.drones[drone].limits)
 
     def back(self, drone: str) -> float:
-        """Return the seconds from the shot to a drone's home, at least."""
+        """Return the least time from the shot to a drone's home, seconds."""
         return least_travel([self.last, self.drones[drone].home], self.drones[drone].limits)
 
     def to(self, other: Task, drone: str) -> float:
-        """Return the seconds from the end of this shot to the beginning of another, at least."""
+        """Return the least time from the end of this shot to the start of another, seconds."""
         return least_travel([self.last, other.first], self.drones[drone].limits)
 
     def length(self, drone: str) -> float:
-        """Return the metres from a drone's home to the shot."""
+        """Return the distance from a drone's home to the shot, metres."""
         return dist(self.drones[drone].home, self.first)
 
 
 def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] | None:
-    """Return every shot as a task; None where one is wrong by itself.
+    """Return every shot as a task; None where one is invalid.
 
-    Each is resolved alone, flown by the first drone where that is open: where it is filmed from does not
-    depend on who does, nor on what stands in the way: scenes and buildings are not read for it.
+    Each shot is resolved alone, with the first drone where that is open. Its place depends neither on the
+    drone nor on obstacles, so scenes and buildings are not read.
     """
     spec = ir.spec
     world = spec.world.model_copy(update={"scene": None, "buildings": None})
@@ -93,7 +96,7 @@ def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> T
 
 
 def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
-    """Return the time at which most shots with a start are filmed, and those."""
+    """Return the time at which the most shots with a start are filmed, and these shots."""
     timed = [task for task in tasks if task.start is not None]
     if not timed:
         return 0.0, list(tasks)
@@ -103,7 +106,9 @@ def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
 
 
 def later(busy: list[Task]) -> str:
-    """Say when the last of several shots could begin, so that a drone has filmed another one and is there."""
+    """Return when the last of several shots could start, so that a drone has filmed another one and
+    arrived.
+    """
     *others, last = sorted(busy, key=lambda task: task.start or 0.0)
     drones = [last.flown_by] if last.flown_by is not None else list(last.drones)
     free = min(_end(task) + SLOWER * task.to(last, drone) for task in others for drone in drones)

@@ -1,9 +1,9 @@
 """parameterize-time: PathIR to TrajectoryIR.
 
-Takes q(s) of every leg with its stops, marks and asked times. Gives quintics over mission time, C2,
-at rest at every stop, within every limit at every instant (their own control points prove it), at
-the durations, keyframe times and starts that the mission fixes; what it fixes nothing for is as
-fast as its pace of the limits allows. What cannot be met is an error that says what could.
+It takes q(s) of every leg with its stops, marks and deadlines. It gives quintics over mission time, C2, at
+rest at every stop, and within every limit at every instant (their own control points prove it). They meet the
+durations, keyframe times and starts that the mission fixes; the rest is as fast as its pace of the limits
+allows. An infeasible deadline is an error that states a feasible one.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class ParameterizeTime:
     def run(self, ir: PathIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
         """Time every leg of every drone.
 
-        A shot that waits for one of another drone is timed after it, so drones take turns.
+        A shot that waits for one of another drone is timed after it, so the drones alternate.
         """
         paths: tuple[DronePath | TimedPath, ...] = (*ir.drones, *ir.timed)
         pilots = [_Pilot(ir.keyframes.mission, path, ctx) for path in paths]
@@ -67,7 +67,7 @@ class ParameterizeTime:
 
 @dataclass(slots=True)
 class _Pilot:
-    """Times the legs of one drone in order, as far as the shots it waits for are known."""
+    """Times the legs of one drone in order, as far as the ends of the shots that it waits for are known."""
 
     mission: MissionIR
     path: DronePath | TimedPath
@@ -84,7 +84,7 @@ class _Pilot:
         self.drone = self.mission.drone(self.path.drone)
 
     def advance(self, ends: dict[str, float]) -> bool:
-        """Time the next legs; tell whether there were any. ends : of the shots so far, added to."""
+        """Time the next legs and return whether there were any; ends : of the shots so far, extended."""
         before = self.done
         while self.done < len(self.path.legs):
             leg = self.path.legs[self.done]
@@ -104,7 +104,7 @@ class _Pilot:
         return self.done > before
 
     def _film(self, leg: ClockLeg, ready: float) -> None:
-        """Fly a shot on its own clock, if the drone is there in time."""
+        """Add a shot on its own clock, and an error if the drone is late for it."""
         first = float(leg.curve.start)
         earliest = max(self.flight.clock, ready - (leg.start - first))
         if first < earliest - TINY and not self.faults:
@@ -147,7 +147,7 @@ class _Pilot:
 
 
 def _fault(mission: MissionIR, drone: Drone, leg: PathLeg, timing: LegTiming) -> Diagnostic | None:
-    """Return what is wrong with the times that a leg asks for."""
+    """Return the error of infeasible deadlines of a leg, or None."""
     if timing.motion is None and leg.shot is not None:
         return without_length(mission, leg)
     if timing.too_fast is None or isinstance(leg, HoldLeg):

@@ -1,8 +1,8 @@
 """place-keyframes: MissionIR to KeyframeIR.
 
-Takes keyframes with what the user aims at, and gives camera angles that put each target on the
-nearest place of its composition set (framing Eq. 1 and 2). The camera turns; it never moves. It
-guarantees that every target with a composition is whole in the frame of a camera its gimbal reaches.
+It takes keyframes with the angles or targets that the user gave. It gives camera angles that put each target
+on the nearest place of its composition set (framing Eq. 1 and 2). The camera turns; it never moves. It
+guarantees that every target with a composition is whole in the frame, within the gimbal's range.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class PlaceKeyframes:
     name: ClassVar[str] = "place-keyframes"
 
     def run(self, ir: MissionIR, ctx: PassContext) -> Outcome[KeyframeIR]:
-        """Place every keyframe of every shot; shots come out in the order they are flown."""
+        """Place every keyframe of every shot; shots are returned in the order of flight."""
         shots: list[PlacedShot] = []
         diagnostics: list[Diagnostic] = []
         for shot in flown_order(ir.shots):

@@ -1,4 +1,4 @@
-"""From how far a target fits into the frame: the place of a keyframe, or the parameter of a path."""
+"""The distance from which a target fits into the frame, as a place of a keyframe or a parameter of a path."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
 from shotc.planning.framing.candidates import Setting
 from shotc.rounding import at_least, up
 
-FARTHEST = 50.0  # times the present distance, up to which a distance that fits is looked for
-LEVEL = 0.1  # metres off the target's axis, below which a camera is above it
-NUDGE = 0.01  # metres that a proposed place lies farther off than it must
+FARTHEST = 50.0  # largest factor of the present distance that is tried
+LEVEL = 0.1  # metres from the target's axis, below which a camera is above it
+NUDGE = 0.01  # metres added to a proposed distance
 
 Fits = Callable[[Setting], bool]
 
 
 def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting, fits: Fits) -> str:
-    """Propose where the target fits; empty where it does not from ``FARTHEST`` times as far.
+    """Return a remedy with a place where the target fits, at most ``FARTHEST`` times as far; else empty.
 
-    A camera of the user's goes straight back, or level where that would lead too close to the ground; a
-    path that a kind generates keeps its altitude.
+    A camera placed by the user goes straight back, or horizontally where that would be too close to the
+    ground. A generated path keeps its altitude.
     """
     if not keyframe.placed and shot.kind in DISTANCES:
         return _by_parameter(mission, shot, keyframe, setting, fits)
@@ -48,20 +48,20 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting
 
 
 def _place(keyframe: Keyframe, setting: Setting, offset: Vec3) -> Vec3:
-    """Return where a camera stands from which the target has another offset."""
+    """Return the camera's place for another offset of the target."""
     x, y, z = (p + o - q for p, o, q in zip(keyframe.at, setting.offset, offset, strict=True))
     return (x, y, z)
 
 
 def parameter_label(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Label | None:
-    """Return a label on what keeps a generated path its distance, if its kind has such a parameter."""
+    """Return a label on the parameter that sets a generated path's distance, if its kind has one."""
     if keyframe.placed or shot.kind not in DISTANCES:
         return None
     return mission.origins.value((*shot.path, DISTANCES[shot.kind]))
 
 
 def least(fits: Callable[[float], bool], low: float, high: float) -> float | None:
-    """Bisect for the least value that fits; None where even the highest does not."""
+    """Return the least value that fits, by bisection; None where the highest does not."""
     if not fits(high):
         return None
     while high - low > 1e-3 * low:
@@ -74,7 +74,7 @@ def least(fits: Callable[[float], bool], low: float, high: float) -> float | Non
 
 
 def _back(setting: Setting, fits: Fits, *, level: bool) -> Vec3 | None:
-    """Return the offset to the target from as far as it needs, along the line of sight or level."""
+    """Return the least offset to the target that fits, along the line of sight or horizontally."""
     x, y, z = setting.offset
 
     def scaled(k: float) -> Vec3:
@@ -87,7 +87,7 @@ def _back(setting: Setting, fits: Fits, *, level: bool) -> Vec3 | None:
 
 
 def _by_parameter(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting, fits: Fits) -> str:
-    """Propose the parameter with which the target fits at every keyframe, at the altitude of each."""
+    """Return a remedy with the parameter for which the target fits at every keyframe, at its altitude."""
     assert keyframe.target is not None
     centre = mission.target(keyframe.target).centre
 
@@ -105,7 +105,7 @@ def _by_parameter(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: S
             enough = needed
     enough = up(enough, 1)
     first, last = (distance_of(centre, shot.keyframes[i]) for i in (0, -1))
-    if max(first, last) < enough:  # both ends are too near: keep what is between them
+    if max(first, last) < enough:  # both ends are too near: keep their difference
         near = min(first, last)
         first, last = enough + first - near, enough + last - near
     written = span(max(first, enough), max(last, enough))

@@ -1,6 +1,6 @@
-"""What to say where a composition cannot be had: which place was taken instead, or what would fit.
+"""Diagnostics of infeasible compositions: the place that was taken instead, or what would fit.
 
-Keyframes that share a line of the mission, as generated ones do, are reported once, at the worst of them.
+Keyframes that share a line of the mission, as generated ones do, are reported once, for the worst of them.
 """
 
 from collections.abc import Callable, Iterable
@@ -31,9 +31,9 @@ _WARNINGS = ("G011", "G012")
 
 
 class Miss(NamedTuple):
-    """One keyframe that misses its composition; of several the heaviest is reported.
+    """One keyframe that misses its composition; of several the one with the largest weight is reported.
 
-    help : or what finds it in the mission and the shot, where that takes a search
+    help : the remedy, or a function that searches it in the mission and the shot
     """
 
     code: str
@@ -45,7 +45,7 @@ class Miss(NamedTuple):
 
 
 def missed(unmet: Unmet) -> Miss:
-    """Return what there is to say of a keyframe that does not have its composition."""
+    """Return the report on a keyframe whose composition is infeasible."""
     keyframe, setting, aim, asked, place = unmet
     if asked is None:
         return cropped_or_beyond(keyframe, setting, aim)
@@ -57,7 +57,7 @@ def missed(unmet: Unmet) -> Miss:
 
 
 def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Vec2) -> Miss:
-    """Warn that the target stands off its set: it would be cropped on it, or the gimbal stops short."""
+    """Return the warning that the target stands off its set: it would be cropped, or is out of reach."""
     instead = f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}"
     free = setting._replace(pitch=(-pi / 2, pi / 2))
     wanted = nearest_candidate(free, keyframe.composition, asked)
@@ -84,13 +84,15 @@ def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Ve
 
 
 def _kept(keyframe: Keyframe, mission: MissionIR) -> str:
-    """Say how a keyframe keeps its place on screen: its own `frame` counts before its shot's composition."""
+    """Return how to keep a place on screen; a keyframe's own `frame` precedes its shot's composition."""
     own = (*keyframe.path, "frame") in mission.origins.values
     return "write `frame: keep`" if own else "set `composition: keep`"
 
 
 def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
-    """Tell of a kept framing that the gimbal does not reach, or warn that it crops its target."""
+    """Return the error of a kept framing out of the gimbal's range, or the warning that it crops its
+    target.
+    """
     if not reaches(setting.pitch, aim[1]):
         return _beyond_gimbal(keyframe, setting, aim)
     over = -setting.margin(aim)
@@ -107,7 +109,7 @@ def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
 
 
 def _wider(setting: Setting, aim: Vec2, widest: float) -> list[str]:
-    """Say how wide a lens shows the target whole to a camera that looks as it does, if it may be."""
+    """Return which lens shows the whole target at the same angles, if the drone may have it."""
     if setting.hfov >= widest:
         return []
     wide = least(lambda a: setting._replace(hfov=a).margin(aim) >= -TOUCH_M, setting.hfov, widest)
@@ -121,7 +123,7 @@ def _widest(mission: MissionIR, shot: Shot) -> float:
 
 
 def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
-    """Explain why no place of the set, nor of its vertical lines, is a candidate."""
+    """Return why no place of the set, nor of its vertical lines, is a candidate."""
     free = setting._replace(pitch=(-pi / 2, pi / 2))
     place = nearest_candidate(free, keyframe.composition, asked)
     place = place or nearest_on_verticals(free, keyframe.composition, asked)
@@ -164,7 +166,7 @@ def _reach(setting: Setting, pitch: float) -> str:
 
 
 def _within_reach(setting: Setting, pitch: float) -> str:
-    """Say how to bring a pitch into the gimbal's range; the number is rounded away from the horizon."""
+    """Return how to bring a pitch into the gimbal's range, rounded away from the horizon."""
     above = pitch > setting.pitch[1]
     enough = (at_least if above else at_most)(degrees(pitch), 1)
     level = "higher" if above else "lower"
@@ -172,7 +174,7 @@ def _within_reach(setting: Setting, pitch: float) -> str:
 
 
 def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: Shot) -> str:
-    """Name the least distance and field of view that show the target whole on the set, or beside it."""
+    """Return the least distance and field of view that show the whole target on the set, or beside it."""
     composition = keyframe.composition
 
     def options(fits: Fits) -> str:
@@ -202,9 +204,9 @@ def _range(setting: Setting) -> str:
 
 
 def report(mission: MissionIR, shot: Shot, unmet: Iterable[Unmet]) -> list[Diagnostic]:
-    """Turn a shot's misses into diagnostics, one for each cause and line of the mission.
+    """Return a shot's misses as diagnostics, one per cause and line of the mission.
 
-    A line with an error has no warnings: what is mended for the one changes the other.
+    A line with an error gets no warnings, because its remedy changes them.
     """
     misses = [missed(keyframe) for keyframe in unmet]
     wrong = {miss.keyframe.path for miss in misses if miss.code not in _WARNINGS}

@@ -1,4 +1,4 @@
-"""Keyframes of what moves, and what is wrong with those whose picture is known."""
+"""Keyframes of moving targets, and the faults of those whose picture is known."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from shotc.rounding import at_least
 
 
 def place_keyed(mission: MissionIR, shot: Shot) -> tuple[PlacedShot, list[Diagnostic]]:
-    """Return a shot with its keyframes placed, and what is wrong with those whose picture is known."""
+    """Return a shot with its keyframes placed, and the faults of those whose picture is known."""
     start = first_start(mission, shot)
     then = moments(mission, shot, start)
     keyframes, misses = place_shot(mission, shot, then)
@@ -31,9 +31,9 @@ def place_keyed(mission: MissionIR, shot: Shot) -> tuple[PlacedShot, list[Diagno
 
 
 def misplaced(mission: MissionIR, placed: PlacedShot, start: float) -> list[Diagnostic]:
-    """Return what composition cannot give a shot that begins at ``start``, where that was not sure before.
+    """Return the faults of keyframes whose picture was not known before the shot's start, now ``start``.
 
-    placed : the shot as it is then
+    placed : the shot at that start
     """
     shot, then = placed.shot, moments(mission, placed.shot, start)
     open_ = [not is_sure(mission, shot, k) for k in shot.keyframes]
@@ -51,7 +51,7 @@ def misplaced(mission: MissionIR, placed: PlacedShot, start: float) -> list[Diag
 def _told(
     shot: Shot, then: Sequence[MissionIR], misses: Sequence[Unmet], judged: Sequence[bool]
 ) -> list[Diagnostic]:
-    """Return the misses of the keyframes that are judged, each reported for its own moment."""
+    """Return the misses of the keyframes that are judged, each for the mission at its own time."""
     diagnostics: list[Diagnostic] = []
     for keyframe, moment, mine in zip(shot.keyframes, then, judged, strict=True):
         missed = [miss for miss in misses if mine and miss.keyframe is keyframe]
@@ -60,7 +60,7 @@ def _told(
 
 
 def _is_unseen(moment: MissionIR, shot: Shot, keyframe: Keyframe) -> bool:
-    """Tell whether no part of a keyframe's target is in the picture as the author framed it."""
+    """Return whether no part of a keyframe's target is in the picture as the author framed it."""
     if keyframe.aim is None or keyframe.target is None:
         return False
     setting = setting_of(moment, moment.drone(shot.drone), keyframe, NORTH_RAD)

@@ -1,4 +1,4 @@
-"""Sizes that a shot asks for and that its geometry decides otherwise: told, with what would give them."""
+"""Sizes that a shot asks for but its geometry does not give: warnings with remedies."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, frozen
 from shotc.spec.words import each
 
-LOOKS = 40  # stretches of a shot on its own clock
-OFF = 0.1  # share of the size asked that is worth telling
+LOOKS = 40  # samples of a shot on its own clock
+OFF = 0.1  # relative error of the size, above which there is a warning
 
 
 class Look(NamedTuple):
-    """What is seen of a target: its size, from where, and how it is framed.
+    """A camera's view of a target: its size, the camera's offset, and the framing.
 
-    offset : camera less target's centre
+    offset : camera minus target's centre
     """
 
     size: float
@@ -37,7 +37,7 @@ class Look(NamedTuple):
 
 
 def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
-    """Return the warning about a shot whose target has not the size it asks for."""
+    """Return the warning about a shot whose target does not have the requested size, or None."""
     shot, asked = placed.shot, placed.shot.size
     if asked is None or (shot.ideal is not None and shot.ideal.framed):
         return None
@@ -62,7 +62,7 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
 
 
 def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
-    """Say how the camera goes where the target has its size, if that is one target's, for a given time."""
+    """Return the framing that gives the target its size, for a shot with one target and a duration."""
     shot, written = placed.shot, mission.origins.keys
     names = {subject.target for subject in placed.subjects} | {k.target for k in placed.keyframes} - {None}
     if len(names) > 1 or shot.timing.duration is None:
@@ -74,7 +74,7 @@ def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
 
 
 def _instead(mission: MissionIR, look: Look, asked: float) -> str:
-    """Say from how far away, and through which lens, a target would have its size."""
+    """Return the distance and the lens that would give a target its size."""
     target = mission.target(look.name)
     wanted = Wanted(target.centre, target.shape, look.uv)
     away = hypot(*look.offset)
@@ -90,7 +90,7 @@ def _instead(mission: MissionIR, look: Look, asked: float) -> str:
 
 
 def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
-    """Yield what is seen of the first subject along the ideal of a shot on its own clock."""
+    """Yield the views of the first subject along the ideal of a shot on its own clock."""
     shot = placed.shot
     if shot.ideal is None or not placed.subjects:
         return
@@ -107,7 +107,7 @@ def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
 
 
 def _at_keyframes(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
-    """Yield what is seen of the targets at the keyframes of a shot."""
+    """Yield the views of the targets at the keyframes of a shot."""
     shot, drone = placed.shot, mission.drone(placed.shot.drone)
     times = arrivals(shot) if is_keyed(shot) else (0.0,) * len(placed.keyframes)
     start = first_start(mission, shot)
@@ -127,7 +127,7 @@ def _from_keyframe(mission: MissionIR, drone: Drone, keyframe: PlacedKeyframe, n
 def _look(
     mission: MissionIR, name: str, offset: Vec3, uv: Vec2 | None, lens: Lens, aim: Vec2 | None
 ) -> Look | None:
-    """Return what a camera sees of a target; None where it reaches behind the camera."""
+    """Return a camera's view of a target; None where the target reaches behind the camera."""
     target = mission.target(name)
     back = (-offset[0], -offset[1], -offset[2])
     aim = aim or aim_at(back, uv or (0.0, 0.0), lens.hfov, lens.aspect)

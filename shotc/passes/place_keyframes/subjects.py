@@ -1,7 +1,7 @@
-"""Subjects of shots on their own clock: the place on screen that each is to keep.
+"""References on screen for the subjects of shots on their own clock.
 
-Nobody has framed them by hand, so the camera looks at them, and the nearest place of the composition
-to the middle is taken at which the target is whole, half way through the shot.
+No one has framed these subjects, so the camera looks at them. The reference is the place of the composition
+nearest to the middle at which the target is whole, half way through the shot.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MIDDLE = (0.0, 0.0)
 def place_subjects(
     mission: MissionIR, shot: Shot
 ) -> tuple[tuple[PlacedSubject, ...], tuple[Diagnostic, ...]]:
-    """Return where each subject of a shot is to be on screen, and what its composition could not give."""
+    """Return each subject's reference on screen, and the diagnostics of infeasible compositions."""
     placed: list[PlacedSubject] = []
     diagnostics: list[Diagnostic] = []
     for subject in shot.subjects:
@@ -47,13 +47,13 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
     if composition.keep:
         return MIDDLE, []
     if shot.ideal is not None and shot.ideal.framed:
-        # Where it stands is settled, and the camera goes where it has its place.
+        # The reference is given, and the camera moves to where the subject has it.
         cropped = _cropped_at(mission, shot, subject) if len(shot.subjects) == 1 else None
         warnings = [] if cropped is None else [_cropped(mission, shot, subject, cropped, None)]
         return composition.points[0], warnings
     setting = setting_at(mission, shot, subject.target)
     if subject.size is not None and subject.size > 1.0:
-        # Cropped on purpose: its centre has the place, whatever of it is out of the frame.
+        # A subject of this size is cropped on purpose, so only its centre is placed.
         setting = setting._replace(shape=POINT)
     place = nearest_candidate(setting, composition, MIDDLE)
     if place is not None:
@@ -65,7 +65,7 @@ def _reference(mission: MissionIR, shot: Shot, subject: Subject) -> tuple[Vec2 |
 
 
 def _cropped_at(mission: MissionIR, shot: Shot, subject: Subject) -> Vec2 | None:
-    """Return a place on screen at which the one subject of a framing is cropped; None where it is whole."""
+    """Return a reference at which the one subject of a framing is cropped; None where it is whole."""
     times = [setpoint.time for setpoint in subject.setpoints]
     for time in [0.0, *times] if times else [_half(shot)]:
         asked = subject.asked(time)
@@ -80,7 +80,7 @@ def _half(shot: Shot) -> float:
 
 
 def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Composition) -> str:
-    """Say through which lens a target is whole at a place of its composition; empty where none does."""
+    """Return the lens that shows a whole target at a place of its composition; empty where none does."""
 
     def fits(hfov: float) -> bool:
         return nearest_candidate(setting._replace(hfov=hfov), composition, MIDDLE) is not None
@@ -96,7 +96,7 @@ def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Compos
 
 
 def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None = None) -> Setting:
-    """Return what the camera sees of a target at its ideal place.
+    """Return the camera at its ideal place and the target that it frames.
 
     time : of the shot, seconds; half way through it if None
     """

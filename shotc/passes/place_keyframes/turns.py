@@ -1,4 +1,4 @@
-"""Stated turns in which the camera would lose the target that it follows."""
+"""Stated turns during which the camera would lose the target that it follows."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from shotc.ir.mission import Keyframe, MissionIR
 def while_following(
     mission: MissionIR, keyframes: tuple[Keyframe, ...], placed: tuple[PlacedKeyframe, ...]
 ) -> list[Diagnostic]:
-    """Return errors for stated turns in which the camera would lose the target that it follows."""
+    """Return errors for stated turns during which the camera would lose the target that it follows."""
     diagnostics = []
     for i, after in enumerate(placed):
         before = placed[i - 1]

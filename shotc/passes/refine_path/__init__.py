@@ -1,9 +1,9 @@
-"""The refine-path pass: PathIR -> PathIR by a refiner plugin, whose result is checked, not believed.
+"""The refine-path pass: PathIR -> PathIR by a refiner plugin, whose result is checked.
 
-A refiner may move the filmed legs; it may not change what is filmed, nor hand back a path that breaks the
-invariants of PathIR, a clearance or the gimbal's range: all that solve-path-qp guarantees still holds.
-What goes wrong is an error that names the refiner and its package. Where the shot that it concerns says
-``refine: {optional: true}``, it is a warning and the shot's convex path is flown.
+A refiner may move the filmed legs. It must not change what is filmed, nor return a path that violates the
+invariants of PathIR, a clearance or the gimbal's range: all guarantees of solve-path-qp still hold. A
+violation is an error that names the refiner and its package. If the shot says ``refine: {optional: true}``,
+it is a warning, and the shot's convex path is flown.
 """
 
 from __future__ import annotations
@@ -49,5 +49,5 @@ class RefinePath:
     name: ClassVar[str] = "refine-path"
 
     def run(self, ir: PathIR, ctx: PassContext) -> Outcome[PathIR]:
-        """Refine the filmed legs, or explain."""
+        """Return the path with refined legs, or errors."""
         return settle(ir, self.seat, ask(self.seat, self.deadline, ir, ctx))

@@ -1,4 +1,4 @@
-"""Which shots of a plan are refined: in its statistics, and by a warning where nobody says why one is not."""
+"""Report which shots of a plan are refined: in its statistics, and by a warning where no reason is given."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from shotc.passes.solver_reports import UNREFINED, unrefined
 KEPT = "R003"
 STANDS = "its camera stands still"
 DONE = "yes"
-"""The value of the statistic ``SHOT.refined`` of a shot that is; of another it says why not."""
+"""The value of the statistic ``SHOT.refined`` of a refined shot; for another shot it is the reason."""
 
 
 class Account(NamedTuple):
-    """Of every shot whether it is refined, as statistics, and a warning for each that nobody told of."""
+    """For every shot whether it is refined, as statistics; and a warning for each without a reason."""
 
     entries: tuple[tuple[str, float | str], ...] = ()
     warnings: tuple[Diagnostic, ...] = ()
 
     def noted_in(self, value: Any) -> Any:
-        """Return a verified plan with these statistics, and any other value as it is."""
+        """Return a verified plan with these statistics, and any other value unchanged."""
         if not isinstance(value, VerifiedIR):
             return value
         flown = value.trajectory
@@ -37,8 +37,10 @@ class Account(NamedTuple):
 def account(seat: Seat, paths: tuple[PathIR, PathIR], diagnostics: Iterable[Diagnostic]) -> Account:
     """Return which shots of a plan are refined.
 
-    paths : the convex one and the one that is flown; diagnostics : all diagnostics so far
-    A camera that stands still is no fault: there is nothing to refine. The refiner `none` owes nothing.
+    A camera that stands still has nothing to refine, so it gets no warning. The refiner `none` is exempt.
+
+    paths : the convex one and the one that is flown
+    diagnostics : all diagnostics so far
     """
     if isinstance(seat.refiner, KeepPath):
         return Account()
@@ -59,7 +61,7 @@ def account(seat: Seat, paths: tuple[PathIR, PathIR], diagnostics: Iterable[Diag
 
 
 def _reason(mission: MissionIR, shot: Shot, diagnostics: Iterable[Diagnostic]) -> str:
-    """Return why a shot stays as it was, by what was said of it; empty where nobody says."""
+    """Return why a shot is not refined, from the diagnostics; empty if none says it."""
     find = mission.origins.key
     spans = {find(shot.path).span, find((*shot.path, "refine")).span}
     about = [d for d in diagnostics if d.code in {KEPT, UNREFINED} and any(m.span in spans for m in d.labels)]

@@ -1,4 +1,4 @@
-"""Asking a refiner, which may raise, take forever, or answer anything."""
+"""Call a refiner, which may raise, take forever, or return anything."""
 
 from __future__ import annotations
 
@@ -17,9 +17,11 @@ LONGER = "give it a longer `--deadline`"
 
 
 class Answer(NamedTuple):
-    """What a refiner said.
+    """The answer of a refiner.
 
-    path : anything, None where there is none; faults : its errors, and ours about it; warnings : its own
+    path : anything; None where there is none
+    faults : its errors, and ours about it
+    warnings : its own
     """
 
     path: Any
@@ -28,7 +30,7 @@ class Answer(NamedTuple):
 
 
 def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> Answer:
-    """Let a refiner refine a path, for ``deadline`` seconds at most where one is given."""
+    """Call a refiner on a path, for ``deadline`` seconds at most where one is given."""
     mission = path.keyframes.mission
 
     def fault(code: str, what: str, *notes: str) -> Answer:

@@ -1,4 +1,4 @@
-"""What a refined path changes about what is said: errors that are the refiner's, warnings that are over."""
+"""Diagnostics that a refined path changes: errors caused by the refiner, and warnings that no longer hold."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from shotc.passes.refine_path.settle import kept, same
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
 
 OF_THE_CONVEX = ("Q007",)
-"""Warnings of what the convex path cannot frame; verification says it of a path that is flown instead."""
+"""Warnings about framing on the convex path; verification reports on a refined path instead."""
 
 TOO_SHORT, POSSIBLE = "T001", "the shortest possible"
-"""The error of a duration in which a path cannot be flown, and its words for the least that can be."""
+"""The error of an infeasible duration, and its phrase for the least feasible one."""
 
 KEEP = "plan with `--refiner none`, or let all shots that are refined say `refine: {optional: true}`"
 OF_THE_GUIDE = "M008"
-"""The warning of how far a shot on its own clock leaves its place; a refined one leaves it by another way."""
+"""The warning about the deviation of a shot on its own clock; a refined shot has another deviation."""
 
 
 class Verdict(NamedTuple):
-    """Whether the mission lets the convex path be flown instead, and what there is to say."""
+    """Whether the mission allows the convex path instead, and the diagnostics."""
 
     convex: bool
     diagnostics: tuple[Diagnostic, ...]
 
 
 def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ...]) -> Verdict:
-    """Return what becomes of a refined path that came to errors.
+    """Return the verdict on a refined path that causes errors.
 
-    paths : the convex and the refined one; errors : what later passes say of the refined one, and not of
-    the convex one
+    paths : the convex and the refined one
+    errors : those of later passes on the refined path that the convex one does not have
     """
     before, _ = paths
     refined = _refined(paths)
@@ -59,9 +59,9 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
 def shortest_refined(
     seat: Seat, diagnostics: tuple[Diagnostic, ...], convex: tuple[Diagnostic, ...]
 ) -> tuple[Diagnostic, ...]:
-    """Return what was said of a refined path, its durations told as those of that path and not of any.
+    """Return the diagnostics of a refined path, with least durations marked as those of that path.
 
-    convex : what is said of the convex path, which is not flown either
+    convex : diagnostics of the convex path, which is not flown either
     """
     unrefined = {d.labels[0].span: d for d in convex if d.code == TOO_SHORT}
 
@@ -80,9 +80,9 @@ def shortest_refined(
 
 
 def still_true(paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
-    """Return what was said, less the warnings about convex legs that are not flown; paths as in ``blame``.
+    """Return the diagnostics without warnings about convex legs that are not flown; paths as in ``blame``.
 
-    Where a guide left its place and was refined, the flown motion's distance is told instead.
+    Where a guide left its ideal and was refined, the deviation of the refined motion is reported instead.
     """
     before, after = paths
     mission = before.keyframes.mission
@@ -102,7 +102,7 @@ def still_true(paths: tuple[PathIR, PathIR], diagnostics: tuple[Diagnostic, ...]
 
 
 def _of(mission: MissionIR, diagnostic: Diagnostic) -> str | None:
-    """Return the shot whose kind a warning of its place labels first."""
+    """Return the shot whose kind is the first label of a warning."""
     span = diagnostic.labels[0].span
     return next((s.id for s in mission.shots if mission.origins.value((*s.path, "kind")).span == span), None)
 

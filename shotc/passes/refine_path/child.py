@@ -1,7 +1,7 @@
-"""A refiner in a process of its own, which can be stopped whatever it is doing.
+"""A refiner in its own process, which can be stopped at any time.
 
-The process is a fresh interpreter: this one may have threads by now, which a fork would not survive. The
-path goes in and the answer comes back by pipe; what the refiner prints goes to standard error.
+The process is a fresh interpreter, because the current one may have threads, which a fork does not copy. The
+path and the answer pass through pipes; the refiner's prints go to standard error.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _START = (
     "from shotc.passes.refine_path.child import answer; answer(sys.stdin.buffer)"
 )
 _GRACE = 1.0
-"""Seconds past its time after which a process whose parent is gone ends itself."""
+"""Seconds after its deadline at which a process without a parent ends itself."""
 
 
 class TooSlow(Exception):
@@ -35,7 +35,7 @@ class Failed(Exception):
 
 
 class _Bare(NamedTuple):
-    """A PathIR without the mission that it was asked with: what the answer need not carry back."""
+    """A PathIR without its mission, which the answer need not carry."""
 
     drones: tuple[DronePath, ...]
     deviations: tuple[Deviation, ...]
@@ -51,10 +51,15 @@ class _Order(NamedTuple):
 
 
 def refined_within(seconds: float, reference: str, path: PathIR, ctx: PassContext) -> Any:
-    """Return what a refiner answers in a process of its own, whatever that is.
+    """Return a refiner's answer from its own process.
 
-    seconds : from the start of the process, loading included; reference : module:attribute
-    Raises TooSlow or Failed. A process that does not end by itself is ended, with all that it started.
+    If the process does not end by itself, it is killed with all its children.
+
+    seconds : from the start of the process, including imports
+    reference : module:attribute
+
+    Raises TooSlow if there is no answer in time, and Failed if the refiner raises or the process ends without
+    an answer.
     """
     data = pickle.dumps(sys.path) + pickle.dumps(_Order(reference, path, ctx.seed, seconds))
     with subprocess.Popen([sys.executable, "-P", "-c", _START], **_streams()) as process:
@@ -68,8 +73,8 @@ def refined_within(seconds: float, reference: str, path: PathIR, ctx: PassContex
 
 
 def answer(orders: BinaryIO) -> None:
-    """Be the process: refine what stands in the orders, and write the answer to standard output."""
-    # The answer has the pipe for itself.
+    """Run in the process: refine the path in ``orders`` and write the answer to standard output."""
+    # Only the answer is written to the pipe.
     with os.fdopen(os.dup(1), "wb") as out:
         os.dup2(2, 1)
         order: _Order = pickle.load(orders)
@@ -114,7 +119,7 @@ def _ended(status: int) -> str:
 
 
 def _streams() -> dict[str, Any]:
-    """Return how the process is started: with pipes, and apart from what an interrupt reaches."""
+    """Return the process options: pipes, and a separate group that interrupts do not reach."""
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     if sys.platform == "win32":
         return pipes | {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP}
@@ -122,7 +127,7 @@ def _streams() -> dict[str, Any]:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """End a process that has not ended, and what it started."""
+    """End a process that is still running, and its children."""
     if process.returncode is not None:
         return
     if sys.platform == "win32":

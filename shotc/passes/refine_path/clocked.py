@@ -1,4 +1,4 @@
-"""Whether refined drones on the mission's clock fly the same shots: their times, ends and ways between."""
+"""Check that refined drones on the mission's clock fly the same shots: times, ends and legs between."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
 from shotc.planning.timing.estimate import leg_time
 
 EQUAL = 1e-9
-"""Seconds, metres or radians, m/s and so on: the legs around a shot stay, so it joins them to rounding."""
+"""Tolerance in seconds, metres, radians and their rates: a shot joins the legs around it exactly."""
 
 IN_TIME = 1e-6
-"""Seconds by which a leg may take longer or shorter than it did: what the clock of a mission is good to."""
+"""Seconds by which the duration of a leg may change: the accuracy of a mission's clock."""
 
 _DENSE = 257
 
 
 def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
-    """Find what is wrong with drones on the mission's clock; both paths have the same legs."""
+    """Yield the faults of drones on the mission's clock; both paths have the same legs."""
     mission = before.keyframes.mission
     for old, new in zip(before.timed, after.timed, strict=True):
         drone = mission.drone(new.drone)
@@ -43,7 +43,7 @@ def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
 
 
 def _on_path(drone: Drone, was: PathLeg, now: PathLeg) -> Iterator[Finding]:
-    """Find what is wrong with a leg that is a curve over its path; it may turn anew, and a shot may move."""
+    """Yield the faults of a leg on a path; its angles may change, and the path of a shot may change."""
     changed = list(_as_told(was, now))
     if changed:
         what = f"the {was.phase}" if was.shot is None else f"what shot `{was.shot}` is to do"
@@ -58,7 +58,7 @@ def _on_path(drone: Drone, was: PathLeg, now: PathLeg) -> Iterator[Finding]:
 
 
 def _as_told(was: PathLeg, now: PathLeg) -> Iterator[str]:
-    """Say what of a leg is another; one whose time was free may state the time that it takes."""
+    """Yield the changes of a leg's data; a free duration may become the one that the leg takes."""
     if was.duration is None:
         now = replace(now, duration=None)
     if isinstance(was, HoldLeg) or isinstance(now, HoldLeg) or now.phase == "shot":
@@ -74,7 +74,7 @@ def _as_told(was: PathLeg, now: PathLeg) -> Iterator[str]:
 
 
 def _moved(was: MovingLeg, now: MovingLeg) -> float:
-    """Return how far an unfilmed leg is from the places where it was, at dense samples, metres."""
+    """Return how far an unfilmed leg is from its old positions, at dense samples, metres."""
     if abs(was.curve.start - now.curve.start) + abs(was.curve.end - now.curve.end) > SAME:
         return inf
     s = np.linspace(was.curve.start, was.curve.end, _DENSE)
@@ -100,7 +100,7 @@ def _shot(was: ClockLeg, now: ClockLeg) -> Iterator[Finding]:
 
 
 def _changed(was: ClockLeg, now: ClockLeg) -> Iterator[str]:
-    """Say what of a shot is not as it was."""
+    """Yield the changes of a shot's data."""
     if max(abs(was.start - now.start), abs(was.end - now.end)) > EQUAL or was.path != now.path:
         yield "its first or its last frame is at another time"
     if was.keyframes != now.keyframes:
@@ -117,7 +117,7 @@ def _same_span(a: FramingSpan | Reference, b: FramingSpan | Reference) -> bool:
 
 
 def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
-    """Say how a leg leaves the rest poses that its neighbours join."""
+    """Yield how a leg deviates from the rest poses that its neighbours join."""
     off = max(abs(was.start - now.start), abs(was.end - now.end))
     if off > EQUAL:
         yield f"its way into or out of the film takes {off:.3g} s more or less"
@@ -133,7 +133,7 @@ def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
 
 
 def _alike(a: PathLeg, b: PathLeg) -> bool:
-    """Tell whether two legs of the same kind are flown the same."""
+    """Return whether two legs are flown in the same way."""
     fields = (a.phase, a.pose, a.marks, a.duration, a.start, a.path)
     if fields != (b.phase, b.pose, b.marks, b.duration, b.start, b.path):
         return False

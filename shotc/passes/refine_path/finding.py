@@ -1,4 +1,4 @@
-"""What is wrong with a refined path, before it is told."""
+"""A fault of a refined path, before it becomes a diagnostic."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from shotc.passes.refine_path.seat import Seat
 
 
 class Finding(NamedTuple):
-    """One fault of what a refiner did.
+    """One fault of a refiner's result.
 
     what : completes "refiner `x` of package y ..."
-    shot : the one it is about, None where all are concerned; labels : places beside that of the shot
-    help : what to do, where the refiner's authors need not hear of it
+    shot : the shot that it is about; None where all are
+    labels : places in addition to that of the shot
+    help : remedy for the user; by default the report to the refiner's authors
     """
 
     code: str
@@ -26,7 +27,7 @@ class Finding(NamedTuple):
 
 
 class Fault(NamedTuple):
-    """An error and the shot that it is about, None where it concerns all of them."""
+    """An error and the shot that it is about; None where it is about all of them."""
 
     shot: str | None
     told: Diagnostic
@@ -43,7 +44,7 @@ def tell(mission: MissionIR, seat: Seat, finding: Finding) -> Fault:
 
 
 def own(mission: MissionIR, seat: Seat, diagnostic: Diagnostic) -> Fault:
-    """Return an error of the refiner's own, with the package's name added."""
+    """Return an error of the refiner itself, with the package's name added."""
     note = seat.named
     return Fault(
         shot_of(mission, diagnostic), diagnostic._replace(notes=(*diagnostic.notes, f"told by {note}"))
@@ -51,7 +52,7 @@ def own(mission: MissionIR, seat: Seat, diagnostic: Diagnostic) -> Fault:
 
 
 def shot_of(mission: MissionIR, diagnostic: Diagnostic) -> str | None:
-    """Return the one shot whose key an error labels; the only shot of a mission needs no label."""
+    """Return the one shot that an error labels; in a mission with a single shot no label is needed."""
     if len(mission.shots) == 1:
         return mission.shots[0].id
     spans = {label.span for label in diagnostic.labels}

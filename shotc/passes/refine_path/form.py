@@ -1,4 +1,6 @@
-"""Whether a refined path is one at all, and still of the same mission: legs, stops, keyframes, references."""
+"""Check the form of a refined path, and that it is of the same mission: legs, stops, keyframes,
+references.
+"""
 
 from __future__ import annotations
 
@@ -30,10 +32,10 @@ from shotc.passes.refine_path.joints import ORDERS, largest_jump
 from shotc.passes.solver_reports import place
 
 SAME = 1e-6
-"""Metres, radians or screen units that still count as the same place."""
+"""Tolerance in metres, radians or screen units for equal places."""
 
 SMOOTH = 1e-6
-"""Jump of value, first or second derivative, relative to the scale of its channel."""
+"""Tolerance of a jump of value, first or second derivative, relative to the scale of its channel."""
 
 UNFILMED = ("transit", "return")
 DEGREE = 5
@@ -41,7 +43,7 @@ _DENSE = 257
 
 
 def structure(before: PathIR, after: object) -> Iterator[Finding]:
-    """Find what keeps the legs of two paths from being compared."""
+    """Yield what makes the legs of two paths impossible to compare."""
     if not isinstance(after, PathIR):
         yield broken(f"it is a {type(after).__name__}, not a PathIR")
         return
@@ -63,7 +65,7 @@ def structure(before: PathIR, after: object) -> Iterator[Finding]:
 
 
 def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
-    """Find where a path of known structure does not join, jumps, or left what the mission says."""
+    """Yield where a path of known structure does not join, jumps, or differs from the mission."""
     for old, new in zip(before.drones, after.drones, strict=True):
         yield from _joints(new)
         yield from _pads(old, new)
@@ -94,7 +96,7 @@ def broken(note: str, shot: str | None = None) -> Finding:
 
 
 def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
-    """Return what has to stay: of drones on the clock every leg, of others those that film or lift."""
+    """Return what has to stay: on the clock every leg, else the filmed legs, take-off and landing."""
     kept: list[tuple[str, list[tuple[str, str | None]]]] = [
         (d.drone, [(leg.phase, leg.shot) for leg in d.legs if leg.phase not in UNFILMED]) for d in path.drones
     ]
@@ -107,7 +109,7 @@ def _kind(leg: Leg) -> str:
 
 
 def _doubled(drone: DronePath) -> bool:
-    """Tell whether unfilmed legs follow one another; between two poses there is one way or none."""
+    """Return whether unfilmed legs follow one another; between two poses there is at most one."""
     return any(a.phase in UNFILMED and b.phase in UNFILMED for a, b in pairwise(drone.legs))
 
 
@@ -116,7 +118,7 @@ def _is_told(value: object) -> bool:
 
 
 def _shapeless(leg: PathLeg) -> str:
-    """Say what is wrong with the numbers of a leg alone, or return an empty string."""
+    """Return what is wrong with the numbers of a leg, or an empty string."""
     fault = "" if isinstance(leg, HoldLeg) else _misshapen(leg.curve)
     if fault:
         return fault
@@ -137,7 +139,7 @@ def _shapeless(leg: PathLeg) -> str:
 
 
 def _has_form(leg: object) -> bool:
-    """Tell whether a leg is one of the three kinds, and has a curve if it moves."""
+    """Return whether a leg is of one of the three types, with a curve if it moves."""
     return isinstance(leg, HoldLeg) or (
         isinstance(leg, MovingLeg | ClockLeg) and isinstance(leg.curve, Piecewise)
     )
@@ -168,7 +170,7 @@ def _joints(drone: DronePath) -> Iterator[Finding]:
 
 
 def _pads(old: DronePath, new: DronePath) -> Iterator[Finding]:
-    """Find take-offs and landings that are not where they were."""
+    """Yield take-offs and landings that have moved."""
     for was, now in zip(_lifts(old), _lifts(new), strict=True):
         ends = ((was.pose, now.pose), (was.end_pose, now.end_pose))
         moved = max(_apart(old_end, new_end) for old_end, new_end in ends)
@@ -180,12 +182,12 @@ def _pads(old: DronePath, new: DronePath) -> Iterator[Finding]:
 
 
 def _apart(a: Pose, b: Pose) -> float:
-    """Return by how much two places differ on an axis at most, metres."""
+    """Return the largest difference of two places along an axis, metres."""
     return float(np.abs(np.array(a[:3]) - np.array(b[:3])).max())
 
 
 def jumps(leg: Leg, curve: Piecewise) -> Iterator[Finding]:
-    """Find where a leg is not smooth, the lowest order only; at its stops the motion ends, so it may turn."""
+    """Yield where a leg is not smooth, for the lowest order only; at a stop it may turn."""
     stops = leg.stops if isinstance(leg, MovingLeg) else ()
     rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in stops])
     cuts = sorted({0, len(curve.ctrl), *map(int, rests)})
@@ -209,7 +211,7 @@ def _lifts(drone: DronePath) -> list[MovingLeg]:
 
 
 def changed_shot(was: PathLeg, now: PathLeg) -> Iterator[str]:
-    """Say what of a shot is not as it was."""
+    """Yield the changes of a shot's data."""
     if _timing(was) != _timing(now):
         yield "its timing is another"
     if _holds(was) != _holds(now):
@@ -241,7 +243,9 @@ def _holds(leg: PathLeg) -> list[float]:
 
 
 def _off(old: FramingSpan, new: FramingSpan) -> float:
-    """Return how far the new reference leaves the line of the old one on screen; at its ends, its ends."""
+    """Return how far the new reference leaves the line of the old one on screen, and how far its ends
+    differ.
+    """
     if old.reference is None or new.reference is None or old.reference is new.reference:
         return 0.0
     a, b = old.reference, new.reference

@@ -1,4 +1,4 @@
-"""What a refiner's error says of the convex path: that it is good and how to keep it, or what it breaks."""
+"""Add to a refiner's error what the convex path offers: how to keep it, or why it fails as well."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ NONE = "plan with `--refiner none`"
 def with_convex(
     path: PathIR, diagnostics: Iterable[Diagnostic], later: Iterable[Diagnostic]
 ) -> tuple[Diagnostic, ...]:
-    """Return what was said, the refiner's errors with what becomes of the convex path.
+    """Return the diagnostics, with a note on the convex path in the refiner's errors.
 
-    path : the convex one; later : all that the passes after refine-path say of it
+    path : the convex one
+    later : diagnostics of the later passes on it
     """
     against = next((d for d in later if has_errors([d])), None)
     return tuple(

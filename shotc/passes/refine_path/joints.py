@@ -1,4 +1,4 @@
-"""How smooth a curve is at its breaks, relative to its size."""
+"""Smoothness of a curve at its breaks, relative to its scale."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ORDERS = ("value", "rate", "acceleration")
 
 
 class Jump(NamedTuple):
-    """The largest jump of a derivative, relative to its scale, and the parameter at which it is."""
+    """The largest jump of a derivative, relative to its scale, and its parameter."""
 
     size: float
     at: float
@@ -23,8 +23,9 @@ class Jump(NamedTuple):
 def largest_jump(curve: Piecewise, order: int) -> Jump:
     """Return the largest jump of a derivative at a break, relative to its scale.
 
-    The scale of a channel is its largest control value, at least one unit. What rounding of the control
-    points explains is taken off: the n-th difference of values of size c over h carries 2^n c eps / h^n.
+    The scale of a channel is its largest control value, at least one unit. The part that rounding of the
+    control points can cause is subtracted: the n-th difference of values of size c over h carries 2^n c eps /
+    h^n.
     """
     derived = curve.derivative(order).ctrl
     if len(derived) == 1:

@@ -1,7 +1,7 @@
-"""Whether a refined path keeps its distances, its keyframes and the gimbal's range, at every point of it.
+"""Check that a refined path keeps its clearances, keyframes and gimbal range, at every point.
 
-A hull that keeps a clearance proves it for its piece; a piece whose hull does not is halved, until it is
-proved or a point of it is found that is too near.
+A hull that keeps a clearance proves it for its piece. A piece whose hull does not is halved, until it is
+proved or a point of it is found too near.
 """
 
 from __future__ import annotations
@@ -38,15 +38,15 @@ from shotc.planning.free_space import FreeSpace, breaches, shortfall
 from shotc.planning.obstacles import flight_space
 
 TOLERANCE = 2e-6
-"""Metres and radians beyond a limit that still keep it, as where the convex path is made."""
+"""Metres and radians of violation that are accepted, as for the convex path."""
 
 HALVINGS = 16
 ENOUGH = 1e-4
-"""Metres to which the worst breach is told."""
+"""Accuracy of the worst violation in metres."""
 
 
 class Near(NamedTuple):
-    """A point of a path that is too near to something: where, and by how many metres."""
+    """A point of a path that is too near to an obstacle, at parameter s, and the lack in metres."""
 
     s: float
     point: Array
@@ -54,7 +54,7 @@ class Near(NamedTuple):
 
 
 def limits(path: PathIR) -> Iterator[Finding]:
-    """Find where a path of sound form breaks a clearance, misses a keyframe or leaves the gimbal's range."""
+    """Yield where a path of sound form breaks a clearance, misses a keyframe or leaves the gimbal's range."""
     mission = path.keyframes.mission
     every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
     for track in every:
@@ -69,7 +69,7 @@ def limits(path: PathIR) -> Iterator[Finding]:
 
 
 def nearest(space: FreeSpace, curve: Piecewise) -> Near | None:
-    """Return where a curve of channels x, y, z is too near by the most, None where it nowhere is."""
+    """Return where a curve of channels x, y, z lacks the most clearance; None if nowhere."""
     bag, worst = pieces(curve), None
     for _ in range(HALVINGS):
         least = TOLERANCE if worst is None else worst.lack + ENOUGH
@@ -114,7 +114,7 @@ def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise)
 
 
 def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
-    """Find camera angles that the gimbal does not reach; its yaw counts from the body, whole turns apart."""
+    """Yield camera angles out of the gimbal's range; its yaw is relative to the body, modulo whole turns."""
     whole = pieces(curve)
     low, high = drone.gimbal.yaw
     relative = whole.ctrl[:, :, [CAM_YAW]] - whole.ctrl[:, :, [BODY_YAW]]

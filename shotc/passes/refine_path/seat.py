@@ -1,4 +1,4 @@
-"""Who sits in the refiner seat: the one that does nothing, and where it comes from."""
+"""The refiner that a plan uses, and where it comes from; and the refiner that does nothing."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shotc.ir.path import PathIR
 
 @dataclass(frozen=True, slots=True)
 class KeepPath:
-    """The refiner ``none``: the convex path is flown as it is."""
+    """The refiner ``none``: it returns the convex path."""
 
     name: ClassVar[str] = "none"
     summary: ClassVar[str] = "fly the convex path as it is"
@@ -37,7 +37,7 @@ class Unusable:
     api: ClassVar[int] = 1
 
     def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
-        """Return why there is no better path."""
+        """Return no path, and the faults."""
         del path, ctx
         return Outcome(None, self.faults)
 
@@ -46,7 +46,7 @@ class Seat(NamedTuple):
     """A refiner and where it comes from.
 
     package : the distribution that registers it
-    reference : module:attribute, by which another process finds it; empty where none can
+    reference : module:attribute, by which another process finds it; empty where there is none
     """
 
     refiner: Refiner | Unusable = REFINER
@@ -55,5 +55,5 @@ class Seat(NamedTuple):
 
     @property
     def named(self) -> str:
-        """The refiner as messages call it, with its package."""
+        """The refiner's name in messages, with its package."""
         return f"refiner `{self.refiner.name}` of package {self.package}"

@@ -1,4 +1,4 @@
-"""What is flown after a refiner has answered: its path, or the convex one where the mission allows it."""
+"""Choose the path to fly from a refiner's answer: its path, or the convex one where the mission allows it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
 
 
 def settle(before: PathIR, seat: Seat, answer: Answer) -> Outcome[PathIR]:
-    """Return the path to fly: refined where that is sound, convex in shots that allow it; or no path."""
+    """Return the path to fly: refined where sound, convex in optional shots that are not; or errors."""
     shots = before.keyframes.mission.shots
     path, faults = _mended(before, seat, answer)
     if path is None:
@@ -54,9 +54,9 @@ def settle(before: PathIR, seat: Seat, answer: Answer) -> Outcome[PathIR]:
 
 
 def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, list[Fault]]:
-    """Return the refined path with the convex legs of shots that failed, and all faults.
+    """Return the refined path with convex legs for shots that failed, and all faults.
 
-    None where nothing of the refined path can be used.
+    None where nothing of the refined path is usable.
     """
     path, faults = answer.path, list(answer.faults)
     failed = {fault.shot for fault in faults}
@@ -72,7 +72,7 @@ def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, 
 
 
 def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
-    """Return what is wrong with what should be a path; only a path that is one is looked at closely."""
+    """Return the faults of a value that should be a path; detailed checks need a sound structure."""
     try:
         faults = list(structure(before, path)) or [
             *form(before, path),
@@ -89,7 +89,7 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
 
 
 def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> PathIR | None:
-    """Return the path with the convex legs of some shots, itself where it has them, None where none joins."""
+    """Return the path with the convex legs of some shots; itself where it has them, None where none joins."""
     convex = {name for name in failed if name is not None}
     if all(same(filmed(before, name), filmed(path, name)) for name in convex):
         return path
@@ -115,7 +115,7 @@ def _with_convex(before: PathIR, path: PathIR, failed: Iterable[str | None]) -> 
 
 
 def _on_paths(before: PathIR, after: PathIR) -> Iterator[tuple[MovingLeg, MovingLeg]]:
-    """Yield the filmed legs on a path of drones on the mission's clock, as they were and as they are."""
+    """Yield the filmed legs on paths of drones on the mission's clock, old and new."""
     for old, new in zip(before.timed, after.timed, strict=True):
         for was, now in zip(old.legs, new.legs, strict=True):
             if isinstance(was, MovingLeg) and isinstance(now, MovingLeg) and now.phase == "shot":
@@ -123,9 +123,9 @@ def _on_paths(before: PathIR, after: PathIR) -> Iterator[tuple[MovingLeg, Moving
 
 
 def _guided(old: TimedPath, new: TimedPath, convex: set[str]) -> TimedPath:
-    """Return a drone's legs with refined shots on their own clock, less some that keep their guides.
+    """Return a drone's legs with refined shots on their own clock, except those that keep their guides.
 
-    Refined legs begin and end where those do.
+    Refined legs begin and end where the guides do.
     """
     legs = zip(old.legs, new.legs, strict=True)
     return TimedPath(
@@ -135,7 +135,7 @@ def _guided(old: TimedPath, new: TimedPath, convex: set[str]) -> TimedPath:
 
 
 def same(a: Leg, b: Leg) -> bool:
-    """Tell whether two legs fly the same."""
+    """Return whether two legs are flown in the same way."""
     if a is b:
         return True
     if isinstance(a, HoldLeg) or isinstance(b, HoldLeg):
@@ -144,7 +144,7 @@ def same(a: Leg, b: Leg) -> bool:
 
 
 def kept(before: PathIR, seat: Seat, shot: str, faults: list[Fault]) -> Diagnostic:
-    """Return the warning of a shot whose convex path is flown, with what was wrong with the other."""
+    """Return the warning of a shot that keeps its convex path, with the faults of the refined one."""
     mission = before.keyframes.mission
     path = mission.shot(shot).path
     about = [fault.told for fault in faults if fault.shot in (shot, None)]

@@ -1,9 +1,9 @@
 """solve-path-qp: keyframes to geometry, KeyframeIR -> PathIR.
 
-Takes keyframes with their camera angles; gives, for every drone, all legs of its flight as curves
-q(s), each from rest to rest, joined end to end. Guarantees: every leg but take-off and landing is
-proved (by Bernstein hulls) to keep all clearances, camera pitch and gimbal yaw stay in range, and
-keyframes that the user placed are passed exactly.
+It takes keyframes with their camera angles. For every drone it gives all legs of its flight as curves q(s),
+each from rest to rest, joined end to end. It guarantees that every leg except take-off and landing is proved
+(by Bernstein hulls) to keep all clearances, that camera pitch and gimbal yaw stay in range, and that
+keyframes placed by the user are passed exactly.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ from shotc.solvers.headings import DEFAULT
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """One drone's share of the result; ``legs`` is empty where an error stopped it."""
+    """The result of one drone; ``legs`` is empty after an error."""
 
     legs: tuple[Leg, ...]
     deviations: tuple[Deviation, ...]
@@ -59,7 +59,7 @@ class _Planned:
 
 
 class _Ordered(NamedTuple):
-    """What drones came to in some order; stopped : the first without a way, where there is one."""
+    """The result of all drones in one order; stopped : the first drone without a feasible flight, if any."""
 
     path: PathIR | None
     diagnostics: tuple[Diagnostic, ...]
@@ -67,8 +67,11 @@ class _Ordered(NamedTuple):
 
 
 class _Known(NamedTuple):
-    """What drones planned one after the other know: of shots their durations, as in the pass, and ends on the
-    mission's clock; the flights of those planned so far.
+    """The data that one drone passes on to the next.
+
+    durations : of shots, as in the pass
+    ends : mission times at which shots end, by id
+    flights : those planned so far, by drone
     """
 
     durations: Mapping[str, float]
@@ -78,9 +81,9 @@ class _Known(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SolvePathQp:
-    """The geometry stage.
+    """The geometry pass.
 
-    durations : seconds, by shot id, that shots take whose time the mission leaves free
+    durations : seconds, by shot id, for shots whose duration the mission leaves free
     """
 
     durations: Mapping[str, float] = field(default_factory=dict)
@@ -89,7 +92,8 @@ class SolvePathQp:
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[PathIR]:
         """Plan every drone's path, in order of priority.
 
-        Where one finds no way beside those before it, it goes before them if all have one then.
+        If a drone finds no feasible flight beside those before it, it is planned before them, provided that
+        all are feasible then.
         """
         order = _by_need(ir)
         planned = first = self._in_order(ir, order, ctx)
@@ -108,7 +112,7 @@ class SolvePathQp:
     def _in_order(
         self, ir: KeyframeIR, order: Sequence[Drone], ctx: PassContext, *, whole: bool = True
     ) -> _Ordered:
-        """Plan drones one after the other; whole : the others, too, where one of them finds no way."""
+        """Plan drones one after the other; whole : whether the others are planned after one fails."""
         paths: list[DronePath] = []
         timed: list[TimedPath] = []
         known = _Known(self.durations, {}, {})
@@ -138,7 +142,7 @@ class SolvePathQp:
 
 
 def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]:
-    """Return what is wrong with keyframes whose picture was not known before their shot's start was."""
+    """Return the faults of keyframes whose picture depends on the start that planning chose."""
     placed, diagnostics = {p.shot.id: p for p in ir.shots if is_keyed(p.shot)}, list[Diagnostic]()
     for leg in (leg for path in timed for leg in path.legs if isinstance(leg, ClockLeg)):
         if leg.shot in placed:
@@ -148,24 +152,24 @@ def _placed_late(ir: KeyframeIR, timed: Sequence[TimedPath]) -> list[Diagnostic]
 
 
 def on_clock(ir: KeyframeIR) -> bool:
-    """Tell whether legs have to know their mission time: a target moves, or several drones fly."""
+    """Return whether legs depend on mission time: a target moves, or several drones fly."""
     moving = any(placed.shot.ideal is not None for placed in ir.shots)
     moving = moving or any(target.track is not None for target in ir.mission.targets)
     return moving or len({placed.shot.drone for placed in ir.shots}) > 1
 
 
 def _by_need(ir: KeyframeIR) -> list[Drone]:
-    """Return the drones in order of priority, each after those whose shots its own wait for."""
+    """Return the drones in order of priority, each after those that its shots wait for."""
     return _after_needs(ir, sorted(ir.mission.drones, key=lambda d: (d.priority, d.name)))
 
 
 def _earlier(ir: KeyframeIR, order: Sequence[Drone], drone: Drone) -> list[Drone]:
-    """Return an order in which a drone goes before all that it does not wait for."""
+    """Return an order in which a drone comes before all drones that it does not wait for."""
     return _after_needs(ir, [drone, *(other for other in order if other is not drone)])
 
 
 def _after_needs(ir: KeyframeIR, wanted: Sequence[Drone]) -> list[Drone]:
-    """Return drones as they are wanted, but each after those whose shots its own wait for."""
+    """Return drones in the given order, but each after those that its shots wait for."""
     left = list(wanted)
     owner = {placed.shot.id: placed.shot.drone for placed in ir.shots}
     needs: dict[str, set[str]] = {drone.name: set() for drone in left}
@@ -186,7 +190,7 @@ def _plan(
     ctx: PassContext,
     known: _Known,
 ) -> _Planned:
-    """Plan one drone's legs, and add what the drones after it have to know."""
+    """Plan one drone's legs, and add its flight for the drones after it."""
     mission = ir.mission
     mine = [placed for placed in ir.shots if placed.shot.drone == drone.name]
     if not mine:
@@ -218,7 +222,7 @@ def _plan(
 def _curves(
     mission: MissionIR, drone: Drone, space: FreeSpace, mine: Sequence[PlacedShot], ctx: PassContext
 ) -> tuple[list[PlannedShot], list[Diagnostic]]:
-    """Return the shots of a drone that are flown on a path, and why others cannot be."""
+    """Return the shots of a drone on paths, and the errors of those that are infeasible."""
     shots: list[PlannedShot] = []
     faults: list[Diagnostic] = []
     for placed in mine:
@@ -244,7 +248,7 @@ def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[PlannedShot]) ->
 def _in_a_row(
     mission: MissionIR, flight: Flight, shots: list[PlannedShot], warnings: tuple[Diagnostic, ...]
 ) -> _Planned:
-    """Plan the legs of a drone that nobody waits for: its shots one after another."""
+    """Plan the legs of a drone without a clock: its shots one after another."""
     joined = drone_legs(flight, shots)
     if isinstance(joined, Blocked):
         shot = joined.shot.shot if joined.shot else None
@@ -259,7 +263,7 @@ def _on_clock(
     warnings: tuple[Diagnostic, ...],
     ctx: PassContext,
 ) -> _Planned:
-    """Plan the legs of a drone in a mission where something is filmed on its own clock."""
+    """Plan the legs of a drone in a mission with a clock."""
     mission = itinerary.mission
     for shot in shots:
         placed = shot.shot if isinstance(shot, PlannedShot) else shot
@@ -279,7 +283,7 @@ def _on_clock(
 
 
 def _told(itinerary: Itinerary, placed: PlacedShot | None, trouble: ClockFailure) -> Diagnostic:
-    """Return the error for what stands in the way of a shot on the clock, or of the way home."""
+    """Return the error for a shot on the clock that is infeasible, or for the way home."""
     mission, flight = itinerary.mission, itinerary.flight
     if isinstance(trouble, Meets):
         return way_met(mission, flight.drone, None if placed is None else placed.shot, trouble)

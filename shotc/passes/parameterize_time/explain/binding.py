@@ -1,4 +1,4 @@
-"""Says which limits hold a leg back, where, and how far one of them alone would have to rise."""
+"""Find which limits bind a leg, where, and how far one of them alone would have to rise."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from shotc.planning.timing.move import Move, axes_of
 from shotc.rounding import up
 from shotc.source.file import Span
 
-# A limit holds a piece back where at least this share of it is used.
+# Share of a limit above which it binds a piece.
 BINDING = 0.97
-# The path itself bends a little with the limits: what is named as enough leaves room for that.
+# Factor on a proposed limit, because the path changes slightly with the limits.
 ROOM = 1.004
-# Raising a limit further than this is no advice; so many halvings find the least within that.
+# Largest factor of a limit that is proposed; bisection steps for the least one.
 HIGHEST = 4.0
 HALVINGS = 7
-# Sine of the steepest tilt that is advised, 60 deg.
+# Sine of the steepest tilt that is proposed, 60 deg.
 HIGHEST_TILT = 0.866
 
 
@@ -61,9 +61,9 @@ _SHOWN = {
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """The seconds between two neighbouring keyframes, and how long each limit binds in them.
+    """The flight time between two neighbouring keyframes, seconds, and how long each limit binds there.
 
-    where : which two, in words
+    where : which two, as a phrase
     """
 
     where: str
@@ -73,10 +73,10 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Holdup:
-    """What holds moves at full limits back.
+    """The limits that bind moves at full limits.
 
-    stretches : those between keyframes where a limit binds, the slowest first
-    names : the limits that bind, the longest first
+    stretches : intervals between keyframes where a limit binds, the slowest first
+    names : of the limits that bind, the longest first
     """
 
     stretches: tuple[Stretch, ...]
@@ -84,7 +84,7 @@ class Holdup:
 
 
 def binding(leg: PathLeg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
-    """Return what holds the moves of a leg back."""
+    """Return the limits that bind the moves of a leg."""
     pieces = [_held(move, ceiling) for move in moves]
     marks = sorted(leg.marks, key=lambda m: (m.s, m.index))
     stretches = []
@@ -107,7 +107,7 @@ def binding(leg: PathLeg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
 
 
 def _where(marks: Sequence[Mark], a: Mark, b: Mark) -> str:
-    """Return between which keyframes a stretch is, or, where nobody wrote them, which share of the way."""
+    """Return the keyframes of an interval as a phrase; for generated ones its share of the path."""
     if len({mark.path for mark in marks}) == len(marks):
         return f"from keyframe {a.index + 1} to {b.index + 1}"
     first, whole = marks[0].s, marks[-1].s - marks[0].s or 1.0
@@ -116,7 +116,7 @@ def _where(marks: Sequence[Mark], a: Mark, b: Mark) -> str:
 
 
 class _Pieces(NamedTuple):
-    """Pieces of a move: the s of their middles, their seconds, (P,), and by limit which of them it binds."""
+    """Pieces of a move: s of their middles, durations in seconds, (P,), and by limit where it binds."""
 
     middle: Array
     seconds: Array
@@ -133,7 +133,7 @@ def _held(move: Move, ceiling: Ceiling) -> _Pieces:
 
 
 def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str, ...]:
-    """Return up to three sentences on what holds the drone back and where."""
+    """Return up to three notes on which limits bind and where."""
     notes = []
     for stretch in holdup.stretches[:3]:
         longest = sorted(stretch.held, key=lambda name: -stretch.held[name])[:2]
@@ -145,7 +145,7 @@ def binding_notes(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[str
 
 
 def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[Label, ...]:
-    """Return labels on the lines of the limits that bind, at most two, and on the wind that lowers one."""
+    """Return labels on the limits that bind, at most two, and on the wind if it lowers one."""
     by_span: dict[Span, Label] = {}
     for name in holdup.names[:2]:
         shown = _shown(drone, name)
@@ -167,7 +167,7 @@ def binding_labels(mission: MissionIR, drone: Drone, holdup: Holdup) -> tuple[La
 def raises(
     mission: MissionIR, drone: Drone, names: tuple[str, ...], enough: Callable[[Ceiling], bool]
 ) -> list[str]:
-    """Return which of the named limits would do if it alone rose, and how far, as text."""
+    """Return, for each named limit that is sufficient alone, how far to raise it, as text."""
     full = ceiling_of(drone)
     texts = []
     for name in names:
@@ -179,7 +179,7 @@ def raises(
 
 
 def _shown(drone: Drone, name: str) -> _Shown:
-    """Return how the mission's limit is shown that stands behind a limit of the ceiling."""
+    """Return how the mission's limit behind a limit of the ceiling is shown."""
     if name != "acceleration":
         return _SHOWN[name]
     bounds = drone.limits.acceleration_bounds
@@ -187,7 +187,7 @@ def _shown(drone: Drone, name: str) -> _Shown:
 
 
 def _alone(drone: Drone, name: str) -> float:
-    """Return the factor up to which a limit of the ceiling rises with one limit of the mission alone."""
+    """Return the largest factor of a limit of the ceiling when only one limit of the mission rises."""
     if name != "acceleration":
         return inf
     least, following, _ = sorted(drone.limits.acceleration_bounds.values())
@@ -211,7 +211,7 @@ def _least_factor(enough: Callable[[float], bool]) -> float | None:
 
 
 def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
-    """Return a limit with its name in words, and what the wind takes of it."""
+    """Return a limit with its name, and the part that the wind takes."""
     wind = ""
     if name == "speed" and mission.wind > 0:
         wind = f" less {mission.wind:.2f} m/s of wind" if mission.wind_taken else " in the wind"
@@ -219,7 +219,7 @@ def shown_limit(mission: MissionIR, drone: Drone, name: str) -> str:
 
 
 def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0) -> str:
-    """Return a limit as the mission writes it, times a factor and then rounded up."""
+    """Return a limit in the mission's unit, multiplied by a factor and then rounded up."""
     shown = _shown(drone, name)
     value = factor * getattr(ceiling_of(drone), name)
     if factor == 1.0:
@@ -228,7 +228,7 @@ def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0)
 
 
 def _written(mission: MissionIR, shown: _Shown, value: float, room: float = 1.0) -> float:
-    """Return a limit of the ceiling, SI, as the number that the mission writes for it, times some room."""
+    """Return a limit of the ceiling, SI, as the number written in the mission, times a factor."""
     if shown is _SHOWN["tilt"]:
         return degrees(asin(room * value / G_M_S2))
     if shown is _SHOWN["thrust_to_weight"]:

@@ -1,4 +1,4 @@
-"""The timing faults as diagnostics: what was asked, what is possible, which limit binds, what would do."""
+"""Diagnostics of timing: the deadline, what is feasible, which limit binds, and what would be sufficient."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ from shotc.rounding import at_least, plain
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Remedies:
-    """What there is to say about a leg that is too slow.
+    """The data for remedies of a leg that is too slow.
 
-    holdup : what holds its fastest flight back; enough : whether other limits would do
+    holdup : the limits that bind its fastest flight
+    enough : whether given limits are sufficient
     """
 
     holdup: Holdup
@@ -72,9 +73,9 @@ def too_fast(
 def start_too_early(
     mission: MissionIR, leg: Leg, asked: float, earliest: float, phases: tuple[Phase, ...]
 ) -> Diagnostic:
-    """Return T003: the drone is not yet there at the shot's start.
+    """Return T003: the drone arrives after the shot's start.
 
-    phases : what the drone does until then
+    phases : of the drone until then
     """
     return Diagnostic(
         "T003",
@@ -117,7 +118,7 @@ def without_length(mission: MissionIR, leg: PathLeg) -> Diagnostic:
 
 
 def roughly_timed(mission: MissionIR, drone: Drone, leg: PathLeg, held: str) -> Diagnostic:
-    """Return T006: the solver gave no profile, so a rough one is flown, held back by one limit."""
+    """Return T006: the solver found no profile, so a rough one is flown, slowed by one limit."""
     what = f"shot `{leg.shot}`" if leg.shot else f"{leg.phase} of `{drone.name}`"
     return Diagnostic(
         "T006",

@@ -1,4 +1,4 @@
-"""What a shot on its own clock could not do, told in the author's terms."""
+"""Diagnostics of shots on their own clock that are infeasible or deviate from their ideal."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from shotc.planning.clock.remedy import BesideMeshes
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
 
-TOLD = 5  # stretches of a shot that are told one by one
+TOLD = 5  # intervals of a shot that are listed
 SILENT = "rules: {mutual_visibility: {strength: off}}"
 
 
 def left_places(mission: MissionIR, deviations: Iterable[ClockDeviation]) -> tuple[Diagnostic, ...]:
-    """Warn, once a shot, of the stretches on which it leaves its place beside its target."""
+    """Return a warning per shot for the intervals on which it deviates from its ideal."""
     every = from_what_was_asked(mission, deviations)
     return tuple(
         _left_place(mission, [d for d in every if d.shot == shot])
@@ -58,7 +58,9 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
 def stopped_on_clock(
     mission: MissionIR, shot: Shot, trouble: NoMotion, beside: BesideMeshes | None = None
 ) -> Diagnostic:
-    """Say why a shot on its own clock has no motion; beside : what is known of a mesh in its way."""
+    """Return the error of a shot on its own clock without a motion; beside : a mesh that blocks it,
+    if any.
+    """
     label = mission.origins.value((*shot.path, "kind"))
     if trouble.missed is not None:
         return _out_of_reach(mission, shot, trouble.missed)
@@ -83,7 +85,7 @@ def stopped_on_clock(
 
 
 def _by_a_mesh(mission: MissionIR, shot: Shot, trouble: NoMotion, beside: BesideMeshes) -> Diagnostic:
-    """Say which building, or part of a scene, a shot cannot be flown clear of, and what was found to help."""
+    """Return the error of a shot that a building, or a part of a scene, blocks, with the remedy found."""
     blocked, remedy = beside
     owner = max(trouble.lacks, key=lambda pair: pair[1])[0] if blocked is None else blocked.owner
     labels = (
@@ -104,7 +106,7 @@ def _by_a_mesh(mission: MissionIR, shot: Shot, trouble: NoMotion, beside: Beside
 
 
 def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
-    """Say which keyframes the drone cannot pass at their times, and what would let it."""
+    """Return the error of keyframes that the drone cannot pass at their times, with remedies."""
     keyframes = [shot.keyframes[a.keyframe] for a in missed.away] or list(shot.keyframes[:1])
     blocked = [a for a in missed.away if a.owner is not None]
     owners = dict.fromkeys(a.owner for a in missed.away if a.owner is not None)
@@ -130,7 +132,7 @@ def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
 
 
 def _passed(away: Away) -> str:
-    """Say how near a motion comes to a keyframe, and what is too near to it."""
+    """Return how near a motion comes to a keyframe, and what is too near to its place, as a note."""
     text = f"the nearest motion is {at_least(away.distance)} m from keyframe {away.keyframe + 1} then"
     if away.owner is None:
         return text

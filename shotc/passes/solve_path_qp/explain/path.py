@@ -1,4 +1,4 @@
-"""What stood in a path's way, said in the mission's own terms."""
+"""Diagnostics of infeasible paths, in the mission's own terms."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ from shotc.rounding import at_least
 from shotc.solvers.conic import Status
 
 ROUND = 24
-"""Directions in which a free pad is looked for."""
+"""Directions in which a free pad is searched."""
 FARTHER = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0)
-"""Distances at which it is, in units of what the pad is short of."""
+"""Distances of the search, in units of what the pad lacks."""
 NUDGE = 0.02
-"""Metres added to that, since the place is told to centimetres."""
+"""Metres added to these, because the place is printed to centimetres."""
 FAR_M = (2.0, 5.0, 10.0, 20.0, 40.0, 80.0)
-"""Distances at which it is looked for, metres, where none of those will do."""
+"""Further distances of the search, metres, where none of those is free."""
 
 _WAY = {"over": "down", "under": "up"}
 
@@ -45,7 +45,7 @@ _WAY = {"over": "down", "under": "up"}
 def failure(
     mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot | None, what: Failure
 ) -> Diagnostic:
-    """Return the error for one failure; ``shot`` is the one it belongs to, None on the way home."""
+    """Return the error for one failure; ``shot`` is the shot it belongs to, None for the way home."""
     match what:
         case NoWay():
             return _no_way(mission, drone, space, shot, what)
@@ -60,7 +60,7 @@ def failure(
 
 
 def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnostic:
-    """Return the error for a pad that cannot be left straight up."""
+    """Return the error for a pad without a vertical take-off."""
     lack, owner = what.needs - what.has, what.owner.words
     match what.why:
         case "outside":
@@ -89,7 +89,9 @@ def pad_blocked(mission: MissionIR, drone: Drone, what: PadBlocked) -> Diagnosti
 
 
 def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
-    """Name the nearest pad found from which a drone can rise, round its own; lack : metres it is short of."""
+    """Return a remedy with the nearest free pad found around the drone's own; lack : metres that this
+    lacks.
+    """
     x, y, z = drone.home
     ways = (*(share * lack + NUDGE for share in FARTHER), *FAR_M)
     for way, k in product(ways, range(ROUND)):
@@ -102,7 +104,7 @@ def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
 
 
 def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
-    """Return the error for a body that is to face where the camera looks but whose gimbal cannot."""
+    """Return the error for a body that follows the camera with a gimbal that cannot look ahead."""
     low, high = (degrees(a) for a in drone.gimbal.yaw)
     return Diagnostic(
         "Q005",
@@ -118,7 +120,7 @@ def follow_camera_impossible(mission: MissionIR, drone: Drone) -> Diagnostic:
 
 
 def moved(mission: MissionIR, shot: PlacedShot, deviation: PathDeviation) -> Diagnostic:
-    """Return the warning for a generated path that had to leave its ideal."""
+    """Return the warning for a generated path that deviates from its ideal."""
     where = f"{deviation.s:.1f} m along the shot"
     labels = [mission.origins.key(shot.shot.path, "the path leaves its ideal here")]
     owner = owner_of(mission, deviation.cause)
@@ -160,7 +162,7 @@ def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cuts: tuple[
 
 
 def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
-    """Return the warning for a camera that swings round, or is not always where it should be."""
+    """Return the warning for a camera that swings round, or that misses its reference."""
     first, second = (shot.keyframes[k] for k in (swing.index, swing.index + 1))
     where = f"{swing.s:.1f} m along the shot, between keyframes {swing.index + 1} and {swing.index + 2}"
     off = f"the target is up to {at_least(degrees(swing.miss), 1)} deg off its place"
@@ -218,7 +220,7 @@ def _no_way(
 
 
 def _ground_ends(terrain: Terrain, what: NoWay) -> str | None:
-    """Say where there is no ground below the straight way between two places, if there is none somewhere."""
+    """Return where there is no ground below the straight line between two places, or None."""
     way = Pieces(np.zeros(1), np.ones(1), np.stack([what.start, what.end])[None])
     out = leaves(terrain.ground, way)
     return None if out is None else terrain.beyond_at(out.place, out.by)
@@ -251,7 +253,7 @@ def _stuck(
         return _solver_failed(mission, drone, shot, f"path ({what.solved.status})")
     owners = conflict(what)
     if not owners.owners and not owners.points:
-        # Nothing is too tight, so there is nothing that the user could widen.
+        # No constraint is in conflict, so there is nothing that the user could relax.
         return _solver_failed(mission, drone, shot, "path (no curve kept clear of everything)")
     labels = _ends(mission, drone, shot, ends)
     labels += [_owner_label(mission, name, f"would have to give {x:.2f} m") for name, x in owners.owners]

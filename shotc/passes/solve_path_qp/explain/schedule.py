@@ -1,4 +1,4 @@
-"""What stood in the way of a shot on the clock, or of the way to it, said in the mission's own terms."""
+"""Diagnostics of shots on the clock, and of transfers, that are infeasible in time."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate
 from shotc.rounding import at_least, down, plain, up
 
 ALONE = "or have the drone start nearer"
-WINDOW = 2.0  # seconds over which the speed of a place is told
+WINDOW = 2.0  # seconds over which the speed of the ideal is measured
 
 
 def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diagnostic:
-    """Return M010: the drone is there so late that the track ends before the shot does."""
+    """Return M010: the drone arrives so late that the track ends before the shot does."""
     track = mission.target(outside.target).track
     track_end = 0.0 if track is None else track.until
     end = outside.start + (shot.timing.duration or 0.0)
@@ -43,7 +43,7 @@ def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diag
 
 
 def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
-    """Return T003: the drone is not there at the start of a shot of what moves on meanwhile."""
+    """Return T003: the drone arrives after the start of a shot on its own clock."""
     asked, short = shot.timing.start, late.outside
     label = mission.origins.key(shot.path) if asked is None else timing_value(mission, shot.path, "start")
     starts = "has no start" if asked is None else f"starts at {plain(asked)} s"
@@ -72,7 +72,7 @@ def too_late(mission: MissionIR, shot: Shot, late: TooLate) -> Diagnostic:
 
 
 def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
-    """Return the speed at which a slower drone catches up with a place that goes on as it does then."""
+    """Return the speed limit with which the drone could catch up with the ideal, as a remedy; or nothing."""
     drone = mission.drone(shot.drone)
     begun = at_start(mission, shot, time)
     places = [ideal_place(mission, begun, time, time + t) for t in (0.0, WINDOW)]
@@ -87,7 +87,7 @@ def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
 
 
 def way_met(mission: MissionIR, drone: Drone, shot: Shot | None, meets: Meets) -> Diagnostic:
-    """Return M011: every way to a shot, or back home where that is None, meets a target."""
+    """Return M011: every transfer to a shot comes too near to a target; the way home where that is None."""
     met = meets.met
     if met.phase != "transit":
         return _pad_met(mission, drone, meets)
@@ -117,7 +117,8 @@ def out_of_turn(
 ) -> Iterator[Diagnostic]:
     """Yield M038 for each drone that gives way to one of a later priority.
 
-    order : in which the drones are planned; refused : what was said of them in order of priority
+    order : of planning
+    refused : diagnostics of planning in order of priority
     """
     errors = tuple(d.message for d in refused if severity_of(d) is Severity.ERROR)
     for k, ahead in enumerate(order):
@@ -135,7 +136,7 @@ def out_of_turn(
 
 
 def _pad_met(mission: MissionIR, drone: Drone, meets: Meets) -> Diagnostic:
-    """Return M013: a target is over the pad whenever the drone could take off from it, or land."""
+    """Return M013: a target is above the pad whenever the drone could take off or land."""
     met = meets.met
     target = mission.target(met.owner.name)
     verb = "take off" if met.phase == "takeoff" else "land"
@@ -160,7 +161,7 @@ def _shortened(outside: OutsideTrack) -> str:
 
 
 def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> list[str]:
-    """Return what lets the recordings of a shot, and so all of its shots, begin later; empty without any."""
+    """Return a remedy that delays the recordings of a shot, and so all of its shots; empty without any."""
     recorded = _recorded(mission, shot)
     if not recorded:
         return []
@@ -170,7 +171,7 @@ def _begun_later(mission: MissionIR, shot: Shot, asked: float, later: float) -> 
 
 
 def _recorded(mission: MissionIR, shot: Shot) -> list[tuple[str, float]]:
-    """Return the targets that move in a shot, and when their tracks begin; none unless all are recorded."""
+    """Return the moving targets of a shot and the start of their tracks; none unless all are recorded."""
     names = {s.target for s in shot.subjects} or ({shot.subject} if shot.subject else set())
     moving = [(mission.target(name), mission.target(name).track) for name in sorted(names)]
     tracks = [(target, track) for target, track in moving if track is not None]
