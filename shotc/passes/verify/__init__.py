@@ -1,10 +1,9 @@
-"""Pass verify: takes a TrajectoryIR, trusts nobody, and gives a VerifiedIR with its certificate.
+"""Pass verify: it proves a TrajectoryIR, whoever made it, and gives a VerifiedIR with its certificate.
 
-It looks at every drone of the mission: one that the plan does not fly is a body on its pad.
-
-Limits, zones and clearances are proved over continuous time by Bernstein hulls (geom.proof); what the
-camera sees is sampled at the output rate and closed between samples by bounds on rates. Every claim names
-its limit, worst value, time, place and method. A plan that breaks a hard claim is not given on.
+It checks every drone of the mission; one that the plan does not fly is a body on its pad. Limits, zones and
+clearances are proved over continuous time by Bernstein hulls (geom.proof). What the camera sees is sampled at
+the output rate, and bounds on rates close the gaps between samples. Every claim names its limit, worst value,
+time, place and method. A plan that breaks a hard claim is not passed on.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ from shotc.passes.verify.transits import transits
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """All claims about a trajectory, broken ones included, the diagnostics of those, and samples."""
+    """All claims about a trajectory, broken ones included, their diagnostics, and samples of coverage."""
 
     certificate: tuple[Claim, ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -49,12 +48,12 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class Verify:
-    """Prove that a trajectory may be flown and shows what was promised."""
+    """Prove that a trajectory can be flown and shows what was promised."""
 
     name: ClassVar[str] = "verify"
 
     def run(self, ir: TrajectoryIR, ctx: PassContext) -> Outcome[VerifiedIR]:
-        """Give the trajectory with its certificate, or the V diagnostics of what it breaks."""
+        """Return the trajectory with its certificate, or the V diagnostics of broken hard claims."""
         verdict = judge(ir, ctx)
         if has_errors(verdict.diagnostics):
             return Outcome(None, verdict.diagnostics)
@@ -62,7 +61,7 @@ class Verify:
 
 
 def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
-    """Return every claim that can be made about a trajectory, in a fixed order, and what is broken."""
+    """Return all claims about a trajectory, in a fixed order, and the diagnostics of broken ones."""
     mission = ir.keyframes.mission
     broken = (*structure(ir), *_fleet_structure(ir))
     if broken:
@@ -108,7 +107,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
 def _fleet_structure(ir: TrajectoryIR) -> list[Diagnostic]:
     if not ir.fleets:
         return []
-    # Splines and trees of scipy, which films do without.
+    # Imports splines and trees of scipy, which films do not need.
     from shotc.passes.verify.fleets import fleet_structure
 
     return list(fleet_structure(ir))
@@ -123,7 +122,7 @@ def _fleet_claims(ir: TrajectoryIR, ctx: PassContext) -> list[Claim]:
 
 
 def _grounded(ir: TrajectoryIR) -> list[Diagnostic]:
-    """Report shots whose drone or fleet does not fly at all."""
+    """Return errors for shots whose drone or fleet does not fly at all."""
     mission = ir.keyframes.mission
     flying = {track.drone for track in ir.drones} | {track.fleet for track in ir.fleets}
     flown = [(shot.id, shot.drone, shot.path) for shot in mission.shots]

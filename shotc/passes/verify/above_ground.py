@@ -1,7 +1,7 @@
-"""How high the flight is above the ground, which may rise, and how near its body comes to it.
+"""The height of a flight above the ground, and the distance of its body from terrain.
 
-Above flat ground both are the z of its lowest point. Above terrain the height is upright, as the rules of the
-air count it, and the distance is Euclidean, since a cliff is beside a drone and not below it.
+Above flat ground both are the z of its lowest point. Above terrain the height is vertical, as in air traffic
+rules, and the distance is Euclidean, because a cliff is beside a drone and not below it.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 
 def above_ground(flight: Flight, free: Pieces) -> Iterator[Claim]:
-    """Claim the ground clearance, the body's distance from terrain, and the greatest height above ground.
+    """Yield claims on ground clearance, distance from terrain, and greatest height above ground.
 
-    free : the flight apart from take-off and landing
+    free : the flight without take-off and landing
     """
     rules, radius, terrain = flight.mission.rules, flight.drone.radius, flight.mission.terrain
     path = ("rules", "ground_clearance")
@@ -48,5 +48,5 @@ def above_ground(flight: Flight, free: Pieces) -> Iterator[Claim]:
 
 
 def _known(found: Bound | NoGround, unknown: float) -> Bound:
-    """Return a bound, or where the flight leaves the terrain one that holds nothing."""
+    """Return a bound; where the flight leaves the terrain, one that proves nothing."""
     return Bound(unknown, unknown, found.at) if isinstance(found, NoGround) else found

@@ -1,4 +1,4 @@
-"""What would make a broken claim hold, in the words and numbers of the mission file."""
+"""Remedies for broken claims, in the terms and numbers of the mission file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ _ENDS = {" min": "the first value of ", " max": "the second value of "}
 class Rule:
     """How a kind of claim is reported.
 
-    power : a duration grows with (worst / limit) ** power to bring the value down to its limit; 0: not so
+    power : the duration grows with (worst / limit) ** power to reduce the value to its limit; 0 where it does
+        not help
     """
 
     code: str
@@ -49,7 +50,7 @@ def advice(mission: MissionIR, claim: Claim, rule: Rule, phase: Phase | None) ->
 
 
 def wind_note(mission: MissionIR, claim: Claim) -> str:
-    """Return what the wind takes off the limit of a claim, or how fast it blows; empty if it does neither."""
+    """Return what the wind takes off the limit of a claim, or its speed; empty if neither applies."""
     if claim.constraint == "airspeed":
         return f"it counts through the air, which moves at {measure(mission.wind, claim.unit)}"
     if not _is_in_wind(mission, claim):
@@ -63,7 +64,7 @@ def _is_in_wind(mission: MissionIR, claim: Claim) -> bool:
 
 
 def _setting(mission: MissionIR, claim: Claim) -> str:
-    """Return which number of the mission to set to what; empty where no number of it is the limit."""
+    """Return which number of the mission to change to what; empty where the limit is none of these."""
     keys = [str(key) for key in claim.path[-2:]]
     if len(keys) < 2 or keys[0] not in _SECTIONS:
         return ""
@@ -78,7 +79,7 @@ def _setting(mission: MissionIR, claim: Claim) -> str:
 
 
 def _on_a_way(claim: Claim, code: str, phase: Phase | None) -> str:
-    """Return what helps on a way that is the planner's own: a lower clearance would lead it nearer still."""
+    """Return a remedy for a transfer, where a lower clearance would lead the planner even nearer."""
     if code != "V010" or claim.drones or phase is None or phase.shot is not None:
         return ""
     if phase.name == "transit":

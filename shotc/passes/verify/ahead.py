@@ -1,10 +1,10 @@
-"""Whether drones look where they fly: the body's heading against the course, by ``rules.look_ahead``.
+"""Check the body's heading against its course, by ``rules.look_ahead``.
 
-Judged are ways between shots, from where the drone rests after a shot to where it rests before the next one.
-Beside a shot of what moves that leaves out the seconds in which the drone comes into the film's motion and
-out of it. Judged are, too, shots on a path in which the heading is free: of a camera that looks along its
-path, and of a body under a camera whose gimbal pans so far that the body could look ahead at every moment. In
-other shots the camera says where it heads. A drone that hardly moves has no course.
+Transfers are judged from where the drone rests after a shot to where it rests before the next one. Beside a
+shot on its own clock this excludes the run-up and the run-out of the film. Shots on a path are judged as well
+if the heading is free: if the camera looks along its path, or if the gimbal pans far enough for the body to
+look ahead throughout. In other shots the camera determines the heading. A drone that hardly moves has no
+course.
 """
 
 from __future__ import annotations
@@ -31,23 +31,23 @@ from shotc.rounding import at_least
 CONSTRAINT = "look ahead"
 AT_REST_M_S = 1e-6
 SAMPLES = 400
-"""Moments of a shot at which it is asked whether its framing leaves its body room."""
+"""Samples of a shot at which the freedom of its heading is checked."""
 
 ROOM_SHARE = 0.9
-"""Of the half-angle, within which a body that is free can be: planning needs a little of it."""
+"""Share of the half-angle that a free heading must allow; planning needs the rest."""
 
 
 class Bound(NamedTuple):
-    """A shot whose heading is not judged, and why, as an end of a sentence."""
+    """A shot whose heading is not judged, and the reason as an end of a sentence."""
 
     shot: str
     why: str
 
 
 def ahead(flight: Flight) -> Iterator[Claim]:
-    """Claim the largest angle between the body's heading and its course, where the mission limits it.
+    """Yield claims on the largest angle between the body's heading and its course, where it is limited.
 
-    One claim is for all ways, and one for each shot that is judged.
+    There is one claim for all transfers, and one for each shot that is judged.
     """
     half_angle = flight.mission.rules.look_ahead
     if half_angle is None:
@@ -60,7 +60,7 @@ def ahead(flight: Flight) -> Iterator[Claim]:
 
 
 def unjudged(mission: MissionIR, tracks: Sequence[DroneTrajectory]) -> Iterator[Bound]:
-    """Yield the shots in which a drone moves and its heading is not judged."""
+    """Yield the shots in which a drone moves but its heading is not judged."""
     for track in tracks:
         for phase in _filmed(track):
             why = why_not(mission, track, phase)
@@ -69,7 +69,7 @@ def unjudged(mission: MissionIR, tracks: Sequence[DroneTrajectory]) -> Iterator[
 
 
 def why_not(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> str | None:
-    """Return why the heading of a shot is bound by what it films; None where it is free."""
+    """Return why a shot's subject determines the heading; None where it is free."""
     shot, drone, half_angle = mission.shot(phase.shot), mission.drone(track.drone), mission.rules.look_ahead
     assert half_angle is not None
     if looks_along(shot):
@@ -86,7 +86,9 @@ def why_not(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> str | N
 
 
 def _least_off(drone: Drone, track: DroneTrajectory, phase: Phase) -> float:
-    """Return how far off its course a body is at least, by where its camera looks, rad; 0 where it stands."""
+    """Return the least possible angle between body and course, over the worst sample, rad; 0 where it
+    stands.
+    """
     t = np.linspace(phase.start, phase.end, SAMPLES)
     rate = track.curve.channels(X, Y).derivative()(t)
     moves = np.linalg.norm(rate, axis=1) > SLOW_M_S
@@ -95,7 +97,7 @@ def _least_off(drone: Drone, track: DroneTrajectory, phase: Phase) -> float:
 
 
 def _filmed(track: DroneTrajectory) -> list[Phase]:
-    """Return the shots in which a drone is ever fast enough to have a course."""
+    """Return the shots in which a drone is at any time fast enough to have a course."""
     speed = track.curve.channels(X, Y).derivative()
     return [
         phase
@@ -108,7 +110,7 @@ def _filmed(track: DroneTrajectory) -> list[Phase]:
 def _claimed(
     flight: Flight, half_angle: float, spans: Sequence[tuple[float, float]], shot: str | None
 ) -> Iterator[Claim]:
-    """Claim the largest angle in spans of mission time, seconds, if the drone has a course there."""
+    """Yield the claim on the largest angle in spans of mission time, seconds, if there is a course."""
     curve = flight.track.curve.channels(X, Y, BODY_YAW)
     parts = [part for span in spans if len(part := cut(curve, *span))]
     if not parts:
@@ -122,7 +124,9 @@ def _claimed(
 
 
 def judged(flight: Flight, way: Way) -> tuple[float, float] | None:
-    """Return from when to when a way is judged, mission time; None where the drone does not come to rest."""
+    """Return the start and end of the judged part of a transfer; None where the drone does not come
+    to rest.
+    """
     phases, mission = flight.track.phases, flight.mission
     before = next((p.shot for p in phases if p.end == way.start), None)
     start, end = way.start, way.end

@@ -1,4 +1,4 @@
-"""Where a plan says another thing of its mission than the mission itself, lowered again."""
+"""Differences between a plan's data of its mission and the mission itself, lowered again."""
 
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
@@ -12,29 +12,30 @@ from shotc.ir.records import field_names
 from shotc.units import clip
 
 SAME_SHARE = 1e-9
-"""Share of a number (at least of one) by which it may differ: machines round sines in their own way."""
+"""Relative tolerance of a number (at least of one), because machines round sines differently."""
 
 ITERATED_SHARE = 1e-6
-"""The same for places that are found by iteration, from how subjects are to appear."""
+"""The same for places found by iteration, from the framing of subjects."""
 
 WRITTEN = {"promise": "require"}
-"""How a mission writes a field, where that is another word."""
+"""Fields with another name in the mission file."""
 
 ELSEWHERE = frozenset({"path", "source_sha256"})
-"""Fields that say where something is written; another file may say the same elsewhere."""
+"""Fields that contain places in a file, which may differ in another file."""
 
 
 class Difference(NamedTuple):
-    """One thing in which a plan differs from its mission; path : where the mission writes it."""
+    """One difference between a plan and its mission; path : key path in the mission."""
 
     path: KeyPath
     text: str
 
 
 class _Place(NamedTuple):
-    """Where a comparison is: in words and in the mission.
+    """The place of a comparison, in words and as a key path.
 
-    passed : fields that are passed over; near : share of a number by which it may differ
+    passed : fields that are skipped
+    near : relative tolerance of a number
     """
 
     words: str
@@ -48,7 +49,7 @@ class _Place(NamedTuple):
         return self._replace(words=words, path=(*self.path, WRITTEN.get(name, name)))
 
     def item(self, words: str, path: KeyPath) -> "_Place":
-        """Return the place of an element that has a name of its own."""
+        """Return the place of an element with its own name."""
         return self._replace(words=words, path=path)
 
     def differs(self, text: str) -> Difference:
@@ -57,9 +58,9 @@ class _Place(NamedTuple):
 
 
 def differences(written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = True) -> Iterator[Difference]:
-    """Yield where what a plan says of its mission differs from what the mission asks for.
+    """Yield the differences between a plan's data and what the mission asks for.
 
-    same_text : whether both were lowered from one text, in which everything has to stand at one place
+    same_text : whether both were lowered from one text, so that all places in it must be equal
     """
     passed = ELSEWHERE_IN_PLANS if same_text else ELSEWHERE_IN_PLANS | ELSEWHERE
     yield from _walk(written.mission, asked.mission, _Place("", (), passed))
@@ -69,7 +70,7 @@ def differences(written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = Tru
 
 
 def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[Difference]:
-    """Yield where the files or the choices that a plan holds are not those that its mission uses."""
+    """Yield where a plan's files or choices are not those that its mission uses."""
     for words, mine, true in (
         (
             "the tables in the plan",
@@ -85,7 +86,7 @@ def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[Differe
 
 
 def _origins(written: KeyframeIR, asked: KeyframeIR) -> Iterator[Difference]:
-    """Yield a place in the file that is told wrong."""
+    """Yield the first wrong place in the file."""
     one, other = written.mission.origins, asked.mission.origins
     for mine, true in ((one.keys, other.keys), (one.values, other.values)):
         for path, span in mine.items():
@@ -132,7 +133,7 @@ def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator
 
 
 def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[Difference]:
-    """Compare elements that have names: which there are, in which order, and each with its namesake."""
+    """Yield differences of elements with names: which exist, their order, and each with its namesake."""
     mine, true = {_name(item): item for item in written}, {_name(item): item for item in asked}
     for name, item in true.items():
         if name not in mine:
@@ -152,18 +153,18 @@ def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator
 
 
 def _path(item: Any, at: _Place) -> KeyPath:
-    """Return where the mission writes an element; a placed shot is written where its shot is."""
+    """Return the key path of an element; for a placed shot that of its shot."""
     path: KeyPath = getattr(getattr(item, "shot", item), "path", at.path)
     return path
 
 
 def _one_of(words: str) -> str:
-    """Return the name of one of what has a name in the plural."""
+    """Return the singular of a plural name."""
     return words.removesuffix("s")
 
 
 def _name(item: Any) -> str:
-    """Return the name of an element, empty where it has none."""
+    """Return the name of an element; empty where it has none."""
     if not field_names(item):
         return ""
     if "shot" in field_names(item):

@@ -1,7 +1,7 @@
-"""How near the body comes to the triangles of scenes and buildings, proved for every instant.
+"""The distance of the body from scenes and buildings, proved at every instant.
 
-The distance is Euclidean and has no sign. A flight that begins outside of what is closed, and never touches
-its triangles, never is inside of it.
+The distance is Euclidean without a sign. A flight that starts outside of closed parts, and never touches
+their triangles, is never inside.
 """
 
 from __future__ import annotations
@@ -20,10 +20,12 @@ from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 
 def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Claim]:
-    """Claim the distance of the body from scenes and buildings, and that on take-off and landing.
+    """Yield claims on the distance from scenes and buildings, in flight and during take-off and landing.
 
-    free : the flight apart from take-off and landing; upright : those
-    A point of a cloud stands for a ball of half its spacing, which is taken off the distance.
+    A point of a cloud represents a ball of half its spacing, which is subtracted from the distance.
+
+    free : the flight without take-off and landing
+    upright : take-off and landing
     """
     radius, home = flight.drone.radius, np.array([flight.drone.home])
     least = flight.mission.rules.obstacle_clearance
@@ -34,7 +36,7 @@ def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Cla
             limit = Limit(name, least, "m", ("rules", "obstacle_clearance"), upper=False)
             yield bounded(flight, limit, less(bound, body))
         if len(upright):
-            # The body may stand as near as its pad does, but no nearer.
+            # The body may be as near as on its pad, but no nearer.
             near = min(body, float(abs(mesh.signed_distance(home)[0])))
             bound = inf_distance(upright, mesh.surface, gap(near))
             limit = Limit(f"{name} at home", near - body, "m", mesh.path, upper=False)
@@ -42,5 +44,5 @@ def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Cla
 
 
 def _signed(bound: Bound, mesh: ObstacleMesh, home: Array) -> Bound:
-    """Return a bound of the distance, negative for a flight that begins inside of what is closed."""
+    """Return a bound of the distance; negative if the flight starts inside of a closed part."""
     return Bound(-bound.attained, -bound.attained, bound.at) if mesh.holds(home)[0] else bound

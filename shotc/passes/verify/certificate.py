@@ -1,4 +1,4 @@
-"""The certificate that a plan states, held whole against the one that is proved of it."""
+"""Comparison of the certificate in a plan file with the one that is proved now."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _VERDICTS = {
 def certificate_differences(
     written: Sequence[Claim], proved: Sequence[Claim], *, same_tool: bool
 ) -> Iterator[str]:
-    """Yield how a written certificate differs; another version of shotc may make other claims."""
+    """Yield the differences of a written certificate; another version of shotc may make other claims."""
     old, new = {_key(c): c for c in written}, {_key(c): c for c in proved}
     for key, times in Counter(map(_key, written)).items():
         if times > 1:
@@ -70,7 +70,7 @@ def _first_difference(written: Claim, proved: Claim) -> Iterator[str]:
 
 
 def _other_words(written: Claim, proved: Claim) -> Iterator[str]:
-    """Yield where two claims of the same values say another way, time, place, line or drone."""
+    """Yield where two claims with equal values differ in time, place, method, key path or drones."""
     if not _same(_time(written), _time(proved)):
         yield f"it is worst {_when(written)} by the certificate, {_when(proved)} by the plan"
     elif (written.position is None) != (proved.position is None) or not all(

@@ -1,7 +1,7 @@
-"""The grammar of the certificate: one flight, and claims about it against limits.
+"""The elements of the certificate: one flight, and claims about it against limits.
 
-Tolerance: a limit holds where the proven value is beyond it by at most 1e-6 of it (and at least 1e-6 of
-its unit: a micrometre, a microradian). Half of that is the gap to which bounds are closed.
+Tolerance: a limit holds if the proven value exceeds it by at most 1e-6 of it (and at least 1e-6 of its unit:
+a micrometre, a microradian). Bounds are closed to half of that gap.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ TOLERANCE = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flight:
-    """One drone, what it was asked and how it flies; others : the other drones' flights."""
+    """One drone, its mission and its trajectory; others : trajectories of the other drones."""
 
     mission: MissionIR
     drone: Drone
@@ -44,7 +44,7 @@ class Limit:
 
 @dataclass(frozen=True, slots=True)
 class Worst:
-    """The worst value met, when, and how it was found; no time where it belongs to none."""
+    """The worst value, its time, and how it was found; no time where it belongs to none."""
 
     value: float
     time: float | None = None
@@ -53,20 +53,20 @@ class Worst:
 
 
 def slack(limit: float) -> float:
-    """Return what a value may be beyond a limit and still keep it."""
+    """Return the tolerance of a limit."""
     return TOLERANCE * max(1.0, abs(limit)) if isfinite(limit) else 0.0
 
 
 def gap(limit: float) -> Callable[[float], float]:
-    """Return how tight a bound has to be, given the worst value so far.
+    """Return the gap to which a bound is closed, as a function of the worst value so far.
 
-    Half of the slack near the limit; a ten-thousandth of the distance to it far away.
+    It is half of the tolerance near the limit, and 1e-4 of the distance to the limit far from it.
     """
     return lambda worst: max(0.5 * slack(limit), 1e-4 * abs(limit - worst))
 
 
 def claim(flight: Flight, limit: Limit, worst: Worst) -> Claim:
-    """Hold a worst value against a limit."""
+    """Return the claim of a worst value against a limit."""
     if worst.position is None and worst.time is not None:
         x, y, z = (float(c) for c in flight.track.curve(worst.time)[:3])
         worst = replace(worst, position=(x, y, z))
@@ -74,7 +74,7 @@ def claim(flight: Flight, limit: Limit, worst: Worst) -> Claim:
 
 
 def held(subject: str, limit: Limit, worst: Worst, drones: tuple[str, ...] = ()) -> Claim:
-    """Hold a worst value against a limit; subject and drones as in ``Claim``."""
+    """Return the claim of a worst value against a limit; subject and drones as in ``Claim``."""
     over = worst.value - limit.value if limit.upper else limit.value - worst.value
     holds = limit.value in (inf, -inf) or over <= slack(limit.value)
     return Claim(
@@ -96,10 +96,10 @@ def held(subject: str, limit: Limit, worst: Worst, drones: tuple[str, ...] = ())
 
 
 def bounded(flight: Flight, limit: Limit, bound: Bound) -> Claim:
-    """Hold a proven bound against a limit."""
+    """Return the claim of a proven bound against a limit."""
     return claim(flight, limit, Worst(bound.proven, bound.at))
 
 
 def less(bound: Bound, radius: float) -> Bound:
-    """Return a bound on a distance from a body's centre as one from its surface."""
+    """Return a bound on the distance of a body's centre as one of its surface."""
     return Bound(bound.proven - radius, bound.attained - radius, bound.at)

@@ -1,7 +1,7 @@
-"""What holds at samples, proved between them: bounds on how fast it can change, and bisection.
+"""Proofs between samples, by bounds on rates of change and bisection.
 
-A function with rate at most L stays above (a + b - L dt) / 2 between samples a and b that are dt apart, and
-below (a + b + L dt) / 2. Where that does not settle it, the interval is halved.
+A function with rate at most L stays above (a + b - L dt) / 2 between samples a and b at distance dt, and
+below (a + b + L dt) / 2. Where this proves nothing, the interval is halved.
 """
 
 from __future__ import annotations
@@ -23,15 +23,18 @@ from shotc.ir.target import Target
 from shotc.passes.verify.claims import Flight
 
 HALVINGS = 10
-"""How often the time between two samples is halved to close it."""
+"""Most halvings of the time between two samples."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rates:
     """Bounds over one shot: metres, m/s, rad/s.
 
-    far : distance of the camera from the target's centre; speed : of the camera as the target sees it
-    turn : yaw rate plus pitch rate; zoom : rate of hfov; narrow, wide : tan of half the hfov
+    far : distance of the camera from the target's centre
+    speed : of the camera relative to the target
+    turn : yaw rate plus pitch rate
+    zoom : rate of hfov
+    narrow, wide : bounds of tan(hfov / 2)
     """
 
     far: float
@@ -63,7 +66,7 @@ def rates(flight: Flight, target: str, start: float, end: float) -> Rates:
 
 
 def margins_close(flight: Flight, target: str, times: Array) -> bool:
-    """Prove that a target stays whole in the frame between the times, too; neighbours adjoin."""
+    """Return whether a target is proved whole in the frame between adjoining sample times as well."""
     if len(times) < 2:
         return True
     bound = rates(flight, target, float(times[0]), float(times[-1]))
@@ -85,9 +88,9 @@ def margins_close(flight: Flight, target: str, times: Array) -> bool:
 
 
 def _turned(target: Target, start: float, end: float) -> Callable[[Array], tuple[Array, Array]]:
-    """Return what tells how far a body has turned by times, rad: at least, and at most.
+    """Return a function from times to bounds of the angle by which a body has turned, rad: least and most.
 
-    The outline of one that turns by an angle moves by no more than that, times the radius about its axis.
+    The outline of a body that turns by an angle moves by at most that angle times its radius about the axis.
     """
     if target.track is None or not target.shape.turns:
         return lambda t: (np.zeros(len(t)), np.zeros(len(t)))
@@ -95,7 +98,7 @@ def _turned(target: Target, start: float, end: float) -> Callable[[Array], tuple
 
 
 def errors_close(flight: Flight, shot: str, target: str, times: Array, limit: float) -> bool:
-    """Prove that the distance to the reference on screen keeps a limit between the times, too."""
+    """Return whether the distance to the reference on screen is proved below a limit between samples."""
     if len(times) < 2:
         return True
     bound = rates(flight, target, float(times[0]), float(times[-1]))
@@ -127,11 +130,11 @@ def errors_close(flight: Flight, shot: str, target: str, times: Array, limit: fl
 
 
 def _screen_rate(bound: Rates, aspect: float, span: tuple[Array, Array, Array]) -> Array:
-    """Return how fast the centre's place on screen may change within intervals, (u, v) units a second.
+    """Return bounds of the rate of the centre's place on screen within intervals, (u, v) units a second.
 
     With x right (or down), f forward and w the half screen, u = x / (f w); the camera-frame coordinates
-    change by at most V = speed + far turn, so |du| <= V sqrt(1 + (u w)^2) / (f w) + |u| |dw| / w.
-    Columns 1 to 3 of the samples are u w f, v w f (with w of the width for both) and f.
+    change by at most V = speed + far turn, so |du| <= V sqrt(1 + (u w)^2) / (f w) + |u| |dw| / w. Columns 1
+    to 3 of the samples are u w f, v w f (with w of the width for both) and f.
     """
     a, b, dt = span
     travel = bound.speed + bound.far * bound.turn
@@ -140,7 +143,7 @@ def _screen_rate(bound: Rates, aspect: float, span: tuple[Array, Array, Array]) 
     lens = 0.5 * bound.zoom * (1.0 + bound.wide**2) / bound.narrow
     total = np.zeros_like(dt)
     for column, half in ((1, bound.narrow), (2, bound.narrow / aspect)):
-        # v w f of the samples carries the width's w: over the aspect it is metres down.
+        # The samples' v w f has the w of the width: divided by the aspect it is metres down.
         scale = 1.0 if column == 1 else aspect
         aside = 0.5 * (np.abs(a[:, column]) + np.abs(b[:, column])) / scale + 0.5 * drift
         slope = aside / depth
@@ -150,7 +153,7 @@ def _screen_rate(bound: Rates, aspect: float, span: tuple[Array, Array, Array]) 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Interval:
-    """Sample times; neighbours farther apart than two ticks and a half do not adjoin."""
+    """Sample times; neighbours more than two and a half ticks apart do not adjoin."""
 
     times: Array
     rate: float

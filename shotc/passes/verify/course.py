@@ -1,7 +1,7 @@
-"""Whether a shot is flown as its kind asks: along its path, from beginning to end, looking as it should.
+"""Check that a shot is flown as its kind asks: along its path, from start to end, with its camera angles.
 
-Keyframes that a kind generates are an ideal that planning may leave where something stands in the way, or for
-the picture's sake. The plan says how far, and no more is allowed; where nothing is near its ends they bind.
+Keyframes that a kind generates are an ideal. Planning may leave them where an obstacle is in the way, or for
+the picture. The plan states how far, and no more is allowed; where nothing is near its ends they bind.
 """
 
 from __future__ import annotations
@@ -37,32 +37,32 @@ from shotc.passes.verify.explained import (
 )
 
 UNREPORTED_M = 0.25
-"""Metres that a path may leave generated keyframes without a word: planning tells from 0.1 m on, twice."""
+"""Metres that a path may leave generated keyframes without a report; planning reports from 0.1 m on."""
 
 SWING_SHARE = 0.5
-"""Share of the way between two placed keyframes, or of a longer one beside it, by which it may be left."""
+"""Share of the chord between two placed keyframes, or of a longer one beside it, by which it may be left."""
 
 PLACES_PER_CHORD = 50
-"""Places on the straight way between two keyframes at which it is asked what stands there."""
+"""Samples of the chord between two keyframes, for obstacles."""
 
 AT_ENDS_M = 0.5
-"""Metres within which a generated path begins and ends, where it could."""
+"""Metres from its ends within which a generated path begins and ends, where these are free."""
 
 LENS_RAD = 1e-3
-"""Radians within which the field of view at a keyframe is met."""
+"""Tolerance of the field of view at a keyframe, radians."""
 
 TURNED_RAD = 0.2
-"""Radians by which a camera that frames nothing may look elsewhere at a keyframe."""
+"""Tolerance of the direction at a keyframe of a camera that frames nothing, radians."""
 
 BESIDE_S = 0.5
-"""Seconds before and after a keyframe between which the drone's course there is taken."""
+"""Seconds before and after a keyframe over which the drone's course is measured."""
 
 AROUND_RAD = pi / 2
-"""Radians by which a turn may differ from the one asked for: a whole one more or less is another shot."""
+"""Tolerance of a turn, radians; a whole turn more or less is another shot."""
 
 
 def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Claim that this drone's shots of keyframes are flown in order, along their paths, and look as asked."""
+    """Yield claims that this drone's shots with keyframes are flown in order, on their paths, as aimed."""
     for placed in ir.keyframes.shots:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
         if placed.shot.drone != flight.drone.name or len(flown) != 1 or placed.shot.ideal is not None:
@@ -76,7 +76,7 @@ def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
 
 
 def _told(flight: Flight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> float:
-    """Return how far a shot may leave its path, metres: as is said, round things and for its picture."""
+    """Return how far a shot may leave its path, metres: as reported, around obstacles and for its picture."""
     blocks = in_the_way(flight, way)
     distances = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
     far = farthest(flight.mission, {k.target for k in placed.keyframes if k.target is not None}, way)
@@ -84,7 +84,7 @@ def _told(flight: Flight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> flo
 
 
 def _chords(at: Array) -> Way:
-    """Return the straight way through places (K, 3), finely."""
+    """Return the polyline through places (K, 3), densely sampled."""
     share = np.linspace(0.0, 1.0, PLACES_PER_CHORD)[:, None]
     parts = [a + share * (b - a) for a, b in pairwise(at)]
     return Way(np.concatenate(parts) if parts else at, None)
@@ -96,9 +96,9 @@ def _times(flight: Flight, placed: PlacedShot) -> list[float]:
 
 
 def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
-    """Claim that each keyframe is met once, in order, the first and the last at the shot's ends.
+    """Return the claim that each keyframe is met once, in order, with the first and last at the shot's ends.
 
-    One whose time the mission fixes is not bound to an end: the camera may stand before it, or after it.
+    A keyframe with a time of its own is not bound to an end: the camera may stand before it, or after it.
     """
     keyframes = placed.keyframes
     entries = [k for k in flight.track.keyframes if k.shot == placed.shot.id]
@@ -115,7 +115,9 @@ def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
 
 
 def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Claim that a generated path is left by no more than the plan says, its ends where they are blocked."""
+    """Yield claims that a generated path is left only as reported, at its ends only where they are
+    blocked.
+    """
     keyframes, shot = placed.keyframes, placed.shot
     at = np.array([k.at for k in keyframes])
     if any(k.placed for k in keyframes):
@@ -143,7 +145,7 @@ def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> It
 
 
 def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
-    """Claim that the way between placed keyframes stays beside the straight one where nothing stands."""
+    """Yield the claim that the path between placed keyframes stays near the chord where it is free."""
     keyframes, shot = placed.keyframes, placed.shot
     at = np.array([k.at for k in keyframes])
     lengths = norm(np.diff(at, axis=0))
@@ -161,14 +163,14 @@ def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
 
 
 def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array]) -> Worst:
-    """Return how far the flight is from the line between two keyframes, less what it may bow out."""
+    """Return how far the flight is from the chord between two keyframes, minus its allowed bow."""
     bow = BOW_SHARE * float(np.linalg.norm(ends[1] - ends[0]))
     worst = _off_chord(flight, times, ends, bow + UNREPORTED_M)
     return replace(worst, value=max(worst.value - bow, 0.0))
 
 
 def _off_chord(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array], most: float) -> Worst:
-    """Return how far the flight is from the line between two keyframes; most : what it may be, metres."""
+    """Return how far the flight is from the chord between two keyframes; most : limit, metres."""
     first, along = ends[0], ends[1] - ends[0]
     length = float(np.linalg.norm(along))
     if times[1] <= times[0]:
@@ -194,7 +196,7 @@ def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Arr
 
 
 def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
-    """Tell whether nothing stands near a keyframe, so that nothing explains why it is left."""
+    """Return whether no obstacle is near a keyframe that could explain a deviation from it."""
     mission, at, body = flight.mission, keyframe.at, flight.drone.radius + NEAR_M
     rules = mission.rules
     if at[2] < mission.ground(at[0], at[1]) + rules.ground_clearance + body:
@@ -211,7 +213,7 @@ def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
 
 
 def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
-    """Claim the lens, the direction and the turns of a shot's keyframes."""
+    """Yield claims on the lens, the direction and the turns at a shot's keyframes."""
     keyframes, shot = placed.keyframes, placed.shot
     pose = flight.track.curve(t)
     lens = np.abs(pose[:, HFOV] - [k.hfov for k in keyframes])
@@ -233,10 +235,13 @@ def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
 def _off_course(
     flight: Flight, at: tuple[Array, Array], half_angle: float, span: tuple[float, float]
 ) -> Array:
-    """Return how far a camera that looks along its path is out of the cone about its course, rad.
+    """Return how far a camera that looks along its path is outside the cone about its course, rad.
 
-    at : how far it is off the headings of its keyframes, and their times; span : of the shot, seconds
-    At a keyframe the course is that from a little before it to a little after it: the drone may rest there.
+    At a keyframe the course is measured from shortly before it to shortly after it, because the drone may
+    rest there.
+
+    at : errors against the headings of its keyframes, and their times
+    span : of the shot, seconds
     """
     off, t = at
     curve = flight.track.curve

@@ -1,4 +1,6 @@
-"""The energy that a flight takes from its battery, as far as that is known; proved from the polynomials."""
+"""The energy that a flight takes from its battery, as far as the power is known; proved from the
+polynomials.
+"""
 
 from __future__ import annotations
 
@@ -20,11 +22,11 @@ from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 ENERGY = "energy"
 J_WH = 3600.0
 SHARE = 1e-4
-"""Of an energy, by which it is told too high at most."""
+"""Largest relative overestimate of an energy."""
 
 
 def energy(flight: Flight) -> Iterator[Claim]:
-    """Claim that the battery's energy is enough from lift-off to touch-down; tell what every shot takes."""
+    """Yield the claim that the battery suffices from lift-off to touch-down, and the energy of every shot."""
     power, curve = flight.drone.power, flight.track.curve
     if power is None:
         return
@@ -39,7 +41,7 @@ def energy(flight: Flight) -> Iterator[Claim]:
 
 
 def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
-    """Return what the shots of a flight take of its energy; empty for any other claim."""
+    """Return the energy that each shot of a flight takes; empty for any other claim."""
     if claim.constraint != ENERGY:
         return ""
     shots = [c for c in certificate if c.constraint == ENERGY and c.subject == claim.subject and c.shot]
@@ -49,9 +51,9 @@ def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
 
 
 def taken(flight: Flight, power: Power, start: float, end: float) -> float:
-    """Return the energy that no flight of this trajectory exceeds between two times, J.
+    """Return an upper bound of the energy of this trajectory between two times, J.
 
-    What climbing adds is half of what the energies of height and motion gain, over the efficiency.
+    Climbing adds half of the gain of potential and kinetic energy, divided by the efficiency.
     """
     curve = flight.track.curve
     acceleration = cut(curve, start, end).channels(0, 1, 2).derivative().derivative()

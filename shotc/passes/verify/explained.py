@@ -1,14 +1,14 @@
-"""How far a shot may be led from what it asks for: what the mission has in its way, recomputed, explains it.
+"""Bounds of a shot's deviation from its ideal, recomputed from the mission.
 
-A plan says how far it leaves the ideal of a shot, and why. That is believed only as far as the mission bears
-it out, so that no entry in a file explains any distance:
+A plan states how far it leaves the ideal of a shot, and why. This is accepted only as far as the mission
+explains it, so that no entry in a file explains an arbitrary distance:
 
-- what stands in the way, or comes there, explains as much as it takes to go round it: its width or height and
-  twice the clearance; a keep-in zone and the ground what the ideal is beyond them. A cause that names what is
-  nowhere near the ideal explains nothing;
-- the picture, its own and those of other drones, explains a share of the distance to what is filmed;
-- the drone's limits explain the way in which it stops, and what its speed falls short of the ideal's;
-- smoothing beyond the normal one explains the way that is flown in as much time.
+- An obstacle, standing or moving, explains the detour around it: its width or height and twice the
+  clearance. A keep-in zone and the ground explain how far the ideal is beyond them. A cause that names
+  an obstacle nowhere near the ideal explains nothing.
+- The picture, its own and those of other drones, explains a share of the distance to the subject.
+- The drone's limits explain its stopping distance, and what its speed lacks against the ideal's.
+- Smoothing beyond the normal one explains the distance that is flown in that additional time.
 """
 
 from __future__ import annotations
@@ -35,26 +35,26 @@ from shotc.ir.target import Target
 from shotc.passes.verify.claims import Flight
 
 NEAR_M = 1.0
-"""Metres beyond its clearances within which something stands in the way."""
+"""Metres beyond its clearances within which an obstacle counts."""
 
 PICTURE_SHARE = 0.5
-"""Share of the distance to its target by which a shot may be left for its picture."""
+"""Share of the distance to its target by which a shot may leave its ideal for its picture."""
 
 THINGS = ("zone ", "target ", "drone ", "ground", "scene", "building")
-"""What causes begin with that name something."""
+"""Prefixes of causes that name an obstacle."""
 
 
 class Way(NamedTuple):
-    """Where a shot would be, shape (M, 3), and at which mission times (M,), None where that is open."""
+    """Ideal positions of a shot, shape (M, 3), and their mission times (M,), None where these are free."""
 
     places: Array
     times: Array | None
 
 
 def in_the_way(flight: Flight, way: Way, *, placed: bool = False) -> dict[str, float]:
-    """Return what blocks a way, named as a cause is, and how far it leads a drone that goes round it, metres.
+    """Return what blocks a course, named as in causes, and the length of the detour around each, metres.
 
-    placed : whether the author gave the place, which then binds but where something comes
+    placed : whether the author gave the place, which then is left only for moving obstacles
     """
     stands = () if placed else (*_zones(flight, way), *_meshes(flight, way))
     detours = (*stands, *_targets(flight, way, placed=placed), *_drones(flight, way))
@@ -62,7 +62,7 @@ def in_the_way(flight: Flight, way: Way, *, placed: bool = False) -> dict[str, f
 
 
 def believed(deviations: Iterable[Deviation], blocks: dict[str, float]) -> list[float]:
-    """Return the distances that are told with a cause that can be one, the largest first."""
+    """Return the deviations whose reported cause is possible, the largest first, metres."""
     distances = (
         d.distance for d in deviations if _thing(d.cause) in blocks or not d.cause.startswith(THINGS)
     )
@@ -70,13 +70,13 @@ def believed(deviations: Iterable[Deviation], blocks: dict[str, float]) -> list[
 
 
 def _thing(cause: str) -> str:
-    """Return a cause without the name of the building, or of the part of a scene, that it names."""
+    """Return a cause without the name of its building, or of its part of a scene."""
     kind, named, _ = cause.partition(" ")
     return {"building": "buildings", "scene": "scene"}.get(kind, cause) if named else cause
 
 
 def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> float:
-    """Return how far a picture may lead a shot, metres; distance : to what is filmed.
+    """Return how far a picture may move a shot, metres; distance : to the subject.
 
     placed : whether the author gave the place, which only the pictures of other drones may move
     """
@@ -88,9 +88,9 @@ def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> flo
 
 
 def for_its_limits(flight: Flight, way: Way, smoothing: float) -> float:
-    """Return how far a drone falls behind a way, metres: where that is too fast, and until it has stopped.
+    """Return how far a drone falls behind a course, metres: where that is too fast, and while it stops.
 
-    smoothing : seconds; what is longer than normal is a way at the same speed, too
+    smoothing : seconds; the time beyond the normal one adds a distance at the same speed
     """
     assert way.times is not None
     limits, steps = flight.drone.limits, np.diff(way.times)
@@ -106,7 +106,7 @@ def for_its_limits(flight: Flight, way: Way, smoothing: float) -> float:
 
 
 def farthest(mission: MissionIR, names: Iterable[str], way: Way) -> float:
-    """Return the largest distance along a way from the nearest of some targets, metres."""
+    """Return the largest distance of a course from the nearest of some targets, metres."""
     targets = [mission.target(name) for name in names]
     if not targets:
         return UNWATCHED
@@ -131,7 +131,7 @@ def _zones(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
 
 
 def _meshes(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
-    """Yield how far meshes lead a drone: over what is near its way, or round the widest of it."""
+    """Yield the detour around each mesh: above its near parts, or around the widest of them."""
     body = flight.mission.rules.beside_obstacle(flight.drone.radius)
     for mesh in flight.mission.meshes:
         near = body + mesh.spacing + NEAR_M
@@ -144,14 +144,14 @@ def _meshes(flight: Flight, way: Way) -> Iterator[tuple[str, float]]:
 
 
 def _boxes(mesh: ObstacleMesh, parts: IntArray) -> tuple[Array, Array]:
-    """Return the lower and the upper corners of boxes round parts of a mesh, shapes (K, 3), metres."""
+    """Return the lower and upper corners of boxes around parts of a mesh, shapes (K, 3), metres."""
     of = mesh.part[mesh.surface.source]
     corners = [mesh.surface.triangles[of == part].reshape(-1, 3) for part in parts]
     return np.array([c.min(axis=0) for c in corners]), np.array([c.max(axis=0) for c in corners])
 
 
 def _widest(low: Array, high: Array) -> float:
-    """Return the widest of what boxes that touch make together, from corner to corner in the plan, metres."""
+    """Return the largest horizontal diagonal of a group of touching boxes, metres."""
     touch = ((low[:, None] <= high) & (high[:, None] >= low))[..., :2].all(axis=2)
     count, of = connected_components(touch)
     spans = [high[of == k, :2].max(axis=0) - low[of == k, :2].min(axis=0) for k in range(count)]

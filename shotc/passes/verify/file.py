@@ -1,4 +1,4 @@
-"""A plan file proved again from its bytes alone, and its certificate held against the new proof."""
+"""Verification of a plan file from its bytes alone, and comparison of its certificate with the new proof."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ Digests = tuple[tuple[str, str], ...]
 """Names of files, and their SHA-256."""
 
 REPORTED = 10
-"""Differing claims that are reported one by one."""
+"""Most differing claims that are reported separately."""
 
 NOTED = 3
-"""Differing claims that are named where another version of shotc wrote the file."""
+"""Most differing claims that are named if another version of shotc wrote the file."""
 
 
 @dataclass(frozen=True, slots=True)
 class FileVerdict:
-    """What became of a plan file.
+    """The result for a plan file.
 
-    plan : the verified plan, or None where it breaks a hard claim or is no plan
+    plan : the verified plan; None where it breaks a hard claim or is no plan
     certificate : every claim as proved now, broken ones included
-    mission : the text of the mission in the plan, where the plan can be read
-    written : what the plan says of its mission, then
+    mission : text of the mission in the plan, where the plan can be read
+    written : the plan's data of its mission, then
     """
 
     plan: VerifiedIR | None
@@ -51,9 +51,10 @@ class FileVerdict:
 
 
 def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileVerdict:
-    """Prove the plan in ``data`` by what its mission, lowered again, asks for.
+    """Return the proof of the plan in ``data`` against its mission, which is lowered again.
 
-    name : how to show the file; lower : lowers the mission that a plan holds
+    name : of the file in messages
+    lower : lowers the mission that a plan contains
     """
     read = read_plan(data, name)
     if read.trajectory is None:
@@ -63,7 +64,7 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
     if asked.keyframes is None:
         return FileVerdict(None, (), _not_lowered(read, asked, name), asked.file, written)
     other = _of_another_mission(read, asked.keyframes)
-    # What is said of another mission is judged by itself: its own faults may explain what was done to it.
+    # A plan of another mission is judged by its own data: its faults may explain the change.
     ir = read.trajectory if other else replace(read.trajectory, keyframes=asked.keyframes)
     verdict = judge(ir, ctx)
     diagnostics = [*other, *verdict.diagnostics]
@@ -75,7 +76,7 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
 
 
 def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
-    """Report in what a plan is not the plan of a mission that was lowered from a file beside it."""
+    """Return the differences between a plan and a mission that was lowered from a separate file."""
     if asked.keyframes is None:
         text = "this mission cannot be lowered, so no plan can be held to it"
         fault = Diagnostic("V043", text, (Label(asked.file.name, WHOLE_FILE),), help="mend its faults first")
@@ -102,7 +103,7 @@ def _changed(mine: Digests, true: Digests) -> list[str]:
 
 
 def _not_lowered(read: ReadPlan, asked: Lowered, name: str) -> tuple[Diagnostic, ...]:
-    """Say why the mission in a plan cannot be lowered, and then its own faults."""
+    """Return why the mission in a plan cannot be lowered, followed by its own faults."""
     label = (Label(name, WHOLE_FILE),)
     assert read.trajectory is not None
     if not read.trajectory.keyframes.mission.source.text:
@@ -121,7 +122,7 @@ def _writer(read: ReadPlan) -> tuple[str, ...]:
 
 
 def _of_another_mission(read: ReadPlan, asked: KeyframeIR) -> list[Diagnostic]:
-    """Report what the plan says of its mission that the mission does not say."""
+    """Return the differences between the plan's data of its mission and the mission."""
     assert read.trajectory is not None
     written = read.trajectory.keyframes
     differing = [*differences(written, asked), *source_differences(written.mission, asked.mission)]
@@ -131,7 +132,7 @@ def _of_another_mission(read: ReadPlan, asked: KeyframeIR) -> list[Diagnostic]:
 def told(
     differing: Sequence[Difference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
 ) -> list[Diagnostic]:
-    """Return differences as diagnostics on the mission's lines, the first ones each, the others together."""
+    """Return differences as diagnostics on the mission's lines: the first ones each, the others together."""
     shown = [
         Diagnostic(code, d.text, (asked.mission.origins.value(d.path),), notes, REPLAN)
         for d in differing[:REPORTED]
@@ -143,7 +144,7 @@ def told(
 
 
 def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> list[Diagnostic]:
-    """Report how the written certificate differs: claim by claim, or at once for another shotc's file."""
+    """Return how the written certificate differs, claim by claim; for another shotc as one diagnostic."""
     same_tool = read.tool == __version__
     differing = list(certificate_differences(read.certificate, proved, same_tool=same_tool))
     label = (Label(name, WHOLE_FILE),)

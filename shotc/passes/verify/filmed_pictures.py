@@ -1,4 +1,4 @@
-"""Whether the pictures of fleets that cameras film stand while they are filmed."""
+"""Check that the pictures of fleets that cameras film stand during these shots."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from shotc.rounding import at_least, plain
 
 
 def not_standing(ir: TrajectoryIR) -> Iterator[Diagnostic]:
-    """Yield the shots that film a picture before it stands, or after it has."""
+    """Yield the shots that film a picture before it stands, or after it."""
     if ir.fleets:
         flown = [phase for track in ir.drones for phase in track.phases if phase.shot is not None]
         yield from (found for phase in flown if (found := _astray(ir, phase)) is not None)

@@ -1,4 +1,4 @@
-"""What the camera sees in every shot: samples at the output rate, closed between them where they can be."""
+"""What the camera sees in every shot: samples at the output rate, with the gaps closed where possible."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from shotc.planning.framing.moments import placed_at
 
 @dataclass(frozen=True, slots=True, eq=False)
 class View:
-    """The samples of one target in one shot, as far as the shot frames it.
+    """The samples of one target in one shot, at the times at which the shot frames it.
 
-    times : ticks of the output clock and both ends, shape (M,); error : distance to the reference on
-    screen, infinite behind the camera, NaN where nothing is wanted; covered : share of the outline that
-    something covers, shape (M,)
+    times : ticks of the output clock and both ends, shape (M,)
+    error : distance to the reference on screen; infinite behind the camera, NaN without a reference
+    covered : share of the outline that something covers, shape (M,)
     """
 
     shot: Shot
@@ -42,7 +42,7 @@ class View:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Filmed:
-    """A shot as it is flown, and what it shows of each of its targets that it ever frames."""
+    """A flown shot, and the samples of each target that it frames."""
 
     placed: PlacedShot
     phase: Phase
@@ -61,7 +61,7 @@ def filmed(flight: Flight, ir: TrajectoryIR) -> Iterator[Filmed]:
 
 
 def framing(flight: Flight, shot: Filmed) -> Iterator[Claim]:
-    """Claim what a shot promises of its targets; without a promise the same claims are soft."""
+    """Yield claims on what a shot promises of its targets; without a promise they are soft."""
     yield from wanted_framing(flight, placed_at(flight.mission, shot.placed, shot.phase.start), shot.phase)
     for view in shot.views:
         yield _in_frame(flight, view)
@@ -71,7 +71,7 @@ def framing(flight: Flight, shot: Filmed) -> Iterator[Claim]:
 
 
 def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:
-    """Return the samples of a target in a shot's phase, or None where the shot never frames it."""
+    """Return the samples of a target in a shot's phase; None where the shot never frames it."""
     shot = placed.shot
     ticks = clock(flight.mission.rate, phase.end)
     spans = [f for f in flight.track.framing if f.shot == shot.id and f.target == target]

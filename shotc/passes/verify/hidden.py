@@ -1,4 +1,4 @@
-"""What hides a target that is not visible throughout its shot, in words."""
+"""What hides a target that is not visible throughout its shot, as notes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from shotc.ir.sampling import clock, framed
 from shotc.ir.trajectory import Claim, TrajectoryIR
 
 NAMED = 3
-"""Buildings, or parts of a scene, that are told by name: those that hide most."""
+"""Most buildings, or parts of a scene, that are named: those that hide the most."""
 
 
 def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
@@ -46,9 +46,9 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
 def _by_name(
     mission: MissionIR, of: NamedParts, target: str, seen: tuple[Array, Array, Array]
 ) -> list[tuple[str, Array]]:
-    """Return the parts of a mesh that hide a target, in words, the worst first, and the share each hides.
+    """Return the parts of a mesh that hide a target, by name, the worst first, and the share that each hides.
 
-    seen : eyes, (M, 3), mission times, (M,), and the share that the whole mesh hides then, (M,)
+    seen : eyes, (M, 3), mission times, (M,), and the share that the whole mesh hides, (M,)
     """
     eyes, times, share = seen
     hides, owner = share > 0.0, mesh_owner(of.mesh)

@@ -1,4 +1,4 @@
-"""What keeps one drone out of another one's picture: another time, another direction, another place."""
+"""Remedies that keep one drone out of another's picture: another time, another direction, another place."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from shotc.passes.verify.meeting import filming, put_off
 from shotc.passes.verify.sight import Sight
 from shotc.rounding import at_least
 
-BEYOND_DEG = 0.5  # degrees that a camera is turned more than it must
+BEYOND_DEG = 0.5  # degrees that a camera is turned beyond the least angle
 
 
 def kept_out(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
-    """Yield what would keep the other drone of a broken claim out of the shot of a phase.
+    """Yield remedies that keep the other drone of a broken claim out of the shot of a phase.
 
-    Another time is no help where the other drone is seen on its pad, too.
+    Another time does not help where the other drone is seen on its pad as well.
     """
     mission, other = sight.mission, sight.other
     times = ticks(mission.rate, phase.start, phase.end)
@@ -47,7 +47,7 @@ def _pad_is_seen(sight: Sight, times: Array, claim: Claim) -> bool:
 
 
 def _another_time(sight: Sight, phase: Phase) -> Iterator[str]:
-    """Propose to film one after the other; this one, if it is the later one, once the other has landed."""
+    """Yield the remedy to film one after the other; this shot, if later, after the other drone has landed."""
     other = filming(sight.other, phase.start)
     if other is None:
         return
@@ -59,7 +59,7 @@ def _another_time(sight: Sight, phase: Phase) -> Iterator[str]:
 
 
 def _turned(sight: Sight, times: Array, phase: Phase) -> str:
-    """Say how far a camera that is told its heading turns away; empty for one that follows something."""
+    """Return how far a camera with a given heading turns away; empty for one that follows a target."""
     mission = sight.mission
     shot = mission.shot(phase.shot)
     if not shot.keyframes or any(k.aim is None or len(k.aim) != 2 for k in shot.keyframes):
@@ -73,7 +73,7 @@ def _turned(sight: Sight, times: Array, phase: Phase) -> str:
         return ""
     half = film[:, HFOV] / 2 if mission.rules.half_angle is None else mission.rules.half_angle
     edge = half + np.arcsin(radius / far)
-    # Turned to the right, what is ahead goes to the left, and the other way round.
+    # When the camera turns right, the picture moves left, and vice versa.
     right, left = float((edge - off).max()), float((edge + off).max())
     by = float(at_least(degrees(min(right, left)) + BEYOND_DEG, 0))
     way = "right" if right <= left else "left"

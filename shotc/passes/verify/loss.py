@@ -1,7 +1,7 @@
-"""Shots whose target strays from its place on screen: by how much, in which frame, and at which limits.
+"""Shots whose target deviates from its reference on screen: how far, in which frame, and at which limits.
 
-Where framing and a limit conflict, the limit wins. That is told once a shot, if the shot promises no
-screen error of its own: with a promise it is an error that says so.
+Where framing and a limit conflict, the limit has priority. This is reported once a shot if the shot promises
+no screen error; a broken promise is an error of its own.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.promises import bends
 
 NOTICE_HALF_FRAMES = 0.05
-"""Half frames off its place that are worth telling."""
+"""Screen error above which a shot is reported, half frames."""
 
 FULL_SHARE = 0.98
-"""Share of a rate or acceleration from which on it counts as being at its limit."""
+"""Share of a rate or acceleration limit from which on it counts as reached."""
 
 AT_END_RAD = 0.01
-"""Radians from the end of a gimbal's range that still are at it."""
+"""Distance from the end of a gimbal's range that counts as at the end, radians."""
 
 AT_EDGE_M = 0.1
-"""Metres beyond a clearance that still are at it: the path keeps half of that for later stages."""
+"""Metres beyond a clearance that count as at its limit; the path keeps half of that for later stages."""
 
 _END = " screen error"
 
 
 def losses(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Report for every shot the target that is farthest from its place, where that is far and unpromised."""
+    """Yield for every shot the target with the largest screen error, where that is large and not promised."""
     worst: dict[str, Claim] = {}
     for claim in claims:
         if (
@@ -84,7 +84,7 @@ def _loss(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
 
 
 def at_limit(mission: MissionIR, track: DroneTrajectory, time: float) -> list[str]:
-    """Return what is at its limit at a time, of the gimbal and of space, with the limits."""
+    """Return the limits of gimbal and space that are reached at a time."""
     drone = mission.drone(track.drone)
     return [*_gimbal(drone, track, time), *_space(mission, drone, track, time)]
 

@@ -1,4 +1,4 @@
-"""V022 of drones that film: which shots bring two of them too near, and what would keep them apart."""
+"""V022 for drones that film: which shots bring two of them too near, and what keeps them apart."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ MOVES_M_S = 0.01  # m/s, below which a drone stands
 
 
 def meeting(ir: TrajectoryIR, claim: Claim) -> Diagnostic | None:
-    """Report that two drones come nearer than the separation; None of fleets, which are told otherwise."""
+    """Return the report that two drones violate the separation; None for fleets, which have another
+    report.
+    """
     tracks = {t.drone: t for t in bodies(ir)}
     other = tracks.get(claim.constraint.removeprefix(SEPARATION))
     if claim.drones or claim.subject not in tracks or other is None or claim.time is None:
@@ -41,13 +43,13 @@ def meeting(ir: TrajectoryIR, claim: Claim) -> Diagnostic | None:
 
 
 def filming(track: DroneTrajectory, time: float) -> Phase | None:
-    """Return what a drone films at a time, or films next, or filmed last; None where it films nothing."""
+    """Return the shot of a drone at a time, else its next one, else its last one; None without shots."""
     shots = [phase for phase in track.phases if phase.shot is not None]
     return next((p for p in shots if p.end >= time), shots[-1] if shots else None)
 
 
 def put_off(mission: MissionIR, first: Phase, moved: tuple[DroneTrajectory, Phase]) -> str:
-    """Return the start of a shot that is flown to once another one is over, and what to write for it."""
+    """Return the remedy to start a shot, with its transfer, after another one has ended."""
     track, phase = moved
     assert phase.shot is not None
     start = at_least(max(first.end, phase.start) + _under_way(mission, track, phase), 1)
@@ -55,7 +57,7 @@ def put_off(mission: MissionIR, first: Phase, moved: tuple[DroneTrajectory, Phas
 
 
 def _under_way(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> float:
-    """Return for how long a drone moves on its way to a shot, from its shot before or its pad, seconds."""
+    """Return for how long a drone moves before a shot, since its last shot or its pad, seconds."""
     began = max((p.end for p in track.phases if p.shot is not None and p.end <= phase.start), default=0.0)
     t = clock(mission.rate, phase.start)
     t = t[t >= began]
@@ -81,7 +83,7 @@ def _shot(mission: MissionIR, phase: Phase) -> Shot:
 
 
 def _notes(ir: TrajectoryIR, claim: Claim, pair: tuple[DroneTrajectory, ...]) -> Iterator[str]:
-    """Say how long they are too near, and where each of them is when they are nearest."""
+    """Yield how long the drones are too near, and where each is when they are nearest."""
     times = clock(ir.keyframes.mission.rate, max(track.curve.end for track in pair))
     places = [track.curve(np.minimum(times, track.curve.end))[:, :3] for track in pair]
     near = times[np.linalg.norm(places[0] - places[1], axis=1) < claim.limit]

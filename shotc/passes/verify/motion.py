@@ -18,11 +18,11 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap
 
 HFOV_RANGE_RAD = (radians(1.0), radians(170.0))
-"""Fields of view that a pinhole camera can be asked for."""
+"""Range of fields of view of a pinhole camera."""
 
 
 def motion(flight: Flight) -> Iterator[Claim]:
-    """Claim the limits of the drone, its gimbal and its lens over the whole flight."""
+    """Yield claims on the limits of drone, gimbal and lens over the whole flight."""
     whole = pieces(flight.track.curve)
     yield from _translation(flight, whole.channels(0, 1, 2))
     yield from _body_yaw(flight, whole.channels(BODY_YAW))
@@ -48,7 +48,7 @@ def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
 
 
 def _speed(flight: Flight, level: Pieces) -> Claim:
-    """Claim the speed over ground, or through the air where the wind is known."""
+    """Return the claim on ground speed, or on airspeed where the wind is known."""
     limits = flight.drone.limits
     name = "airspeed" if any(limits.wind) else "speed"
     through = Pieces(level.low, level.high, level.ctrl - np.array(limits.wind))
@@ -57,7 +57,9 @@ def _speed(flight: Flight, level: Pieces) -> Claim:
 
 
 def _thrust(flight: Flight, acceleration: Pieces) -> Iterator[Claim]:
-    """Claim tilt and thrust where the mission limits them: functions of the acceleration alone."""
+    """Yield claims on tilt and thrust where they are limited; both are functions of the acceleration
+    alone.
+    """
     limits = flight.drone.limits
     for key, value, limit, unit in (
         ("tilt", lean, limits.tilt, "rad"),
@@ -89,7 +91,7 @@ def _gimbal(flight: Flight, axis: str, angle: Pieces) -> Iterator[Claim]:
 
 
 def _zoom(flight: Flight, hfov: Pieces) -> Iterator[Claim]:
-    """Claim what the lens shows, and how fast it zooms where the mission says what it is."""
+    """Yield claims on the lens's range, and on its zoom rate where the mission gives one."""
     lens = flight.drone.lens
     if lens is None:
         yield from _range(flight, "field of view", hfov, HFOV_RANGE_RAD)
@@ -102,7 +104,7 @@ def _zoom(flight: Flight, hfov: Pieces) -> Iterator[Claim]:
 
 
 def _against_body(flight: Flight, whole: Pieces) -> Pieces:
-    # Whole turns mean nothing to where the gimbal begins; from there on it has to stay in its range.
+    # Whole turns are removed at the start; from there on the gimbal has to stay in its range.
     relative: Array = whole.ctrl[:, :, [CAM_YAW]] - whole.ctrl[:, :, [BODY_YAW]]
     low, high = flight.drone.gimbal.yaw
     turns = np.round((relative[0, 0, 0] - 0.5 * (low + high)) / (2 * pi))

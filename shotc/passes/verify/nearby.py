@@ -1,4 +1,4 @@
-"""What of a scene or of buildings a flight comes nearest to, by its name, and where the mission has it."""
+"""The part of a scene or of buildings that a flight comes nearest to: its name and its key in the mission."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shotc.ir.trajectory import Claim
 
 
 def nearest_part(mission: MissionIR, claim: Claim) -> Iterator[str]:
-    """Yield what is nearest to where a claim is broken, and where that is."""
+    """Yield the part nearest to the place where a claim is broken, and its position, as a note."""
     mesh = _mesh(mission, claim)
     if mesh is not None and claim.position is not None:
         place = "({:.2f}, {:.2f}, {:.2f})".format(*mesh.nearest_part(claim.position).place)
@@ -20,7 +20,7 @@ def nearest_part(mission: MissionIR, claim: Claim) -> Iterator[str]:
 
 
 def file_labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
-    """Yield the place in the mission that names the file of what is too near."""
+    """Yield a label on the file of the mesh that is too near."""
     mesh = _mesh(mission, claim)
     if mesh is not None and claim.position is not None and claim.path != mesh.path:
         yield mission.origins.value(mesh.path, f"{part_owner(mesh, claim.position).words} stands there")

@@ -1,6 +1,6 @@
-"""Drones against each other: separation, centre to centre, at every instant of the common clock.
+"""Separation between drones, centre to centre, at every instant of the common clock.
 
-Two drones that the plan does not fly stand where the mission puts them, and nothing is claimed of them.
+Two drones that the plan does not fly stand at their homes, and there is no claim about them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ POINT = point((0.0, 0.0, 0.0))
 
 
 def separation(flights: list[Flight], on_pads: list[Flight]) -> Iterator[Claim]:
-    """Claim the separation of every pair of drones of which one flies; who has landed stands at its home.
+    """Yield claims on the separation of every pair of drones of which one flies; landed drones stand at home.
 
     on_pads : the drones that the plan does not fly
     """
@@ -37,7 +37,7 @@ def separation(flights: list[Flight], on_pads: list[Flight]) -> Iterator[Claim]:
 
 
 def from_fleets(ir: TrajectoryIR, flights: list[Flight]) -> Iterator[Claim]:
-    """Claim the separation of every drone from the pads of the fleets that the plan does not fly."""
+    """Yield claims on the separation of every drone from the pads of fleets that the plan does not fly."""
     least = ir.keyframes.mission.rules.separation
     for flight, fleet in product(flights, parked_fleets(ir)):
         limit = Limit(f"separation from {fleet.name}", least, "m", ("rules", "separation"), upper=False)
@@ -45,7 +45,9 @@ def from_fleets(ir: TrajectoryIR, flights: list[Flight]) -> Iterator[Claim]:
 
 
 def _from_pads(flown: Pieces, fleet: Fleet, least: float) -> Bound:
-    """Bound the distance from the nearest pad: from box to box first, and those that boxes cannot tell."""
+    """Return a bound on the distance from the nearest pad; pads are excluded by their boxes where
+    possible.
+    """
     boxes = np.array([box_gap(flown.ctrl, point(pad)).min() for pad in fleet.pads])
     best = Bound(inf, inf, 0.0)
     for k in np.argsort(boxes, kind="stable"):
@@ -57,7 +59,7 @@ def _from_pads(flown: Pieces, fleet: Fleet, least: float) -> Bound:
 
 
 def _difference(one: Piecewise, other: Piecewise) -> Pieces:
-    """Return the first curve less the second on their common pieces, each standing still after its end."""
+    """Return the first curve minus the second on their common pieces; each stands still after its end."""
     end = max(one.end, other.end)
     breaks = np.union1d(one.breaks, other.breaks)
     first, second = (restrict(held_until(curve, end), breaks) for curve in (one, other))

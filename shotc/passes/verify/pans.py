@@ -1,4 +1,4 @@
-"""Pans as they are flown: how fast the surroundings go through the picture, by the rule of ``geom.pan``."""
+"""Speed of the surroundings through the picture in flown pans, by the rule of ``geom.pan``."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.rounding import at_least
 
-STEP_S = 0.1  # seconds between the moments at which a turn is judged
+STEP_S = 0.1  # seconds between samples
 ROUNDING_S = 1e-6  # seconds
-PEAK_RATIO = 2.1  # of the mean rate: 15 / 8 from rest to rest with least jerk, more where it turns unevenly
-RESHAPED_RATIO = 1.05  # of a free time: a given one stretches the profile at full limits, which differs
-NEARLY_SHARE = 0.99  # of the seconds that a frame width takes at least; less is told
+PEAK_RATIO = 2.1  # peak over mean rate: 15 / 8 for minimum jerk from rest to rest, more if uneven
+RESHAPED_RATIO = 1.05  # factor for a free duration: a given one stretches another profile
+NEARLY_SHARE = 0.99  # share of the least time of a frame width, below which it is reported
 
 
 class Pan(NamedTuple):
-    """The fastest turn of a shot, against what its rule allows.
+    """The fastest turn of a shot, relative to its rule.
 
-    width : seconds that a frame width takes; time : mission time at which it begins
+    width : seconds for one frame width
+    time : mission time at which it begins
     followed : as in ``geom.pan``
     """
 
@@ -37,12 +38,12 @@ class Pan(NamedTuple):
 
     @property
     def pace(self) -> float:
-        """Return how many times as fast it is as the rule allows."""
+        """The rate over the allowed one."""
         return slowest(self.followed) / self.width
 
 
 def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
-    """Report every shot that turns faster than a film can show, unless it may."""
+    """Yield a warning for every shot that turns faster than a film can show, unless it is allowed."""
     mission = ir.keyframes.mission
     shots = {shot.id: shot for shot in mission.shots}
     for track in ir.drones:
@@ -56,7 +57,7 @@ def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
 
 
 def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:
-    """Return the turn of a shot that is fastest by its rule, over a second, or over all of a shorter shot."""
+    """Return the fastest turn of a shot by its rule, over a second, or over the whole of a shorter shot."""
     duration = phase.end - phase.start
     if duration <= 0.0:
         return None
@@ -75,7 +76,7 @@ def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:
 def _followed(
     track: DroneTrajectory, phase: Phase, names: tuple[str, ...], start: float, window: float
 ) -> str | None:
-    """Return a target that has its place on screen all through a window, if any has."""
+    """Return a target that has a reference on screen throughout a window, or None."""
     for name in names:
         for span in track.framing:
             held = span.shot == phase.shot and span.target == name and span.reference is not None
@@ -85,23 +86,25 @@ def _followed(
 
 
 def _widths(track: DroneTrajectory, starts: Array, window: float) -> Array:
-    """Return the frame widths that go through the picture from each time to a window later."""
+    """Return the frame widths that pass through the picture from each time to a window later, (M,)."""
     before, after = track.curve(starts), track.curve(starts + window)
     turned = np.arccos(np.clip((_axis(before) * _axis(after)).sum(axis=1), -1.0, 1.0))
     return np.asarray(turned / (np.tan(before[:, HFOV] / 2) + np.tan(after[:, HFOV] / 2)))
 
 
 def _axis(pose: Array) -> Array:
-    """Return the optical axes of poses (M, 7), (M, 3)."""
+    """Return the optical axes (M, 3) of poses (M, 7)."""
     yaw, pitch = pose[:, CAM_YAW], pose[:, CAM_PITCH]
     return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
 
 
 def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float:
-    """Return the seconds in which a shot between keyframes turns slowly enough.
+    """Return a duration in which a shot between keyframes turns slowly enough, seconds.
 
-    As much longer as it is too fast; and for all that it turns, from rest to rest by the smoothest law.
-    free : whether the mission leaves its time free
+    It is the duration times the excess of the rate, and at least that of the whole turn from rest to rest by
+    minimum jerk.
+
+    free : whether the mission leaves the duration free
     """
     duration = phase.end - phase.start
     times = np.linspace(phase.start, phase.end, max(2, round(duration / STEP_S)) + 1)

@@ -1,4 +1,4 @@
-"""What is passed nearer than on ways between shots it should be, in the author's terms."""
+"""Diagnostics of obstacles that transfers pass nearer than their clearance."""
 
 from __future__ import annotations
 
@@ -23,16 +23,20 @@ from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
 
 HARD, SOFT = "V035", "V034"
-WORTH_SHARE = 0.1  # of a clearance that nobody wrote down; less is in summary and certificate alone
-PLAY_M = 0.1  # metres that a clearance is told below what is kept: planning keeps a little more than is asked
+WORTH_SHARE = 0.1  # share of an unstated clearance; a smaller lack gets no warning
+PLAY_M = 0.1  # metres by which a proposed clearance is below the flown one, as play for planning
 
 
 class Pass(NamedTuple):
     """How near a drone comes to a solid where a claim is worst.
 
-    name : of the solid, for people; path : in the mission; at : mission time, seconds
-    has, needs : metres from the body then; least : metres on the whole way
-    counts_from : what they count from, where that is not the solid itself
+    name : of the solid in messages
+    path : its key path
+    way : the transfer
+    at : mission time, seconds
+    has, needs : distances from the body at that time, metres
+    least : least distance on the whole transfer, metres
+    counts_from : what the distances count from, where that is not the solid itself
     """
 
     name: str
@@ -46,9 +50,9 @@ class Pass(NamedTuple):
 
 
 def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Report broken claims of clearances on ways: what is required one by one, else one warning a way.
+    """Yield diagnostics of broken clearances on transfers: stated ones each, others once per transfer.
 
-    A clearance that nobody wrote down is worth a warning where a tenth of it lacks.
+    An unstated clearance gets a warning only if more than a tenth of it lacks.
     """
     broken = [c for c in claims if not c.holds and c.constraint.endswith(ENDING)]
     soft: dict[tuple[str, Way], list[tuple[Claim, Pass]]] = {}
@@ -64,7 +68,7 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
 
 
 def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
-    """Return where a flight breaks a claim, way by way, the worst first."""
+    """Return where a flight breaks a claim, one entry per transfer, the worst first."""
     mission, name = ir.keyframes.mission, claim.constraint.removesuffix(ENDING)
     track = next(t for t in ir.drones if t.drone == claim.subject)
     solid, path, curve, counts_from = _solid(mission, name, track)
@@ -86,7 +90,7 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
 
 
 class _Named(NamedTuple):
-    """What a claim names: its solid, its key path, and the flight as it sees that."""
+    """The solid that a claim names, its key path, and the flight relative to it."""
 
     solid: Solid
     path: KeyPath
@@ -95,7 +99,7 @@ class _Named(NamedTuple):
 
 
 def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
-    """Return what a claim calls so, its path, and the flight as it sees that."""
+    """Return the solid that a claim names, its key path, and the flight relative to it."""
     curve = track.curve.channels(0, 1, 2)
     for target in mission.targets:
         if name == f"target {target.name}":
@@ -122,7 +126,7 @@ def _accepted(claim: Claim, together: list[tuple[Claim, Pass]]) -> str:
 
 
 def _held(least: float) -> str:
-    """Return a clearance that ways keep which come so near, with the play that planning takes, metres."""
+    """Return the clearance that transfers with this least distance keep, minus the play, metres."""
     return at_most(max(least - PLAY_M, 0.0))
 
 

@@ -1,4 +1,4 @@
-"""Broken promises of a shot: what is seen of the target, and the promise that this plan would keep."""
+"""Broken promises of a shot: what is seen of the target, and which promise this plan would keep."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from shotc.passes.verify.visible import AT_FIRST, AT_LAST, VISIBLE
 from shotc.rounding import at_least, away
 
 OUTLINES = frozenset({"V028", "V029"})
-"""Codes of broken promises of how much of a target is free."""
+"""Codes of broken promises on the visible share of a target."""
 
 PROMISES = frozenset({"V019", "V020", "V021"}) | OUTLINES
 """Codes of broken promises."""
 
 FARTHEST_HALF_FRAMES = 3.0
-"""Half frames: the largest error on screen that can be promised."""
+"""Largest screen error that can be promised, half frames."""
 
 _DIGITS = 3
 _INSTEAD = {
@@ -39,7 +39,7 @@ _UNSEEN = {
 
 
 def broken_promise(claim: Claim, code: str) -> str:
-    """Return what becomes of the target on screen, and what was promised."""
+    """Return the message on a broken promise: what is seen of the target, and what was promised."""
     target = target_of(claim, code)
     shot = f"shot `{claim.shot}`"
     if not isfinite(claim.worst):
@@ -62,18 +62,18 @@ def broken_promise(claim: Claim, code: str) -> str:
 
 
 def target_of(claim: Claim, code: str) -> str:
-    """Return the name of the target of a claim of what was promised."""
+    """Return the name of the target of a claim on a promise."""
     return claim.constraint.rpartition(_ENDS[code])[0]
 
 
 def promise_help(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
-    """Return the promise to write instead, if the language has one, and what else would help."""
+    """Return the promise to write instead, if there is one, and another remedy."""
     kept = _kept(claim, code, shot, certificate) if isfinite(claim.worst) else ""
     return f"promise `{kept}`, or {_INSTEAD[code]}" if kept else _INSTEAD[code]
 
 
 def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Report every promise of a flown shot that no claim of the certificate speaks of."""
+    """Yield an error for every promise of a flown shot without a claim in the certificate."""
     origins = ir.keyframes.mission.origins
     flown = {p.shot for track in ir.drones for p in track.phases}
     for shot in (s for s in ir.keyframes.mission.shots if s.id in flown):
@@ -91,7 +91,7 @@ def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagn
 
 
 def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
-    """Yield how far and why the path of a shot leaves the one that its kind generates."""
+    """Yield how far and why a shot's path leaves the one that its kind generates."""
     for deviation in ir.deviations:
         if deviation.shot == shot:
             owner = owner_of(ir.keyframes.mission, deviation.cause)
@@ -100,7 +100,7 @@ def bends(ir: TrajectoryIR, shot: str) -> Iterator[str]:
 
 
 def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -> str:
-    """Return the promise that holds, as YAML; empty where none can be written."""
+    """Return the promise that holds, as YAML; empty where there is none."""
     if code == "V019":
         return f"in_frame: {enough(claim)}"
     if code == "V021":
@@ -114,7 +114,7 @@ def _kept(claim: Claim, code: str, shot: Shot, certificate: tuple[Claim, ...]) -
 
 
 def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
-    """Return a range of sizes that all targets of the shot keep; empty where there is none."""
+    """Return the range of sizes that all targets of the shot keep; empty where there is none."""
     assert shot.promise.size is not None
     low, high = shot.promise.size
     broken = [c for c in certificate if c.shot == shot.id and not c.holds and _ENDS["V021"] in c.constraint]
@@ -126,7 +126,7 @@ def _size(shot: Shot, certificate: tuple[Claim, ...]) -> str:
 
 
 def _reveal(shot: Shot, certificate: tuple[Claim, ...]) -> str:
-    """Return the reveal that all targets of the shot keep; empty where it would go the other way."""
+    """Return the reveal that all targets of the shot keep; empty where its direction would change."""
     assert shot.promise.reveal is not None
     shown = []
     for promised, end in zip(shot.promise.reveal, (AT_FIRST, AT_LAST), strict=True):

@@ -1,6 +1,7 @@
-"""Whether a plan judges its framing by what the mission asks: targets and references as the keyframes say.
+"""Check that a plan's framing data are those of the mission: targets and references at the keyframes.
 
-Without this an edited plan could keep every promise by framing nothing, or by wanting what it shows.
+Without this check an edited plan could keep every promise by framing nothing, or by taking what it shows as
+its reference.
 """
 
 from __future__ import annotations
@@ -27,10 +28,10 @@ Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
 
 
 def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
-    """Claim that between keyframes with one target it is framed, with their references at the ends.
+    """Yield claims that targets between two keyframes are framed, with the keyframes' references at the ends.
 
-    Between two references the wanted one lies on the straight line from one to the other. Both claims
-    are hard where the shot promises something, else soft.
+    Between two references the wanted one lies on the straight line from one to the other. Both claims are
+    hard where the shot promises something, else soft.
     """
     shot, hard = placed.shot, placed.shot.promise != Promise()
     if shot.ideal is not None and not is_keyed(shot):
@@ -65,7 +66,9 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
 
 
 def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) -> Iterator[Claim]:
-    """Claim that the subjects of a shot on its own clock are framed throughout, where they were placed."""
+    """Yield claims that the subjects of a shot on its own clock are framed throughout, with their
+    references.
+    """
     shot = placed.shot
     ticks = clock(flight.mission.rate, phase.end)
     t = np.union1d(ticks[(ticks > phase.start) & (ticks < phase.end)], [phase.start, phase.end])
@@ -89,10 +92,10 @@ def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) 
 
 
 def held(flight: Flight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
-    """Tell at which times of a shot a target is held in the picture, not handed over to another.
+    """Return at which times of a shot a target is framed between two keyframes of its own.
 
-    While the camera swings from one target to the next neither can be whole in the frame; where a shot
-    never holds its target between two keyframes, all of its frames count.
+    While the camera turns from one target to the next, neither can be whole in the frame. If a shot never has
+    its target at two consecutive keyframes, all of its frames count.
     """
     at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
     if len(at) < len(placed.keyframes):
@@ -104,7 +107,7 @@ def held(flight: Flight, placed: PlacedShot, phase: Phase, target: str, times: A
 
 
 def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator[Leg]:
-    """Yield the stretches between neighbouring keyframes of one target; a hold belongs to the one before."""
+    """Yield the intervals between neighbouring keyframes of one target; each without the hold before it."""
     if len(placed.keyframes) == 1:
         only = placed.keyframes[0]
         if only.target is not None:
@@ -116,7 +119,7 @@ def _legs(placed: PlacedShot, times: dict[int, float], phase: Phase) -> Iterator
 
 
 class _SampledLeg(NamedTuple):
-    """Times of a stretch between two keyframes, shape (M,), and these."""
+    """Times of an interval between two keyframes, shape (M,), and the keyframes."""
 
     times: Array
     before: PlacedKeyframe

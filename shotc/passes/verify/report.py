@@ -1,4 +1,4 @@
-"""Broken claims in the author's terms: the limit's line, the shot's line, when, where, and what helps."""
+"""Diagnostics of broken claims: the limit's line, the shot's line, time, place and remedy."""
 
 from __future__ import annotations
 
@@ -117,15 +117,15 @@ UNKNOWN = {
     "V024": "cannot be told, there is none",
     "V016": "cannot be told, the keyframe is not reached in its shot",
 }
-"""What is said where a claim has no finite worst value."""
+"""What a message says where a claim has no finite worst value."""
 
 SOFT = {" in frame": "V030", VISIBLE: "V031", IN_SIGHT: "V050"}
 
 
 def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Turn every broken claim into one diagnostic: an error where it is hard, else a warning.
+    """Yield one diagnostic per broken claim: an error where it is hard, else a warning.
 
-    What is preferred of the drones' pictures is told once a shot, of clearances on ways once a way.
+    Preferences on drones' pictures are reported once a shot, and clearances of transfers once a transfer.
     """
     yield from told_passes(ir, claims)
     for claim in claims:
@@ -144,7 +144,7 @@ def report(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
 
 
 def _seen_with(claim: Claim, claims: tuple[Claim, ...]) -> tuple[Claim, ...]:
-    """Return the broken claims that are told in one with a claim that another drone is out of a picture."""
+    """Return the broken claims on pictures that are reported together with a given one."""
     if claim.hard:
         return (claim,)
     return tuple(
@@ -155,7 +155,7 @@ def _seen_with(claim: Claim, claims: tuple[Claim, ...]) -> tuple[Claim, ...]:
 
 
 def rule_of(constraint: str, mission: MissionIR) -> Rule:
-    """Return how a constraint is reported; names of zones and targets are part of its text."""
+    """Return how a constraint is reported; its text contains names of zones and targets."""
     if constraint in RULES:
         return RULES[constraint]
     for end, rule in ENDING.items():
@@ -195,7 +195,7 @@ def _broken(ir: TrajectoryIR, claim: Claim, certificate: tuple[Claim, ...]) -> D
 
 
 def state_of(claim: Claim, code: str) -> str:
-    """Return the worst value beside its limit, with the digits that tell them apart."""
+    """Return the worst value and its limit, with enough digits to distinguish them."""
     reached, limit = told_apart(claim.worst, claim.limit, claim.unit)
     state = f"is {reached}" if isfinite(claim.worst) else UNKNOWN.get(code, "has no bound")
     return (
@@ -209,9 +209,9 @@ def side_of(claim: Claim) -> str:
 
 
 def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim, ...]) -> bool:
-    """Tell whether the target of a claim is asked to be larger than the frame, or may be hidden.
+    """Return whether the target of a claim is larger than the frame by request, or may be hidden.
 
-    What is hidden in most frames is not told a second time.
+    A target hidden in most frames has a warning already.
     """
     shot = _shot(mission, claim.shot)
     if not isinstance(shot, Shot):
@@ -224,7 +224,7 @@ def _on_purpose(mission: MissionIR, claim: Claim, code: str, claims: tuple[Claim
 
 
 def _mostly_hidden(claim: Claim, claims: tuple[Claim, ...]) -> bool:
-    """Tell whether the target of a claim of what is visible is hidden in most frames of its shot."""
+    """Return whether the target of a claim on visibility is hidden in most frames of its shot."""
     name = claim.constraint.removesuffix(VISIBLE) + IN_SIGHT
     return any(c.constraint == name and c.shot == claim.shot and not c.holds for c in claims)
 
@@ -266,13 +266,13 @@ def _labels(mission: MissionIR, claim: Claim, phase: Phase | None, limit: str) -
 
 
 def limit_label(mission: MissionIR, claim: Claim, text: str) -> Label:
-    """Return the place of the limit of a claim in the mission."""
+    """Return a label on the limit of a claim."""
     find = mission.origins.key if _is_element(mission, claim.path) else mission.origins.value
     return find(claim.path, text)
 
 
 def _is_element(mission: MissionIR, path: KeyPath) -> bool:
-    # An element spans many lines: point at its name. A limit is a number: point at that.
+    # An element spans many lines, so the label is on its name. A limit is a number, with a label of its own.
     films = (mission.zones, mission.drones, mission.every_target, mission.shots)
     named = (*films, mission.fleets, mission.displays)
     return path in {element.path for elements in named for element in elements}
@@ -324,7 +324,7 @@ def _shot(mission: MissionIR, name: str | None) -> Shot | Display | None:
 
 
 def _who(claim: Claim) -> str:
-    """Return the drone, or the fleet with the drones, that a claim is broken by."""
+    """Return the drone, or the fleet with the drones, that breaks a claim."""
     if not claim.drones:
         return claim.subject
     return f"{' and '.join(claim.drones)} of {claim.subject}"

@@ -1,7 +1,7 @@
-"""Whether a trajectory is one flight: finite, phases without gaps, smooth at joints, at rest at home.
+"""Check that a trajectory is one flight: finite, with phases without gaps, smooth joints, and rest at home.
 
-Time has no gaps. Phases meet exactly. What the polynomials on both sides of a joint differ by is added up
-over the whole flight and held against an absolute amount: many small steps count as much as a large one.
+Phases meet exactly. The differences of the polynomials at joints are summed over the whole flight and
+compared with an absolute amount, so that many small steps count as much as a large one.
 """
 
 from __future__ import annotations
@@ -22,24 +22,25 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import TOLERANCE, Flight, Limit, Worst, claim
 
 AT_HOME_M = 1e-3
-"""Metres from home within which a flight begins and ends."""
+"""Distance from home within which a flight begins and ends, metres."""
 
 LARGEST_M = 1e6
-"""Metres or radians beyond which nothing is a flight; within it doubles resolve a nanometre."""
+"""Largest value of a flight, metres or radians; up to it doubles resolve a nanometre."""
 
 SHORTEST_S = 1e-5
-"""Seconds of the shortest piece; below it third derivatives drown in rounding."""
+"""Shortest piece, seconds; below it rounding dominates third derivatives."""
 
 
 REPORTED = 5
-"""Faults of the form of one flight that are told one by one."""
+"""Most faults of one flight's form that are reported separately."""
 
 
 @dataclass(frozen=True, slots=True)
 class Joints:
-    """How much a derivative of a channel may step by at all joints of a flight together.
+    """How much a derivative of a channel may step in total over all joints of a flight.
 
-    most : metres or radians, per second to the power of ``order``; unit : what follows "m" or "rad"
+    most : metres or radians, per second to the power of ``order``
+    unit : suffix of "m" or "rad"
     """
 
     order: int
@@ -53,11 +54,11 @@ JOINTS = (
     Joints(1, "rate", 1e-6, "/s"),
     Joints(2, "acceleration", 1e-4, "/s^2"),
 )
-"""Doubles resolve some 1e-9 /s and 1e-6 /s^2 over a thousand joints a kilometre from the origin."""
+"""Doubles resolve about 1e-9 /s and 1e-6 /s^2 over a thousand joints, a kilometre from the origin."""
 
 
 def structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
-    """Report what keeps a trajectory from being read as a flight at all."""
+    """Yield the faults that make a trajectory unreadable as a flight."""
     mission = ir.keyframes.mission
     known = {drone.name: drone for drone in mission.drones}
     shots = {shot.id for shot in mission.shots}
@@ -80,7 +81,9 @@ def structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
 
 
 def first_few(faults: Iterator[str]) -> Iterator[str]:
-    """Yield the first faults of a flight, and that there are more; a damaged plan may have any number."""
+    """Yield the first faults of a flight, and a note if there are more; a damaged plan may have any
+    number.
+    """
     yield from islice(faults, REPORTED)
     if next(faults, None) is not None:
         yield f"more than {REPORTED} faults of its form are not told one by one"
@@ -119,7 +122,7 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
 def gaps(phases: tuple[Phase, ...], start: float, end: float) -> Iterator[str]:
     """Yield where phases do not follow one another from a start to an end, seconds.
 
-    They meet exactly: what lies between two of them would be in none, and held to nothing.
+    They have to meet exactly, because a time between two of them would be checked by none.
     """
     if not phases:
         yield "it has no phases"
@@ -137,7 +140,9 @@ def gaps(phases: tuple[Phase, ...], start: float, end: float) -> Iterator[str]:
 
 
 def shape(flight: Flight) -> Iterator[Claim]:
-    """Claim continuity of value, rate and acceleration, home and rest at both ends, and endurance."""
+    """Yield claims on continuity of value, rate and acceleration, home and rest at both ends, and
+    endurance.
+    """
     curve, drone = flight.track.curve, flight.drone
     yield from _joints(flight)
     ends = np.array([curve.start, curve.end])
@@ -166,6 +171,6 @@ def _joints(flight: Flight) -> Iterator[Claim]:
 
 
 def joint_steps(curve: Piecewise, order: int) -> Array:
-    """Return by how much a derivative steps at every break inside a curve, shape (P - 1, D)."""
+    """Return the steps of a derivative at every inner break of a curve, shape (P - 1, D)."""
     derived = curve.derivative(order).ctrl
     return np.asarray(np.abs(derived[1:, 0] - derived[:-1, -1]))

@@ -1,6 +1,6 @@
-"""Whether subjects are shown sharp: depth of field and motion blur, sampled, where missions say with what.
+"""Sharpness of subjects: depth of field and motion blur, sampled, where the mission gives the exposure.
 
-Nothing here refuses a plan. What is soft, and what moves too far while the shutter is open, is told.
+These claims are soft: they give warnings and never refuse a plan.
 """
 
 from __future__ import annotations
@@ -23,21 +23,23 @@ from shotc.rounding import at_least, exposure
 from shotc.spec.exposure import LEAST_S, MOST_F
 
 DISC, MOTION, BACKGROUND = " blur disc", " motion blur", " background blur"
-"""How claims end that tell the largest disc of a target's points, and the longest lines of it and behind."""
+"""Endings of claims: the largest disc of a target's points, and the longest blur of the target and
+behind it.
+"""
 
 MOTION_SHARE = 1 / 384
-"""Of the picture's width, that a subject may move while the shutter is open: 10 pixels of 3840."""
+"""Share of the picture's width that a subject may move during the exposure: 10 pixels of 3840."""
 
 STOPS = (1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32, 45, 64)
 
 
 def most_motion(optics: Optics) -> float:
-    """Return how far a subject may move while the shutter is open, pixels."""
+    """Return how far a subject may move during the exposure, pixels."""
     return MOTION_SHARE * optics.pixels
 
 
 def sharp(flight: Flight, shot: Filmed) -> Iterator[Claim]:
-    """Claim how sharp the targets of a shot are shown, where the mission says with what it is exposed."""
+    """Yield claims on the sharpness of a shot's targets, where the mission gives the exposure."""
     optics = flight.drone.optics
     if optics is None:
         return
@@ -60,14 +62,14 @@ def sharp(flight: Flight, shot: Filmed) -> Iterator[Claim]:
 
 
 def _claimed(flight: Flight, view: View, limit: Limit, values: Array) -> Claim:
-    """Claim the largest of some values; what is not known at a time counts as without bound there."""
+    """Return the claim on the largest of some values; an unknown value counts as infinite."""
     known = np.where(np.isnan(values), inf, values)
     k = int(np.argmax(known))
     return claim(flight, limit, Worst(float(known[k]), float(view.times[k]), "sampled"))
 
 
 def unsharp(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:
-    """Report subjects that are soft, or blurred by motion, unless their shot may."""
+    """Yield warnings for subjects that are out of focus or blurred by motion, unless their shot allows it."""
     mission = ir.keyframes.mission
     for each in claims:
         if each.holds:
@@ -109,7 +111,9 @@ def _soft(ir: TrajectoryIR, each: Claim) -> Diagnostic:
 
 
 def _stop_down(each: Claim, optics: Optics, drone: str) -> str:
-    """Say with which aperture the discs are small enough: they go as one over the f-number."""
+    """Return the aperture that makes the discs small enough; they are inversely proportional to the
+    f-number.
+    """
     assert optics.aperture is not None
     needed = optics.aperture * each.worst / each.limit
     stop = next((stop for stop in STOPS if stop >= needed * (1 + 1e-9)), MOST_F)
@@ -141,7 +145,7 @@ def _blurred(mission: MissionIR, each: Claim) -> Diagnostic:
 
 
 def _time(seconds: float) -> str:
-    """Return a time of exposure no longer than that, a round one."""
+    """Return a round exposure time, not longer than the given one."""
     rate = 1.0 / seconds
     step = 10.0 ** max(floor(np.log10(rate)) - 1, 0)
     return f"1/{ceil(rate / step - 1e-9) * step:.0f} s"

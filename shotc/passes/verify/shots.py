@@ -1,4 +1,4 @@
-"""Whether every shot that the mission asks for is flown, when it was asked, through its keyframes."""
+"""Check that every shot of the mission is flown, at its time and through its keyframes."""
 
 from __future__ import annotations
 
@@ -31,14 +31,16 @@ from shotc.passes.verify.explained import (
 from shotc.planning.framing.moments import placed_at
 
 UNREPORTED_M = 1.0
-"""Metres that a shot on its own clock may leave its ideal without a word: planning tells from 0.5 m on."""
+"""Metres that a shot on its own clock may leave its ideal without a report; planning reports from 0.5
+m on.
+"""
 
 IN_PLACE_M = 0.01
-"""Metres within which a camera stands that the author placed, while it follows what moves."""
+"""Tolerance of a camera's place given by the author while it follows a moving target, metres."""
 
 
 def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Claim that this drone's shots are flown, on time, through what was placed, and at rest in holds."""
+    """Yield claims that this drone's shots are flown, on time, through placed keyframes, at rest in holds."""
     ends = {p.shot: p.end for t in ir.drones for p in t.phases if p.shot is not None}
     for placed in ir.keyframes.shots:
         if placed.shot.drone != flight.drone.name:
@@ -91,7 +93,7 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
 
 
 def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterator[Claim]:
-    """Claim that a shot of a moving target leaves its ideal place by no more than is said and explained."""
+    """Yield the claim that a shot on its own clock leaves its ideal only as far as reported and explained."""
     if shot.ideal is None:
         return
     ticks = clock(flight.mission.rate, phase.end)
@@ -107,7 +109,7 @@ def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterat
 
 
 def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
-    """Return how far a shot may be from its ideal, metres: as the plan says, and the mission explains."""
+    """Return how far a shot may be from its ideal, metres, as the plan reports and the mission explains."""
     assert shot.ideal is not None
     placed = shot.ideal.placed
     blocks = in_the_way(flight, way, placed=placed)
@@ -121,7 +123,7 @@ def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
 
 
 def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | None, ...]:
-    """Return when the camera has to be at a keyframe: beside a target, when a hold there ends, too."""
+    """Return when the camera has to be at a keyframe; beside a target also when a hold there ends."""
     hold = placed.keyframes[index].hold
     if time is None or hold <= 0 or placed.shot.keyframes[index].beside is None:
         return (time,)
@@ -149,7 +151,7 @@ def _still(
     limit = Limit(f"drift at keyframe {index + 1}", ON_PLACE, "m", keyframe.path, shot=shot.id)
     if start is None or start < phase.start - ON_TIME_S or end > phase.end + ON_TIME_S:
         return claim(flight, limit, Worst(inf, start, "exact"))
-    # A camera that follows what moves turns while it rests.
+    # A camera that follows a moving target turns while it rests.
     curve = flight.track.curve.channels(*range(Z + 1 if is_keyed(shot) else HFOV + 1))
     pose = curve(start)
     drift = sup_convex(cut(curve, start, end), lambda c: norm(c - pose), gap(ON_PLACE))

@@ -1,8 +1,8 @@
-"""Drones out of each other's pictures: who films is one side, every other drone in all its phases the other.
+"""Check that drones stay out of each other's pictures: each shot against every other drone in all its phases.
 
-A drone on its pad, before it takes off and after it has landed, is in the picture as much as one that
-flies, and so is one that a zone or a target would hide. How far a body is out of the picture is sampled at
-the output rate, and halved between samples until bounds on its rate leave no room for anything worse.
+A drone on its pad, before take-off and after landing, counts as one that flies; so does one hidden by a zone
+or a target. The distance of a body from the picture is sampled at the output rate. The time between samples
+is halved until bounds on its rate exclude anything worse.
 """
 
 from __future__ import annotations
@@ -26,22 +26,22 @@ from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.passes.verify.claims import Flight, Limit, Worst, claim, slack
 
 OUT_OF_PICTURE = " out of the picture"
-"""What the name of such a claim ends with, after the other drone's."""
+"""Ending of such a claim, after the other drone's name."""
 
 PATH = ("rules", "mutual_visibility")
 
 NARROW_SHARE = 1e-3
-"""Share of the distance from the limit to which the worst value is closed."""
+"""Share of the distance from the limit to which the worst value is bounded."""
 
 ROUNDS = 40
-"""Halvings of the time between two samples."""
+"""Most halvings of the time between two samples."""
 
 OPEN_INTERVALS_LIMIT = 200_000
-"""Intervals halved at once; where there are more the worst value is left as sampled."""
+"""Most intervals that are halved at once; beyond it the worst value is the sampled one."""
 
 
 def sights(flights: list[Flight]) -> Iterator[Claim]:
-    """Claim for every shot that no other drone is in its picture."""
+    """Yield the claims that no other drone is in a shot's picture."""
     for flight in flights:
         rules = flight.mission.rules
         if rules.visibility == "off":
@@ -81,22 +81,24 @@ class Sight:
 
     @property
     def body(self) -> Drone:
-        """The drone that is seen or not."""
+        """The drone that may be seen."""
         return self.mission.drone(self.other.drone)
 
     def out(self, t: Array) -> Array:
-        """Return how far the other is out of the picture: metres, or rad off the axis for a cone."""
+        """Return how far the other drone is out of the picture: metres, or rad from the axis for a cone."""
         return self.out_at(t, self.other.curve(t)[:, :3])
 
     def out_at(self, t: Array, places: Array) -> Array:
-        """Return the same of a body that is at other places then, (M, 3)."""
+        """Return the same for a body at given places, (M, 3)."""
         eyes = cameras(self.mission, self.film, t)
         measured = outside if self.mission.rules.half_angle is None else off_axis
         return measured(eyes, places, self.body.radius)
 
 
 def _worst(sight: Sight, times: Array, limit: float) -> Worst:
-    """Return the least value between the first time and the last: proved, or as met where no proof closes."""
+    """Return the least value between the first and the last time: proved, or sampled where no proof
+    succeeds.
+    """
     landed = sight.other.curve.end
     if times[0] < landed < times[-1]:
         times = np.union1d(times, [landed])
@@ -108,7 +110,7 @@ def _worst(sight: Sight, times: Array, limit: float) -> Worst:
 
 
 def infimum(sight: Sight, times: Array, limit: float) -> Bound:
-    """Bound the least value over the time that the samples span."""
+    """Return bounds of the least value over the time that the samples span."""
     if times[-1] <= times[0]:
         least = float(sight.out(times[:1])[0])
         return Bound(least, least, float(times[0]))
@@ -141,7 +143,7 @@ def _gap(best: float, limit: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _Fastest:
-    """Bounds over a shot on what the rates at samples change by: m/s^2, rad/s^2."""
+    """Bounds over a shot on the rates of change of sampled rates: m/s^2, rad/s^2."""
 
     speed: float
     turn: float
@@ -166,7 +168,7 @@ def _sampled(sight: Sight, t: Array) -> Array:
     """Return the value, relative speed, turn of the camera, zoom, and distance at times, shape (M, 5)."""
     film, other = sight.film.curve, sight.other.curve
     rate = film.derivative()(t)
-    # It has landed, and stands.
+    # After landing it stands.
     flying = np.where(t < other.end, 1.0, 0.0)[:, None]
     speed = norm(rate[:, :3] - flying * other.derivative()(t)[:, :3])
     turn = np.abs(rate[:, CAM_YAW]) + np.abs(rate[:, CAM_PITCH])
@@ -175,12 +177,12 @@ def _sampled(sight: Sight, t: Array) -> Array:
 
 
 def _lower(sight: Sight, fastest: _Fastest, a: Array, b: Array, dt: Array) -> Array:
-    """Return bounds from below within intervals.
+    """Return lower bounds within intervals.
 
-    An edge of the frame is a plane through the camera with unit normal n; a body at p from the camera is
-    -n.p - r beyond it. That changes by at most |p'| + |p| |n'|, and n turns no faster than the camera plus
-    the edge's half angle (``geom.framing.margin_rate``). The largest of several changes no faster than the
-    fastest. The angle from the axis less asin(r / d) changes by at most |p'| / sqrt(d^2 - r^2) and the turn.
+    An edge of the frame is a plane through the camera with unit normal n; a body at p from the camera is -n.p
+    - r beyond it. That changes by at most |p'| + |p| |n'|, and n turns no faster than the camera plus the
+    edge's half angle (``geom.framing.margin_rate``). The largest of several changes no faster than the
+    fastest. The angle from the axis minus asin(r / d) changes by at most |p'| / sqrt(d^2 - r^2) and the turn.
     """
     speed = 0.5 * (a[:, 1] + b[:, 1] + fastest.speed * dt)
     turn = 0.5 * (a[:, 2] + b[:, 2] + fastest.turn * dt)

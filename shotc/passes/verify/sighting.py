@@ -1,4 +1,4 @@
-"""Drones in each other's pictures, in the author's terms: who sees whom, when, how long, what helps."""
+"""Diagnostics of drones in each other's pictures: who is seen, when, for how long, and remedies."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
-NOTICE_M = 0.1  # metres that a shot would have been moved by, that are worth telling
+NOTICE_M = 0.1  # metres of a shift, below which it is reported as infeasible
 
 _DOING = {
     "takeoff": "taking off",
@@ -31,7 +31,7 @@ _DOING = {
 
 
 def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
-    """Report broken claims that other drones are out of the picture of one shot."""
+    """Return the diagnostic of broken claims that other drones are out of the picture of one shot."""
     mission, claim = ir.keyframes.mission, min(claims, key=lambda c: c.worst)
     names = [c.constraint.removesuffix(OUT_OF_PICTURE) for c in claims]
     tracks = {t.drone: t for t in bodies(ir)}
@@ -59,7 +59,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _given_up(ir: TrajectoryIR, phase: Phase, others: list[DroneTrajectory]) -> Iterator[str]:
-    """Tell which of the shots concerned do not keep the picture of one free, and what that would cost."""
+    """Yield which of these shots do not keep pictures free, and the price of doing so."""
     if not prefers_free_pictures(ir.keyframes.mission):
         return
     meanwhile = (p.shot for other in others for p in other.phases if _overlap(p, phase))
@@ -119,7 +119,7 @@ def _how_far(sight: Sight, claim: Claim) -> str:
 
 
 def _doing(other: DroneTrajectory, time: float) -> str:
-    """Return what a drone is doing at a time."""
+    """Return a phrase for what a drone is doing at a time."""
     if not other.phases:
         return f"{other.drone} stands on its pad all the time"
     if time >= other.curve.end:

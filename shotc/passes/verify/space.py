@@ -1,7 +1,7 @@
-"""Where the drone may be: zones, the ground, targets, and the vertical at home.
+"""Check the positions of the drone: zones, the ground, targets, and vertical motion at home.
 
-Take-off and landing are vertical at home; there neither clearances nor the floors of keep-in zones
-apply, and the body may stand as near to a solid as its pad does, but no nearer.
+Take-off and landing are vertical at home. There neither clearances nor the floors of keep-in zones apply, and
+the body may be as near to a solid as it is on its pad, but no nearer.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from shotc.passes.verify.beside_meshes import beside_meshes
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 DRIFT_M = 1e-6
-"""Metres that take-off and landing may leave the vertical."""
+"""Largest deviation of take-off and landing from the vertical, metres."""
 
 
 def space(flight: Flight) -> Iterator[Claim]:
-    """Claim zones, ground and target clearance, and vertical motion at home."""
+    """Yield claims on zones, ground and target clearance, and vertical motion at home."""
     free, upright = _split(flight)
     for zone in flight.mission.zones:
         if zone.keep == "out":
@@ -48,7 +48,7 @@ def space(flight: Flight) -> Iterator[Claim]:
 
 
 def _split(flight: Flight, target: Target | None = None) -> tuple[Pieces, Pieces]:
-    """Return the flight apart from take-off and landing, and those; as a target sees them where one moves."""
+    """Return the flight without take-off and landing, and these; relative to a target if one is given."""
     curve = flight.track.curve.channels(0, 1, 2)
     if target is not None:
         curve = beside(curve, target)

@@ -1,7 +1,7 @@
-"""What is kept on ways between shots: from what is filmed, from other targets, from keep-out zones.
+"""Check the clearances of transfers from subjects, other targets and keep-out zones.
 
-The claims are requirements where the mission writes the clearance down; else they tell where there was no
-room for it. See ``ir.transits`` for what is needed where.
+The claims are hard where the mission states the clearance; otherwise they report where there was not enough
+free space for it. ``ir.transits`` defines the clearance at each place.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from shotc.ir.transits import Apart, Way, from_target, from_zones, ways
 from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
 
 ENDING = " on transits"
-"""Of the constraints of these claims."""
+"""Ending of these claims."""
 
 
 def transits(flight: Flight) -> Iterator[Claim]:
-    """Claim the clearances on all ways of one flight, one claim for each solid."""
+    """Yield claims on the clearances of all transfers of one flight, one claim per solid."""
     mission, own = flight.mission, flight.track.curve.channels(0, 1, 2)
     for target in mission.targets:
         apart = from_target(mission, target.name)
@@ -39,7 +39,7 @@ def transits(flight: Flight) -> Iterator[Claim]:
 
 
 def _kept(flight: Flight, name: str, near: tuple[Solid, Piecewise], apart: Apart) -> Iterator[Claim]:
-    """Claim what is kept from one solid by a curve as the solid sees it."""
+    """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
     bounds = [on_way(near, clearance, way) for way in ways(flight.track.phases)]
     worst = min(bounds, key=lambda bound: bound.proven, default=None)
@@ -51,8 +51,9 @@ def _kept(flight: Flight, name: str, near: tuple[Solid, Piecewise], apart: Apart
 
 
 def on_way(near: tuple[Solid, Piecewise], clearance: float, way: Way) -> Bound:
-    """Bound the distance from a solid, and what the taper gives, on a way of a curve as the solid sees it.
+    """Return a bound on the distance from a solid, plus what the taper allows, on a transfer.
 
+    near : the solid, and the flight relative to it
     clearance : of the body's centre, metres
     """
     solid, curve = near
@@ -61,7 +62,10 @@ def on_way(near: tuple[Solid, Piecewise], clearance: float, way: Way) -> Bound:
 
 
 def taper_of(solid: Solid, curve: Piecewise, clearance: float, way: Way) -> Taper:
-    """Return what is needed on a way of a curve as a solid sees it; clearance : of the body's centre."""
+    """Return the tapered clearance on a transfer, for a curve relative to a solid.
+
+    clearance : of the body's centre, metres
+    """
     ends = curve(np.array([way.start, way.end]))
     gaps = np.array([distance(solid, (float(end[0]), float(end[1]), float(end[2]))) for end in ends])
     return Taper(clearance, SLOPE, ends, gaps)

@@ -1,4 +1,4 @@
-"""How much of a shot's target nothing covers: the least of its outline, the frames that show it, reveals."""
+"""Claims on the visible share of a shot's targets: in any frame, in most frames, and for reveals."""
 
 from __future__ import annotations
 
@@ -16,24 +16,25 @@ from shotc.passes.verify.claims import Flight, Limit, Worst, claim
 
 VISIBLE, IN_SIGHT = " visible", " in sight"
 AT_FIRST, AT_LAST = " visible at first", " visible at last"
-"""What the names of such claims end with, after the target's."""
+"""Endings of such claims, after the target's name."""
 
 OUTLINE = "of its outline"
 """The unit of shares of an outline."""
 
 SAME_SHARE = 1e-9
-"""Shares of an outline that differ by no more are the same."""
+"""Tolerance of equal shares of an outline."""
 
 
 def visible(flight: Flight, shot: Shot, target: str, times: Array, covered: Array) -> Iterator[Claim]:
-    """Claim how much of a target is not covered: in any frame, in most frames, and as a reveal has it.
+    """Yield claims on the visible share of a target: in any frame, in most frames, and for a reveal.
 
-    times : of the frames, (M,); covered : share of the outline that something covers then, (M,)
+    times : of the frames, (M,)
+    covered : share of the outline that something covers, (M,)
     """
     free = 1.0 - covered
     yield _least(flight, shot, target, times, free)
     asked = shot.promise.visible is not None or shot.promise.reveal is not None
-    most = -inf if asked else HALF_SHARE  # what is promised is held instead
+    most = -inf if asked else HALF_SHARE  # a promise replaces this claim
     limit = Limit(f"{target}{IN_SIGHT}", most, "of samples", shot.path, upper=False, hard=False, shot=shot.id)
     hidden = free < HALF_SHARE
     yield claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(times[longest(hidden)]), "sampled"))
@@ -65,7 +66,7 @@ def _least(flight: Flight, shot: Shot, target: str, times: Array, free: Array) -
 
 
 def longest(hidden: Mask) -> int:
-    """Return the sample in the middle of the longest run of hidden ones; 0 where none is."""
+    """Return the sample in the middle of the longest run of True; 0 where there is none."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], hidden, [False]]).astype(np.int8)))
     if not len(edges):
         return 0

@@ -1,4 +1,4 @@
-"""What is claimed of fleets: as of filming drones, for all drones of a fleet at once."""
+"""Claims about fleets: as about drones with cameras, for all drones of a fleet at once."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from shotc.passes.verify.fleets.space import space
 
 
 def fleet_claims(ir: TrajectoryIR, progress: Callable[[str], None]) -> list[Claim]:
-    """Return every claim that can be made about the fleets of a trajectory, in a fixed order."""
+    """Return all claims about the fleets of a trajectory, in a fixed order."""
     claims: list[Claim] = []
     flights = [FleetFlight.of(ir.keyframes.mission, track) for track in ir.fleets]
     for flight in flights:

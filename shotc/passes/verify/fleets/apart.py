@@ -1,11 +1,9 @@
-"""Fleets against themselves and each other: how near any two drones come, at every instant.
+"""Separation of drones within a fleet and between fleets, at every instant.
 
-Of a fleet whose pads are nearer than its separation two things are claimed, which together hold at every
-instant: of every two that are in the air the separation, and as long as anybody stands on its pad that no two
-bodies are nearer than the margin, centre to centre twice the radius and that.
-
-"How near" is measured as horizontal distance, heights being stretched so that the vertical distance that is
-kept counts as much as the horizontal one (``geom.separation``).
+For a fleet whose pads are nearer than its separation there are two claims, which together hold at every
+instant. Any two drones in the air keep the separation. While any drone stands on its pad, no two bodies are
+nearer than the margin (centre to centre twice the radius plus the margin). The distance is horizontal, with
+heights scaled so that the vertical separation counts as much as the horizontal one (``geom.separation``).
 """
 
 from __future__ import annotations
@@ -34,7 +32,7 @@ from shotc.planning.take_off import bodies_of, take_off_of
 
 
 def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
-    """Claim the separation of all pairs of each fleet's drones, and of every two fleets."""
+    """Yield claims on the separation of all pairs within each fleet, and of every two fleets."""
     for flight in flights:
         if len(flight.names) > 1 and take_off_of(flight.fleet).layered:
             yield from _in_layers(flight)
@@ -47,7 +45,9 @@ def separations(flights: Sequence[FleetFlight]) -> Iterator[Claim]:
 
 
 def _in_layers(flight: FleetFlight) -> Iterator[Claim]:
-    """Claim the separation in the air, and that bodies are apart while anybody stands on its pad."""
+    """Yield claims on the separation in the air, and on the distance of bodies while any drone is on
+    its pad.
+    """
     standing = on_pads(flight.track.coef, flight.pads)
     some = np.broadcast_to(standing.any(axis=0), standing.shape)
     named = (
@@ -65,9 +65,9 @@ Spline = tuple[Array, Array]
 
 
 def between(mission: MissionIR, fleets: tuple[Fleet, Fleet], flown: Spline, beside: Spline) -> Claim:
-    """Claim the separation of every drone of a fleet from every drone of another one.
+    """Return the claim on the separation of every drone of one fleet from every drone of another.
 
-    flown, beside : what the first fleet flies, and the second one, over the same mission times
+    flown, beside : splines of the first and the second fleet, over the same mission times
     """
     one, other = fleets
     apart = stricter(one.apart, other.apart)
@@ -76,7 +76,7 @@ def between(mission: MissionIR, fleets: tuple[Fleet, Fleet], flown: Spline, besi
 
 
 def from_parked(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
-    """Claim the separation of every fleet from the drones and the fleets that the plan does not fly."""
+    """Yield claims on the separation of every fleet from drones and fleets that the plan does not fly."""
     least = ir.keyframes.mission.rules.separation
     for flight, track in product(flights, parked(ir)):
         pad = track.curve(0.0)[:3]
@@ -99,9 +99,10 @@ def _away(pad: Array, places: Array) -> Array:
 def _claim(
     mission: MissionIR, of: tuple[Fleet, tuple[str, ...]], name: str, found: tuple[Apart, Nearest]
 ) -> Claim:
-    """Claim how near the drones of a fleet come to others; of : the fleet, and the names of the others.
+    """Return the claim on the distance of a fleet's drones from others.
 
-    found : what they are to keep, and how near they come
+    of : the fleet, and the names of the others
+    found : the separation, and the least distance
     """
     (one, others), (apart, nearest) = of, found
     limit = Limit(name, apart.across, "m", _path(mission, one), upper=False)

@@ -1,4 +1,4 @@
-"""Cameras against fleets that fly: how near they come at every instant, and the pictures that they film."""
+"""Separation of cameras from flying fleets at every instant, and the pictures that cameras film."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from shotc.passes.verify.fleets.nearness import nearest
 
 
 def from_cameras(flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajectory]) -> Iterator[Claim]:
-    """Claim the separation of every drone with a camera from every drone of every fleet that flies."""
+    """Yield claims on the separation of every drone with a camera from every drone of every flying fleet."""
     for camera, flight in product(cameras, flights):
         least = kept_from_cameras(flight.mission.rules.separation, flight.fleet)
         breaks, eye = flight.track.breaks, camera.curve.channels(0, 1, 2)
@@ -33,7 +33,7 @@ def from_cameras(flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajecto
 
 
 def named_pictures(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
-    """Claim that the lights of every named picture are in the body that cameras frame in its place."""
+    """Yield claims that the lights of every named picture lie within the body that cameras frame for it."""
     for stand in shown:
         name = display.pictures[stand.picture].name if stand.picture < len(display.pictures) else None
         if name is None:

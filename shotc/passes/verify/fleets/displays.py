@@ -1,6 +1,6 @@
-"""Whether every display that the mission asks for is flown, when it was asked, its pictures in their order.
+"""Check that every display of the mission is flown, at its time, with its pictures in order.
 
-How well a fleet draws a picture is no part of a plan, which does not hold the pictures: nothing is claimed.
+The plan does not contain the pictures, so there is no claim on how well a fleet draws them.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 
 LEAST_WAY_M = 0.05
-"""Ways on which it is told when a drone sets out are as long as this, metres."""
+"""Least distance of a move, metres, for which the departure of drones is checked."""
 
 
 def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
-    """Claim that this fleet's displays are flown, on time and in full, and that it stands where it holds."""
+    """Yield claims that this fleet's displays are flown, on time, in full, and at rest during holds."""
     flights = [t.phases for t in ir.drones] + [t.phases for t in ir.fleets]
     ends = {p.shot: p.end for phases in flights for p in phases if p.shot is not None}
     for display in flight.mission.displays:
@@ -69,7 +69,7 @@ def _early(after: str | None, ends: dict[str, float], start: float) -> float | N
 
 
 def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequence[Shown]) -> Iterator[Claim]:
-    """Claim that every picture is shown, in order, within the display, as long as it is to be held."""
+    """Yield claims that every picture is shown, in order, within the display, for its hold."""
     name, wanted = flight.fleet.name, range(len(display.pictures))
     order = [(s.picture, s.index) for s in shown]
     missing = len(set(wanted) - {picture for picture, _ in order})
@@ -91,7 +91,7 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
 
 
 def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
-    """Claim that pictures stand when they are to."""
+    """Yield the claim that pictures stand at their given times."""
     first = {s.picture: s for s in reversed(shown)}
     timed = [(k, p) for k, p in enumerate(display.pictures) if p.at is not None and k in first]
     off = [(abs(first[k].start - (p.at or 0.0)), first[k].start, p.path) for k, p in timed]
@@ -102,7 +102,7 @@ def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> I
 
 
 def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
-    """Claim that it takes from picture to picture as long as the mission says."""
+    """Yield the claim that transitions between pictures take their given time."""
     transitions: list[tuple[float, float, KeyPath]] = []
     for one, other in pairwise(shown):
         if one.picture != other.picture and other.picture in range(len(display.pictures)):
@@ -117,10 +117,10 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) 
 
 
 def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
-    """Claim that the drones set out within the time of a wave, to two pieces of their splines.
+    """Yield the claim that the drones depart within the time of a wave, to two pieces of their splines.
 
-    Of a way of millimetres rounding hides the beginning, and whoever stays where it is sets out at no time:
-    nothing is claimed where somebody goes less far than ``LEAST_WAY_M``.
+    For a move of millimetres rounding hides the departure, and a drone that stays never departs. So there is
+    no claim if any drone moves less than ``LEAST_WAY_M``.
     """
     breaks, coef = flight.track.breaks, flight.track.coef
     found: list[tuple[float, Limit, Worst]] = []
@@ -136,7 +136,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Ite
             or np.linalg.norm(coef[:, on_way[-1] + 3] - coef[:, on_way[0]], axis=1).min() < LEAST_WAY_M
         ):
             continue
-        # A piece moves where its four control points are not all alike.
+        # A drone moves on a piece if its four control points are not all equal.
         steps = (np.diff(coef[:, : on_way[-1] + 4], axis=1) != 0.0).any(axis=2)
         moving = np.stack([steps[:, j : j + 3].any(axis=1) for j in on_way], axis=1)
         departs = breaks[on_way[moving.argmax(axis=1)]]
@@ -150,7 +150,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Ite
 
 
 def _holds(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
-    """Claim that no drone moves while a picture is held."""
+    """Yield the claim that no drone moves while a picture is held."""
     parts = [flight.flown.between([(s.start, s.end)]) for s in shown]
     parts = [part for part in parts if len(part.low)]
     if not parts:

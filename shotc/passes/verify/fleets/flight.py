@@ -1,4 +1,4 @@
-"""The grammar of claims about a fleet: one a constraint, with the drone that comes nearest to the limit."""
+"""The elements of claims about a fleet: one claim per constraint, with the drone nearest to the limit."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ Span = tuple[float, float]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetFlight:
-    """One fleet, what it was asked and how it flies.
+    """One fleet, its mission and its trajectory.
 
     names : of its drones, in the order of their numbers
-    pads, ends : the pad that each takes off from, and the one that it lands on, shape (n, 3): its own, or
-        the one that it ends nearest to
-    flown : their positions in Bernstein form, over the whole flight
+    pads, ends : pads of take-off and of landing, shape (n, 3); a drone lands on its own pad, or on the one
+        that it ends nearest to
+    flown : positions in Bernstein form, over the whole flight
     """
 
     mission: MissionIR
@@ -43,7 +43,7 @@ class FleetFlight:
 
     @staticmethod
     def of(mission: MissionIR, track: FleetTrajectory) -> FleetFlight:
-        """Return the flight of a fleet that the mission has."""
+        """Return the flight of a fleet of the mission."""
         fleet, breaks = mission.fleet(track.fleet), track.breaks
         flown = FleetPieces(breaks[:-1], breaks[1:], pieces(breaks, track.coef))
         pads = np.array(fleet.pads)
@@ -57,17 +57,18 @@ class FleetFlight:
         return (*self.fleet.path, *keys)
 
     def at(self, time: float, order: int = 0) -> Array:
-        """Return where all drones are, or a derivative of it, shape (n, 3)."""
+        """Return the positions of all drones, or a derivative of these, shape (n, 3)."""
         return places(self.track.breaks, self.track.coef, np.array([time]), order)[:, 0]
 
     def free(self) -> list[Span]:
-        """Return when the drones are neither taking off nor landing."""
+        """Return the times without take-off and landing."""
         return [(p.start, p.end) for p in self.track.phases if p.name not in UPRIGHT]
 
     def verticals(self) -> Iterator[tuple[list[Span], Array]]:
-        """Yield when the drones take off and when they land, if they do, and the pads that they are above.
+        """Yield the times of take-off, and of landing, if there are any, and the pads below.
 
-        Of a fleet that returns to any pad two that land on one would be nearer than their separation.
+        In a fleet that returns to any pad, two drones that land on the same one would violate their
+        separation.
         """
         for name, pads in zip(UPRIGHT, (self.pads, self.ends), strict=True):
             spans = [(p.start, p.end) for p in self.track.phases if p.name == name and p.end > p.start]
@@ -78,7 +79,7 @@ class FleetFlight:
 def of_drone(
     flight: FleetFlight, limit: Limit, found: tuple[float, float], drone: int, method: Method = "exact"
 ) -> Claim:
-    """Hold the worst value of one drone, and the time at which it has it, against a limit."""
+    """Return the claim of one drone's worst value and its time against a limit."""
     value, time = found
     x, y, z = (float(c) for c in flight.at(time)[drone])
     worst = Worst(value, time, method, (x, y, z))
@@ -88,10 +89,10 @@ def of_drone(
 def bounded(
     flight: FleetFlight, limit: Limit, bound: Bound, value: Callable[[Array], Array], order: int = 0
 ) -> Claim:
-    """Hold a bound over all drones against a limit.
+    """Return the claim of a bound over all drones against a limit.
 
-    value : from positions, or a derivative of them, of shape (n, 3) to what was bounded, shape (n,): tells
-        whose worst value it is
+    value : function from positions, or a derivative of these, (n, 3), to the bounded quantity, (n,); it finds
+        the worst drone
     """
     values = value(flight.at(bound.at, order))
     drone = int(np.argmax(values) if limit.upper else np.argmin(values))

@@ -17,9 +17,9 @@ from shotc.passes.verify.fleets.flight import FleetFlight, bounded, of_drone
 
 
 def motion(flight: FleetFlight) -> Iterator[Claim]:
-    """Claim the limits of the fleet's drones over the whole flight.
+    """Yield claims on the limits of the fleet's drones over the whole flight.
 
-    Velocity is quadratic on a piece and is bounded by hulls. Acceleration is linear there, and its norm
+    Velocity is quadratic on a piece and is bounded by hulls. Acceleration is linear there, so its norm is
     largest at a break; jerk is constant.
     """
     limits = flight.fleet.limits
@@ -37,7 +37,7 @@ def motion(flight: FleetFlight) -> Iterator[Claim]:
 
 
 def _thrust(flight: FleetFlight) -> Iterator[Claim]:
-    """Claim tilt and thrust where the mission limits them; both are largest at a break."""
+    """Yield claims on tilt and thrust where they are limited; both are largest at a break."""
     limits, acceleration = flight.fleet.limits, rates(flight.track.breaks, flight.track.coef, 2)
     if limits.tilt < inf:
         yield _largest(flight, _limit(flight, "tilt", "rad"), lean(acceleration))
@@ -51,7 +51,7 @@ def _limit(flight: FleetFlight, name: str, unit: str) -> Limit:
 
 
 def _largest(flight: FleetFlight, limit: Limit, size: Array) -> Claim:
-    """Hold the largest of values (n, m) at the first m breaks, or on the pieces from them on."""
+    """Return the claim on the largest of values (n, m) at the first m breaks, or on the pieces after them."""
     drone, k = np.unravel_index(int(np.argmax(size)), size.shape)
     worst = float(size[drone, k]), float(flight.track.breaks[k])
     return of_drone(flight, limit, worst, int(drone), "bounded")

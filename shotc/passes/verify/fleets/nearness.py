@@ -1,4 +1,4 @@
-"""How near a curve comes to drones of a fleet, proved for every instant of a span."""
+"""The distance of a curve from the drones of a fleet, proved at every instant of a span."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ from shotc.passes.verify.claims import gap
 
 POINT = point((0.0, 0.0, 0.0))
 BLOCK = 200
-"""Drones that are looked at together."""
+"""Drones that are processed together."""
 
 
 def nearest(one: Piecewise, breaks: Array, ctrl: Array, span: tuple[float, float], least: float) -> Bound:
-    """Bound the distance of a curve from the nearest of several, block by block, near pieces alone.
+    """Return a bound on the distance of a curve from the nearest of several, in blocks of near pieces.
 
-    one : three channels, m; who has landed stands
+    one : three channels, metres; a drone stands after its end
     breaks, ctrl : of the others, shape (Q + 1,) and Bernstein points (n, Q, k, 3)
-    span : mission times, s; least : the limit, m, which says how fine the bound has to be
+    span : mission times, seconds
+    least : the limit, metres, which determines the gap of the bound
     """
     start, end = span
     own = held_until(one, end)
@@ -32,7 +33,7 @@ def nearest(one: Piecewise, breaks: Array, ctrl: Array, span: tuple[float, float
     eye = restrict(own, cuts).ctrl
     best = Bound(inf, inf, start)
     for first in range(0, len(ctrl), BLOCK):
-        # All drones of the block as the channels of one curve, which is cut at the common breaks.
+        # All drones of the block are channels of one curve, which is restricted to the common breaks.
         n, q, k, _ = ctrl[first : first + BLOCK].shape
         whole = Piecewise(breaks, ctrl[first : first + BLOCK].transpose(1, 2, 0, 3).reshape(q, k, 3 * n))
         cut = restrict(held_until(whole, end), cuts).ctrl.reshape(len(cuts) - 1, k, n, 3)

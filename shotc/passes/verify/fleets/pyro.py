@@ -1,4 +1,6 @@
-"""Products that burn on drones: who comes how near to them, and whether the drone is in the air."""
+"""Checks of pyrotechnic products on drones: distances of others from them, and that the drone is in
+the air.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +20,11 @@ from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
 
 PYRO = "pyro "
-"""What constraints of pyro begin with."""
+"""Prefix of pyro constraints."""
 
 
 def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
-    """Claim of every product that burns that all others, the audience and the ground are far enough."""
+    """Yield claims for every burning product: the distances of all others, the audience and the ground."""
     for flight in flights:
         for display in (d for d in flight.mission.displays if d.fleet == flight.fleet.name):
             for index, cue in enumerate(display.pyro):
@@ -33,7 +35,7 @@ def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Burning:
-    """One product on drones of a fleet, in the air; name : how claims call it."""
+    """One product on drones of a fleet, in the air; name : in claims."""
 
     flight: FleetFlight
     display: Display
@@ -70,7 +72,7 @@ def _distances(
     drone: int,
     span: tuple[float, float],
 ) -> Iterator[tuple[str, Bound]]:
-    """Yield how near everybody comes to one drone while its product burns."""
+    """Yield the least distances of all others from one drone while its product burns."""
     flight, least = burns.flight, burns.cue.clear
     breaks = flight.track.breaks
     own = Piecewise(breaks, flight.flown.ctrl[drone])
@@ -89,7 +91,7 @@ def _distances(
 def _others(
     ir: TrajectoryIR, flights: Sequence[FleetFlight], flight: FleetFlight, drone: int
 ) -> Iterator[tuple[str, Array, Array]]:
-    """Yield everybody but one drone: a name, breaks and Bernstein points as of ``nearest``."""
+    """Yield all drones except one: a name, and breaks and Bernstein points as in ``nearest``."""
     for fleet in flights:
         ctrl = fleet.flown.ctrl
         others = np.delete(ctrl, drone, axis=0) if fleet is flight else ctrl

@@ -1,6 +1,6 @@
-"""Whether a fleet's trajectory is one flight: whole, from its pads to its pads, at rest there, not too long.
+"""Check that a fleet's trajectory is one flight: complete, from pads to pads, at rest there, not too long.
 
-Cubic splines with single knots are smooth to the second derivative, so nothing can jump.
+Cubic splines with simple knots are smooth to the second derivative, so nothing can jump.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from shotc.passes.verify.shape import AT_HOME_M, LARGEST_M, SHORTEST_S, first_fe
 
 
 def fleet_structure(ir: TrajectoryIR) -> Iterator[Diagnostic]:
-    """Report what keeps the trajectory of a fleet from being read as a flight at all."""
+    """Yield the faults that make a fleet's trajectory unreadable as a flight."""
     mission = ir.keyframes.mission
     known = {fleet.name: fleet for fleet in mission.fleets}
     for track in ir.fleets:
@@ -67,7 +67,7 @@ def _faults(mission: MissionIR, track: FleetTrajectory) -> Iterator[str]:
 
 
 def shape(flight: FleetFlight) -> Iterator[Claim]:
-    """Claim the pads and rest at both ends, and endurance."""
+    """Yield claims on the pads and rest at both ends, and on endurance."""
     breaks, coef = flight.track.breaks, flight.track.coef
     ends = np.array([breaks[0], breaks[-1]])
     away = norm(
@@ -85,14 +85,14 @@ def shape(flight: FleetFlight) -> Iterator[Claim]:
 
 
 def landed(flight: FleetFlight) -> Claim:
-    """Claim that a flight ends on the pads."""
+    """Return the claim that a flight ends on the pads."""
     end = np.array([float(flight.track.breaks[-1])])
     away = norm(flight.at(float(end[0])) - flight.ends)[:, None]
     return _farthest(flight, Limit("distance from home", AT_HOME_M, "m", flight.key("layout")), away, end)
 
 
 def _farthest(flight: FleetFlight, limit: Limit, values: Array, times: Array) -> Claim:
-    """Hold the largest of values (n, m) at m times against a limit."""
+    """Return the claim on the largest of values (n, m) at m times."""
     drone, k = np.unravel_index(int(np.argmax(values)), values.shape)
     return of_drone(flight, limit, (float(values[drone, k]), float(times[k])), int(drone))
 
@@ -100,7 +100,7 @@ def _farthest(flight: FleetFlight, limit: Limit, values: Array, times: Array) ->
 def _airborne(breaks: Array, coef: Array) -> Array:
     """Return how long every drone is off its pad, seconds, shape (n,).
 
-    It stands on a piece whose four control points are where it began, or where it ends.
+    It stands on a piece if all four control points are at its start, or at its end.
     """
     pieces = len(breaks) - 1
     left = (coef != coef[:, :1]).any(axis=2)

@@ -1,7 +1,7 @@
-"""Where a fleet may be: zones, the ground, targets, and the vertical above its pads.
+"""Check the positions of a fleet: zones, the ground, targets, and vertical motion above its pads.
 
-As for a filming drone (``verify.space``). Most of a fleet is far from any one solid: what boxes tell to be
-farther away than the nearest drone found so far is not looked at again.
+The rules are those of a drone with a camera (``verify.space``). Most of a fleet is far from any one solid:
+drones whose boxes are farther away than the nearest drone found so far are skipped.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_dro
 from shotc.passes.verify.space import DRIFT_M
 
 SEED_PIECES = 256
-"""Pieces, the nearest by their boxes, of which the nearest place is found first."""
+"""Number of pieces, the nearest by their boxes, for the first bound."""
 
 BATCH_PIECES = 50_000
-"""Pieces that are held against a keep-in zone at once; its footprint may have a thousand corners."""
+"""Most pieces that are checked against a keep-in zone at once; its footprint may have a thousand corners."""
 
 Gap = Callable[[float], float]
 Upright = list[tuple[FleetPieces, Array]]
 
 
 def space(flight: FleetFlight) -> Iterator[Claim]:
-    """Claim zones, ground and target clearance, and vertical motion at the pads."""
+    """Yield claims on zones, ground and target clearance, and vertical motion at the pads."""
     free = flight.flown.between(flight.free())
     upright = [(flight.flown.between(spans), pads) for spans, pads in flight.verticals()]
     for zone in flight.mission.zones:
@@ -95,7 +95,7 @@ def _worse(limit: Limit, claims: list[Claim]) -> Claim:
 
 
 def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetPieces, Array]) -> Claim:
-    """Claim that no drone comes nearer to a solid on its vertical than its body is on its pad."""
+    """Return the claim that no drone is nearer to a solid on its vertical than on its pad."""
     upright, pads = part
     radius = flight.fleet.radius
     near = np.minimum(radius, np.min([separation(s, pads)[0] for s in convex_parts(solid)], axis=0))
@@ -111,7 +111,7 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
 
 
 def nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
-    """Bound the infimum of the distance from a solid along many pieces, as ``inf_distance`` does."""
+    """Return a bound on the distance of many pieces from a solid, as ``inf_distance`` does."""
     if len(pieces) > SEED_PIECES:
         apart = box_gap(pieces.ctrl, solid)
         seeds = np.zeros(len(pieces), dtype=bool)
@@ -122,7 +122,9 @@ def nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
 
 
 def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Claim]:
-    """Claim the distance from a target that moves; on its vertical a drone may be as near as at time 0."""
+    """Yield claims on the distance from a moving target; on its vertical a drone may be as near as at
+    time 0.
+    """
     radius, spans = flight.fleet.radius, flight.free()
     if spans:
         near = np.full(len(flight.pads), radius + limit.value)
@@ -137,14 +139,14 @@ def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Cl
 
 
 def _off(target: Target, points: Array) -> Array:
-    """Return how far points are from a target at time 0, 0 inside."""
+    """Return the distances of points from a target at time 0; 0 inside."""
     return np.maximum(signed_distance(target.kept_clear, points), 0.0)
 
 
 def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]], near: Array) -> Claim:
-    """Bound the distance from a moving target less what each drone is to keep, drone by drone.
+    """Return the claim on the distance from a moving target minus each drone's clearance.
 
-    Those whose boxes are the nearest come first; they end where boxes alone tell that no other is nearer.
+    Drones are bounded one by one, the nearest boxes first, until the boxes exclude all others.
     """
     target, spans = of
     apart = _boxes_apart(flight.flown.between(spans), target) - near
@@ -162,7 +164,7 @@ def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]
 
 
 def _boxes_apart(flown: FleetPieces, target: Target) -> Array:
-    """Return how far every drone's boxes are from the box of a moving target at the time, shape (n,)."""
+    """Return the least distance of each drone's boxes from a moving target's box at the time, shape (n,)."""
     assert target.track is not None
     rows = np.array(target.track.times)
     half = np.array([target.radius, target.radius, target.height / 2])
