@@ -32,7 +32,7 @@ GROUPS = {
 }
 
 
-class Found(NamedTuple):
+class LoadedPlugins(NamedTuple):
     """The plugins of one group that can be used, by name, and what is wrong with the others.
 
     faults : why a plugin cannot be used, by its name; only what names it is concerned
@@ -93,7 +93,7 @@ class OnDemand(Mapping[str, Any]):
 
 
 @cache
-def discover(group: str) -> Found:
+def discover(group: str) -> LoadedPlugins:
     """Load every plugin of ``group`` ("kinds", "refiners", "emitters", "replanners" or "saliency")."""
     return _prove(group, _by_name(group))
 
@@ -131,7 +131,7 @@ def no_refiner() -> Diagnostic:
 
 
 @cache
-def shot_kinds() -> Found:
+def shot_kinds() -> LoadedPlugins:
     """Return the shot kinds: those of other packages loaded and proved, each of ours loaded when it is used.
 
     A mission uses a few of our kinds; making the models of all takes longer than checking the mission.
@@ -141,7 +141,7 @@ def shot_kinds() -> Found:
     others = _prove("kinds", {name: entries for name, entries in table.items() if name not in ours})
     known = sorted([*ours, *others.plugins])
     plugins = OnDemand(known, lambda name: ours[name].load() if name in ours else others.plugins[name])
-    return Found(plugins, others.faults, others.lacking)
+    return LoadedPlugins(plugins, others.faults, others.lacking)
 
 
 def names(group: str) -> list[str]:
@@ -187,7 +187,7 @@ def forget() -> None:
         remembered.cache_clear()
 
 
-def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
+def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> LoadedPlugins:
     """Load every plugin of a table."""
     plugins: dict[str, Any] = {}
     faults: dict[str, Diagnostic] = {}
@@ -205,7 +205,7 @@ def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> Found:
             faults[name] = loaded
         else:
             plugins[name] = loaded
-    return Found(plugins, faults, lacking)
+    return LoadedPlugins(plugins, faults, lacking)
 
 
 @cache

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 WIDTH = 100
 
 
-class Format(StrEnum):
+class TableFormat(StrEnum):
     """How the table is printed."""
 
     TEXT = "text"
@@ -56,7 +56,7 @@ Smoothings = Annotated[
 Output = Annotated[
     Path | None, typer.Option("-o", "--output", help="Folder for the files [out/MISSION/compare].")
 ]
-FormatOption = Annotated[Format, typer.Option("--format", help="How to print the table.")]
+FormatOption = Annotated[TableFormat, typer.Option("--format", help="How to print the table.")]
 
 
 def compare(
@@ -64,7 +64,7 @@ def compare(
     refiners: Refiners = None,
     smoothing: Smoothings = None,
     output: Output = None,
-    format: FormatOption = Format.TEXT,
+    format: FormatOption = TableFormat.TEXT,
     deadline: Deadline = None,
 ) -> None:
     """Plan one mission under several refiners and show what each does to its framing.
@@ -145,13 +145,13 @@ def _shown(done: Report) -> Comparison:
     raise typer.Exit(console.EXIT_REJECTED)
 
 
-def _printed(comparison: Comparison, format: Format, paths: Sequence[Path]) -> str:
+def _printed(comparison: Comparison, format: TableFormat, paths: Sequence[Path]) -> str:
     from shotc.comparison.document import json_text
     from shotc.comparison.table import markdown
 
-    if format is Format.JSON:
+    if format is TableFormat.JSON:
         return json_text(comparison, seconds=True)
-    if format is Format.MARKDOWN:
+    if format is TableFormat.MARKDOWN:
         return markdown(comparison, seconds=True)
     return "\n".join(_text(comparison, paths))
 

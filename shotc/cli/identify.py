@@ -67,19 +67,19 @@ def identify(
     for path in (place, sheet):
         if path.exists() and not force:
             raise typer.BadParameter(f"`{path}` exists; add --force to replace it", param_hint="--output")
-    from shotc.identify.mission import Place, identify_source
+    from shotc.identify.mission import TextLocation, identify_source
     from shotc.identify.saliency import Guesser
-    from shotc.identify.sheet import Row, draw_sheet
+    from shotc.identify.sheet import SheetRow, draw_sheet
 
     seat = _seat(saliency) if guess else None
     guesser = None if seat is None else Guesser(seat.plugin, seat.package)
-    of, to = Place(source.name, source.folder), Place(place.as_posix(), place.parent)
+    of, to = TextLocation(source.name, source.folder), TextLocation(place.as_posix(), place.parent)
     done = identify_source(source.data, of, to, guesser)
     if done.text is None:
         console.report(done.diagnostics, done.sources)
         console.complain("nothing is written")
         raise typer.Exit(console.EXIT_REJECTED)
-    rows = [Row(t.name, t.cylinder, dict(zip(t.tasks, t.shares, strict=True))) for t in done.targets]
+    rows = [SheetRow(t.name, t.cylinder, dict(zip(t.tasks, t.shares, strict=True))) for t in done.targets]
     picture = draw_sheet(done.title, done.tasks, done.pictures, rows)
     _, faults = write([Artifact(place.name, done.text), Artifact(sheet.name, picture)], place.parent)
     console.report([*done.diagnostics, *faults], done.sources)

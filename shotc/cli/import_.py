@@ -14,7 +14,7 @@ from shotc.cli.inputs import STDIN, STDIN_NAME
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.emit.base import Artifact
-from shotc.importers.cameras.takes import Asked
+from shotc.importers.cameras.takes import ImportOptions
 from shotc.importers.flights.names import LARGEST_CLOCKED, suffix_of
 from shotc.importers.formats import FORMATS, SHOWS, WHAT
 from shotc.importers.names import safe
@@ -102,7 +102,7 @@ def import_(
     if format == SHOWS:
         _import_show(file, output, strict=strict)
         return
-    asked = Asked(every=every, times=times, fps=fps, ground=ground)
+    asked = ImportOptions(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
     made = imported(format, _read(file, LARGEST), name, strict=strict, asked=asked)
     text = _accepted(made, file, None)

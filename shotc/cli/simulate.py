@@ -18,7 +18,7 @@ from shotc.cli.hands import Workers, at_work, no_cluster
 from shotc.cli.inputs import STDIN, read_mission
 from shotc.cli.plans import prove
 from shotc.cli.refiner import told
-from shotc.cli.verify import Format
+from shotc.cli.verify import CertificateFormat
 from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
 from shotc.output import write
@@ -93,7 +93,7 @@ Output = Annotated[
     Path | None,
     typer.Option("-o", "--output", help="Folder for the files [that of the plan, or out/MISSION]."),
 ]
-FormatOption = Annotated[Format, typer.Option("--format", help="How to print what came of it.")]
+FormatOption = Annotated[CertificateFormat, typer.Option("--format", help="How to print what came of it.")]
 
 
 def simulate(
@@ -114,7 +114,7 @@ def simulate(
     jobs: Jobs = None,
     workers: Workers = None,
     output: Output = None,
-    format: FormatOption = Format.TEXT,
+    format: FormatOption = CertificateFormat.TEXT,
 ) -> None:
     """Fly a mission in simulation, many times, and judge the runs.
 
@@ -138,13 +138,13 @@ def simulate(
         from shotc.simulation.document import json_text
         from shotc.simulation.faults import not_kept, unflyable
         from shotc.simulation.outputs import artifacts
-        from shotc.simulation.rehearsal import Asked, conditions_of, rehearse, runs_of
+        from shotc.simulation.rehearsal import RehearsalOptions, conditions_of, rehearse, runs_of
         from shotc.simulation.runs import simulated
         from shotc.simulation.truth import Truth
         from shotc.simulation.unfinished import Unfinished
 
         mission = plan.trajectory.keyframes.mission
-        asked = Asked(
+        asked = RehearsalOptions(
             loop,
             seeds,
             wind,
@@ -178,7 +178,7 @@ def simulate(
     kept.file.forget()
     found = (*made.diagnostics, *not_kept(done), *faults)
     console.report(found, sources)
-    console.out(json_text(done) if format is Format.JSON else text(done, paths))
+    console.out(json_text(done) if format is CertificateFormat.JSON else text(done, paths))
     raise typer.Exit(console.exit_code(found))
 
 

@@ -21,7 +21,7 @@ from shotc.stream.punctual import punctual
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.api import PlanReport
     from shotc.ir.trajectory import TrajectoryIR
-    from shotc.stream.flight import Flown
+    from shotc.stream.flight import FlightResult
     from shotc.stream.pilot import Pilot
     from shotc.stream.session import Aboard, Session
 
@@ -133,7 +133,7 @@ def _checked(aboard: Sequence[Aboard]) -> str:
     return "\n".join(console.table(rows))
 
 
-def _outcome(flown: Flown, pilots: Sequence[Pilot]) -> str:
+def _outcome(flown: FlightResult, pilots: Sequence[Pilot]) -> str:
     rows = [
         (
             pilot.name,
@@ -146,7 +146,7 @@ def _outcome(flown: Flown, pilots: Sequence[Pilot]) -> str:
     return "\n".join(console.table(rows))
 
 
-def _end(flown: Flown, pilot: Pilot) -> str:
+def _end(flown: FlightResult, pilot: Pilot) -> str:
     from shotc.stream.session import left_alone
 
     if pilot.done:

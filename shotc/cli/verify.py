@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import VerifiedIR
 
 
-class Format(StrEnum):
+class CertificateFormat(StrEnum):
     """How the certificate is printed."""
 
     TEXT = "text"
@@ -35,7 +35,7 @@ FilesArgument = Annotated[
     list[Path],
     typer.Argument(metavar="FILE", help="A plan.json or its folder; or files of flights."),
 ]
-FormatOption = Annotated[Format, typer.Option("--format", help="How to print the certificate.")]
+FormatOption = Annotated[CertificateFormat, typer.Option("--format", help="How to print the certificate.")]
 AgainstOption = Annotated[
     str | None,
     typer.Option("--against", metavar="MISSION", help="Hold the plan, or the flights, to this mission file."),
@@ -61,7 +61,7 @@ LEAST_ABORT_S = 0.1
 
 def verify(
     files: FilesArgument,
-    format: FormatOption = Format.TEXT,
+    format: FormatOption = CertificateFormat.TEXT,
     against: AgainstOption = None,
     drone: DroneOption = None,
     abort_every: AbortOption = None,
@@ -107,7 +107,7 @@ def verify(
     returns: Sequence[Return] | None = None
     if every is not None and report.plan is not None:
         returns, report = _returns(report.plan, report, every)
-    if format is Format.JSON:
+    if format is CertificateFormat.JSON:
         console.out(_document(report, returns))
     else:
         _print(report)
@@ -144,7 +144,7 @@ def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequen
 
 
 def _verify_flights(
-    files: Sequence[Path], mission: MissionFile | None, drones: Sequence[str], format: Format
+    files: Sequence[Path], mission: MissionFile | None, drones: Sequence[str], format: CertificateFormat
 ) -> None:
     """Prove flights, print what was found, and exit."""
     other = next((file for file in files if not is_flight(file.name)), None)
@@ -158,7 +158,7 @@ def _verify_flights(
 
     read = [FlightFile(bytes_of(file, largest(file.name) + 1), file.as_posix()) for file in files]
     report = verify_flights(read, mission, drones)
-    if format is Format.JSON:
+    if format is CertificateFormat.JSON:
         console.out(_flights_document(report))
     else:
         _print_flights(report)

@@ -46,7 +46,7 @@ class Rest:
     coef: Array
 
 
-class Course:
+class FlightSpline:
     """A planned flight that can be read at any time; breaks, coef : as of ``ir.fleet.FleetTrajectory``."""
 
     def __init__(self, breaks: Array, coef: Array) -> None:

@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from shotc.collective.braking import Course
+from shotc.collective.braking import FlightSpline
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_pieces import rates
 from shotc.geom.fleet_spline import DEGREE, rest_of
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Limit, Worst, held
+from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.apart import from_parked, separations
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.motion import motion
@@ -64,7 +64,7 @@ class Homing:
     def __init__(self, ir: TrajectoryIR, flight: FleetTrajectory) -> None:
         self.ir, self.flight, mission = ir, flight, ir.keyframes.mission
         self.fleet = mission.fleet(flight.fleet)
-        self._course = Course(flight.breaks, flight.coef)
+        self._course = FlightSpline(flight.breaks, flight.coef)
         self._mover = Mover(mission, self.fleet)
         self._stops = at_rest(flight.coef)
         self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
@@ -185,7 +185,7 @@ class Homing:
 
     def _endurance(self, down: float) -> Claim:
         limit = Limit("endurance", self.fleet.endurance, "s", (*self.fleet.path, "endurance"))
-        return held(self.fleet.name, limit, Worst(down - self._lifted, down, "exact"))
+        return held(self.fleet.name, limit, WorstValue(down - self._lifted, down, "exact"))
 
     def _at_stop(self, stop: int) -> Array:
         return self.flight.coef[:, stop]

@@ -15,7 +15,7 @@ from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
 from shotc.ir.bodies import shapes
-from shotc.ir.comparison import FlownShot, Motion, Score, Trace
+from shotc.ir.comparison import FlownShot, MotionMeasures, Score, Trace
 from shotc.ir.framed import at_start
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import MissionIR
@@ -23,13 +23,13 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, X, Y, Z
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import beside_cameras, cameras, subjects
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.framing import view_of
 from shotc.planning.clock.ideals import ideal_places
 
 MOST = 0.95
 PLACES_HZ = 10.0  # of a camera, that are compared with where the shot would have it
-STILL = Motion(0.0, 0.0, 0.0, 0.0, 0.0)
+STILL = MotionMeasures(0.0, 0.0, 0.0, 0.0, 0.0)
 ROUNDS = "refine_rounds"
 """Under SHOT.ROUNDS the statistics of a path say how often its refiner solved the shot."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
@@ -50,11 +50,13 @@ def flown_shots(plan: VerifiedIR) -> tuple[FlownShot, ...]:
 def total(plan: VerifiedIR, shots: Sequence[FlownShot]) -> Score:
     """Return the score of all shots together: frames count alike, and so does every second filmed."""
     motions = [shot.motion for shot in shots]
-    motion = Motion(*(float(sum(column)) for column in zip(*motions, strict=True))) if motions else STILL
+    motion = (
+        MotionMeasures(*(float(sum(column)) for column in zip(*motions, strict=True))) if motions else STILL
+    )
     return score([trace for shot in shots for trace in shot.traces], motion)
 
 
-def score(traces: Sequence[Trace], motion: Motion) -> Score:
+def score(traces: Sequence[Trace], motion: MotionMeasures) -> Score:
     """Return the score of some traces and of the motion that they were seen in."""
     margin = np.concatenate([np.empty(0), *(trace.margin for trace in traces)])
     points = np.concatenate([np.empty(0), *(trace.points for trace in traces)])
@@ -109,16 +111,16 @@ def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
     return FlownShot(shot, track.drone, phase.start, phase.end, traces, motion, scored, _rounds(plan, shot))
 
 
-def _motion(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> Motion:
+def _motion(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> MotionMeasures:
     shot, duration = mission.shot(phase.shot), phase.end - phase.start
     jerk = squared_jerk(track.curve, phase.start, phase.end)
     turn_jerk = squared_jerk(track.curve, phase.start, phase.end, CAM_YAW, CAM_PITCH)
     if shot.ideal is None or is_keyed(shot) or duration <= 0:
-        return Motion(jerk, turn_jerk, 0.0, 0.0, duration)
+        return MotionMeasures(jerk, turn_jerk, 0.0, 0.0, duration)
     times = np.linspace(phase.start, phase.end, max(2, round(PLACES_HZ * duration)))
     ideal = ideal_places(mission, at_start(mission, shot, phase.start), phase.start, times)
     off = np.linalg.norm(track.curve(times)[:, :3] - ideal, axis=1)
-    return Motion(jerk, turn_jerk, float(off.mean()) * duration, duration, duration)
+    return MotionMeasures(jerk, turn_jerk, float(off.mean()) * duration, duration, duration)
 
 
 def _rounds(plan: VerifiedIR, shot: str) -> int | None:
@@ -130,7 +132,7 @@ def _trace(plan: VerifiedIR, track: DroneTrajectory, phase: Phase, target: str) 
     ir = plan.trajectory
     mission = ir.keyframes.mission
     (placed,) = (p for p in ir.keyframes.shots if p.shot.id == phase.shot)
-    view = view_of(Flight(mission, mission.drone(track.drone), track), placed, target, phase)
+    view = view_of(JudgedFlight(mission, mission.drone(track.drone), track), placed, target, phase)
     if view is None:
         return None
     t = view.times

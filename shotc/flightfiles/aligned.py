@@ -13,10 +13,10 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from shotc.flightfiles.clocked import Flown
+from shotc.flightfiles.clocked import ClockedFlight
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.flights.points import BROKEN, refuse
-from shotc.importers.flights.rows import BODY, CAMERA, PHASE, SHOT, Rows
+from shotc.importers.flights.rows import BODY, CAMERA, PHASE, SHOT, DroneRows
 from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
 from shotc.ir.keyframes import KeyframeIR, PlacedShot
@@ -47,7 +47,9 @@ class Aligned(NamedTuple):
     faces: bool
 
 
-def aligned(keyframes: KeyframeIR, drone: Drone, flown: Flown, upright: tuple[float, float]) -> Aligned:
+def aligned(
+    keyframes: KeyframeIR, drone: Drone, flown: ClockedFlight, upright: tuple[float, float]
+) -> Aligned:
     """Return the track of a drone; upright : when it leaves the vertical over its pad, and is back on it."""
     mission, rows = keyframes.mission, flown.rows
     curve, looks = _with_camera(drone, flown)
@@ -70,7 +72,7 @@ def aligned(keyframes: KeyframeIR, drone: Drone, flown: Flown, upright: tuple[fl
     return Aligned(track, told is not None, missing, looks, faces)
 
 
-def _with_camera(drone: Drone, flown: Flown) -> tuple[Piecewise, bool]:
+def _with_camera(drone: Drone, flown: ClockedFlight) -> tuple[Piecewise, bool]:
     """Return the curve of all channels, angles straight between rows, and whether its camera's are known."""
     curve, rows = flown.curve, flown.rows
     pose = np.zeros((*curve.ctrl.shape[:2], len(CHANNELS)))
@@ -90,7 +92,7 @@ def _with_camera(drone: Drone, flown: Flown) -> tuple[Piecewise, bool]:
     return Piecewise(curve.breaks, pose), camera is not None
 
 
-def lens_of(rows: Rows) -> Array | None:
+def lens_of(rows: DroneRows) -> Array | None:
     """Return the field of view of every row, rad, None where a table has none; refuse what no lens shows."""
     found = rows.values(CAMERA[2])
     if found is None:
@@ -109,7 +111,7 @@ def _straight(values: Array) -> Array:
     return np.asarray(values[:-1, None] + share * np.diff(values)[:, None])
 
 
-def _told(mission: MissionIR, rows: Rows, curve: Piecewise) -> tuple[Phase, ...] | None:
+def _told(mission: MissionIR, rows: DroneRows, curve: Piecewise) -> tuple[Phase, ...] | None:
     """Return the phases that the table has, None where it has none that are known here.
 
     A shot is from its first row to its last; else what lies between two phases belongs to the later one, but

@@ -20,7 +20,7 @@ import numpy as np
 from shotc.diag.model import Label
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 from shotc.geom.proof import norm
-from shotc.importers.flights.rows import PLACE, SHORTEST_S, Rows
+from shotc.importers.flights.rows import PLACE, SHORTEST_S, DroneRows
 from shotc.importers.flights.skyc import Show, ShowFlight, shift
 from shotc.importers.notes import label
 from shotc.importers.xml_tree import Node
@@ -52,7 +52,7 @@ class Leeway:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flown:
+class ClockedFlight:
     """One drone's flight on the clock.
 
     name : of the drone; curve : x, y, z, cubic, from 0 s; rows : of a table, None of a .skyc
@@ -63,13 +63,13 @@ class Flown:
     name: str
     file: str
     curve: Piecewise
-    rows: Rows | None
+    rows: DroneRows | None
     leeway: Leeway
     at: Callable[[float], Label]
     show: bool = False
 
 
-def of_rows(rows: Rows, name: str, file: str, limits: Limits) -> Flown:
+def of_rows(rows: DroneRows, name: str, file: str, limits: Limits) -> ClockedFlight:
     """Return the flight of a drone by its rows; limits : the drone's own."""
     time, place = rows.time, rows.place
     step = np.diff(time)[:, None]
@@ -97,15 +97,15 @@ def of_rows(rows: Rows, name: str, file: str, limits: Limits) -> Flown:
         index = int(np.clip(np.searchsorted(time, when), 0, len(time) - 1))
         return label(member, rows.node(index))._replace(text="up to this row")
 
-    return Flown(name, file, Piecewise(breaks, ctrl), rows, leeway, at, bool(rows.member))
+    return ClockedFlight(name, file, Piecewise(breaks, ctrl), rows, leeway, at, bool(rows.member))
 
 
-def inside(file: str, rows: Rows) -> str:
+def inside(file: str, rows: DroneRows) -> str:
     """Return how to show the file that rows stand in, which may be a member of an archive."""
     return f"{file}/{rows.member}" if rows.member else file
 
 
-def _rate(rows: Rows) -> tuple[Array, Array]:
+def _rate(rows: DroneRows) -> tuple[Array, Array]:
     """Return velocities at the beginning and at the end of every interval."""
     if rows.velocity is not None:
         return rows.velocity[:-1], rows.velocity[1:]
@@ -123,7 +123,7 @@ def quantum(columns: Sequence[Sequence[str]]) -> float:
     return 0.5 * 10.0 ** (ceil(log10(largest) + 1e-12) - max(digits, 1))
 
 
-def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None) -> Flown:
+def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None) -> ClockedFlight:
     """Return the flight of a drone of a show, moved to where the show's frame stands in the mission's."""
     there = shift(show.origin, origin)
     node = Node("", 1, 1, wide=1)
@@ -134,7 +134,7 @@ def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None)
         index = int(np.searchsorted(flight.breaks, when))
         return label(file, node)._replace(text=f"{flight.element}, up to key point {index}")
 
-    return Flown(
+    return ClockedFlight(
         flight.name, file, Piecewise(flight.breaks, flight.ctrl + there), None, leeway, at, show=True
     )
 

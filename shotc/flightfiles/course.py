@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.waypoints import paths
-from shotc.emit.waypoints.geo import Geo, Place, tie
+from shotc.emit.waypoints.geo import Geo, GeoPosition, tie
 from shotc.emit.waypoints.models import SPLINES
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.cameras.takes import Refused
@@ -56,7 +56,7 @@ class Leg(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class UntimedFlight:
     """A flight by a file without a clock.
 
     ways : the curves x, y, z that it may be flown on, cubic, and what each of them is, in words
@@ -99,7 +99,7 @@ class _Part(NamedTuple):
 
 def course_of(
     mission: MissionIR, drone: Drone, plan: Waypoints, files: Sequence[str]
-) -> Course | tuple[str, Refused]:
+) -> UntimedFlight | tuple[str, Refused]:
     """Return the course of a drone by the points of its files, or which file is refused; there is an origin.
 
     files : the name of each point's file
@@ -135,7 +135,9 @@ def course_of(
         parts += _landing(drone, (points[-1], landing), to, (len(models), away))
     ways, legs = _timed(parts)
     names = [name for name, _ in models]
-    return Course(drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, ways, strict=True)), legs, away)
+    return UntimedFlight(
+        drone, tuple(dict.fromkeys(files)), plan, tuple(zip(names, ways, strict=True)), legs, away
+    )
 
 
 def _landing(
@@ -153,10 +155,10 @@ def _landing(
 def _place(mission: MissionIR, geo: Geo, point: Point, drone: Drone) -> Array | Refused:
     """Return a point in W; refuse one that is far from the pad."""
     height = point.height - (geo.home_alt if point.level == "sea" else 0.0)
-    place = geo.point(Place(point.lat, point.lon, height))
+    place = geo.point(GeoPosition(point.lat, point.lon, height))
     away = float(np.linalg.norm(place - np.array(drone.home)))
     if away > FAR_M:
-        turned = geo.point(Place(max(min(point.lon, 89.0), -89.0), point.lat, height))
+        turned = geo.point(GeoPosition(max(min(point.lon, 89.0), -89.0), point.lat, height))
         near = float(np.linalg.norm(turned - np.array(drone.home))) < FAR_M
         message = f"{point.name} is {away / 1000:.0f} km from the pad of `{drone.name}`"
         help_ = "its latitude and longitude are exchanged" if near else "see world.origin of the mission"

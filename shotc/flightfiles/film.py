@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from shotc.flightfiles.aligned import Aligned
-from shotc.flightfiles.clocked import Flown
-from shotc.flightfiles.judge import BUILT, Found, from_pads, to_tolerance
+from shotc.flightfiles.clocked import ClockedFlight
+from shotc.flightfiles.judge import BUILT, FileClaim, from_pads, to_tolerance
 from shotc.flightfiles.moves import accelerations, bag_of, speeds, turns, zooms
 from shotc.flightfiles.swarm import AT_PAD_M, moved, when
 from shotc.geom.bernstein import lift_off
@@ -20,7 +20,7 @@ from shotc.ir.promise import Promise
 from shotc.ir.show import Apart
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.ahead import ahead
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim, held
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, held
 from shotc.passes.verify.energy import energy
 from shotc.passes.verify.framing import filmed, framing
 from shotc.passes.verify.pair import from_fleets, separation
@@ -33,14 +33,16 @@ MOST_PAIRWISE = 10
 
 
 def judged(
-    keyframes: KeyframeIR, flights: Sequence[Flown], tracks: Sequence[Aligned], away: frozenset[str]
-) -> Iterator[Found]:
+    keyframes: KeyframeIR, flights: Sequence[ClockedFlight], tracks: Sequence[Aligned], away: frozenset[str]
+) -> Iterator[FileClaim]:
     """Yield every claim about drones that film; away : the drones whose flights have no clock."""
     mission = keyframes.mission
     ir = TrajectoryIR(keyframes, tuple(each.track for each in tracks), (), ())
     standing = tuple(track for track in parked(ir) if track.drone not in away)
     everyone = (*ir.drones, *standing)
-    present = [Flight(mission, mission.drone(t.drone), t, others_of(everyone, t.drone)) for t in everyone]
+    present = [
+        JudgedFlight(mission, mission.drone(t.drone), t, others_of(everyone, t.drone)) for t in everyone
+    ]
     named = {flown.name: flown for flown in flights}
     for flown, each, flight in zip(flights, tracks, present, strict=False):
         yield from _motion(flight, flown)
@@ -61,15 +63,15 @@ def judged(
             yield placed(named[own.subject], own)
 
 
-def placed(flown: Flown, found: Claim) -> Found:
+def placed(flown: ClockedFlight, found: Claim) -> FileClaim:
     """Return a claim with its place in the file, which holds within what that leaves open."""
     kept = to_tolerance(found, {"m": flown.leeway.place})
     if found.time is None:
-        return Found(kept, None)
-    return Found(kept, flown.at(found.time), when(flown, found.time))
+        return FileClaim(kept, None)
+    return FileClaim(kept, flown.at(found.time), when(flown, found.time))
 
 
-def _motion(flight: Flight, flown: Flown) -> Iterator[Found]:
+def _motion(flight: JudgedFlight, flown: ClockedFlight) -> Iterator[FileClaim]:
     drone = flight.drone
     for move in (
         *speeds([flown], bag_of([flown]), drone.limits, drone.path),
@@ -81,16 +83,20 @@ def _motion(flight: Flight, flown: Flown) -> Iterator[Found]:
 
 
 def _claims(
-    flight: Flight, each: Aligned, ir: TrajectoryIR, standing: Sequence[DroneTrajectory]
+    flight: JudgedFlight, each: Aligned, ir: TrajectoryIR, standing: Sequence[DroneTrajectory]
 ) -> Iterator[Claim]:
     """Yield what verification claims of a flight whose curve is given, shots where they are aligned."""
     curve, drone = flight.track.curve, flight.drone
     away = float(np.linalg.norm(curve(curve.start)[:3] - np.array(drone.home)))
     yield claim(
-        flight, Limit("distance from home", AT_PAD_M, "m", (*drone.path, "home")), Worst(away, 0.0, "exact")
+        flight,
+        Limit("distance from home", AT_PAD_M, "m", (*drone.path, "home")),
+        WorstValue(away, 0.0, "exact"),
     )
     endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
-    yield claim(flight, endurance, Worst(curve.end - lift_off(curve.channels(0, 1, 2)), curve.end, "exact"))
+    yield claim(
+        flight, endurance, WorstValue(curve.end - lift_off(curve.channels(0, 1, 2)), curve.end, "exact")
+    )
     yield from (own for own in space(flight) if own.constraint not in BUILT)
     if each.told:
         yield from transits(flight)
@@ -108,21 +114,23 @@ def _of_keyframes(found: Claim) -> bool:
     return found.constraint.startswith(("frames without", "reference off", "keyframes without"))
 
 
-def _nearest(least: float, flights: Sequence[Flown], first: int | None = None) -> Found:
+def _nearest(least: float, flights: Sequence[ClockedFlight], first: int | None = None) -> FileClaim:
     """Claim the separation of many drones: the nearest pair of all."""
     found = closest_of([flight.curve for flight in flights], Apart("ellipsoid", least, least, 0.0), first)
     one, other = flights[found.first], flights[found.second]
     limit = Limit(f"separation from {other.name}", least, "m", ("rules", "separation"), upper=False)
-    return placed(one, held(one.name, limit, Worst(found.proven, found.time, "bounded", found.position)))
+    return placed(one, held(one.name, limit, WorstValue(found.proven, found.time, "bounded", found.position)))
 
 
-def beside_fleets(least: float, films: Sequence[Flown], shown: Sequence[Flown]) -> Iterator[Found]:
+def beside_fleets(
+    least: float, films: Sequence[ClockedFlight], shown: Sequence[ClockedFlight]
+) -> Iterator[FileClaim]:
     """Claim the separation of drones that film from those of fleets."""
     if films and shown:
         yield _nearest(least, [*films, *shown], len(films))
 
 
-def unkept(keyframes: KeyframeIR, each: Aligned, found: Sequence[Found]) -> Iterator[str]:
+def unkept(keyframes: KeyframeIR, each: Aligned, found: Sequence[FileClaim]) -> Iterator[str]:
     """Yield what shots promise of which nothing was judged, and why."""
     names = [(own.claim.shot, own.claim.constraint) for own in found]
     ends = {"in_frame": " in frame", "screen_error": " screen error", "size": " size ", "visible": " visible"}

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Label
-from shotc.flightfiles.course import AT_HOME_M, Course, Leg
+from shotc.flightfiles.course import AT_HOME_M, Leg, UntimedFlight
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import Pieces, join, pieces
 from shotc.geom.proof import inf_distance
@@ -26,7 +26,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.parked import parked
 from shotc.ir.path import CHANNELS, HFOV
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap, held
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap, held
 from shotc.passes.verify.pair import from_fleets
 from shotc.passes.verify.space import space
 
@@ -41,7 +41,7 @@ BUILT = ("drift from the vertical", "depth below home")
 """Claims of what was rebuilt upright."""
 
 
-class Found(NamedTuple):
+class FileClaim(NamedTuple):
     """A claim, where in its file the worst value is met, and what is to be said of it."""
 
     claim: Claim
@@ -49,14 +49,14 @@ class Found(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def _found(course: Course, claim: Claim, way: str = "") -> Found:
+def _found(course: UntimedFlight, claim: Claim, way: str = "") -> FileClaim:
     """Return a claim about a course; way : the one on which its worst value is met, if it matters."""
     if claim.time is None:
-        return Found(claim, None)
+        return FileClaim(claim, None)
     leg = course.leg_at(claim.time)
     where = label(leg.file, leg.to.node)._replace(text=_on(leg))
     notes = (f"{claim.time:.1f} s from take-off at the file's speeds",)
-    return Found(claim, where, (*notes, f"on {way}, which its machine may fly") if way else notes)
+    return FileClaim(claim, where, (*notes, f"on {way}, which its machine may fly") if way else notes)
 
 
 def _on(leg: Leg) -> str:
@@ -64,14 +64,14 @@ def _on(leg: Leg) -> str:
     return f"{words} {leg.to.name}"
 
 
-def judged(mission: MissionIR, courses: Sequence[Course], keyframes: KeyframeIR) -> list[Found]:
+def judged(mission: MissionIR, courses: Sequence[UntimedFlight], keyframes: KeyframeIR) -> list[FileClaim]:
     """Return every claim that can be made of flights without a clock, drone by drone.
 
     mission : with its targets that stand, for where another one is at a time no file says
     """
     standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
     ir_of = keyframes._replace(mission=standing)
-    found: list[Found] = []
+    found: list[FileClaim] = []
     for course in courses:
         claims = [*_limits(course), *_paces(course)]
         found += [_found(course, each) for each in claims]
@@ -86,18 +86,18 @@ def to_tolerance(found: Claim, tolerances: Mapping[str, float]) -> Claim:
     return replace(found, holds=found.holds or over <= tolerances.get(found.unit, 0.0))
 
 
-def _flight(mission: MissionIR, course: Course, curve: Piecewise) -> Flight:
+def _flight(mission: MissionIR, course: UntimedFlight, curve: Piecewise) -> JudgedFlight:
     pose = np.zeros((*curve.ctrl.shape[:2], len(CHANNELS)))
     pose[..., :3], pose[..., HFOV] = curve.ctrl, course.drone.hfov
     track = DroneTrajectory(course.drone.name, Piecewise(curve.breaks, pose), course.phases, (), ())
-    return Flight(mission, course.drone, track)
+    return JudgedFlight(mission, course.drone, track)
 
 
 def _space(
-    mission: MissionIR, course: Course, keyframes: KeyframeIR, courses: Sequence[Course]
-) -> Iterator[Found]:
+    mission: MissionIR, course: UntimedFlight, keyframes: KeyframeIR, courses: Sequence[UntimedFlight]
+) -> Iterator[FileClaim]:
     """Yield what is kept of the mission's world on the worst of all ways, and of drones on their pads."""
-    worst: dict[str, Found] = {}
+    worst: dict[str, FileClaim] = {}
     for way, curve in course.ways:
         flight = _flight(mission, course, curve)
         others = [_first_way(each) for each in courses if each is not course]
@@ -112,7 +112,7 @@ def _space(
     yield from worst.values()
 
 
-def from_pads(flight: Flight, standing: Iterable[DroneTrajectory]) -> Iterator[Claim]:
+def from_pads(flight: JudgedFlight, standing: Iterable[DroneTrajectory]) -> Iterator[Claim]:
     """Claim the separation from drones that have no file, which stand at home."""
     least = flight.mission.rules.separation
     whole = pieces(flight.track.curve.channels(0, 1, 2))
@@ -122,7 +122,7 @@ def from_pads(flight: Flight, standing: Iterable[DroneTrajectory]) -> Iterator[C
         yield bounded(flight, limit, inf_distance(whole, point(home), gap(least)))
 
 
-def _first_way(course: Course) -> DroneTrajectory:
+def _first_way(course: UntimedFlight) -> DroneTrajectory:
     """Return the first way of a course as a track, which tells that the drone flies."""
     _, curve = course.ways[0]
     return DroneTrajectory(course.drone.name, curve, course.phases, (), ())
@@ -133,15 +133,15 @@ def _less(one: Claim, other: Claim) -> bool:
     return one.worst > other.worst if one.upper else one.worst < other.worst
 
 
-def _limits(course: Course) -> Iterator[Claim]:
+def _limits(course: UntimedFlight) -> Iterator[Claim]:
     """Claim what the file says of angles, of where it lands, and how long it takes at least."""
     name, drone = course.drone.name, course.drone
     if course.landing is not None:
         limit = Limit("distance from home", AT_HOME_M, "m", (*drone.path, "home"))
-        yield held(name, limit, Worst(course.landing, course.legs[-1].end, "exact"))
+        yield held(name, limit, WorstValue(course.landing, course.legs[-1].end, "exact"))
     last = course.legs[-1].end
     limit = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
-    yield held(name, limit, Worst(last, last, "exact"))
+    yield held(name, limit, WorstValue(last, last, "exact"))
     asked = [(radians(angle), leg.start) for leg in course.legs for angle in leg.to.pitches]
     for which, value, upper in (("min", drone.gimbal.pitch[0], False), ("max", drone.gimbal.pitch[1], True)):
         if asked:
@@ -149,10 +149,10 @@ def _limits(course: Course) -> Iterator[Claim]:
             limit = Limit(
                 f"gimbal pitch {which}", value, "rad", (*drone.path, "gimbal", "pitch"), upper=upper
             )
-            yield held(name, limit, Worst(worst, time, "exact"))
+            yield held(name, limit, WorstValue(worst, time, "exact"))
 
 
-def _paces(course: Course) -> Iterator[Claim]:
+def _paces(course: UntimedFlight) -> Iterator[Claim]:
     """Claim the speeds that the file asks for, each as far as its leg is level, or rises.
 
     They are those of straight legs: how a machine shares them out over its curves nobody has published.
@@ -170,20 +170,20 @@ def _paces(course: Course) -> Iterator[Claim]:
         if asked:
             worst, time = max((parts[k], time) for parts, time in asked)
             limit = Limit(name, most, "m/s", (*course.drone.path, "limits", name))
-            yield held(course.drone.name, limit, Worst(max(worst, 0.0), time, "exact"))
+            yield held(course.drone.name, limit, WorstValue(max(worst, 0.0), time, "exact"))
 
 
-def _apart(mission: MissionIR, pair: tuple[Course, Course]) -> Iterator[Found]:
+def _apart(mission: MissionIR, pair: tuple[UntimedFlight, UntimedFlight]) -> Iterator[FileClaim]:
     one, other = pair
     bag = join([pieces(curve) for _, curve in other.ways])
     yield apart_at_any_time(mission, one, other.drone.name, bag)
 
 
-def apart_at_any_time(mission: MissionIR, one: Course, name: str, other: Pieces) -> Found:
+def apart_at_any_time(mission: MissionIR, one: UntimedFlight, name: str, other: Pieces) -> FileClaim:
     """Claim the separation of a flight without a clock from another one, whenever each is where it is."""
     least = mission.rules.separation
     found = nearest(join([pieces(curve) for _, curve in one.ways]), other, gap(least))
     limit = Limit(f"separation from {name}", least, "m", ("rules", "separation"), upper=False)
     flight = _flight(mission, one, one.ways[0][1])
-    kept = to_tolerance(claim(flight, limit, Worst(found.proven, found.one)), TOLERANCES)
+    kept = to_tolerance(claim(flight, limit, WorstValue(found.proven, found.one)), TOLERANCES)
     return _found(one, kept)

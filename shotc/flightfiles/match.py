@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
-from shotc.flightfiles.clocked import Flown
+from shotc.flightfiles.clocked import ClockedFlight
 from shotc.flightfiles.course import FAR_M
 from shotc.importers.flights.points import FAR, NOBODY
 from shotc.ir.drone import Drone
@@ -102,8 +102,8 @@ def _twice(found: dict[str, list[tuple[int, int]]], names: Sequence[str]) -> lis
 
 
 def named(
-    mission: MissionIR, flights: Sequence[Flown], others: Collection[str]
-) -> tuple[dict[str, Flown], tuple[Diagnostic, ...]]:
+    mission: MissionIR, flights: Sequence[ClockedFlight], others: Collection[str]
+) -> tuple[dict[str, ClockedFlight], tuple[Diagnostic, ...]]:
     """Return flights on the clock by the names of the mission's drones, and what does not fit.
 
     others : the drones that have another file
@@ -112,7 +112,7 @@ def named(
     pads = {name: pad for f in mission.fleets for name, pad in zip(drone_names(f), f.pads, strict=True)}
     pads |= {drone.name: drone.home for drone in mission.drones}
     flights = _by_pads(flights, pads)
-    found: dict[str, Flown] = {}
+    found: dict[str, ClockedFlight] = {}
     faults: list[Diagnostic] = []
     for flight in flights:
         if flight.name not in pads:
@@ -132,7 +132,7 @@ def named(
     return found, tuple(faults[:MOST_NAMED])
 
 
-def _away(flight: Flown, pad: Vec3) -> Diagnostic | None:
+def _away(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
     """Report a flight that is far from its pad."""
     away = np.linalg.norm(flight.curve.ctrl - np.array(pad), axis=2)
     piece = int(np.argmax(away.max(axis=1)))
@@ -145,20 +145,20 @@ def _away(flight: Flown, pad: Vec3) -> Diagnostic | None:
     return Diagnostic(FAR, text, (where,), help=help_)
 
 
-def _by_pads(flights: Sequence[Flown], pads: dict[str, Vec3]) -> list[Flown]:
+def _by_pads(flights: Sequence[ClockedFlight], pads: dict[str, Vec3]) -> list[ClockedFlight]:
     """Return flights with the names of the pads that they begin on, where none of a file has a known name."""
     known = {flight.file for flight in flights if flight.name in pads}
     return [flight if flight.file in known else _on_its_pad(flight, pads) for flight in flights]
 
 
-def _on_its_pad(flight: Flown, pads: dict[str, Vec3]) -> Flown:
+def _on_its_pad(flight: ClockedFlight, pads: dict[str, Vec3]) -> ClockedFlight:
     away = np.linalg.norm(np.array(list(pads.values())) - flight.curve.ctrl[0, 0], axis=1)
     nearest = int(np.argmin(away))
     stands = flight.show and away[nearest] <= ON_PAD_M
     return replace(flight, name=list(pads)[nearest]) if stands else flight
 
 
-def _incomplete(fleet: Fleet, found: dict[str, Flown]) -> Diagnostic | None:
+def _incomplete(fleet: Fleet, found: dict[str, ClockedFlight]) -> Diagnostic | None:
     """Report a fleet of which some drones have a flight and others have none."""
     missing = [name for name in drone_names(fleet) if name not in found]
     if not missing or len(missing) == len(fleet.pads):

@@ -12,15 +12,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.flightfiles.clocked import Flown, quantum
+from shotc.flightfiles.clocked import ClockedFlight, quantum
 from shotc.geom.bernstein import Array, bernstein_basis
 from shotc.geom.pieces import Pieces, join, pieces
 from shotc.geom.proof import norm, sup_convex
-from shotc.importers.flights.rows import ACCELERATION, BODY, Rows
+from shotc.importers.flights.rows import ACCELERATION, BODY, DroneRows
 from shotc.ir.drone import SAME_LENS_RAD, Drone
 from shotc.ir.limits import Limits
 from shotc.ir.origin import KeyPath
-from shotc.passes.verify.claims import Limit, Worst, gap
+from shotc.passes.verify.claims import Limit, WorstValue, gap
 
 STEEP_STEP_S = 0.02
 """Seconds of a piece below which a show's rounding makes more acceleration than there is."""
@@ -33,11 +33,11 @@ class Bag(NamedTuple):
     owner: Array
 
 
-class Move(NamedTuple):
+class LimitFinding(NamedTuple):
     """A worst value against a limit, with what the file leaves open, and whose it is."""
 
     limit: Limit
-    worst: Worst
+    worst: WorstValue
     leeway: float
     owner: int
 
@@ -47,12 +47,14 @@ def bagged(parts: Sequence[Pieces]) -> Bag:
     return Bag(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
 
 
-def bag_of(flights: Sequence[Flown]) -> Bag:
+def bag_of(flights: Sequence[ClockedFlight]) -> Bag:
     """Return the pieces of all flights."""
     return bagged([pieces(flight.curve) for flight in flights])
 
 
-def speeds(flights: Sequence[Flown], bag: Bag, limits: Limits, path: KeyPath) -> Iterator[Move]:
+def speeds(
+    flights: Sequence[ClockedFlight], bag: Bag, limits: Limits, path: KeyPath
+) -> Iterator[LimitFinding]:
     """Yield the speeds of flights with the same limits, proved for every instant."""
     velocity = bag.pieces.derivative()
     wind = np.array([*limits.wind, 0.0])
@@ -65,8 +67,11 @@ def speeds(flights: Sequence[Flown], bag: Bag, limits: Limits, path: KeyPath) ->
     ):
         bound = sup_convex(velocity, value, gap(most))
         owner = who(Bag(velocity, bag.owner), bound.at, value, upper=True)
-        yield Move(
-            Limit(what, most, "m/s", (*path, "limits", key)), Worst(bound.proven, bound.at), leeway, owner
+        yield LimitFinding(
+            Limit(what, most, "m/s", (*path, "limits", key)),
+            WorstValue(bound.proven, bound.at),
+            leeway,
+            owner,
         )
 
 
@@ -80,7 +85,7 @@ def who(bag: Bag, at: float, value: object, *, upper: bool) -> int:
     return int(bag.owner[inside][int(np.argmax(values) if upper else np.argmin(values))])
 
 
-def accelerations(flights: Sequence[Flown], limits: Limits, path: KeyPath) -> Iterator[Move]:
+def accelerations(flights: Sequence[ClockedFlight], limits: Limits, path: KeyPath) -> Iterator[LimitFinding]:
     """Yield the acceleration, and the jerk where a table has a column of acceleration."""
     for name, most, unit, of in (
         ("acceleration", limits.acceleration, "m/s^2", _acceleration),
@@ -90,14 +95,14 @@ def accelerations(flights: Sequence[Flown], limits: Limits, path: KeyPath) -> It
         if found:
             (value, time, leeway), owner = max(found, key=lambda one: one[0][0] - one[0][2])
             limit = Limit(name, most, unit, (*path, "limits", name))
-            yield Move(limit, Worst(value, time, "bounded"), leeway, owner)
+            yield LimitFinding(limit, WorstValue(value, time, "bounded"), leeway, owner)
 
 
 Peak = tuple[float, float, float]
 """The largest value, less what is left open; when, s; and what is left open."""
 
 
-def _acceleration(flight: Flown) -> Peak | None:
+def _acceleration(flight: ClockedFlight) -> Peak | None:
     rows = flight.rows
     if rows is None:
         whole = pieces(flight.curve)
@@ -115,7 +120,7 @@ def _acceleration(flight: Flown) -> Peak | None:
     return peak
 
 
-def _jerk(flight: Flown) -> Peak | None:
+def _jerk(flight: ClockedFlight) -> Peak | None:
     rows = flight.rows
     told = None if rows is None else rows.values(*ACCELERATION)
     if rows is None or told is None:
@@ -123,7 +128,7 @@ def _jerk(flight: Flown) -> Peak | None:
     return _mean(told, rows.time, _rounding(rows, *ACCELERATION))
 
 
-def _rounding(rows: Rows, *columns: str) -> float:
+def _rounding(rows: DroneRows, *columns: str) -> float:
     return quantum([rows.texts(column) or [] for column in columns])
 
 
@@ -140,7 +145,7 @@ def _peak(size: Array, time: Array, leeway: Array) -> Peak:
     return float(size[k]), float(time[k]), float(leeway[k])
 
 
-def turns(flight: Flown, drone: Drone) -> Iterator[Move]:
+def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
     """Yield angles, rates and accelerations of the body and of the gimbal, where a table has the columns."""
     rows = flight.rows
     if rows is None:
@@ -165,7 +170,7 @@ def turns(flight: Flown, drone: Drone) -> Iterator[Move]:
         for side, value, upper in (("min", reach[0], False), ("max", reach[1], True)):
             k = int(np.argmax(angle) if upper else np.argmin(angle))
             limit = Limit(f"gimbal {name} {side}", value, "rad", (*drone.path, "gimbal", name), upper=upper)
-            yield Move(limit, Worst(float(angle[k]), float(rows.time[k])), rounding, 0)
+            yield LimitFinding(limit, WorstValue(float(angle[k]), float(rows.time[k])), rounding, 0)
         keys = (("gimbal", "rate"), ("gimbal", "acceleration"))
         most = (gimbal.rate, gimbal.acceleration)
         yield from _rates(
@@ -173,7 +178,7 @@ def turns(flight: Flown, drone: Drone) -> Iterator[Move]:
         )
 
 
-def zooms(flight: Flown, drone: Drone) -> Iterator[Move]:
+def zooms(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
     """Yield fields of view and how fast they change, where a table has them and the mission says the lens."""
     lens = drone.lens
     hfov = None if flight.rows is None else flight.rows.values("hfov_rad")
@@ -184,24 +189,26 @@ def zooms(flight: Flown, drone: Drone) -> Iterator[Move]:
     for side, value, upper in (("min", lens.longest, False), ("max", lens.widest, True)):
         k = int(np.argmax(angle) if upper else np.argmin(angle))
         limit = Limit(f"field of view {side}", value, "rad", path, upper=upper)
-        yield Move(limit, Worst(float(angle[k]), float(time[k])), SAME_LENS_RAD, 0)
+        yield LimitFinding(limit, WorstValue(float(angle[k]), float(time[k])), SAME_LENS_RAD, 0)
     if lens.zooms:
         peak = _mean(hfov, time, _rounding(flight.rows, "hfov_rad"))
         if peak is not None:
             rate = Limit("zoom rate", lens.rate, "rad/s", (*drone.path, "camera", "zoom_rate"))
-            yield Move(rate, Worst(peak[0], peak[1]), peak[2], 0)
+            yield LimitFinding(rate, WorstValue(peak[0], peak[1]), peak[2], 0)
 
 
 def _rates(
-    rows: Rows, of: tuple[str, Array, Sequence[str]], most: tuple[float, float], paths: Sequence[KeyPath]
-) -> Iterator[Move]:
+    rows: DroneRows, of: tuple[str, Array, Sequence[str]], most: tuple[float, float], paths: Sequence[KeyPath]
+) -> Iterator[LimitFinding]:
     """Yield how fast an angle changes at least, and how fast that does: means over one interval, and two."""
     name, angle, columns = of
     rounding = 2 * _rounding(rows, *columns)
     step = np.diff(rows.time)
     rate = np.diff(angle) / step
     peak = _peak(np.abs(rate), rows.time[1:], 2 * rounding / step)
-    yield Move(Limit(f"{name} rate", most[0], "rad/s", paths[0]), Worst(peak[0], peak[1]), peak[2], 0)
+    yield LimitFinding(
+        Limit(f"{name} rate", most[0], "rad/s", paths[0]), WorstValue(peak[0], peak[1]), peak[2], 0
+    )
     if len(rate) > 1:
         # The rate somewhere within an interval is its mean: of two they are no farther apart than both take.
         wide = step[:-1] + step[1:]
@@ -210,12 +217,15 @@ def _rates(
             rows.time[2:],
             4 * rounding / np.minimum(step[:-1], step[1:]) / wide,
         )
-        yield Move(
-            Limit(f"{name} acceleration", most[1], "rad/s^2", paths[1]), Worst(peak[0], peak[1]), peak[2], 0
+        yield LimitFinding(
+            Limit(f"{name} acceleration", most[1], "rad/s^2", paths[1]),
+            WorstValue(peak[0], peak[1]),
+            peak[2],
+            0,
         )
 
 
-def beyond(move: Move) -> bool:
+def beyond(move: LimitFinding) -> bool:
     """Tell whether a value is beyond its limit by more than the file leaves open."""
     over = move.worst.value - move.limit.value if move.limit.upper else move.limit.value - move.worst.value
     return over > move.leeway and move.limit.value not in (inf, -inf)

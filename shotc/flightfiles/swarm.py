@@ -8,13 +8,13 @@ from math import inf, isfinite
 
 import numpy as np
 
-from shotc.flightfiles.clocked import Flown, leaves
-from shotc.flightfiles.judge import Found, to_tolerance
-from shotc.flightfiles.moves import Bag, Move, accelerations, bag_of, bagged, beyond, speeds, who
+from shotc.flightfiles.clocked import ClockedFlight, leaves
+from shotc.flightfiles.judge import FileClaim, to_tolerance
+from shotc.flightfiles.moves import Bag, LimitFinding, accelerations, bag_of, bagged, beyond, speeds, who
 from shotc.geom.bernstein import Array
 from shotc.geom.meetings import closest_of
 from shotc.geom.pieces import Pieces, cut, join
-from shotc.geom.proof import Bound, inf_channel, inf_distance, norm, sup_channel, sup_outside
+from shotc.geom.proof import ProvedExtreme, inf_channel, inf_distance, norm, sup_channel, sup_outside
 from shotc.geom.solid_arrays.points import separation, signed_distance
 from shotc.geom.solids import Solid, convex_parts
 from shotc.geom.surface.distance import SurfaceBound
@@ -30,7 +30,7 @@ from shotc.ir.show import Apart, Fleet
 from shotc.ir.target import Target
 from shotc.ir.terrain import Terrain
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Limit, Worst, gap, held, less
+from shotc.passes.verify.claims import Limit, WorstValue, gap, held, less
 from shotc.passes.verify.fleets.space import nearest
 from shotc.planning.take_off import bodies_of, take_off_of
 
@@ -49,14 +49,14 @@ class Swarm:
 
     mission: MissionIR
     fleet: Fleet
-    flights: tuple[Flown, ...]
+    flights: tuple[ClockedFlight, ...]
     whole: Bag
     free: Bag
     upright: Bag
     pads: Array
 
     @staticmethod
-    def of(mission: MissionIR, fleet: Fleet, flights: tuple[Flown, ...]) -> Swarm:
+    def of(mission: MissionIR, fleet: Fleet, flights: tuple[ClockedFlight, ...]) -> Swarm:
         """Return the flights of a fleet's drones."""
         pads = np.array(fleet.pads)
         free: list[Pieces] = []
@@ -69,7 +69,7 @@ class Swarm:
         return Swarm(mission, fleet, flights, bag_of(flights), bagged(free), bagged(upright), pads)
 
 
-def judged(swarm: Swarm) -> Iterator[Found]:
+def judged(swarm: Swarm) -> Iterator[FileClaim]:
     """Yield every claim about a fleet: one a constraint, with the drone that comes nearest to the limit."""
     fleet, limits = swarm.fleet, swarm.fleet.limits
     yield from _pads(swarm)
@@ -83,31 +83,35 @@ def judged(swarm: Swarm) -> Iterator[Found]:
         yield from _separation(swarm)
 
 
-def moved(subject: str, flights: Sequence[Flown], move: Move, *, fleet: bool = False) -> Found:
+def moved(
+    subject: str, flights: Sequence[ClockedFlight], move: LimitFinding, *, fleet: bool = False
+) -> FileClaim:
     """Return a claim about motion, which holds within what its file leaves open."""
     flight, time = flights[move.owner], move.worst.time or 0.0
     x, y, z = flight.curve(time).tolist()
-    worst = Worst(move.worst.value, move.worst.time, move.worst.method, (x, y, z))
+    worst = WorstValue(move.worst.value, move.worst.time, move.worst.method, (x, y, z))
     claim = held(subject, move.limit, worst, (flight.name,) if fleet else ())
     open_ = {move.limit.unit: move.leeway} if not beyond(move) else {}
-    return Found(to_tolerance(claim, open_), flight.at(time), when(flight, time))
+    return FileClaim(to_tolerance(claim, open_), flight.at(time), when(flight, time))
 
 
-def when(flight: Flown, time: float) -> tuple[str, ...]:
+def when(flight: ClockedFlight, time: float) -> tuple[str, ...]:
     """Return the notes that say when a thing is, and where in a file without lines."""
     element = () if flight.rows is not None else (f"in {flight.at(time).text}",)
     return (f"at t = {time:.3f} s", *element)
 
 
-def _told(swarm: Swarm, limit: Limit, bound: Bound, owner: int) -> Found:
+def _told(swarm: Swarm, limit: Limit, bound: ProvedExtreme, owner: int) -> FileClaim:
     flight = swarm.flights[owner]
     x, y, z = flight.curve(bound.at).tolist()
-    claim = held(swarm.fleet.name, limit, Worst(bound.proven, bound.at, "bounded", (x, y, z)), (flight.name,))
+    claim = held(
+        swarm.fleet.name, limit, WorstValue(bound.proven, bound.at, "bounded", (x, y, z)), (flight.name,)
+    )
     leeway = max(each.leeway.place for each in swarm.flights)
-    return Found(to_tolerance(claim, {"m": leeway}), flight.at(bound.at), when(flight, bound.at))
+    return FileClaim(to_tolerance(claim, {"m": leeway}), flight.at(bound.at), when(flight, bound.at))
 
 
-def _pads(swarm: Swarm) -> Iterator[Found]:
+def _pads(swarm: Swarm) -> Iterator[FileClaim]:
     """Claim that drones begin on their pads, end on them if it says so, and are not too long in the air."""
     fleet = swarm.fleet
     ends = [(0.0, f.curve.ctrl[0, 0], k) for k, f in enumerate(swarm.flights)]
@@ -117,16 +121,16 @@ def _pads(swarm: Swarm) -> Iterator[Found]:
     worst = int(np.argmax(away))
     time, _, k = ends[worst]
     home = Limit("distance from home", AT_PAD_M, "m", (*fleet.path, "layout"))
-    yield _told(swarm, home, Bound(away[worst], away[worst], time), k)
+    yield _told(swarm, home, ProvedExtreme(away[worst], away[worst], time), k)
     airborne = np.array([down - up for up, down in map(_moving, swarm.flights)])
     k = int(np.argmax(airborne))
     endurance = Limit("endurance", fleet.endurance, "s", (*fleet.path, "endurance"))
     yield _told(
-        swarm, endurance, Bound(float(airborne[k]), float(airborne[k]), swarm.flights[k].curve.end), k
+        swarm, endurance, ProvedExtreme(float(airborne[k]), float(airborne[k]), swarm.flights[k].curve.end), k
     )
 
 
-def _moving(flight: Flown, least: float = 0.0) -> Span:
+def _moving(flight: ClockedFlight, least: float = 0.0) -> Span:
     """Return when a drone leaves its first place, and when it comes to its last one; least : of a move, m."""
     curve = flight.curve
     moves = np.asarray((np.abs(curve.ctrl - curve.ctrl[:, :1]) > least).any(axis=(1, 2)))
@@ -150,7 +154,7 @@ def _aloft(swarm: Swarm) -> Array:
     return np.array(spans)
 
 
-def _space(swarm: Swarm) -> Iterator[Found]:
+def _space(swarm: Swarm) -> Iterator[FileClaim]:
     """Claim zones, the ground, heights and standing or moving targets."""
     mission, rules = swarm.mission, swarm.mission.rules
     for zone in mission.zones:
@@ -171,7 +175,7 @@ def _space(swarm: Swarm) -> Iterator[Found]:
             yield _keep_from(swarm, limit, target)
 
 
-def _ground(swarm: Swarm) -> Iterator[Found]:
+def _ground(swarm: Swarm) -> Iterator[FileClaim]:
     """Claim the height above flat ground."""
     free, rules, radius = swarm.free, swarm.mission.rules, swarm.fleet.radius
     if len(free.pieces):
@@ -189,19 +193,19 @@ def _clearance(rules: Rules) -> Limit:
     return Limit("ground clearance", rules.ground_clearance, "m", ("rules", "ground_clearance"), upper=False)
 
 
-def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[Found]:
+def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[FileClaim]:
     """Claim the upright height above terrain, and the body's distance from it; beyond it nothing holds."""
     free, rules, radius, ground = swarm.free, swarm.mission.rules, swarm.fleet.radius, terrain.ground
 
     def above(p: Array) -> Array:
         return p[:, 2] - height_at(ground, p[:, :2])
 
-    def told(limit: Limit, found: SurfaceBound | NoGround, bag: Bag, by: float) -> Found:
+    def told(limit: Limit, found: SurfaceBound | NoGround, bag: Bag, by: float) -> FileClaim:
         if isinstance(found, SurfaceBound):
             return _told(swarm, limit, less(found, by), int(bag.owner[found.piece]))
         never = inf if limit.upper else -inf
         outside = who(bag, found.at, lambda p: np.nan_to_num(above(p), nan=never), upper=limit.upper)
-        return _told(swarm, limit, Bound(never, never, found.at), outside)
+        return _told(swarm, limit, ProvedExtreme(never, never, found.at), outside)
 
     if len(free.pieces):
         low = inf_height(free.pieces, ground, gap(rules.ground_clearance + radius))
@@ -214,18 +218,20 @@ def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[Found]:
         yield told(Limit("height above ground", most, "m", ("rules", "max_height")), high, swarm.whole, 0.0)
 
 
-def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[Found]:
+def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[FileClaim]:
     """Claim the distance from a scene or from buildings; over its pad a body may be as near as it stands."""
     least, body = swarm.mission.rules.obstacle_clearance, swarm.fleet.radius + mesh.spacing
     name, pads = f"distance from {mesh.kind}", mesh.signed_distance(swarm.pads)
     for bag, at_home in ((swarm.free, False), (swarm.upright, True)):
         if not len(bag.pieces):
             continue
-        worst, owner = Bound(inf, inf, 0.0), 0
+        worst, owner = ProvedExtreme(inf, inf, 0.0), 0
         for k in np.unique(bag.owner):
             room = min(body, float(abs(pads[k]))) if at_home else body
             found = surface_distance(bag.pieces.pick(bag.owner == k), mesh.surface, gap(room + least))
-            lack = less(Bound(-found.attained, -found.attained, found.at) if pads[k] < 0 else found, room)
+            lack = less(
+                ProvedExtreme(-found.attained, -found.attained, found.at) if pads[k] < 0 else found, room
+            )
             if lack.proven < worst.proven:
                 worst, owner = lack, int(k)
         limit = Limit(name, least, "m", ("rules", "obstacle_clearance"), upper=False)
@@ -233,7 +239,7 @@ def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[Found]:
         yield _told(swarm, own if at_home else limit, worst, owner)
 
 
-def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[Found]:
+def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
     free, radius = swarm.free, swarm.fleet.radius
     away: Callable[[Array], Array] = lambda p: signed_distance(solid, p)  # noqa: E731
     if len(free.pieces):
@@ -246,7 +252,7 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[Found]:
     near = np.minimum(
         radius, np.min([separation(part, swarm.pads)[0] for part in convex_parts(solid)], axis=0)
     )
-    worst, owner = Bound(np.inf, np.inf, 0.0), 0
+    worst, owner = ProvedExtreme(np.inf, np.inf, 0.0), 0
     clear = np.isin(upright.owner, np.flatnonzero(near >= radius))
     if clear.any():
         some = Bag(upright.pieces.pick(clear), upright.owner[clear])
@@ -262,8 +268,8 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[Found]:
     yield _told(swarm, own, worst, owner)
 
 
-def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> Found:
-    worst, owner = Bound(-np.inf, -np.inf, 0.0), 0
+def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> FileClaim:
+    worst, owner = ProvedExtreme(-np.inf, -np.inf, 0.0), 0
     for bag, floor in ((swarm.free, True), (swarm.upright, False)):
         if len(bag.pieces):
             bound = sup_outside(bag.pieces, solid, gap(-swarm.fleet.radius), floor=floor)
@@ -271,14 +277,14 @@ def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> Found:
                 within = solid if floor else solid._replace(bottom=-np.inf)
                 worst = bound
                 owner = who(bag, bound.at, lambda p, s=within: -signed_distance(s, p), upper=False)
-    margin = Bound(-worst.proven, -worst.attained, worst.at)
+    margin = ProvedExtreme(-worst.proven, -worst.attained, worst.at)
     return _told(swarm, limit, less(margin, swarm.fleet.radius), owner)
 
 
-def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> Found:
+def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> FileClaim:
     """Claim the distance from a target that moves, drone by drone."""
     radius = swarm.fleet.radius
-    worst, owner = Bound(np.inf, np.inf, 0.0), 0
+    worst, owner = ProvedExtreme(np.inf, np.inf, 0.0), 0
     for k, flight in enumerate(swarm.flights):
         up, down = leaves(flight.curve, swarm.pads[k], swarm.pads)
         if down > up:
@@ -289,7 +295,7 @@ def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> Found:
     return _told(swarm, limit, less(worst, radius), owner)
 
 
-def _separation(swarm: Swarm) -> Iterator[Found]:
+def _separation(swarm: Swarm) -> Iterator[FileClaim]:
     """Claim the separation; of a fleet that takes off in layers that of two in the air, and of bodies."""
     fleet = swarm.fleet
     if not take_off_of(fleet).layered:
@@ -299,7 +305,7 @@ def _separation(swarm: Swarm) -> Iterator[Found]:
     yield from _kept(swarm, "separation on pads", bodies_of(fleet))
 
 
-def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> Iterator[Found]:
+def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> Iterator[FileClaim]:
     fleet = swarm.fleet
     found = closest_of([flight.curve for flight in swarm.flights], apart, spans=spans)
     if not isfinite(found.proven):
@@ -309,7 +315,7 @@ def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> 
     path: KeyPath = own if own in origins.keys or own in origins.values else ("rules", "separation")
     limit = Limit(name, apart.across, "m", path, upper=False)
     pair = (swarm.flights[found.first], swarm.flights[found.second])
-    worst = Worst(found.proven, found.time, "bounded", found.position)
+    worst = WorstValue(found.proven, found.time, "bounded", found.position)
     claim: Claim = held(fleet.name, limit, worst, (pair[0].name, pair[1].name))
     leeway = sum(flight.leeway.place for flight in pair)
-    yield Found(to_tolerance(claim, {"m": leeway}), pair[0].at(found.time), when(pair[0], found.time))
+    yield FileClaim(to_tolerance(claim, {"m": leeway}), pair[0].at(found.time), when(pair[0], found.time))

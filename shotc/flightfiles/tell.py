@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.flightfiles.clocked import Flown
-from shotc.flightfiles.course import Course
-from shotc.flightfiles.judge import Found
+from shotc.flightfiles.clocked import ClockedFlight
+from shotc.flightfiles.course import UntimedFlight
+from shotc.flightfiles.judge import FileClaim
 from shotc.flightfiles.swarm import Swarm
 from shotc.importers.flights.rows import VELOCITY
 from shotc.ir.measures import measure, told_apart
@@ -44,7 +44,7 @@ HELPS = {
 """What helps whoever wrote the file; lack : by how much the limit is missed."""
 
 
-def told(mission: MissionIR, found: Sequence[Found]) -> Iterator[Diagnostic]:
+def told(mission: MissionIR, found: Sequence[FileClaim]) -> Iterator[Diagnostic]:
     """Yield an error for every broken claim."""
     certificate = tuple(each.claim for each in found)
     for each in found:
@@ -52,7 +52,7 @@ def told(mission: MissionIR, found: Sequence[Found]) -> Iterator[Diagnostic]:
             yield _broken(mission, each, certificate)
 
 
-def _broken(mission: MissionIR, found: Found, certificate: tuple[Claim, ...]) -> Diagnostic:
+def _broken(mission: MissionIR, found: FileClaim, certificate: tuple[Claim, ...]) -> Diagnostic:
     claim = found.claim
     seen = claim.constraint.endswith(OUT_OF_PICTURE)
     code = SEEN if seen else rule_of(claim.constraint, mission).code
@@ -74,7 +74,7 @@ def _who(claim: Claim) -> str:
     return claim.subject if not claim.drones else f"{' and '.join(claim.drones)} of {claim.subject}"
 
 
-def _notes(claim: Claim, found: Found) -> Iterator[str]:
+def _notes(claim: Claim, found: FileClaim) -> Iterator[str]:
     if claim.position is not None:
         yield "worst at ({:.2f}, {:.2f}, {:.2f}) m".format(*claim.position)
     yield from found.notes
@@ -82,7 +82,7 @@ def _notes(claim: Claim, found: Found) -> Iterator[str]:
         yield "proved between the file's places, too"
 
 
-def models(courses: Sequence[Course]) -> Iterator[str]:
+def models(courses: Sequence[UntimedFlight]) -> Iterator[str]:
     """Yield how each flight was rebuilt, and what is not judged of it."""
     for course in courses:
         name, files = course.drone.name, ", ".join(f"`{file}`" for file in course.files)
@@ -103,7 +103,7 @@ def models(courses: Sequence[Course]) -> Iterator[str]:
             yield f"{name}: not judged is what comes after the last waypoint: {course.plan.ending}"
 
 
-def rebuilt(films: Sequence[Flown], swarms: Sequence[Swarm]) -> Iterator[str]:
+def rebuilt(films: Sequence[ClockedFlight], swarms: Sequence[Swarm]) -> Iterator[str]:
     """Yield how flights with a clock were rebuilt, and how well their files tell them."""
     groups = [(flown.name, [flown]) for flown in films]
     groups += [(swarm.fleet.name, list(swarm.flights)) for swarm in swarms]
@@ -125,7 +125,7 @@ def rebuilt(films: Sequence[Flown], swarms: Sequence[Swarm]) -> Iterator[str]:
             yield f"{name}: not judged is the acceleration, for want of the columns {', '.join(VELOCITY)}"
 
 
-def unjudged(mission: MissionIR, courses: Sequence[Course], swarms: Sequence[Swarm]) -> Iterator[str]:
+def unjudged(mission: MissionIR, courses: Sequence[UntimedFlight], swarms: Sequence[Swarm]) -> Iterator[str]:
     """Yield what files without a clock leave open, and shows."""
     moving = [f"`{target.name}`" for target in mission.targets if target.track is not None]
     words = ["acceleration, jerk and rates of turning", "framing, visibility and promises of shots"]

@@ -15,9 +15,9 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.flightfiles import film, tell
 from shotc.flightfiles.aligned import Aligned, aligned
-from shotc.flightfiles.clocked import Flown, inside, leaves, of_rows, of_show
-from shotc.flightfiles.course import Course, course_of
-from shotc.flightfiles.judge import Found, apart_at_any_time
+from shotc.flightfiles.clocked import ClockedFlight, inside, leaves, of_rows, of_show
+from shotc.flightfiles.course import UntimedFlight, course_of
+from shotc.flightfiles.judge import FileClaim, apart_at_any_time
 from shotc.flightfiles.judge import judged as waypoints_judged
 from shotc.flightfiles.match import Owned, named, owners
 from shotc.flightfiles.swarm import Swarm
@@ -26,7 +26,7 @@ from shotc.geom.pieces import pieces
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights.points import BROKEN, NOBODY, NOWHERE, Unread, Waypoints
 from shotc.importers.flights.read import Read, read
-from shotc.importers.flights.rows import SHOT, Rows
+from shotc.importers.flights.rows import SHOT, DroneRows
 from shotc.importers.flights.skyc import Show
 from shotc.importers.flights.wpml import WAYLINES
 from shotc.importers.notes import label
@@ -83,7 +83,7 @@ def verify_flights(
 def _filmed(reads: Sequence[Read]) -> dict[str, str]:
     """Return the drone of every shot that a table names."""
     tables = [each.found for each in reads if isinstance(each.found, tuple) and not _is_other(each)]
-    rows = [one for table in tables for one in table if isinstance(one, Rows)]
+    rows = [one for table in tables for one in table if isinstance(one, DroneRows)]
     return {shot: one.drone for one in rows for shot in one.texts(SHOT) or () if shot}
 
 
@@ -99,7 +99,7 @@ def _with_members(report: FlightsReport, reads: Sequence[Read]) -> FlightsReport
         for each in reads
         if isinstance(each.found, tuple) and not _is_other(each)
         for rows in each.found
-        if isinstance(rows, Rows) and rows.member
+        if isinstance(rows, DroneRows) and rows.member
     }
     more = {file: SourceFile(file, tables[file].text) for file in labelled.intersection(tables)}
     return replace(report, sources={**report.sources, **more})
@@ -114,14 +114,14 @@ def _owned(
     names = [reads[i].file.removesuffix(f"/{WAYLINES}") for i in plain]
     owned, faults = owners(mission, names, [drones[i] for i in plain] if drones else ())
     faults = (*faults, *(_nowhere(mission) if plain else ()))
-    courses: list[Course] = []
+    courses: list[UntimedFlight] = []
     for own in owned if not faults else ():
         made = _course(mission, own, [reads[plain[i]] for i in own.files])
-        if isinstance(made, Course):
+        if isinstance(made, UntimedFlight):
             courses.append(made)
         else:
             faults = (*faults, made)
-    flights: list[Flown] = []
+    flights: list[ClockedFlight] = []
     for i, each in enumerate(reads):
         made_of = _clocked(mission, each, drones[i] if drones else "")
         if isinstance(made_of, Diagnostic):
@@ -134,7 +134,7 @@ def _owned(
     return _proved(keyframes, courses, found, sources)
 
 
-def _clocked(mission: MissionIR, each: Read, told: str) -> list[Flown] | Diagnostic:
+def _clocked(mission: MissionIR, each: Read, told: str) -> list[ClockedFlight] | Diagnostic:
     """Return the flights with a clock of a file; told : whose it is, if the user says so."""
     if isinstance(each.found, Show):
         return [of_show(flight, each.found, each.file, mission.origin) for flight in each.found.flights]
@@ -161,8 +161,8 @@ def _clocked(mission: MissionIR, each: Read, told: str) -> list[Flown] | Diagnos
 
 def _proved(
     keyframes: KeyframeIR,
-    courses: Sequence[Course],
-    found: dict[str, Flown],
+    courses: Sequence[UntimedFlight],
+    found: dict[str, ClockedFlight],
     sources: dict[str, SourceFile],
 ) -> FlightsReport:
     mission = keyframes.mission
@@ -201,15 +201,18 @@ def _beside_pads(keyframes: KeyframeIR, swarms: Sequence[Swarm]) -> KeyframeIR:
     return keyframes._replace(mission=keyframes.mission._replace(fleets=fleets))
 
 
-def _aligned(keyframes: KeyframeIR, flown: Flown) -> Aligned:
+def _aligned(keyframes: KeyframeIR, flown: ClockedFlight) -> Aligned:
     drone = keyframes.mission.drone(flown.name)
     pad = np.array(drone.home)
     return aligned(keyframes, drone, flown, leaves(flown.curve, pad, pad[None]))
 
 
 def _between(
-    mission: MissionIR, courses: Sequence[Course], films: Sequence[Flown], swarms: Sequence[Swarm]
-) -> Iterator[Found]:
+    mission: MissionIR,
+    courses: Sequence[UntimedFlight],
+    films: Sequence[ClockedFlight],
+    swarms: Sequence[Swarm],
+) -> Iterator[FileClaim]:
     """Yield the separations of flights of different kinds."""
     for course in courses:
         for flown in films:
@@ -221,7 +224,7 @@ def _between(
         yield from film.beside_fleets(least, films, swarm.flights)
 
 
-def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> Course | Diagnostic:
+def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> UntimedFlight | Diagnostic:
     """Return the flight of a drone by all its files, one after another."""
     plans = [each.found for each in reads if isinstance(each.found, Waypoints)]
     of_file = [each.file for each, plan in zip(reads, plans, strict=True) for _ in plan.points]
@@ -230,7 +233,7 @@ def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> Course | D
         message = f"the files of `{own.drone.name}` are of different machines"
         return Diagnostic(BROKEN, message, (label(reads[-1].file, plans[-1].node),))
     made = course_of(mission, own.drone, plan, of_file)
-    return made if isinstance(made, Course) else _refused(*made)
+    return made if isinstance(made, UntimedFlight) else _refused(*made)
 
 
 def _refused(file: str, why: Refused) -> Diagnostic:

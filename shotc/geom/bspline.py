@@ -2,7 +2,7 @@
 
 A spline with P pieces has P + 5 coefficients and is C4 at its interior breaks. Everything a convex
 programme asks of it (values, derivatives, hulls, energies) is a sum of six neighbouring coefficients,
-so constraints are rows of six weights: ``Rows``.
+so constraints are rows of six weights: ``SplineFunctionals``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ IntArray = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rows:
+class SplineFunctionals:
     """Linear functionals of a spline's coefficients.
 
     piece  : shape (R,), the first of the six coefficients each row weighs
@@ -86,22 +86,22 @@ def spline(breaks: Array, coef: Array) -> Piecewise:
     return Piecewise(breaks, np.einsum("pij,pjd->pid", extraction(breaks), coef[index]))
 
 
-def value_rows(breaks: Array, at: Array, order: int = 0) -> Rows:
+def value_rows(breaks: Array, at: Array, order: int = 0) -> SplineFunctionals:
     """Return rows that evaluate the spline, or its derivative of that order, at parameters of shape (R,)."""
     piece = np.clip(np.searchsorted(breaks, at, side="right") - 1, 0, len(breaks) - 2)
     x = (at - breaks[piece]) / (breaks[piece + 1] - breaks[piece])
     basis = bernstein_basis(DEGREE - order, x)
-    return Rows(piece, np.einsum("rk,rkj->rj", basis, _points(breaks, order)[piece]))
+    return SplineFunctionals(piece, np.einsum("rk,rkj->rj", basis, _points(breaks, order)[piece]))
 
 
-def control_rows(breaks: Array, order: int = 0) -> Rows:
+def control_rows(breaks: Array, order: int = 0) -> SplineFunctionals:
     """Return rows for the Bernstein points of the derivative of that order, piece by piece.
 
     breaks : shape (P + 1,); there are 6 - order rows a piece
     """
     maps = _points(breaks, order)
     pieces, points, _ = maps.shape
-    return Rows(np.repeat(np.arange(pieces), points), maps.reshape(pieces * points, DEGREE + 1))
+    return SplineFunctionals(np.repeat(np.arange(pieces), points), maps.reshape(pieces * points, DEGREE + 1))
 
 
 def _points(breaks: Array, order: int) -> Array:
@@ -113,7 +113,7 @@ def _points(breaks: Array, order: int) -> Array:
     return maps
 
 
-def hull_rows(breaks: Array, order: int) -> Rows:
+def hull_rows(breaks: Array, order: int) -> SplineFunctionals:
     """Return the rows of ``control_rows``, without those that a piece shares with the one before it.
 
     breaks : shape (P + 1,)
@@ -123,10 +123,10 @@ def hull_rows(breaks: Array, order: int) -> Rows:
     points = DEGREE + 1 - order
     own = np.arange(len(rows.piece)) % points > 0
     own[0] = True
-    return Rows(rows.piece[own], rows.weight[own])
+    return SplineFunctionals(rows.piece[own], rows.weight[own])
 
 
-def energy_rows(breaks: Array, order: int) -> Rows:
+def energy_rows(breaks: Array, order: int) -> SplineFunctionals:
     """Return rows whose sum of squares is the integral of the squared derivative of that order.
 
     breaks : shape (P + 1,)
@@ -144,7 +144,7 @@ def energy_rows(breaks: Array, order: int) -> Rows:
     rows = control_rows(breaks, order)
     points = rows.weight.reshape(len(breaks) - 1, m + 1, DEGREE + 1)
     scaled = np.einsum("ij,pjk->pik", root, points) * np.sqrt(np.diff(breaks))[:, None, None]
-    return Rows(rows.piece, scaled.reshape(-1, DEGREE + 1))
+    return SplineFunctionals(rows.piece, scaled.reshape(-1, DEGREE + 1))
 
 
 def restrict(curve: Piecewise, breaks: Array) -> Piecewise:

@@ -80,7 +80,7 @@ class Reaching(Protocol):
         """Return how far it reaches from its centre along a unit vector, metres."""
 
 
-class Shape(Reaching, Protocol):
+class VisibleShape(Reaching, Protocol):
     """What a target is like about its centre, as far as a camera sees it (``geom.shapes``)."""
 
     @property
@@ -138,7 +138,7 @@ def frustum_margins(camera: View, offset: Offset, shape: Reaching | None = None)
     return FrustumMargins(*(m - shape.reach(camera, n) for m, n in zip(margins, outwards, strict=True)))
 
 
-def point_margins(camera: View, offset: Offset, shape: Shape) -> FrustumMargins:
+def point_margins(camera: View, offset: Offset, shape: VisibleShape) -> FrustumMargins:
     """Return how far inside each frustum plane the least of four points of a target lies, metres.
 
     Arguments and order as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7:

@@ -30,7 +30,7 @@ SAME = 1.02
 Ring = tuple[Vec2, ...]
 
 
-class Block(NamedTuple):
+class UprightPrism(NamedTuple):
     """An upright prism over a ring that does not cross itself, metres of W.
 
     name : of the part of a building that it is
@@ -42,7 +42,7 @@ class Block(NamedTuple):
     name: str = ""
 
 
-class Body(NamedTuple):
+class EnclosingShape(NamedTuple):
     """A shape about its centre, metres of W; name : that of all prisms in it, empty where they differ."""
 
     centre: Vec3
@@ -69,7 +69,7 @@ class _Aligned(NamedTuple):
     low, high : its corners, along, across and up
     """
 
-    blocks: tuple[Block, ...]
+    blocks: tuple[UprightPrism, ...]
     low: Vec3
     high: Vec3
 
@@ -79,7 +79,7 @@ class _Aligned(NamedTuple):
         return a * b * c
 
 
-def bodies_about(blocks: Sequence[Block], most: int) -> tuple[Body, ...]:
+def bodies_about(blocks: Sequence[UprightPrism], most: int) -> tuple[EnclosingShape, ...]:
     """Return at most ``most`` bodies that hold all prisms together; there is one prism or more."""
     course = _base(tuple(p for block in blocks for p in block.ring)).ahead
     pieces = [b._replace(ring=ring) for b in blocks for ring in _cut(b.ring, MOST_PIECES)]
@@ -160,7 +160,7 @@ def _extent(points: Ring, axes: tuple[Vec2, Vec2]) -> float:
     return (b - a) * (d - c)
 
 
-def _aligned(blocks: tuple[Block, ...], course: Vec2) -> _Aligned:
+def _aligned(blocks: tuple[UprightPrism, ...], course: Vec2) -> _Aligned:
     points = [p for block in blocks for p in block.ring]
     (a, b), (c, d) = _reach(points, course), _reach(points, (-course[1], course[0]))
     low, high = min(block.bottom for block in blocks), max(block.top for block in blocks)
@@ -202,7 +202,7 @@ def _joined(a: _Aligned, b: _Aligned) -> _Aligned:
     return _Aligned((*a.blocks, *b.blocks), low, high)
 
 
-def _body(blocks: tuple[Block, ...]) -> Body:
+def _body(blocks: tuple[UprightPrism, ...]) -> EnclosingShape:
     """Return the body about prisms."""
     base = _base(tuple(p for block in blocks for p in block.ring))
     low, high = min(block.bottom for block in blocks), max(block.top for block in blocks)
@@ -210,4 +210,4 @@ def _body(blocks: tuple[Block, ...]) -> Body:
     if base.radius is None:
         shape = BoxShape(2.0 * base.half[0], 2.0 * base.half[1], high - low, base.ahead)
     names = {block.name for block in blocks}
-    return Body((*base.middle, (low + high) / 2), shape, names.pop() if len(names) == 1 else "")
+    return EnclosingShape((*base.middle, (low + high) / 2), shape, names.pop() if len(names) == 1 else "")

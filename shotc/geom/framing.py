@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.camera import ROUNDING_M, Shape, View, frustum_margins, point_margins
+from shotc.geom.camera import ROUNDING_M, View, VisibleShape, frustum_margins, point_margins
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.geom.solid_arrays.segments import blocks
@@ -68,7 +68,7 @@ class Frames:
         return np.asarray(self.margin >= -ROUNDING_M)
 
 
-def frames(cameras: Cameras, centre: Vec3, shape: Shape, hiding: Sequence[Solid] = ()) -> Frames:
+def frames(cameras: Cameras, centre: Vec3, shape: VisibleShape, hiding: Sequence[Solid] = ()) -> Frames:
     """Look at one target from every pose.
 
     centre : p_W; shape : maybe one for every pose; hiding : the solids that may stand before it
@@ -90,7 +90,7 @@ def frames(cameras: Cameras, centre: Vec3, shape: Shape, hiding: Sequence[Solid]
     )
 
 
-def points_in_frame(cameras: Cameras, centre: Vec3, shape: Shape) -> Mask:
+def points_in_frame(cameras: Cameras, centre: Vec3, shape: VisibleShape) -> Mask:
     """Tell in which frames the four points of ``camera.point_margins`` are in the frame, shape (M,)."""
     x, y, z = (np.array(centre) - cameras.position).T
     margins = point_margins(cameras.view, (x, y, z), shape)
@@ -119,7 +119,7 @@ def margin_rate(reach: float, speed: float, turn: float, zoom: float, aspect: fl
     return speed + reach * (turn + 0.5 * zoom * max(aspect, 1.0 / aspect))
 
 
-def _size(camera: View, offset: tuple[Array, Array, Array], shape: Shape) -> Array:
+def _size(camera: View, offset: tuple[Array, Array, Array], shape: VisibleShape) -> Array:
     whole = shape.nearest_depth(camera, offset) > 0
     with np.errstate(divide="ignore", invalid="ignore"):
         _, _, low, high = shape.bounds(camera, offset)

@@ -16,7 +16,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask, Pieces
-from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, Bound, norm
+from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, ProvedExtreme, norm
 from shotc.geom.vec import wrapped
 
 _NONE = 1e-12
@@ -37,7 +37,7 @@ class _Motion(NamedTuple):
         return _Motion(*(part.halves() for part in self))
 
 
-def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -> Bound:
+def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the angle between a heading and the course, rad, 0 to pi, wherever a motion is not slow.
 
     pieces : channels x, y, metres, and a heading, rad, shape (M, n + 1, 3), over seconds
@@ -64,7 +64,7 @@ def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -
         if not is_open.any() or is_open.sum() > OPEN_PIECES_LIMIT:
             break
         motion = motion.pick(is_open).halves()
-    return Bound(max(closed, best, rest), best, at)
+    return ProvedExtreme(max(closed, best, rest), best, at)
 
 
 def _bounds(motion: _Motion) -> tuple[Array, Array]:

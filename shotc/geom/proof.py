@@ -34,7 +34,7 @@ Value = Callable[[Array], Array]
 
 
 @dataclass(frozen=True, slots=True)
-class Bound:
+class ProvedExtreme:
     """The extreme of a function over all pieces.
 
     proven : no value of the function is beyond it (above a supremum, below an infimum)
@@ -46,7 +46,7 @@ class Bound:
     at: float
 
 
-def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> Bound:
+def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the supremum of a convex function along polynomial pieces, or of a quasi-convex one.
 
     value : (quasi-)convex, maps control points (..., D) to numbers (...)
@@ -71,21 +71,21 @@ def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> B
         if is_open.sum() > OPEN_PIECES_LIMIT:
             break
         pieces = pieces.pick(is_open).halves()
-    return Bound(max(closed, best, rest), best, at)
+    return ProvedExtreme(max(closed, best, rest), best, at)
 
 
-def sup_norm(pieces: Pieces, gap: Callable[[float], float]) -> Bound:
+def sup_norm(pieces: Pieces, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the supremum of the Euclidean norm of all channels."""
     return sup_convex(pieces, norm, gap)
 
 
-def inf_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> Bound:
+def inf_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the infimum of one channel."""
     bound = sup_convex(pieces, lambda c: -c[..., channel], lambda worst: gap(-worst))
-    return Bound(-bound.proven, -bound.attained, bound.at)
+    return ProvedExtreme(-bound.proven, -bound.attained, bound.at)
 
 
-def sup_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> Bound:
+def sup_channel(pieces: Pieces, channel: int, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the supremum of one channel."""
     return sup_convex(pieces, lambda c: np.asarray(c[..., channel]), gap)
 
@@ -95,7 +95,7 @@ def norm(vectors: Array) -> Array:
     return np.asarray(np.sqrt(np.einsum("...d,...d->...", vectors, vectors)))
 
 
-def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) -> Bound:
+def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the infimum of the distance from a solid along pieces of shape (M, n + 1, 3), metres.
 
     Where the curve enters the solid the value is negative: minus the depth at the deepest place found.
@@ -108,7 +108,7 @@ def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) ->
     return deepest if deepest.attained < 0 else best
 
 
-def inf_tapered(pieces: Pieces, solid: Solid, taper: Taper, gap: Callable[[float], float]) -> Bound:
+def inf_tapered(pieces: Pieces, solid: Solid, taper: Taper, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the infimum of a distance from a solid to which what a taper gives is added, metres.
 
     That is the distance, or the clearance and by how much the distance exceeds what is needed where that is
@@ -127,7 +127,7 @@ def _from_all(solid: Solid, of: Callable[[Pieces, Solid], tuple[Array, Array]]) 
     return lambda pieces: np.min([of(pieces, part) for part in parts], axis=0)
 
 
-def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> Bound:
+def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> ProvedExtreme:
     best, at, closed = np.inf, 0.0, np.inf
     rest = np.inf
     for _ in range(ROUNDS):
@@ -143,7 +143,7 @@ def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> Bou
         if best <= 0.0 or is_open.sum() > OPEN_PIECES_LIMIT:
             break
         pieces = pieces.pick(is_open).halves()
-    return Bound(min(closed, best, rest), best, at)
+    return ProvedExtreme(min(closed, best, rest), best, at)
 
 
 def _distances(pieces: Pieces, part: Solid) -> tuple[Array, Array]:
@@ -171,7 +171,7 @@ def _tapered(taper: Taper, pieces: Pieces, part: Solid) -> tuple[Array, Array]:
     return lower, value
 
 
-def _deepest(pieces: Pieces, solid: Solid) -> Bound:
+def _deepest(pieces: Pieces, solid: Solid) -> ProvedExtreme:
     # The solid is entered, which settles the proof; how deep is told from some thousand places.
     for _ in range(12):
         if len(pieces) > 4096:
@@ -181,10 +181,12 @@ def _deepest(pieces: Pieces, solid: Solid) -> Bound:
     depth = signed_distance(solid, _middle(pieces.ctrl))
     k = int(np.argmin(depth))
     worst = float(depth[k])
-    return Bound(worst, worst, float(0.5 * (pieces.low[k] + pieces.high[k])))
+    return ProvedExtreme(worst, worst, float(0.5 * (pieces.low[k] + pieces.high[k])))
 
 
-def sup_outside(pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, floor: bool = True) -> Bound:
+def sup_outside(
+    pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, floor: bool = True
+) -> ProvedExtreme:
     """Bound the supremum of how far the curve leaves a solid, metres; negative is the margin inside.
 
     The value is the largest excess over any face (over the wall of a cylinder), so a sphere of radius r
@@ -196,7 +198,7 @@ def sup_outside(pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, 
     for pocket in pockets:
         nearest = inf_distance(pieces, pocket, lambda near: gap(-near))
         if -nearest.proven > worst.proven:
-            worst = Bound(-nearest.proven, -nearest.attained, nearest.at)
+            worst = ProvedExtreme(-nearest.proven, -nearest.attained, nearest.at)
     return worst
 
 

@@ -42,7 +42,7 @@ class Lens(NamedTuple):
     pitch: Vec2
 
 
-class Drawn(NamedTuple):
+class PreferredPose(NamedTuple):
     """A pose that a camera stays near: its place, and its yaw and pitch, rad, each None where it is free."""
 
     at: Vec3
@@ -50,7 +50,7 @@ class Drawn(NamedTuple):
     pitch: float | None = None
 
 
-class Room(NamedTuple):
+class PlaceBounds(NamedTuple):
     """Where the camera may be: lowest z, metres, and the distance it keeps from subjects.
 
     drawn : the pose that it stays near as far as the picture lets it (viewpoint Eq. 10), or None
@@ -58,7 +58,7 @@ class Room(NamedTuple):
 
     floor: float
     near: float
-    drawn: Drawn | None = None
+    drawn: PreferredPose | None = None
 
 
 class Wanted(NamedTuple):
@@ -162,7 +162,7 @@ def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | N
     return high
 
 
-def stand(wanted: Wanted, lens: Lens, room: Room, azimuth: float, size: float) -> Vec3:
+def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: float) -> Vec3:
     """Return the camera's offset from a subject that is seen from a bearing in a size, in closed form.
 
     Where the elevation is free it is level, or as little above as the room's floor asks for.
@@ -215,7 +215,7 @@ def middle_of(subjects: Sequence[Wanted]) -> Vec3:
     return (x, y, z)
 
 
-def first_pose(subjects: Sequence[Wanted], lens: Lens, room: Room, azimuth: float) -> Pose:
+def first_pose(subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, azimuth: float) -> Pose:
     """Return a pose from which all subjects are in front of the camera, at a bearing from their middle."""
     middle = middle_of(subjects)
     spread = max(hypot(*minus(s.centre, middle)) + s.shape.radius + s.shape.height / 2 for s in subjects)
@@ -247,7 +247,7 @@ class _Found(NamedTuple):
 
 @lru_cache(maxsize=4096)  # every pass that looks at a framing asks again, and for standing subjects the same
 def viewpoint(
-    subjects: tuple[Wanted, ...], lens: Lens, room: Room, start: Pose, since: Since | None = None
+    subjects: tuple[Wanted, ...], lens: Lens, room: PlaceBounds, start: Pose, since: Since | None = None
 ) -> tuple[Pose, float]:
     """Return the pose nearest to all that is wanted, from a first guess, and its cost (Levenberg-Marquardt).
 
@@ -318,7 +318,7 @@ def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) 
 
 
 def _residuals(
-    pose: Pose, subjects: Sequence[Wanted], lens: Lens, room: Room, faint: tuple[Since | None, float]
+    pose: Pose, subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, faint: tuple[Since | None, float]
 ) -> Residuals | None:
     """Return all terms; None where a subject reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
@@ -355,7 +355,7 @@ def _residuals(
     return found
 
 
-def _off_pose(pose: Pose, drawn: Drawn | None, subjects: Sequence[Wanted]) -> Residuals:
+def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted]) -> Residuals:
     """Return how far a camera is from the pose that it stays near: shares of its distance, and rad."""
     if drawn is None:
         return []

@@ -20,7 +20,7 @@ OPEN_PAIRS_LIMIT = 100_000
 
 
 @dataclass(frozen=True, slots=True)
-class Nearest:
+class CurveDistance:
     """The least distance of two curves, metres.
 
     proven : no two places are nearer; attained : how near the places at ``one`` and ``other`` are
@@ -32,7 +32,7 @@ class Nearest:
     other: float
 
 
-def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> Nearest:
+def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> CurveDistance:
     """Bound the infimum of the distance of two curves (M, n + 1, 3) over both of their parameters.
 
     gap : as of ``proof.inf_distance``
@@ -59,7 +59,7 @@ def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> Neares
         if best <= 0.0 or is_open.sum() > OPEN_PAIRS_LIMIT:
             break
         one, other, pairs = _halved(one, other, (pairs[0][is_open], pairs[1][is_open]))
-    return Nearest(min(closed, best, rest), best, *at)
+    return CurveDistance(min(closed, best, rest), best, *at)
 
 
 _Pairs = tuple[np.ndarray, np.ndarray]

@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bspline import IntArray
 from shotc.identify.clusters import LOOSE, Points
 from shotc.identify.cylinders import Upright
-from shotc.identify.views import Camera
+from shotc.identify.views import CameraPose
 
 MIDDLE = 0.5
 """Standard deviation of the weights of rays about the middle of their box, in its half sides."""
@@ -55,7 +55,7 @@ def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | No
     return Choice(int(order[0]), float(total[order[0]] / total.sum()), second)
 
 
-def as_printed(camera: Camera, cylinders: Mapping[int, Upright] | Sequence[Upright]) -> int | None:
+def as_printed(camera: CameraPose, cylinders: Mapping[int, Upright] | Sequence[Upright]) -> int | None:
     """Return the cylinder whose centre is nearest to the line straight ahead (Gebhardt and Hilliges, Sec. 5).
 
     None where none is in front of the camera.

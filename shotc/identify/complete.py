@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.camera import ScreenBox
-from shotc.identify.views import Camera
+from shotc.identify.views import CameraPose
 from shotc.ir.mission import MissionIR
 
 MARGIN = 1.5
@@ -19,7 +19,7 @@ LEAST_SHARE = 0.02
 
 
 def hidden_corners(
-    mission: MissionIR, hit: tuple[IntArray, IntArray], views: Sequence[tuple[Camera, ScreenBox]]
+    mission: MissionIR, hit: tuple[IntArray, IntArray], views: Sequence[tuple[CameraPose, ScreenBox]]
 ) -> Array:
     """Return the corners of the bodies that a target is made of, shape (K, 3), metres of W.
 
@@ -42,7 +42,7 @@ def hidden_corners(
     return np.concatenate(found)
 
 
-def _within(corners: Array, camera: Camera, box: ScreenBox) -> bool:
+def _within(corners: Array, camera: CameraPose, box: ScreenBox) -> bool:
     """Tell whether all corners (K, 3) show in a box, or close about it."""
     u, v, depth = camera.view.project(tuple((corners - np.array(camera.eye)).T))
     if (depth <= 0.0).any():

@@ -20,7 +20,7 @@ from shotc.identify.clusters import LOOSE, NOBODY, Points, clusters
 from shotc.identify.complete import hidden_corners
 from shotc.identify.cylinders import Upright, enclosing
 from shotc.identify.owners import owners_of
-from shotc.identify.views import GROUND, SKY, TILE_RAYS, Camera, Seen, look
+from shotc.identify.views import GROUND, SKY, TILE_RAYS, CameraPose, Seen, look
 from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import ground_heights
 
@@ -37,7 +37,7 @@ NAMED_SHARE = 0.6
 class Glance(NamedTuple):
     """A keyframe's camera, and the box on its screen that holds what is meant."""
 
-    camera: Camera
+    camera: CameraPose
     box: ScreenBox
 
 
@@ -71,7 +71,7 @@ class Target(NamedTuple):
     name: str | None
 
 
-class Found(NamedTuple):
+class SearchResult(NamedTuple):
     """What was found in a scene.
 
     choices : what each glance means; None where its box holds nothing that can be a target
@@ -83,12 +83,12 @@ class Found(NamedTuple):
     targets: tuple[Target, ...]
 
 
-def find(mission: MissionIR, glances: Sequence[Glance]) -> Found:
+def find(mission: MissionIR, glances: Sequence[Glance]) -> SearchResult:
     """Find what glances mean; a cluster that several mean is one target."""
     made = cluster_glances(mission, glances)
     choices = tuple(by_own_rays(made.points, made.cluster, i) for i in range(len(glances)))
     meant = dict.fromkeys(choice.cluster for choice in choices if choice is not None)
-    return Found(
+    return SearchResult(
         made, choices, tuple(_target(mission, made, glances, (choices, cluster)) for cluster in meant)
     )
 
@@ -193,7 +193,7 @@ def _ground_at(mission: MissionIR, points: Array) -> float:
     return float(ground_heights(mission, points[:, :2]).min())
 
 
-class Held(NamedTuple):
+class RayShares(NamedTuple):
     """What the rays through a box meet, as shares of all of them."""
 
     sky: float
@@ -201,8 +201,8 @@ class Held(NamedTuple):
     scene: float
 
 
-def held(seen: Seen) -> Held:
+def held(seen: Seen) -> RayShares:
     """Return what a box holds; seen : it, and what is about it."""
     aside = (RAYS - BOX_RAYS) // 2
     mesh = seen.mesh[aside : RAYS - aside, aside : RAYS - aside]
-    return Held(*(float(part.mean()) for part in (mesh == SKY, mesh == GROUND, mesh >= 0)))
+    return RayShares(*(float(part.mean()) for part in (mesh == SKY, mesh == GROUND, mesh >= 0)))

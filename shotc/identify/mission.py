@@ -15,12 +15,12 @@ from shotc.diag.registry import has_errors
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import ScreenBox
 from shotc.identify.cylinders import Upright
-from shotc.identify.find import Found, find
+from shotc.identify.find import SearchResult, find
 from shotc.identify.pictures import picture
 from shotc.identify.rewrite import Named, NotEditable, rewritten
 from shotc.identify.saliency import Guesser
 from shotc.identify.tasks import (
-    Task,
+    SearchTask,
     doubts,
     empty,
     nothing_to_do,
@@ -61,21 +61,23 @@ class Identification(NamedTuple):
 
     text: bytes | None
     targets: tuple[Identified, ...]
-    tasks: tuple[Task, ...]
+    tasks: tuple[SearchTask, ...]
     pictures: tuple[Array, ...]
     diagnostics: tuple[Diagnostic, ...]
     sources: dict[str, SourceFile]
     title: str = ""
 
 
-class Place(NamedTuple):
+class TextLocation(NamedTuple):
     """Where a text comes from or goes to: its name, and the folder of the files that it names."""
 
     name: str
     folder: Path | None
 
 
-def identify_source(data: bytes, of: Place, to: Place, saliency: Guesser | None) -> Identification:
+def identify_source(
+    data: bytes, of: TextLocation, to: TextLocation, saliency: Guesser | None
+) -> Identification:
     """Find the targets that a mission's keyframes mean, and write them into it.
 
     of, to : the mission, and what is made of it, which has to check clean there
@@ -109,8 +111,8 @@ def identify_source(data: bytes, of: Place, to: Place, saliency: Guesser | None)
 
 
 def _with_boxes(
-    mission: MissionIR, asked: Sequence[Task], pictures: Sequence[Array], saliency: Guesser | None
-) -> tuple[tuple[Task, ...], list[Diagnostic]]:
+    mission: MissionIR, asked: Sequence[SearchTask], pictures: Sequence[Array], saliency: Guesser | None
+) -> tuple[tuple[SearchTask, ...], list[Diagnostic]]:
     """Return keyframes with the boxes that were guessed, or the faults of those without."""
     out, faults = [], []
     for task, seen in zip(asked, pictures, strict=True):
@@ -125,7 +127,7 @@ def _with_boxes(
 
 
 def _written(
-    done: Identification, mission: MissionIR, found: Found, text: tuple[bytes, Place]
+    done: Identification, mission: MissionIR, found: SearchResult, text: tuple[bytes, TextLocation]
 ) -> Identification:
     """Return the mission with what was found, if it is one that checks clean."""
     data, to = text
@@ -158,12 +160,12 @@ def _written(
     return done._replace(text=made, targets=targets, diagnostics=doubtful, sources=sources)
 
 
-def _share(found: Found, number: int) -> float:
+def _share(found: SearchResult, number: int) -> float:
     choice = found.choices[number]
     return 0.0 if choice is None else choice.share
 
 
-def _names(mission: MissionIR, found: Found) -> list[str]:
+def _names(mission: MissionIR, found: SearchResult) -> list[str]:
     """Return a name for each target: that of the file, fit for a mission, or a number; none that is taken."""
     taken = {target.name for target in (*mission.targets, *mission.groups)}
     names: list[str] = []

@@ -6,7 +6,7 @@ import numpy as np
 
 from shotc.emit.palette import GROUND, GROUND_FAR, SKY, SKY_LOW
 from shotc.geom.bernstein import Array
-from shotc.identify.views import FRAME, TILE_RAYS, Camera, look
+from shotc.identify.views import FRAME, TILE_RAYS, CameraPose, look
 from shotc.identify.views import GROUND as ON_GROUND
 from shotc.ir.mission import MissionIR
 
@@ -18,7 +18,7 @@ FAR_M = 400.0
 """Distance over which the ground fades."""
 
 
-def picture(mission: MissionIR, camera: Camera) -> Array:
+def picture(mission: MissionIR, camera: CameraPose) -> Array:
     """Return what a camera sees of a mission's world, shape (rows, columns, 3), the upper left pixel first.
 
     Red, green and blue are of 0 to 1.

@@ -9,14 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, SUBJECT, WHITE, Rgb
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, chip, house_style
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import ScreenBox
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.silhouette import shape_outline, solid_edges
 from shotc.geom.solids import Cylinder
 from shotc.identify.cylinders import Upright
-from shotc.identify.tasks import DOUBTFUL, Task
+from shotc.identify.tasks import DOUBTFUL, SearchTask
 
 DPI = 120.0
 WIDTH, MARGIN, GAP, COLUMNS = 14.0, 0.5, 0.3, 3
@@ -24,7 +24,7 @@ HEADING, CAPTION, LINE, FOOTING = 1.0, 0.5, 0.24, 0.35
 CELL = (WIDTH - 2 * MARGIN - (COLUMNS - 1) * GAP) / COLUMNS
 
 
-class Row(NamedTuple):
+class SheetRow(NamedTuple):
     """A target as the sheet shows it; shares : of what the box of each keyframe, by number, holds."""
 
     name: str
@@ -32,13 +32,17 @@ class Row(NamedTuple):
     shares: Mapping[int, float]
 
 
-def draw_sheet(title: str, tasks: Sequence[Task], pictures: Sequence[Array], rows: Sequence[Row]) -> bytes:
+def draw_sheet(
+    title: str, tasks: Sequence[SearchTask], pictures: Sequence[Array], rows: Sequence[SheetRow]
+) -> bytes:
     """Return the sheet as PNG bytes; pictures : of each task, shape (rows, columns, 3), 0 to 1."""
     with house_style():
         return _sheet(title, tasks, pictures, rows)
 
 
-def _sheet(title: str, tasks: Sequence[Task], pictures: Sequence[Array], rows: Sequence[Row]) -> bytes:
+def _sheet(
+    title: str, tasks: Sequence[SearchTask], pictures: Sequence[Array], rows: Sequence[SheetRow]
+) -> bytes:
     tallest = max(CELL / task.camera.aspect for task in tasks)
     lines = ceil(len(tasks) / COLUMNS)
     height = HEADING + lines * (tallest + CAPTION) + len(rows) * LINE + FOOTING
@@ -50,7 +54,7 @@ def _sheet(title: str, tasks: Sequence[Task], pictures: Sequence[Array], rows: S
         row, column = divmod(number, COLUMNS)
         top = height - HEADING - row * (tallest + CAPTION)
         tall = CELL / task.camera.aspect
-        box = Box(MARGIN + column * (CELL + GAP), top - tall, CELL, tall)
+        box = PageRectangle(MARGIN + column * (CELL + GAP), top - tall, CELL, tall)
         _picture(canvas, box, (task, picture), number, rows)
     for number, each in enumerate(rows):
         text = f"{each.name}: {each.cylinder.described}"
@@ -59,7 +63,9 @@ def _sheet(title: str, tasks: Sequence[Task], pictures: Sequence[Array], rows: S
     return canvas.png()
 
 
-def _picture(canvas: Canvas, box: Box, seen: tuple[Task, Array], number: int, rows: Sequence[Row]) -> None:
+def _picture(
+    canvas: Canvas, box: PageRectangle, seen: tuple[SearchTask, Array], number: int, rows: Sequence[SheetRow]
+) -> None:
     task, pixels = seen
     canvas.image(np.rint(np.clip(pixels, 0.0, 1.0) * 255).astype(np.uint8), box)
     for row in rows:
@@ -77,7 +83,7 @@ def _picture(canvas: Canvas, box: Box, seen: tuple[Task, Array], number: int, ro
     canvas.write(box.x, box.y - 0.2, task.label, Type(9.5, INK), box.width)
 
 
-def _cylinder(canvas: Canvas, box: Box, task: Task, c: Upright, *, meant: bool) -> None:
+def _cylinder(canvas: Canvas, box: PageRectangle, task: SearchTask, c: Upright, *, meant: bool) -> None:
     """Draw the outline of a cylinder, and its rims where it is meant."""
     eye, camera = task.camera.eye, task.camera.view
     x, y, z = c.middle
@@ -95,6 +101,6 @@ def _corners(b: ScreenBox) -> Array:
     return np.array([[b.u_min, b.v_min], [b.u_max, b.v_min], [b.u_max, b.v_max], [b.u_min, b.v_max]])
 
 
-def _placed(uv: Array, box: Box) -> Array:
+def _placed(uv: Array, box: PageRectangle) -> Array:
     """Return page positions of screen points, shape (K, 2), inches."""
     return np.asarray(np.array([box.x, box.y]) + (uv + 1.0) / 2.0 * np.array([box.width, box.height]))

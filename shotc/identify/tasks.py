@@ -10,8 +10,8 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.geom.camera import ScreenBox
 from shotc.identify.choice import Choice
 from shotc.identify.cylinders import Upright
-from shotc.identify.find import Found, Glance, held
-from shotc.identify.views import Camera
+from shotc.identify.find import Glance, SearchResult, held
+from shotc.identify.views import CameraPose
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.framing.placing import explicit_aim
 
@@ -19,7 +19,7 @@ DOUBTFUL = 0.6
 """Share of what a box holds, below which a target is doubtful."""
 
 
-class Task(NamedTuple):
+class SearchTask(NamedTuple):
     """A keyframe whose target is looked for.
 
     number : of the keyframe in its shot; guessed : whether the box is a guess
@@ -28,7 +28,7 @@ class Task(NamedTuple):
     shot: str
     number: int
     keyframe: Keyframe
-    camera: Camera
+    camera: CameraPose
     box: ScreenBox | None
     guessed: bool = False
 
@@ -44,7 +44,7 @@ class Task(NamedTuple):
         return f"{self.shot}, keyframe {self.number + 1}"
 
 
-def tasks(mission: MissionIR, *, guess: bool) -> tuple[Task, ...]:
+def tasks(mission: MissionIR, *, guess: bool) -> tuple[SearchTask, ...]:
     """Return the keyframes whose target is looked for; guess : those without a box, too."""
     found = []
     for shot in mission.shots:
@@ -53,18 +53,18 @@ def tasks(mission: MissionIR, *, guess: bool) -> tuple[Task, ...]:
             if written and (keyframe.unidentified or (guess and keyframe.target is None)):
                 box = None if keyframe.box is None else ScreenBox(*keyframe.box)
                 found.append(
-                    Task(shot.id, number, keyframe, _camera(mission, shot, keyframe), box, box is None)
+                    SearchTask(shot.id, number, keyframe, _camera(mission, shot, keyframe), box, box is None)
                 )
     return tuple(found)
 
 
-def _camera(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Camera:
+def _camera(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> CameraPose:
     assert keyframe.aim is not None, "what looks at a target has one"
     yaw, pitch = explicit_aim(keyframe.at, keyframe.aim, pi / 2)
-    return Camera(keyframe.at, yaw, pitch, keyframe.hfov, mission.drone(shot.drone).aspect)
+    return CameraPose(keyframe.at, yaw, pitch, keyframe.hfov, mission.drone(shot.drone).aspect)
 
 
-def nothing_to_do(mission: MissionIR, found: Sequence[Task]) -> Diagnostic | None:
+def nothing_to_do(mission: MissionIR, found: Sequence[SearchTask]) -> Diagnostic | None:
     """Return why no target can be looked for, or None."""
     if not found:
         boxed = any(k.box is not None for shot in mission.shots for k in shot.keyframes)
@@ -85,7 +85,7 @@ def nothing_to_do(mission: MissionIR, found: Sequence[Task]) -> Diagnostic | Non
     )
 
 
-def unguessed(mission: MissionIR, task: Task) -> Diagnostic:
+def unguessed(mission: MissionIR, task: SearchTask) -> Diagnostic:
     """Return the fault of a keyframe whose picture gives no guess."""
     label = mission.origins.value((*task.keyframe.path, "at"))
     return Diagnostic(
@@ -96,7 +96,7 @@ def unguessed(mission: MissionIR, task: Task) -> Diagnostic:
     )
 
 
-def empty(mission: MissionIR, found: Found, asked: Sequence[Task]) -> list[Diagnostic]:
+def empty(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask]) -> list[Diagnostic]:
     """Return the faults of boxes that hold nothing that can be a target."""
     return [
         _empty(mission, found, number, task)
@@ -105,7 +105,7 @@ def empty(mission: MissionIR, found: Found, asked: Sequence[Task]) -> list[Diagn
     ]
 
 
-def _empty(mission: MissionIR, found: Found, number: int, task: Task) -> Diagnostic:
+def _empty(mission: MissionIR, found: SearchResult, number: int, task: SearchTask) -> Diagnostic:
     share = held(found.clustered.seen[number])
     what = "only the sky" if share.sky == 1.0 else "only ground" if share.ground == 1.0 else ""
     if not what and share.scene == 0.0:
@@ -120,11 +120,11 @@ def _empty(mission: MissionIR, found: Found, number: int, task: Task) -> Diagnos
     )
 
 
-def _box_label(mission: MissionIR, task: Task) -> Label:
+def _box_label(mission: MissionIR, task: SearchTask) -> Label:
     return mission.origins.value((*task.keyframe.path, "at" if task.guessed else "box"))
 
 
-def swallowed(mission: MissionIR, found: Found, asked: Sequence[Task]) -> list[Diagnostic]:
+def swallowed(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask]) -> list[Diagnostic]:
     """Return the faults of cameras that stand inside of the cylinder about their own target."""
     faults = []
     for target in found.targets:
@@ -146,13 +146,13 @@ def swallowed(mission: MissionIR, found: Found, asked: Sequence[Task]) -> list[D
     return faults
 
 
-def _holds(c: Upright, camera: Camera) -> bool:
+def _holds(c: Upright, camera: CameraPose) -> bool:
     x, y, z = camera.eye
     return hypot(x - c.centre[0], y - c.centre[1]) < c.radius and c.bottom < z < c.top
 
 
 def doubts(
-    mission: MissionIR, found: Found, asked: Sequence[Task], names: Sequence[str]
+    mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask], names: Sequence[str]
 ) -> Iterator[Diagnostic]:
     """Yield warnings of targets that have too little of their box; names : of the targets."""
     called = {target.cluster: name for target, name in zip(found.targets, names, strict=True)}
@@ -169,7 +169,7 @@ def doubts(
         )
 
 
-def _runner_up(found: Found, choice: Choice, called: dict[int, str]) -> Iterator[str]:
+def _runner_up(found: SearchResult, choice: Choice, called: dict[int, str]) -> Iterator[str]:
     if choice.runner_up is None:
         return
     points, cluster = found.clustered.points, found.clustered.cluster

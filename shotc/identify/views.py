@@ -32,7 +32,7 @@ FRAME = ScreenBox(-1.0, 1.0, -1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Camera:
+class CameraPose:
     """A camera pose: eye in metres of W, angles in rad, aspect = width / height."""
 
     eye: Vec3
@@ -72,7 +72,7 @@ class Seen:
         return np.asarray(self.mesh >= 0)
 
 
-def look(mission: MissionIR, camera: Camera, box: ScreenBox, tiles: Vec2 | tuple[int, int]) -> Seen:
+def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | tuple[int, int]) -> Seen:
     """Return what a camera sees of a mission's meshes and ground through a box on its screen.
 
     tiles : of TILE_RAYS x TILE_RAYS rays, across and up
@@ -95,14 +95,14 @@ def look(mission: MissionIR, camera: Camera, box: ScreenBox, tiles: Vec2 | tuple
     return Seen(point, mesh, first.triangle, np.where(met, first.depth, 0.0) * size, shade)
 
 
-def _cell(camera: Camera, box: ScreenBox, cells: tuple[int, int]) -> float:
+def _cell(camera: CameraPose, box: ScreenBox, cells: tuple[int, int]) -> float:
     """Return how wide a cell of a box is at a depth of one metre: the larger of its sides."""
     half = tan(camera.hfov / 2)
     width = half * (box.u_max - box.u_min) / cells[0]
     return float(max(width, half / camera.aspect * (box.v_max - box.v_min) / cells[1]))
 
 
-def _boards(camera: Camera, box: ScreenBox, tiles: tuple[int, int]) -> Billboards:
+def _boards(camera: CameraPose, box: ScreenBox, tiles: tuple[int, int]) -> Billboards:
     """Return the tiles of a box at a depth of one metre, row by row, so that shares of the way are depths."""
     eyes = camera.view
     right = np.array([eyes.sin_yaw, -eyes.cos_yaw, 0.0])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.importers.cameras import blender, kml, litchi, qgc
-from shotc.importers.cameras.takes import Asked, Footage, Refused
+from shotc.importers.cameras.takes import Footage, ImportOptions, Refused
 from shotc.importers.cameras.write import written
 from shotc.importers.formats import WHAT
 from shotc.importers.multidrone.frames import frame_of, without_far
@@ -22,7 +22,7 @@ MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
 """How many of an element are read: more is no mission, and would take minutes."""
 
 START = Node("", 1, 1, wide=1)
-USUAL = Asked()
+USUAL = ImportOptions()
 
 
 class Imported(NamedTuple):
@@ -43,7 +43,7 @@ class Imported(NamedTuple):
     cameras: int = 0
 
 
-def imported(format: str, data: bytes, name: str, *, strict: bool, asked: Asked = USUAL) -> Imported:
+def imported(format: str, data: bytes, name: str, *, strict: bool, asked: ImportOptions = USUAL) -> Imported:
     """Make a mission of a file of one of ``formats.FORMATS``.
 
     data : any bytes; name : how to show the file; strict : refuse instead of assuming anything
@@ -53,7 +53,7 @@ def imported(format: str, data: bytes, name: str, *, strict: bool, asked: Asked 
     return _import_cameras(format, data, name, asked, strict=strict)
 
 
-def _import_cameras(format: str, data: bytes, name: str, asked: Asked, *, strict: bool) -> Imported:
+def _import_cameras(format: str, data: bytes, name: str, asked: ImportOptions, *, strict: bool) -> Imported:
     notes = Notes()
     if len(data) > LARGEST:
         found: Footage | Refused = Refused("I001", f"it is larger than {LARGEST / 1e6:.0f} MB", START)
@@ -75,7 +75,7 @@ def _import_cameras(format: str, data: bytes, name: str, asked: Asked, *, strict
 
 
 def _footage(
-    format: str, data: bytes, name: str, asked: Asked, notes: Notes
+    format: str, data: bytes, name: str, asked: ImportOptions, notes: Notes
 ) -> tuple[str, Footage | Refused]:
     """Return the text of a file of cameras, to show its lines, and what it holds."""
     if format == "qgc":

@@ -59,7 +59,7 @@ class Trace:
     covered: Array
 
 
-class Motion(NamedTuple):
+class MotionMeasures(NamedTuple):
     """How a camera moves over the time filmed, as integrals over it.
 
     jerk : of its square, m^2/s^5; turn_jerk : of that of its yaw and pitch, rad^2/s^5
@@ -86,7 +86,7 @@ class FlownShot:
     start: float
     end: float
     traces: tuple[Trace, ...]
-    motion: Motion
+    motion: MotionMeasures
     score: Score
     rounds: int | None = None
 

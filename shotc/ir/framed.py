@@ -33,7 +33,7 @@ from shotc.geom.viewpoint import (
     viewpoint,
     whole,
 )
-from shotc.ir.framed_scene import Scene, wanted_at
+from shotc.ir.framed_scene import FramedScene, wanted_at
 from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
@@ -50,7 +50,7 @@ SMALLER = tuple(WHOLE_SIZE * 0.95**k for k in range(60))
 """Sizes of one subject that is asked none: the first with which it is whole."""
 
 
-class Course(NamedTuple):
+class StartedFraming(NamedTuple):
     """A framing as it begins at one time.
 
     shot : with its ideal and its subjects' places on screen; times, poses : along it
@@ -75,9 +75,9 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
     return course_of(mission, shot, start).shot
 
 
-def course_of(mission: MissionIR, shot: Shot, start: float) -> Course:
+def course_of(mission: MissionIR, shot: Shot, start: float) -> StartedFraming:
     """Return the course of a framing whose first frame is at ``start``."""
-    scene = Scene(mission, shot, start)
+    scene = FramedScene(mission, shot, start)
     return _alone(scene) if len(shot.subjects) == 1 and scene.near is None else _several(scene)
 
 
@@ -88,7 +88,7 @@ def places_of(composition: Composition) -> list[Vec2]:
     return sorted(points, key=lambda p: hypot(*p)) or [(0.0, 0.0)]
 
 
-def _alone(scene: Scene) -> Course:
+def _alone(scene: FramedScene) -> StartedFraming:
     """Return the course of one subject: an offset from it, which stays where nothing changes."""
     subject = scene.shot.subjects[0]
     target = scene.mission.target(subject.target)
@@ -107,7 +107,7 @@ def _alone(scene: Scene) -> Course:
         _aimed(target.at(t), scene.along(points, t), beside.place_at(t), scene.lens) for t in scene.times
     )
     blocked, hidden = scene.shares([(t, plus(target.at(t), scene.along(points, t))) for t in scene.looks])
-    return Course(shot, scene.times, poses, blocked, hidden)
+    return StartedFraming(shot, scene.times, poses, blocked, hidden)
 
 
 class _Beside:
@@ -117,7 +117,7 @@ class _Beside:
         where nothing changes
     """
 
-    def __init__(self, scene: Scene, lowest: Vec3, uv: Vec2, size: float) -> None:
+    def __init__(self, scene: FramedScene, lowest: Vec3, uv: Vec2, size: float) -> None:
         mission, start, subject = scene.mission, scene.start, scene.shot.subjects[0]
         self.scene, self.uv = scene, uv
         self.subject = _at_place(subject, uv)._replace(size=size)
@@ -153,7 +153,7 @@ def _evenly(offsets: Sequence[Vec3]) -> OffsetPoints:
     return tuple((i / (len(offsets) - 1), offset) for i, offset in enumerate(offsets))
 
 
-def _stood(scene: Scene, wanted: Wanted, bearing: float) -> Vec3:
+def _stood(scene: FramedScene, wanted: Wanted, bearing: float) -> Vec3:
     """Return the camera's offset from a subject; bearing : the camera's, where none is asked."""
     azimuth, size = bearing if wanted.azimuth is None else wanted.azimuth, wanted.size or WHOLE_SIZE
     offset = stand(wanted, scene.lens, scene.room, azimuth, size)
@@ -166,7 +166,7 @@ def _stood(scene: Scene, wanted: Wanted, bearing: float) -> Vec3:
     return offset
 
 
-def _clear_bearing(scene: Scene, target: Target, beside: _Beside) -> OffsetPoints:
+def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> OffsetPoints:
     """Return the offsets on the bearing nearest to the drone's that is clear."""
     first, north = scene.comes_from(target.at(scene.start)), beside.points(0.0)
     best, least = beside.turned(north, 0.0), (2.0, 2.0)
@@ -180,7 +180,7 @@ def _clear_bearing(scene: Scene, target: Target, beside: _Beside) -> OffsetPoint
     return best
 
 
-def _several(scene: Scene) -> Course:
+def _several(scene: FramedScene) -> StartedFraming:
     """Return the course of several subjects, or of one beside a place that the camera stays near."""
     shot, ideal = scene.shot, scene.shot.ideal
     assert ideal is not None
@@ -190,10 +190,10 @@ def _several(scene: Scene) -> Course:
     points = _evenly([minus((p[0], p[1], p[2]), lead.at(t)) for t, p in zip(scene.times, poses, strict=True)])
     blocked, hidden = scene.shares([(t, (p[0], p[1], p[2])) for t, p in zip(scene.times, poses, strict=True)])
     made = shot._replace(ideal=ideal._replace(points=points), subjects=subjects)
-    return Course(made, scene.times, poses, blocked, hidden)
+    return StartedFraming(made, scene.times, poses, blocked, hidden)
 
 
-def _opening(scene: Scene) -> tuple[Pose, tuple[Subject, ...]]:
+def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
     """Return the first pose of several subjects, and the subjects with their places on screen.
 
     Bearings all round are tried; of those that serve as well, the one that is clear, then the nearest to
@@ -229,7 +229,7 @@ def _opening(scene: Scene) -> tuple[Pose, tuple[Subject, ...]]:
     return opening if _score(scene, *opening) <= tuple(least_hidden) else good[i][1:]
 
 
-def _score(scene: Scene, first: Pose, subjects: tuple[Subject, ...]) -> tuple[float, float]:
+def _score(scene: FramedScene, first: Pose, subjects: tuple[Subject, ...]) -> tuple[float, float]:
     """Return the share of a course at which there is no room, and how much of its subjects is hidden."""
     times = scene.times[:: max(1, len(scene.times) // 6)]
     poses = _follow(scene, subjects, first, times)
@@ -238,7 +238,7 @@ def _score(scene: Scene, first: Pose, subjects: tuple[Subject, ...]) -> tuple[fl
 
 
 def _polished(
-    scene: Scene, found: tuple[float, Pose, tuple[Subject, ...]]
+    scene: FramedScene, found: tuple[float, Pose, tuple[Subject, ...]]
 ) -> tuple[Pose, tuple[Subject, ...]]:
     """Return an opening, begun again from where it ended until that changes nothing."""
     cost, pose, subjects = found
@@ -252,7 +252,7 @@ def _polished(
 
 
 def _follow(
-    scene: Scene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
+    scene: FramedScene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
 ) -> tuple[Pose, ...]:
     """Return the poses at times, each found from the one before, carried along with the subjects."""
     poses = [first]

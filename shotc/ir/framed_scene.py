@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import atan2, ceil, hypot
 
 from shotc.geom.vec import Vec3, plus
-from shotc.geom.viewpoint import Drawn, Lens, Room, Wanted
+from shotc.geom.viewpoint import Lens, PlaceBounds, PreferredPose, Wanted
 from shotc.ir.begins import first_start
 from shotc.ir.drone import Drone
 from shotc.ir.hidden import hidden_by_surfaces, standing_before, without_room
@@ -32,13 +32,13 @@ def lens_of(drone: Drone) -> Lens:
     return Lens(drone.hfov, drone.aspect, drone.gimbal.pitch)
 
 
-def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> Room:
+def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> PlaceBounds:
     """Return where a drone's camera may be; ground : its height there, metres of W."""
     rules = mission.rules
-    return Room(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
+    return PlaceBounds(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
 
 
-class Scene:
+class FramedScene:
     """What the course of one framing is made of."""
 
     def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
@@ -59,14 +59,14 @@ class Scene:
         places = (self.mission.target(s.target).at(t) for s in self.shot.subjects for t in self.looks)
         return max(self.mission.ground(x, y) for x, y, _ in places)
 
-    def room_at(self, t: float) -> Room:
+    def room_at(self, t: float) -> PlaceBounds:
         """Return where the camera may be at a mission time, and what it stays near then."""
         if self.near is None:
             return self.room
-        drawn = Drawn(near_at(self.mission, self.near, t), self.near.yaw, self.near.pitch)
+        drawn = PreferredPose(near_at(self.mission, self.near, t), self.near.yaw, self.near.pitch)
         return self.room._replace(drawn=drawn)
 
-    def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> Room:
+    def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> PlaceBounds:
         """Return where a camera may be that goes along beside a target, for where that is lowest.
 
         The camera is over the ground at every place that it comes to, by the height of the target there.

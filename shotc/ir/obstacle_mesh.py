@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.geom.enclosing import Block
+from shotc.geom.enclosing import UprightPrism
 from shotc.geom.pieces import Mask
 from shotc.geom.solids import Prism, convex_hull
 from shotc.geom.surface.inside import bodies, inside
@@ -81,12 +81,12 @@ class ObstacleMesh:
         name = self.name_at(int(self.surface.source[found.triangle[0]]))
         return NearPart(name, float(found.distance[0]), (float(x), float(y), float(z)))
 
-    def block(self, part: int) -> Block:
+    def block(self, part: int) -> UprightPrism:
         """Return the upright prism about a part: over the hull of its corners, as high as they are."""
         corners = self.surface.triangles[self.part[self.surface.source] == part].reshape(-1, 3)
         plan = np.unique(corners[:, :2], axis=0).tolist()
         low, high = float(corners[:, 2].min()), float(corners[:, 2].max())
-        return Block(convex_hull(tuple((x, y) for x, y in plan)), low, high)
+        return UprightPrism(convex_hull(tuple((x, y) for x, y in plan)), low, high)
 
     def lacks(self, places: Sequence[Vec3], clearance: float) -> list[float]:
         """Return by how much places lack the distance that a body's centre keeps from surfaces, metres.

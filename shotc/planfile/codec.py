@@ -36,7 +36,7 @@ from shotc.ir.records import field_names
 from shotc.ir.rules import Rules
 from shotc.ir.show import Display, Fleet
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.planfile.layout import Rows
+from shotc.planfile.layout import RowList
 
 UNLIMITED = {
     (Cylinder, "bottom"),
@@ -92,8 +92,8 @@ def encode(value: Any) -> Any:
 
 def _rows(value: NDArray[Any]) -> list[Any]:
     if value.dtype == np.uint8:
-        return Rows(row.tobytes().hex() for row in value)
-    return Rows(value.tolist()) if value.ndim > 1 else list(value.tolist())
+        return RowList(row.tobytes().hex() for row in value)
+    return RowList(value.tolist()) if value.ndim > 1 else list(value.tolist())
 
 
 @cache

@@ -19,7 +19,7 @@ RECORD = 420
 """Characters up to which an object of plain values stands on one line."""
 
 
-class Rows(list[Any]):
+class RowList(list[Any]):
     """A list of many items, each of which stands on a line of its own, whatever its size."""
 
 
@@ -29,7 +29,7 @@ def text(value: Any) -> str:
 
 
 def _parts(value: Any, pad: str) -> Iterator[str]:
-    if isinstance(value, Rows):
+    if isinstance(value, RowList):
         rows = (json.dumps(item, allow_nan=False, separators=(",", ":")) for item in value)
         yield f"[\n{pad}  " + f",\n{pad}  ".join(rows) + f"\n{pad}]"
         return

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from shotc.planfile.layout import Rows
+from shotc.planfile.layout import RowList
 
 _ESCAPED = "surrogateescape"
 _END = "\n"
 
 
-def as_lines(data: bytes) -> Rows:
+def as_lines(data: bytes) -> RowList:
     """Return the lines of a file's bytes; a carriage return belongs to the line that it ends."""
-    return Rows(data.decode("utf-8", _ESCAPED).split(_END))
+    return RowList(data.decode("utf-8", _ESCAPED).split(_END))
 
 
 def as_bytes(lines: tuple[str, ...]) -> bytes:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import IntArray, Rows, control_rows
+from shotc.geom.bspline import IntArray, SplineFunctionals, control_rows
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import FreeSpace, HalfSpaces, corridor, kept
 from shotc.solvers.spline_problem import Cones, HalfSpaceRows, SplineProblem
@@ -51,10 +51,10 @@ def rows_of(breaks: Array, planes: HalfSpaces) -> HalfSpaceRows:
     return HalfSpaceRows(rows, np.repeat(planes.normal, 6, axis=0), planes.offset.ravel(), owner)
 
 
-def points_of(breaks: Array, pieces: IntArray) -> Rows:
+def points_of(breaks: Array, pieces: IntArray) -> SplineFunctionals:
     """Return the rows of the six control points of pieces, shape (R,), one piece after the other."""
     every = control_rows(breaks).weight.reshape(-1, 6, 6)
-    return Rows(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
+    return SplineFunctionals(np.repeat(pieces, 6), every[pieces].reshape(-1, 6))
 
 
 def _wall_rows(around: Around, index: dict[Owner, int]) -> list[HalfSpaceRows]:

@@ -89,7 +89,7 @@ class Watched:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class VisiblePath:
     """Positions over time, (N, 3), and how far the course is led there to see the subject, (N,), 0 to 1."""
 
     places: Array
@@ -104,7 +104,7 @@ def led_round(
     held: Mask | None = None,
     *,
     joined: bool = True,
-) -> Course:
+) -> VisiblePath:
     """Return a course around surfaces; the ideal where that is free and sees the subject.
 
     If no course is found, the ideal is returned.
@@ -116,7 +116,7 @@ def led_round(
     joined : whether the segments between its places have to be free; otherwise the caller joins them
     """
     times, ideal = course
-    still = Course(ideal, np.zeros(len(times)))
+    still = VisiblePath(ideal, np.zeros(len(times)))
     covered = np.zeros(len(times)) if watched is None else watched.hidden(ideal[:, None])[:, 0]
     stopped = joined and bool(_stopped(space, ideal[:-1], ideal[1:]).any())
     if not stopped and not covered.any():
@@ -130,7 +130,7 @@ def led_round(
     between = [np.interp(times, times[layers], offsets[:, axis]) for axis in range(3)]
     unseen = times[covered > 0.0]
     away = np.abs(times[:, None] - unseen).min(axis=1, initial=np.inf)
-    return Course(ideal + np.column_stack(between), np.clip(2.0 - away / SPREAD_S, 0.0, 1.0))
+    return VisiblePath(ideal + np.column_stack(between), np.clip(2.0 - away / SPREAD_S, 0.0, 1.0))
 
 
 def _stride(times: Array) -> int:

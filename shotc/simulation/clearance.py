@@ -17,14 +17,14 @@ from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.simulation.flight import Flown
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.world import World, at_times
 
 MESH_LIMIT_M = 20.0
 """Metres beyond which the distance from a scene is not told."""
 
 
-class Nearest(NamedTuple):
+class ClosestApproach(NamedTuple):
     """How near a drone's body comes to something: metres (negative: into it), and when, s.
 
     to : the thing as plans name it, or "drone NAME"
@@ -44,7 +44,9 @@ def free_of_pad(track: DroneTrajectory, times: Array) -> Array:
     return times[inside]
 
 
-def nearest(world: World, flown: Flown, track: DroneTrajectory, times: Array) -> list[tuple[Nearest, ...]]:
+def nearest(
+    world: World, flown: DroneRuns, track: DroneTrajectory, times: Array
+) -> list[tuple[ClosestApproach, ...]]:
     """Return for every run how near a drone comes to each thing that stands, and to each target."""
     drone, mission = world.mission.drone(flown.drone), world.mission
     free = free_of_pad(track, times)
@@ -62,7 +64,7 @@ def nearest(world: World, flown: Flown, track: DroneTrajectory, times: Array) ->
     return [tuple(_least(name, away[:, r], free) for name, away in rows) for r in range(shape[1])]
 
 
-def between(mission: MissionIR, one: Flown, other: Flown, times: Array) -> list[Nearest]:
+def between(mission: MissionIR, one: DroneRuns, other: DroneRuns, times: Array) -> list[ClosestApproach]:
     """Return for every run how near the bodies of two drones come; who has landed stands on the pad."""
     a, b = (at_times(f.position, f.times, times) for f in (one, other))
     reach = mission.drone(one.drone).radius + mission.drone(other.drone).radius
@@ -85,6 +87,6 @@ def _standing(mission: MissionIR, drone: Drone, flat: Array) -> Iterator[tuple[s
         yield f"drone {pad.name}", away - drone.radius - pad.radius
 
 
-def _least(name: str, away: Array, times: Array) -> Nearest:
+def _least(name: str, away: Array, times: Array) -> ClosestApproach:
     k = int(np.argmin(away))
-    return Nearest(name, float(away[k]), float(times[k]))
+    return ClosestApproach(name, float(away[k]), float(times[k]))

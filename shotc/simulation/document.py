@@ -13,7 +13,7 @@ import numpy as np
 from shotc import __version__
 from shotc.emit.table_numbers import NUMBER
 from shotc.ir.sampling import clock
-from shotc.simulation.flight import Estimated, Flown
+from shotc.simulation.flight import DroneRuns, Estimated
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.world import World, at_times
 
@@ -54,7 +54,7 @@ def _finite(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not isfinite(value) else value
 
 
-def flight_table(done: Rehearsed, world: World, flown: Sequence[Flown]) -> str:
+def flight_table(done: Rehearsed, world: World, flown: Sequence[DroneRuns]) -> str:
     """Return flight.csv of the first run of a world, at the ticks of the output clock: by drone, then time.
 
     A drone that follows several targets has a row for each; one that follows none has one row.
@@ -67,7 +67,7 @@ def flight_table(done: Rehearsed, world: World, flown: Sequence[Flown]) -> str:
     return "\n".join([FLIGHT, *rows, ""])
 
 
-def _rows(done: Rehearsed, world: World, flown: Flown, times: Any) -> Iterator[str]:
+def _rows(done: Rehearsed, world: World, flown: DroneRuns, times: Any) -> Iterator[str]:
     track = next(t for t in done.ir.drones if t.drone == flown.drone)
     angles = np.stack([np.unwrap(flown.yaw[:, 0]), flown.pitch[:, 0], flown.roll[:, 0]], axis=1)
     own = np.concatenate(
@@ -86,7 +86,7 @@ def _rows(done: Rehearsed, world: World, flown: Flown, times: Any) -> Iterator[s
             yield f"{head % time},{numbers},{name},{cells}"
 
 
-def _known(world: World, flown: Flown, of: Estimated, times: Any) -> Any:
+def _known(world: World, flown: DroneRuns, of: Estimated, times: Any) -> Any:
     """Return where a target is, where it is taken to be, and the deviation of that, (M, 7)."""
     spread = np.sqrt(np.trace(of.covariance[:, 0], axis1=1, axis2=2) / 3.0)
     return np.column_stack(

@@ -40,7 +40,7 @@ class Estimated:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flown:
+class DroneRuns:
     """One drone in R runs at F instants.
 
     times : (F,), s; position, velocity : (F, R, 3), W; yaw, pitch, roll : of the camera, (F, R), rad
@@ -58,13 +58,13 @@ class Flown:
     replans: tuple[Replans, ...] = ()
 
 
-def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[Flown, ...]:
+def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[DroneRuns, ...]:
     """Fly the plans of several drones in all runs of a world, as many and in the same order.
 
     Who plans anew does so one after the other: those of higher priority first, whose plans the others know.
     """
     ranks = {track.drone: (world.mission.drone(track.drone).priority, track.drone) for track in tracks}
-    done: dict[str, Flown] = {}
+    done: dict[str, DroneRuns] = {}
     sent: tuple[Sent, ...] = ()
     for track in sorted(tracks, key=lambda track: ranks[track.drone]):
         film = film_of(world.mission, track)
@@ -74,7 +74,7 @@ def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[Flown, ...
     return tuple(done[track.drone] for track in tracks)
 
 
-def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> Flown:
+def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> DroneRuns:
     """Fly the plan of one drone in all runs of a world.
 
     A run is the same whichever ran beside it, up to rounding; with the same beside it, to the last digit.
@@ -205,10 +205,10 @@ class _Record:
             now = target.tracker.now(i * EVERY * STEP_S)
             into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
 
-    def done(self, film: Film, guidance: Guidance) -> Flown:
+    def done(self, film: Film, guidance: Guidance) -> DroneRuns:
         yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
         times = film.times[::EVERY]
-        return Flown(
+        return DroneRuns(
             film.drone.name,
             times,
             self.position,

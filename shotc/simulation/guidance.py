@@ -17,8 +17,8 @@ from shotc.planning.clearances import clearances_of, from_parked
 from shotc.plugin_api.replanner import Cone, Keeping, Plan, Traffic
 from shotc.simulation.film import Film
 from shotc.simulation.seen import Watched
-from shotc.simulation.sent import Fading, Held, Sent
-from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, Moment
+from shotc.simulation.sent import Fading, Sent, SentPlans
+from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, ReplanInstant
 from shotc.simulation.time_limit import TooLate, time_limit
 from shotc.simulation.vehicle import STEP_S, Setpoint
 from shotc.simulation.world import World
@@ -73,7 +73,7 @@ class Guidance:
     own: Sent | None = None
     counts: list[Replans] = field(default_factory=list)
     _planner: Any = None
-    _held: Held | None = None
+    _held: SentPlans | None = None
     _back: Fading | None = None
     _active: Anew | None = None
     _course: Array | None = None
@@ -110,7 +110,7 @@ class Guidance:
         self._planner = shot.planner(by, self.film, keeping)
         first = self._planned(time, shot.stages)
         n = len(self.world.runs)
-        self._active, self._held = shot, Held((first,) * n, drone.limits.usable_acceleration)
+        self._active, self._held = shot, SentPlans((first,) * n, drone.limits.usable_acceleration)
         self.counts = self.counts or [Replans() for _ in range(n)]
         self._course = np.zeros(n)
 
@@ -138,7 +138,7 @@ class Guidance:
         turn = self._turn(shot, time, known)
         plans: list[Plan | None] = []
         for r, count in enumerate(self.counts):
-            of = Moment(known, self._held.plans[r], r, float(turn[r]), self._traffic(r, stages))
+            of = ReplanInstant(known, self._held.plans[r], r, float(turn[r]), self._traffic(r, stages))
             mine = (drone[0][r], drone[1][r])
             lost = _lost(known, r)
             if lost:

@@ -19,8 +19,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import HFOV
 from shotc.ir.sampling import beside_cameras, clock, framed, references, subjects
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
-from shotc.simulation.clearance import Nearest, between, nearest
-from shotc.simulation.flight import Flown
+from shotc.simulation.clearance import ClosestApproach, between, nearest
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.guidance import Replans
 from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
 from shotc.simulation.world import World, at_times
@@ -30,7 +30,7 @@ SIGHT_S = 0.2
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class TargetFraming:
     """A target in the frames of a shot, in one run.
 
     in_frame : share of frames with the whole target in them, 0 to 1
@@ -52,7 +52,7 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class TrackingError:
     """How a drone kept to its plan in one run.
 
     stray, farthest : distance from where the plan has it at the same time, m: root of the mean square, the
@@ -68,12 +68,12 @@ class Course:
     time: float
     speed: float
     roll: float
-    near: tuple[Nearest, ...]
+    near: tuple[ClosestApproach, ...]
     replans: Replans | None = None
     spoiled: float = 0.0
 
     @property
-    def nearest(self) -> Nearest | None:
+    def nearest(self) -> ClosestApproach | None:
         """The thing that its body came nearest to."""
         return min(self.near, key=lambda each: each.distance, default=None)
 
@@ -83,8 +83,8 @@ class Run:
     """One run; number : which, from 0 on. The same number is the same run, whatever ran beside it."""
 
     number: int
-    pictures: tuple[Picture, ...]
-    courses: tuple[Course, ...]
+    pictures: tuple[TargetFraming, ...]
+    courses: tuple[TrackingError, ...]
     fleets: tuple[FleetCourse, ...] = ()
     fleet_pairs: tuple[FleetPair, ...] = ()
 
@@ -124,7 +124,7 @@ class Run:
 
 
 def judged(
-    world: World, ir: TrajectoryIR, flown: tuple[Flown, ...], fleets: tuple[FleetRun, ...] = ()
+    world: World, ir: TrajectoryIR, flown: tuple[DroneRuns, ...], fleets: tuple[FleetRun, ...] = ()
 ) -> tuple[Run, ...]:
     """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run, of plans that have some."""
     mission = world.mission
@@ -153,7 +153,9 @@ def judged(
     )
 
 
-def cameras_of(mission: MissionIR, track: DroneTrajectory, flown: Flown, run: int, times: Array) -> Cameras:
+def cameras_of(
+    mission: MissionIR, track: DroneTrajectory, flown: DroneRuns, run: int, times: Array
+) -> Cameras:
     """Return the cameras of a run, by its index, at times (M,): where they were, and with the plan's lens."""
     return Cameras(
         at_times(flown.position[:, run], flown.times, times),
@@ -188,7 +190,9 @@ def _filmed(mission: MissionIR, track: DroneTrajectory) -> Iterator[_Filmed]:
                 yield _Filmed(phase.shot, name, times, references(track, phase.shot, name, times))
 
 
-def _picture(world: World, track: DroneTrajectory, flown: Flown, run: int, filmed: _Filmed) -> Picture:
+def _picture(
+    world: World, track: DroneTrajectory, flown: DroneRuns, run: int, filmed: _Filmed
+) -> TargetFraming:
     shot, name, times, wanted = filmed
     target = world.target(name, run, times)
     eyes = cameras_of(world.mission, track, flown, run, times)
@@ -196,7 +200,7 @@ def _picture(world: World, track: DroneTrajectory, flown: Flown, run: int, filme
     error = np.hypot(seen.u - wanted[:, 0], seen.v - wanted[:, 1])
     error = np.where(np.isnan(seen.u) & ~np.isnan(wanted[:, 0]), np.inf, error)
     known = error[~np.isnan(error)]
-    picture = Picture(
+    picture = TargetFraming(
         shot,
         track.drone,
         name,
@@ -219,7 +223,9 @@ def _picture(world: World, track: DroneTrajectory, flown: Flown, run: int, filme
     )
 
 
-def _in_sight(world: World, track: DroneTrajectory, flown: Flown, of: tuple[int, str], times: Array) -> float:
+def _in_sight(
+    world: World, track: DroneTrajectory, flown: DroneRuns, of: tuple[int, str], times: Array
+) -> float:
     run, name = of
     at = np.arange(times[0], times[-1] + 1e-9, SIGHT_S)
     targets = tuple(world.target(target.name, run, at) for target in world.mission.targets)
@@ -228,14 +234,14 @@ def _in_sight(world: World, track: DroneTrajectory, flown: Flown, of: tuple[int,
     return float(np.mean(share <= HALF_SHARE))
 
 
-def _away(flown: Flown, track: DroneTrajectory) -> Array:
+def _away(flown: DroneRuns, track: DroneTrajectory) -> Array:
     """Return how far a drone is from its plan at its instants in each run, (F, R), metres."""
     plan = track.curve(flown.times)[:, None, :3]
     return np.asarray(np.linalg.norm(flown.position - plan, axis=2))
 
 
 def _spoiled(
-    world: World, tracks: tuple[DroneTrajectory, ...], flown: tuple[Flown, ...], of: tuple[int, int]
+    world: World, tracks: tuple[DroneTrajectory, ...], flown: tuple[DroneRuns, ...], of: tuple[int, int]
 ) -> float:
     """Return how much of what a drone films has another drone in it; of : which drone, and which run."""
     (d, run), mission = of, world.mission
@@ -253,11 +259,13 @@ def _spoiled(
     return float(seen.mean())
 
 
-def _course(flown: Flown, run: int, off: Array, near: tuple[Nearest, ...], spoiled: float) -> Course:
+def _course(
+    flown: DroneRuns, run: int, off: Array, near: tuple[ClosestApproach, ...], spoiled: float
+) -> TrackingError:
     """Return how a drone kept to its plan; off : how far it was from it at its instants, (F,), metres."""
     k = int(np.argmax(off))
     speed = np.linalg.norm(flown.velocity[:, run], axis=1)
-    return Course(
+    return TrackingError(
         drone=flown.drone,
         stray=float(np.sqrt(np.mean(off**2))),
         farthest=float(off[k]),

@@ -26,7 +26,7 @@ STATES = 9
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class MotionModel:
     """What is believed of a target: q of the noise on its acceleration, m^2/s^3, and the receiver's bias.
 
     bias : standard deviation of what positions are off for long, m, the drone's own place included
@@ -140,7 +140,7 @@ def projection(offset: Array, axes: Array, half: Array) -> tuple[Array, Array]:
     return uv, jacobian
 
 
-def predicted(estimate: Estimate, time: float, model: Motion) -> Estimate:
+def predicted(estimate: Estimate, time: float, model: MotionModel) -> Estimate:
     """Return an estimate as of a later time, seconds."""
     dt = time - estimate.time
     if dt <= 0.0:
@@ -151,7 +151,7 @@ def predicted(estimate: Estimate, time: float, model: Motion) -> Estimate:
 
 
 @lru_cache(maxsize=1024)
-def _transition(dt: float, model: Motion) -> tuple[Array, Array]:
+def _transition(dt: float, model: MotionModel) -> tuple[Array, Array]:
     """Return F and Q over dt seconds, (9, 9) each."""
     kept = exp(-dt / BIAS_MEMORY_S)
     forward = np.array([[1.0, dt, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, kept]])

@@ -15,7 +15,7 @@ from math import exp
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.simulation.kalman import Estimate, Measurement, Motion, predicted
+from shotc.simulation.kalman import Estimate, Measurement, MotionModel, predicted
 
 LASTS_S = 5.0
 """Seconds for which a model holds in the mean before another one does."""
@@ -42,13 +42,13 @@ class Modes:
         return self.estimates[0] if len(self.estimates) == 1 else _joined(self.estimates, self.share)
 
 
-def begun(estimate: Estimate, models: tuple[Motion, ...]) -> Modes:
+def begun(estimate: Estimate, models: tuple[MotionModel, ...]) -> Modes:
     """Return models that are believed alike and know the same."""
     share = np.full((len(estimate.mean), len(models)), 1.0 / len(models))
     return Modes((estimate,) * len(models), share)
 
 
-def stepped(modes: Modes, time: float, models: tuple[Motion, ...]) -> Modes:
+def stepped(modes: Modes, time: float, models: tuple[MotionModel, ...]) -> Modes:
     """Return what is known as of a later time, seconds, where a model may have followed another one."""
     count = len(models)
     if count == 1:

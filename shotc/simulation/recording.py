@@ -10,7 +10,7 @@ from shotc.emit.rerun_log.flown import Ellipses, record_flown
 from shotc.geom.bernstein import Array, quintic_hermite
 from shotc.ir.path import BODY_YAW, HFOV
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR, VerifiedIR
-from shotc.simulation.flight import Flown
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.world import World, at_times
 
@@ -18,7 +18,7 @@ KNOT_S = 0.2
 """Seconds between the knots of a curve that is drawn of a flight."""
 
 
-def recording(done: Rehearsed, world: World, flown: tuple[Flown, ...]) -> bytes:
+def recording(done: Rehearsed, world: World, flown: tuple[DroneRuns, ...]) -> bytes:
     """Return the recording of the first run of a world."""
     drones = tuple(_drawn(track, each) for track, each in zip(done.ir.drones, flown, strict=True))
     known = tuple(
@@ -38,7 +38,7 @@ def _as_plan(ir: TrajectoryIR, world: World, drones: tuple[DroneTrajectory, ...]
     return replace(ir, keyframes=keyframes, drones=drones)
 
 
-def _drawn(track: DroneTrajectory, flown: Flown) -> DroneTrajectory:
+def _drawn(track: DroneTrajectory, flown: DroneRuns) -> DroneTrajectory:
     """Return a drone's plan with the curve that it flew: through places and velocities at knots."""
     knots = np.linspace(track.curve.start, track.curve.end, max(2, round(track.curve.end / KNOT_S) + 1))
     pose = track.curve(knots)

@@ -16,7 +16,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation import wind as air
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
-from shotc.simulation.runs import Block, Strays
+from shotc.simulation.runs import RunBlock, Strays
 from shotc.simulation.sensors import GRADES
 from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import Verdict, enough, held, verdicts
@@ -28,7 +28,7 @@ SILENT = Rehearsal(
 """What is asked of the rehearsals of a mission that says nothing of them."""
 
 
-class Asked(NamedTuple):
+class RehearsalOptions(NamedTuple):
     """What a command line says in the place of the mission; None leaves it to the mission.
 
     wind : of the steady wind, m/s; bearing : compass bearing that it comes from, deg; gusts : m/s
@@ -88,7 +88,7 @@ class Rehearsed:
         return self.held >= self.needed
 
 
-def conditions_of(mission: MissionIR, asked: Asked) -> Conditions:
+def conditions_of(mission: MissionIR, asked: RehearsalOptions) -> Conditions:
     """Return the conditions that a mission and a command line ask for."""
     usual = mission.rehearsal or SILENT
     wind = usual.wind or Wind(mission.wind, mission.wind_toward)
@@ -111,7 +111,7 @@ def _either(asked: float | None, usual: float) -> float:
     return usual if asked is None else asked
 
 
-def runs_of(ir: TrajectoryIR, conditions: Conditions, asked: Asked) -> int:
+def runs_of(ir: TrajectoryIR, conditions: Conditions, asked: RehearsalOptions) -> int:
     """Return how many runs a mission and a command line ask for: one where nothing differs between runs."""
     if alike(ir, conditions):
         return 1
@@ -124,14 +124,14 @@ def alike(ir: TrajectoryIR, conditions: Conditions) -> bool:
 
 
 def rehearse(
-    ir: TrajectoryIR, conditions: Conditions, blocks: Iterable[Block], done: Callable[[int], None]
+    ir: TrajectoryIR, conditions: Conditions, blocks: Iterable[RunBlock], done: Callable[[int], None]
 ) -> Rehearsed:
     """Judge runs by what the mission of their plan asks.
 
     blocks : of all runs, in any order; done : called with how many runs have come
     """
     promise = (ir.keyframes.mission.rehearsal or SILENT).promise
-    found: list[Block] = []
+    found: list[RunBlock] = []
     for block in blocks:
         found.append(block)
         done(sum(len(each.runs) for each in found))
@@ -142,7 +142,7 @@ def rehearse(
     return Rehearsed(ir, conditions, promise, runs, told, kept, needed, _together(found))
 
 
-def _together(blocks: list[Block]) -> Strays | None:
+def _together(blocks: list[RunBlock]) -> Strays | None:
     every = [block.strays for block in blocks if block.strays is not None]
     if not every:
         return None

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.parallel import Hands, as_done
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.flight import Flown, fly_all
+from shotc.simulation.flight import DroneRuns, fly_all
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
@@ -36,7 +36,7 @@ class Strays:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Block:
+class RunBlock:
     """Runs that were flown together; strays : None for shows."""
 
     runs: tuple[Run, ...]
@@ -44,8 +44,8 @@ class Block:
 
 
 def simulated(
-    ir: TrajectoryIR, conditions: Conditions, count: int, hands: Hands, earlier: Sequence[Block] = ()
-) -> Iterator[Block]:
+    ir: TrajectoryIR, conditions: Conditions, count: int, hands: Hands, earlier: Sequence[RunBlock] = ()
+) -> Iterator[RunBlock]:
     """Fly a plan ``count`` times and judge every run; yields blocks of runs as they are done.
 
     earlier : blocks that were done before; those of as many runs as are needed now are not flown again
@@ -60,24 +60,26 @@ def simulated(
     yield from as_done(partial(fly_block, ir, conditions), list(needed.values()), hands)
 
 
-def flown(ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]) -> tuple[World, tuple[Flown, ...]]:
+def flown(
+    ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]
+) -> tuple[World, tuple[DroneRuns, ...]]:
     """Fly the cameras of a plan in the runs of these numbers, for what is drawn or written of them."""
     world = World.of(ir, conditions, runs)
     return world, fly_all(world, ir.drones)
 
 
-def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> Block:
+def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> RunBlock:
     """Fly a plan in the runs of these numbers and judge them."""
     if not ir.drones:
         fleets = fly_fleets(ir, conditions, block)
         runs = tuple(Run(number, (), (), *each) for number, each in zip(block, fleets, strict=True))
-        return Block(runs, None)
+        return RunBlock(runs, None)
     world, tracks = flown(ir, conditions, block)
     fleets = fly_fleets(ir, conditions, block, tracks)
-    return Block(judged(world, ir, tracks, fleets), _strays(ir, world, tracks))
+    return RunBlock(judged(world, ir, tracks, fleets), _strays(ir, world, tracks))
 
 
-def _strays(ir: TrajectoryIR, world: World, tracks: tuple[Flown, ...]) -> Strays:
+def _strays(ir: TrajectoryIR, world: World, tracks: tuple[DroneRuns, ...]) -> Strays:
     times = np.arange(0.0, float(world.times[-1]), STRAYS_S)
     off = [
         np.linalg.norm(at_times(each.position, each.times, times) - track.curve(times)[:, None, :3], axis=2)

@@ -14,7 +14,7 @@ from shotc.geom.bernstein import Array
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import Film, Framed
 from shotc.simulation.gimbal import Attitude
-from shotc.simulation.kalman import Measurement, Motion, PictureFix, PositionFix, projection
+from shotc.simulation.kalman import Measurement, MotionModel, PictureFix, PositionFix, projection
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.vehicle import STEP_S
 from shotc.simulation.world import World
@@ -81,7 +81,7 @@ def watched(world: World, film: Film, framed: Framed) -> Watched:
         if gps.arrives(float(t))
     ]
     velocity = (places[1] - places[0]) / STEP_S
-    models = (Motion(agility, sqrt(2.0) * gps.bias) for agility in AGILITIES)
+    models = (MotionModel(agility, sqrt(2.0) * gps.bias) for agility in AGILITIES)
     tracker = Tracker.beginning(0.0, measured[0], velocity, *models)
     pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
     out = Watched(name, places, framed.share, fixes, tracker, pictures)

@@ -43,7 +43,7 @@ class Fading:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Held:
+class SentPlans:
     """The plans that drones of R runs fly, each to its end; then they brake and hold.
 
     plans : of every run; acceleration : limit at which they brake, m/s^2
@@ -52,9 +52,9 @@ class Held:
     plans: tuple[Plan, ...]
     acceleration: float
 
-    def replaced(self, new: Sequence[Plan | None]) -> Held:
+    def replaced(self, new: Sequence[Plan | None]) -> SentPlans:
         """Return the same with new plans; where there is none the last one is flown on."""
-        return Held(tuple(n or last for n, last in zip(new, self.plans, strict=True)), self.acceleration)
+        return SentPlans(tuple(n or last for n, last in zip(new, self.plans, strict=True)), self.acceleration)
 
     def setpoint(self, time: float) -> Setpoint:
         """Return what drones are asked for, (R, 3) each."""

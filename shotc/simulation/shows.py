@@ -16,10 +16,10 @@ from shotc.ir.show import Apart, Fleet, kept_from_cameras, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.fleets.fly import PERIOD_S
-from shotc.simulation.fleets.near import Across, Near
+from shotc.simulation.fleets.near import Across, NearestPair
 from shotc.simulation.fleets.rehearse import Rehearsal, Watch, moments
 from shotc.simulation.fleets.vehicle import Gusts
-from shotc.simulation.flight import Flown
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.world import at_times
 
 
@@ -32,7 +32,7 @@ class FleetCourse:
     radius: float
 
     @property
-    def nearest(self) -> Near | None:
+    def nearest(self) -> NearestPair | None:
         """The nearest that two came, in the air or on pads; None for a fleet of one."""
         found = [near for near in (self.flown.near, self.flown.beside) if near is not None]
         return min(found, key=lambda near: near.distance, default=None)
@@ -55,7 +55,7 @@ class FleetPair:
 
     one: str
     other: str
-    near: Near
+    near: NearestPair
     asked: float
     radii: float
 
@@ -87,7 +87,7 @@ class _Meeting(NamedTuple):
 
 
 def fly_fleets(
-    ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int], cameras: Sequence[Flown] = ()
+    ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int], cameras: Sequence[DroneRuns] = ()
 ) -> tuple[FleetRun, ...]:
     """Return for every run how each fleet of the plan kept to it, in gusts.
 
@@ -97,7 +97,7 @@ def fly_fleets(
 
 
 def _flown(
-    ir: TrajectoryIR, conditions: Conditions, which: tuple[int, int], cameras: Sequence[Flown]
+    ir: TrajectoryIR, conditions: Conditions, which: tuple[int, int], cameras: Sequence[DroneRuns]
 ) -> FleetRun:
     """Return what came of a run; which : its index among the cameras' runs, and its number."""
     r, run = which
@@ -131,7 +131,9 @@ def _flown(
     return FleetRun(tuple(courses), tuple(meeting.found() for meeting in meetings))
 
 
-def _meetings(mission: MissionIR, fleets: Sequence[Fleet], cameras: Sequence[Flown]) -> Iterator[_Meeting]:
+def _meetings(
+    mission: MissionIR, fleets: Sequence[Fleet], cameras: Sequence[DroneRuns]
+) -> Iterator[_Meeting]:
     for (i, one), (j, other) in combinations(enumerate(fleets), 2):
         asked = max(one.apart.horizontal, other.apart.horizontal)
         search, radii = Across(stricter(one.apart, other.apart), asked), one.radius + other.radius

@@ -75,7 +75,7 @@ class Chased:
         return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), keeping, weights))
 
     def situation(
-        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
+        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: ReplanInstant
     ) -> ChaseSituation:
         """Return what is known of one run at the first of the stages, mission times (N + 1,).
 
@@ -126,7 +126,7 @@ class Composed:
         return by.framing(FramingProblem(Horizon(FRAMING_STAGES, STAGE_S), keeping, half, rates, weights))
 
     def situation(
-        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: Moment
+        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: ReplanInstant
     ) -> FramingSituation:
         """Return what is known of one run; arguments as of ``Chased``."""
         filmed = {each.target: self._asked(each, stages) for each in self.subjects}
@@ -154,7 +154,7 @@ Anew = Chased | Composed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Moment:
+class ReplanInstant:
     """What is known of one run at the moment of a replan.
 
     known : of the targets, in R runs; last : the plan that the drone flies; run : which of the runs
@@ -193,7 +193,7 @@ def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
             yield Chased(phase, target, shot.ideal.frame == "heading", shot.smoother)
 
 
-def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:
+def predicted(target: Target, stages: Array, of: ReplanInstant) -> tuple[Array, Array]:
     """Return where a target will be at the stages, (N + 1, 3), and its velocity over ground, (3,).
 
     Up and down it goes as planned: a velocity that is known to 0.3 m/s is no climb.
@@ -207,7 +207,7 @@ def predicted(target: Target, stages: Array, of: Moment) -> tuple[Array, Array]:
     return out, moves
 
 
-def _drawn(mission: MissionIR, near: Near, stages: Array, of: Moment) -> DrawnPose:
+def _drawn(mission: MissionIR, near: Near, stages: Array, of: ReplanInstant) -> DrawnPose:
     """Return what a camera stays near: beside a target, where that is taken to be."""
     places = np.array([near_at(mission, near, t) for t in stages.tolist()])
     if near.beside is not None:
@@ -230,7 +230,7 @@ def _filmed(
     drone: Drone,
     target: Target,
     asked: tuple[Asked, ...] | None,
-    at: tuple[Array, Moment, Mapping[str, Array]],
+    at: tuple[Array, ReplanInstant, Mapping[str, Array]],
 ) -> FilmedSubject:
     stages, of, wanted = at
     points, _ = predicted(target, stages, of)

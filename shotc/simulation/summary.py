@@ -11,8 +11,8 @@ import numpy as np
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import as_minutes, at_least, at_most, plain, up
-from shotc.simulation.fleets.near import Near
-from shotc.simulation.judge import Course, Picture, Run
+from shotc.simulation.fleets.near import NearestPair
+from shotc.simulation.judge import Run, TargetFraming, TrackingError
 from shotc.simulation.rehearsal import Rehearsed, alike
 from shotc.simulation.shows import FleetCourse, FleetPair
 from shotc.simulation.situations import replanned
@@ -115,7 +115,7 @@ def _pictures(done: Rehearsed) -> list[tuple[str, ...]]:
     return rows
 
 
-def _picture_row(first: Picture, every: list[Picture]) -> tuple[str, ...]:
+def _picture_row(first: TargetFraming, every: list[TargetFraming]) -> tuple[str, ...]:
     shares = [p.in_frame for p in every]
     sight = min(p.in_sight for p in every)
     whole = tuple(f"{at_most(100 * share, 1)} %" for share in (float(np.mean(shares)), min(shares), sight))
@@ -141,7 +141,7 @@ def _courses(done: Rehearsed) -> list[tuple[str, ...]]:
     return rows
 
 
-def _course_row(first: Course, every: list[tuple[Run, Course]]) -> tuple[str, ...]:
+def _course_row(first: TrackingError, every: list[tuple[Run, TrackingError]]) -> tuple[str, ...]:
     stray = float(np.sqrt(np.mean([course.stray**2 for _, course in every])))
     strayed, far = max(every, key=lambda pair: pair[1].farthest)
     row = (first.drone, f"{at_least(stray)} m", f"{at_least(far.farthest)} m", str(strayed.number))
@@ -265,7 +265,7 @@ def _met(done: Rehearsed, every: list[FleetPair]) -> str:
     return f"{text}, {how}" + (f", nearer than the {worst.asked:g} m asked" if near.below else "")
 
 
-def _beside_pads(fleet: Fleet, every: list[Near]) -> Iterator[str]:
+def _beside_pads(fleet: Fleet, every: list[NearestPair]) -> Iterator[str]:
     """Say who comes nearest while one of them stands on its pad."""
     if not every:
         return

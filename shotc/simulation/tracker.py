@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.simulation.kalman import Estimate, Measurement, Motion
+from shotc.simulation.kalman import Estimate, Measurement, MotionModel
 from shotc.simulation.modes import Modes, begun, stepped, taken
 
 FIRST_VARIANCE = 0.5
@@ -28,11 +28,11 @@ class Tracker:
     models : of how it moves, one or several, and of what its receiver is off
     """
 
-    models: tuple[Motion, ...]
+    models: tuple[MotionModel, ...]
     _past: list[tuple[Modes, Measurement | None]] = field(default_factory=list)
 
     @staticmethod
-    def beginning(time: float, place: Array, velocity: Array, *models: Motion) -> Tracker:
+    def beginning(time: float, place: Array, velocity: Array, *models: MotionModel) -> Tracker:
         """Return a tracker that knows a first satellite position and a velocity, (R, 3) each, roughly."""
         mean = np.concatenate([place, velocity, np.zeros_like(place)], axis=1)
         off = models[0].bias ** 2

@@ -21,7 +21,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.progress_file import ProgressFile
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
-from shotc.simulation.runs import Block, Strays
+from shotc.simulation.runs import RunBlock, Strays
 
 NAME = "simulate.unfinished.jsonl"
 
@@ -49,27 +49,27 @@ class Unfinished:
             digest.update(fleet.breaks.tobytes() + fleet.coef.tobytes())
         return Unfinished(ProgressFile(folder / NAME), digest.hexdigest())
 
-    def done(self) -> tuple[Block, ...]:
+    def done(self) -> tuple[RunBlock, ...]:
         """Return the blocks that are kept."""
         return tuple(block for entry in self.file.entries() for block in self._block(entry))
 
-    def add(self, block: Block) -> None:
+    def add(self, block: RunBlock) -> None:
         """Keep a block."""
         entry: dict[str, Any] = {"runs": [asdict(run) for run in block.runs]}
         if block.strays is not None:
             entry["strays"] = [block.strays.times.tolist(), block.strays.metres.tolist()]
         self.file.add(self.key, entry)
 
-    def keeping(self, blocks: Iterator[Block], earlier: Sequence[Block]) -> Iterator[Block]:
+    def keeping(self, blocks: Iterator[RunBlock], earlier: Sequence[RunBlock]) -> Iterator[RunBlock]:
         """Yield blocks as they come, and keep those that are not among the earlier ones."""
         for block in blocks:
             if not any(block is each for each in earlier):
                 self.add(block)
             yield block
 
-    def _block(self, entry: dict[str, Any]) -> Iterator[Block]:
+    def _block(self, entry: dict[str, Any]) -> Iterator[RunBlock]:
         if entry["key"] == self.key:
             with suppress(ValueError, KeyError, TypeError, ValidationError):
                 strays = entry.get("strays")
                 runs = _RUNS.validate_python(entry["runs"])
-                yield Block(runs, None if strays is None else Strays(*map(np.array, strays)))
+                yield RunBlock(runs, None if strays is None else Strays(*map(np.array, strays)))

@@ -26,7 +26,7 @@ REFINED = 1e-3  # of a tolerance: to which the linear systems of a step are solv
 ROUNDING = 1e-13  # the same where that is not enough
 
 
-class Near(NamedTuple):
+class WarmStart(NamedTuple):
     """A guess of the unknowns, and the share of its bound at which a cone is asked at first."""
 
     x: Array
@@ -92,7 +92,7 @@ class ConeRows:
         hessian: Any = None,
         *,
         scaled: bool = False,
-        near: Near | None = None,
+        near: WarmStart | None = None,
     ) -> tuple[Status, Array]:
         """Minimise cost.x + x.hessian.x / 2; returns the status and x (meaningless unless SOLVED).
 

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.solvers.cone_rows import ConeRows, Near, Term
+from shotc.solvers.cone_rows import ConeRows, Term, WarmStart
 from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
@@ -107,7 +107,7 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
     for limit in problem.jerks:
         model.jerk(limit)
     model.times()
-    near = Near(model.start(), NEAR)
+    near = WarmStart(model.start(), NEAR)
     status, x = model.rows.solve(model.total_time(), tolerance, scaled=True, near=near)
     inside = slice(1, -1)
     b, a = np.zeros_like(around.b), np.zeros_like(around.b)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import Rows, control_rows, count, energy_rows, value_rows
+from shotc.geom.bspline import SplineFunctionals, control_rows, count, energy_rows, value_rows
 from shotc.solvers.cone_rows import ConeRows
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import scalar_map, terms
@@ -98,13 +98,15 @@ def _unbounded(task: Fit) -> Array:
     return np.asarray(spsolve(system, np.concatenate([matrix.T @ wanted, bound]))[:size])
 
 
-def _anchors(task: Fit) -> tuple[Rows, Array]:
+def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:
     """Return the rows that bind, and the values that they bind to."""
     rows = value_rows(task.breaks, task.anchor_at)
     if task.slope_at is None or task.slope is None:
         return rows, task.anchor
     slopes = value_rows(task.breaks, task.slope_at, 1)
-    both = Rows(np.concatenate([rows.piece, slopes.piece]), np.concatenate([rows.weight, slopes.weight]))
+    both = SplineFunctionals(
+        np.concatenate([rows.piece, slopes.piece]), np.concatenate([rows.weight, slopes.weight])
+    )
     return both, np.concatenate([task.anchor, task.slope])
 
 
@@ -120,7 +122,7 @@ def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
     programme = ConeRows(size)
     for sign, bound in ((1.0, task.low.ravel()), (-1.0, task.high.ravel())):
         bounds = np.isfinite(bound)
-        rows = Rows(points.piece[bounds], points.weight[bounds])
+        rows = SplineFunctionals(points.piece[bounds], points.weight[bounds])
         programme.positive(sign * (at - bound)[bounds], terms(rows, sign))
     binding, _ = _anchors(task)
     if len(binding.piece):
@@ -131,11 +133,11 @@ def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
     return status, np.asarray(free + change)
 
 
-def _stiff(task: Fit, order: int, weight: float | Array) -> Rows:
+def _stiff(task: Fit, order: int, weight: float | Array) -> SplineFunctionals:
     rows = energy_rows(task.breaks, order)
     return _scaled(rows, np.sqrt(np.broadcast_to(weight, len(task.breaks) - 1))[rows.piece])
 
 
-def _scaled(rows: Rows, factor: Array | float) -> Rows:
+def _scaled(rows: SplineFunctionals, factor: Array | float) -> SplineFunctionals:
     scale = np.broadcast_to(np.asarray(factor, dtype=np.float64), rows.piece.shape)
-    return Rows(rows.piece, rows.weight * scale[:, None])
+    return SplineFunctionals(rows.piece, rows.weight * scale[:, None])

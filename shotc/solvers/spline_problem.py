@@ -1,7 +1,8 @@
 """What is asked of a spline in three dimensions: goals, equalities, half-spaces and norm bounds.
 
-Arrays in, arrays out. The unknown is a curve on one set of knots; everything that is asked of it is a set of
-``Rows`` of its coefficients. ``spline_qp`` finds the best curve, ``spline_relax`` what stands in its way.
+Arrays in, arrays out. The unknown is a curve on one set of knots; all that is required of it is a set of
+``SplineFunctionals`` of its coefficients. ``spline_qp`` finds the best curve, ``spline_relax`` the
+requirements that conflict.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import DEGREE, IntArray, Rows
+from shotc.geom.bspline import DEGREE, IntArray, SplineFunctionals
 from shotc.solvers.cone_rows import ConeRows, Term
 
 EVERY = (0, 1, 2)
@@ -22,7 +23,7 @@ EVERY = (0, 1, 2)
 class Goal:
     """A term of the objective: sum over rows of |rows - value|^2 over ``axes``; value of shape (R, 3)."""
 
-    rows: Rows
+    rows: SplineFunctionals
     value: Array
     axes: tuple[int, ...] = EVERY
 
@@ -31,7 +32,7 @@ class Goal:
 class Equalities:
     """Rows that are to equal ``value``, shape (K, 3)."""
 
-    rows: Rows
+    rows: SplineFunctionals
     value: Array
 
 
@@ -42,7 +43,7 @@ class HalfSpaceRows:
     owner : shape (R,), an index of whom the row belongs to; it only matters to ``relax``
     """
 
-    rows: Rows
+    rows: SplineFunctionals
     normal: Array
     offset: Array
     owner: IntArray
@@ -58,7 +59,7 @@ class Cones:
     owner  : shape (R,), as in HalfSpaceRows
     """
 
-    rows: Rows
+    rows: SplineFunctionals
     axes: tuple[int, ...]
     centre: Array
     bound: Array
@@ -83,7 +84,7 @@ def centred(problem: SplineProblem, about: Array) -> SplineProblem:
     Coefficients move as the curve does; rows of values weigh them by 1 in sum, derivatives by 0.
     """
 
-    def shift(rows: Rows) -> Array:
+    def shift(rows: SplineFunctionals) -> Array:
         return np.asarray(rows.weight.sum(axis=1)[:, None] * -about)
 
     return SplineProblem(
@@ -97,7 +98,7 @@ def centred(problem: SplineProblem, about: Array) -> SplineProblem:
     )
 
 
-def scalar_map(rows: Rows, size: int) -> Any:
+def scalar_map(rows: SplineFunctionals, size: int) -> Any:
     """Return the rows as a sparse matrix over one component's coefficients, shape (R, size)."""
     from scipy.sparse import csr_matrix
 
@@ -107,7 +108,7 @@ def scalar_map(rows: Rows, size: int) -> Any:
     return csr_matrix((rows.weight.ravel(), columns.ravel(), pointer), shape=(count, size))
 
 
-def terms(rows: Rows, factor: Array | float = 1.0, first: int = 0) -> list[Term]:
+def terms(rows: SplineFunctionals, factor: Array | float = 1.0, first: int = 0) -> list[Term]:
     """Return rows of one component, times a factor, as terms of ``ConeRows``.
 
     factor : one, or one a row, shape (R,); first : of its columns

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import Rows
-from shotc.solvers.cone_rows import ConeRows, Near, Term
+from shotc.geom.bspline import SplineFunctionals
+from shotc.solvers.cone_rows import ConeRows, Term, WarmStart
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import (
     EVERY,
@@ -76,7 +76,7 @@ def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
     What it costs more is the sum of squares of that alone, for along the equalities ``free`` has no slope.
     """
 
-    def of(rows: Rows, axes: tuple[int, ...] = EVERY) -> Array:
+    def of(rows: SplineFunctionals, axes: tuple[int, ...] = EVERY) -> Array:
         return rows.apply(free)[:, list(axes)]
 
     return SplineProblem(
@@ -190,7 +190,7 @@ def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) 
             at += len(one)
         bounded(rows, problem.size, cone, more)
     hessian, slope = _quadratic(problem, squares, slacks)
-    near = Near(np.zeros(rows.unknowns), 1.0)
+    near = WarmStart(np.zeros(rows.unknowns), 1.0)
     status, x = rows.solve((slope + np.concatenate(price)) / unit, TOLERANCE, hessian / unit, near=near)
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))

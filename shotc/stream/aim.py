@@ -17,7 +17,7 @@ from shotc.ir.sampling import subjects
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.stream.clock import PERIOD_S, RATE_HZ
 from shotc.stream.feed import Feed
-from shotc.stream.setpoints import Aim, Course
+from shotc.stream.setpoints import Aim, SetpointSeries
 
 BACK_RAD = 1e-9
 """Angles nearer than this to the plan's are the plan's."""
@@ -27,7 +27,7 @@ class LiveAim:
     """Where one drone's camera looks, tick by tick."""
 
     def __init__(
-        self, mission: MissionIR, track: DroneTrajectory, course: Course, feeds: tuple[Feed, ...]
+        self, mission: MissionIR, track: DroneTrajectory, course: SetpointSeries, feeds: tuple[Feed, ...]
     ) -> None:
         """Follow the targets of ``feeds`` in the shots that film them."""
         self._mission = mission

@@ -21,7 +21,7 @@ from shotc.stream.autopilots import MULTIROTORS, NAMES, Action, LossRule
 from shotc.stream.messages import Place
 from shotc.stream.projection import LocalFrame
 from shotc.stream.reading import HEARTBEAT_S, READ_S, missing
-from shotc.stream.setpoints import Course, pitch_range, speeds
+from shotc.stream.setpoints import SetpointSeries, pitch_range, speeds
 from shotc.stream.vehicle import Vehicle
 
 HOME_OFF_M = 1.0
@@ -81,7 +81,7 @@ def answered(ready: Ready) -> list[Diagnostic]:
     return []
 
 
-def ready_to_fly(ready: Ready, origin: GeoOrigin, course: Course | None) -> list[Diagnostic]:
+def ready_to_fly(ready: Ready, origin: GeoOrigin, course: SetpointSeries | None) -> list[Diagnostic]:
     """Judge a vehicle that has told all that is needed.
 
     origin : of the plan; course : what would be sent to it, None where its place is not known
@@ -293,7 +293,7 @@ def _home_off(ready: Ready, origin: GeoOrigin, offset: Vec3) -> Diagnostic:
     )
 
 
-def _gimbal(ready: Ready, course: Course) -> Iterator[Diagnostic]:
+def _gimbal(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
     gimbal, name = ready.vehicle.gimbal, ready.drone.name
     if gimbal is None:
         yield Diagnostic(
@@ -320,7 +320,7 @@ def _gimbal(ready: Ready, course: Course) -> Iterator[Diagnostic]:
         )
 
 
-def _speeds(ready: Ready, course: Course) -> Iterator[Diagnostic]:
+def _speeds(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
     asked = speeds(course)
     for limit in ready.vehicle.autopilot.speeds:
         most = ready.vehicle.parameters.get(limit.parameter, inf)

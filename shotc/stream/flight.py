@@ -32,7 +32,7 @@ class Crew:
 
 
 @dataclass(slots=True)
-class Flown:
+class FlightResult:
     """What came of a flight.
 
     landed : whether every drone stands on its pad again; interrupted : by the user
@@ -46,7 +46,7 @@ class Flown:
     holding: list[tuple[str, str]] = field(default_factory=list)
 
 
-class Flight:
+class StreamedFlight:
     """Sends a plan to vehicles that have passed their checks."""
 
     def __init__(
@@ -63,7 +63,7 @@ class Flight:
         self._stale: set[str] = set()
         self._tick = min(member.pilot.begins for member in crew)
 
-    def fly(self) -> Flown:
+    def fly(self) -> FlightResult:
         """Fly; return when all drones have landed, or hold because something is wrong."""
         found: list[Diagnostic] = []
         interrupted = False
@@ -81,7 +81,7 @@ class Flight:
             holding, more = self._hold()
             found += more
         times = send_times(self._delays, self._skipped)
-        return Flown(times, found, landed and not interrupted, interrupted, holding)
+        return FlightResult(times, found, landed and not interrupted, interrupted, holding)
 
     def _run(self) -> list[Diagnostic]:
         found: list[Diagnostic] = []

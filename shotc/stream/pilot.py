@@ -16,7 +16,7 @@ from shotc.stream import faults
 from shotc.stream.autopilots import Mode
 from shotc.stream.clock import PERIOD_S, RATE_HZ
 from shotc.stream.messages import ACCEPTED, IN_PROGRESS, REJECTED_FOR_NOW
-from shotc.stream.setpoints import Aim, Course
+from shotc.stream.setpoints import Aim, SetpointSeries
 from shotc.stream.vehicle import Vehicle
 
 AGAIN = RATE_HZ // 2
@@ -38,7 +38,7 @@ SET_MODE, ARM_DISARM, TAKE_OFF, CLAIM = 176, 400, 22, 1001
 VIDEO_START, VIDEO_STOP = 2500, 2501
 
 
-class Stage(Enum):
+class PilotStage(Enum):
     """How far a drone has come; value : its order."""
 
     PARKED = 0
@@ -50,17 +50,17 @@ class Stage(Enum):
     LANDED = 6
 
 
-FOLLOWING = (Stage.ARMING, Stage.LIFTING, Stage.FLYING)
+FOLLOWING = (PilotStage.ARMING, PilotStage.LIFTING, PilotStage.FLYING)
 """Stages in which a vehicle that has left its mode was taken over."""
-AT_REST = (Stage.PARKED, Stage.LANDING, Stage.LANDED)
+AT_REST = (PilotStage.PARKED, PilotStage.LANDING, PilotStage.LANDED)
 """Stages in which nothing has to be stopped: what comes down onto its pad goes on."""
 DOINGS = {
-    Stage.MODE: "gets ready",
-    Stage.ARMING: "arms",
-    Stage.LIFTING: "takes off",
-    Stage.FLYING: "follows the plan",
-    Stage.LANDING: "lands",
-    Stage.LANDED: "stands on its pad, motors off",
+    PilotStage.MODE: "gets ready",
+    PilotStage.ARMING: "arms",
+    PilotStage.LIFTING: "takes off",
+    PilotStage.FLYING: "follows the plan",
+    PilotStage.LANDING: "lands",
+    PilotStage.LANDED: "stands on its pad, motors off",
 }
 
 
@@ -75,11 +75,11 @@ class Cut(NamedTuple):
 class Pilot:
     """Sends one drone what its course and its stage ask for."""
 
-    def __init__(self, vehicle: Vehicle, course: Course, cuts: tuple[Cut, ...]) -> None:
+    def __init__(self, vehicle: Vehicle, course: SetpointSeries, cuts: tuple[Cut, ...]) -> None:
         self.vehicle = vehicle
         self.course = course
         self.cuts = cuts
-        self.stage = Stage.PARKED
+        self.stage = PilotStage.PARKED
         self.begins = course.lifts - round(vehicle.autopilot.lead * RATE_HZ)
         self.farthest = 0.0
         self.sent = 0
@@ -99,30 +99,30 @@ class Pilot:
     @property
     def done(self) -> bool:
         """Whether it stands on its pad again, motors off."""
-        return self.stage is Stage.LANDED
+        return self.stage is PilotStage.LANDED
 
     def airborne(self, tick: int) -> bool:
         """Tell whether the drone is off its pad, or may be, and follows or rises."""
-        if self.stage is Stage.FLYING:
+        if self.stage is PilotStage.FLYING:
             return tick > self.course.lifts or self.vehicle.autopilot.lift > 0
-        return self.stage is Stage.LIFTING
+        return self.stage is PilotStage.LIFTING
 
     def send(self, tick: int, aim: Aim) -> None:
         """Send what belongs to a tick: the setpoint where the vehicle takes them, and the camera's angles."""
-        follows = Stage.MODE if self.vehicle.autopilot.lift == 0 else Stage.FLYING
-        if self.stage.value >= follows.value and self.stage.value <= Stage.FLYING.value:
+        follows = PilotStage.MODE if self.vehicle.autopilot.lift == 0 else PilotStage.FLYING
+        if self.stage.value >= follows.value and self.stage.value <= PilotStage.FLYING.value:
             boot_ms = max(0, round((tick - self.begins) * PERIOD_S * 1000))
             self.vehicle.link.setpoint(self.course.setpoint(tick), boot_ms)
             self.sent += 1
-        if self.stage in (Stage.FLYING, Stage.LIFTING) and self.vehicle.gimbal is not None:
+        if self.stage in (PilotStage.FLYING, PilotStage.LIFTING) and self.vehicle.gimbal is not None:
             link, attitudes = self.vehicle.link, self.vehicle.autopilot.attitudes
             (link.attitude if attitudes else link.aim)(aim, self.vehicle.gimbal, pans=self.course.pans)
 
     def step(self, tick: int, now: float) -> Iterator[Diagnostic]:
         """Go on to the next stage where this one has been reached; yield what makes flying on wrong."""
-        if self.stage is Stage.LANDED or tick < self.begins:
+        if self.stage is PilotStage.LANDED or tick < self.begins:
             return
-        if self.stage is not Stage.PARKED and now - self.vehicle.seen > SILENT_S:
+        if self.stage is not PilotStage.PARKED and now - self.vehicle.seen > SILENT_S:
             yield faults.vanished(self.vehicle, now - self.vehicle.seen)
             return
         if self.stage in FOLLOWING and self.vehicle.mode != self.vehicle.autopilot.flown.custom:
@@ -130,17 +130,17 @@ class Pilot:
             yield faults.mode_left(self.vehicle)
             return
         match self.stage:
-            case Stage.PARKED:
+            case PilotStage.PARKED:
                 self._prepare(tick)
-            case Stage.MODE:
+            case PilotStage.MODE:
                 yield from self._enter_mode(tick)
-            case Stage.ARMING:
+            case PilotStage.ARMING:
                 yield from self._arm(tick)
-            case Stage.LIFTING:
+            case PilotStage.LIFTING:
                 yield from self._lift(tick)
-            case Stage.FLYING:
+            case PilotStage.FLYING:
                 yield from self._fly(tick)
-            case Stage.LANDING:
+            case PilotStage.LANDING:
                 yield from self._land(tick)
 
     def hold(self, tick: int) -> Mode | None:
@@ -161,7 +161,7 @@ class Pilot:
         return self.airborne(tick) and self.vehicle.mode == self.vehicle.autopilot.hold.custom
 
     def _prepare(self, tick: int) -> None:
-        self._go(Stage.MODE, tick)
+        self._go(PilotStage.MODE, tick)
         if self.vehicle.autopilot.lift == 0:
             self._asked = tick + FLOWING - AGAIN
 
@@ -170,7 +170,7 @@ class Pilot:
         claimed = gimbal is None or self.vehicle.answers.get(CLAIM) == ACCEPTED
         flows = pilot.lift > 0 or tick >= self.begins + FLOWING
         if self.vehicle.mode == pilot.flown.custom and claimed and flows:
-            self._go(Stage.ARMING, tick)
+            self._go(PilotStage.ARMING, tick)
             return
         yield from self._late_or_refused(tick, SET_MODE, f"the mode {pilot.flown.name}")
         if not claimed:
@@ -185,7 +185,7 @@ class Pilot:
         if self.vehicle.armed:
             self._armed_since = self._armed_since or tick
             if tick - self._armed_since >= SPOOL:
-                self._go(Stage.LIFTING if self.vehicle.autopilot.lift > 0 else Stage.FLYING, tick)
+                self._go(PilotStage.LIFTING if self.vehicle.autopilot.lift > 0 else PilotStage.FLYING, tick)
             return
         away = self._away(tick)
         if away > PAD_OFF_M:
@@ -197,7 +197,7 @@ class Pilot:
 
     def _lift(self, tick: int) -> Iterator[Diagnostic]:
         if self._height() >= LIFTED * self.course.height:
-            self._go(Stage.FLYING, tick)
+            self._go(PilotStage.FLYING, tick)
             return
         yield from self._late_or_refused(tick, TAKE_OFF, "to take off")
         if self._again(tick) and self.vehicle.answers.get(TAKE_OFF) != ACCEPTED:
@@ -212,15 +212,15 @@ class Pilot:
         yield from self._record(tick)
         if tick >= self.course.last:
             self._landing_since = tick
-            self._go(Stage.LANDING, tick)
+            self._go(PilotStage.LANDING, tick)
 
     def _land(self, tick: int) -> Iterator[Diagnostic]:
         if not self.vehicle.armed:
-            self._go(Stage.LANDED, tick)
+            self._go(PilotStage.LANDED, tick)
             return
         if (tick - self._landing_since) * PERIOD_S > LANDING_S:
             yield faults.not_landed(self.vehicle, LANDING_S)
-            self._go(Stage.LANDED, tick)
+            self._go(PilotStage.LANDED, tick)
         elif self._again(tick) and self.vehicle.mode != self.vehicle.autopilot.land.custom:
             self.vehicle.link.set_mode(self.vehicle.autopilot.land)
 
@@ -259,7 +259,7 @@ class Pilot:
             self._asked = tick
         return due
 
-    def _go(self, stage: Stage, tick: int) -> None:
+    def _go(self, stage: PilotStage, tick: int) -> None:
         self.stage, self._asked = stage, tick - AGAIN
         self.vehicle.answers.clear()
         self.events.append(DOINGS[stage])
@@ -272,6 +272,6 @@ class Pilot:
     def _away(self, tick: int) -> float:
         """Return how far the vehicle is from where the plan has it, from its pad before it flies, metres."""
         assert self.vehicle.position is not None, "it was read before the flight"
-        on_pad = self.stage is not Stage.FLYING
+        on_pad = self.stage is not PilotStage.FLYING
         planned = self.course.position[0].tolist() if on_pad else self.course.setpoint(tick).position
         return dist(self.vehicle.position, planned)

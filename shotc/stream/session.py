@@ -24,10 +24,10 @@ from shotc.stream.checks import Ready
 from shotc.stream.clock import RATE_HZ, Clock
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import Feed
-from shotc.stream.flight import Crew, Flight, Flown
+from shotc.stream.flight import Crew, FlightResult, StreamedFlight
 from shotc.stream.pilot import Cut, Pilot
 from shotc.stream.reading import read
-from shotc.stream.setpoints import Course, course_of
+from shotc.stream.setpoints import SetpointSeries, course_of
 from shotc.stream.vehicle import Vehicle
 
 if TYPE_CHECKING:  # the sockets come from outside, and MAVLink with them
@@ -53,7 +53,7 @@ class Aboard:
 
     ready: Ready
     track: DroneTrajectory
-    course: Course
+    course: SetpointSeries
 
 
 class Session:
@@ -158,7 +158,7 @@ class Session:
                     "let its position be sent there, or leave --target away",
                 )
 
-    def fly(self, aboard: Sequence[Aboard]) -> tuple[Flown, list[Pilot]]:
+    def fly(self, aboard: Sequence[Aboard]) -> tuple[FlightResult, list[Pilot]]:
         """Arm and fly all drones on one clock."""
         crew = [
             Crew(
@@ -167,7 +167,7 @@ class Session:
             )
             for who in aboard
         ]
-        flown = Flight(crew, self._feeds, self._clock, self._note).fly()
+        flown = StreamedFlight(crew, self._feeds, self._clock, self._note).fly()
         return flown, [member.pilot for member in crew]
 
 

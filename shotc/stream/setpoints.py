@@ -47,7 +47,7 @@ class Aim(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class SetpointSeries:
     """All that is sent to one drone, at ticks k = 0 to N - 1 of mission time k / RATE_HZ.
 
     position, velocity, acceleration : (N, 3), North, East, Down of the vehicle's local frame
@@ -88,7 +88,7 @@ class Course:
         return Aim(pitch, yaw, pitch_rate, yaw_rate) if at == tick else Aim(pitch, yaw, 0.0, 0.0)
 
 
-def course_of(track: DroneTrajectory, origin: GeoOrigin, frame: LocalFrame, lift: float) -> Course:
+def course_of(track: DroneTrajectory, origin: GeoOrigin, frame: LocalFrame, lift: float) -> SetpointSeries:
     """Return what is sent to the drone of a track.
 
     origin : of the plan's frame; frame : of the vehicle
@@ -99,7 +99,7 @@ def course_of(track: DroneTrajectory, origin: GeoOrigin, frame: LocalFrame, lift
     pose, rate, push = curve(times), curve.derivative()(times), curve.derivative(2)(times)
     lifts = ceil(lift_off(curve) * RATE_HZ - 1e-9)
     first = _reaches(pose[:, 2], lift) if lift > 0 else 0
-    return Course(
+    return SetpointSeries(
         position=frame.of_places(of_world(pose[:, :3], origin)),
         velocity=_ned(rate),
         acceleration=_ned(push),
@@ -126,13 +126,13 @@ def pans(curve: Piecewise) -> bool:
     return bool(np.abs(wrapped(apart)).max() > TOGETHER_RAD)
 
 
-def pitch_range(course: Course) -> tuple[float, float]:
+def pitch_range(course: SetpointSeries) -> tuple[float, float]:
     """Return the lowest and the highest pitch that is sent, rad."""
     pitch = course.aims[:, 0]
     return float(pitch.min()), float(pitch.max())
 
 
-def speeds(course: Course) -> dict[str, float]:
+def speeds(course: SetpointSeries) -> dict[str, float]:
     """Return the largest speeds that are sent, m/s: level, up and down."""
     north, east, down = course.velocity.T
     level = float(np.hypot(north, east).max())

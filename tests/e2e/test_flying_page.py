@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from shotc.simulation.faults import not_kept
-from shotc.simulation.rehearsal import Asked, conditions_of, rehearse
+from shotc.simulation.rehearsal import RehearsalOptions, conditions_of, rehearse
 from shotc.simulation.runs import simulated
 from tests.support.compiled import compiled_text
 
@@ -23,11 +23,11 @@ def test_following_what_is_seen_keeps_what_the_plan_alone_does_not() -> None:
     plan = compiled_text(text).plan
     assert plan is not None
 
-    def broken(asked: Asked) -> list[str]:
+    def broken(asked: RehearsalOptions) -> list[str]:
         conditions = conditions_of(plan.trajectory.keyframes.mission, asked)
         runs = simulated(plan.trajectory, conditions, 6, 1)
         done = rehearse(plan.trajectory, conditions, runs, lambda _: None)
         return [each.code for each in not_kept(done)]
 
-    assert set(broken(Asked())) == {"W001"}
-    assert broken(Asked(loop="track")) == []
+    assert set(broken(RehearsalOptions())) == {"W001"}
+    assert broken(RehearsalOptions(loop="track")) == []

@@ -10,7 +10,7 @@ import pytest
 from pymavlink import mavwp
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.items import Item
+from shotc.emit.mavlink.items import MissionItem
 from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.ir.trajectory import VerifiedIR
@@ -59,7 +59,7 @@ def test_pymavlink_loads_the_waypoints(name: str, tmp_path: Path) -> None:
 def test_both_formats_hold_the_same_items() -> None:
     emission = EMITTER.emit(sample("orbit", "ardupilot"))
 
-    def rounded(items: list[Item]) -> list[tuple[int, int, list[float]]]:
+    def rounded(items: list[MissionItem]) -> list[tuple[int, int, list[float]]]:
         return [(i.command, i.frame, [round(float(p or 0.0), 8) for p in i.params]) for i in items]
 
     one, home = read_plan(emission.artifacts[0].data)

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
-from shotc.identify.mission import Place, identify_source
+from shotc.identify.mission import TextLocation, identify_source
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "shotc" / "docs" / "places.md").read_text(encoding="utf-8")
@@ -60,7 +60,7 @@ def test_it_checks_clean(folder: Path, text: bytes) -> None:
 @each
 def test_it_plans_without_a_warning(folder: Path, text: bytes) -> None:
     if BOXES.encode() in text:
-        place = Place("mine.yaml", folder)
+        place = TextLocation("mine.yaml", folder)
         done = identify_source(text, place, place, None)
         assert [target.name for target in done.targets] == ["silo"]
         assert done.text is not None

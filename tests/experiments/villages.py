@@ -20,7 +20,7 @@ from shotc.geom.surface.distance import inf_distance
 from shotc.ir.coverage import HALF_SHARE, coverage
 from shotc.ir.sampling import clock, framed, projected
 from shotc.ir.trajectory import VerifiedIR
-from shotc.planning.path.lines import Line, straight_line
+from shotc.planning.path.lines import Polyline, straight_line
 from shotc.planning.path.transit import smooth
 from tests.support.mesh_spaces import CLEARANCE, space_of
 from tests.support.path_scenes import mission
@@ -61,7 +61,7 @@ def flight(seed: int) -> Flight:
     space = space_of(scene.triangles)
     line = straight_line(space, scene.start, scene.end)
     times.append(time.process_time())
-    curve = smooth(space, mission().drones[0], line) if isinstance(line, Line) else line
+    curve = smooth(space, mission().drones[0], line) if isinstance(line, Polyline) else line
     times.append(time.process_time())
     fault = "" if isinstance(curve, Piecewise) else type(curve).__name__
     if isinstance(curve, Piecewise):

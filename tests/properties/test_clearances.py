@@ -14,7 +14,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import CHANNELS, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.space import space
 from shotc.planning.clearances import clearances_of
 from shotc.planning.free_space import bounds_slack
@@ -49,14 +49,14 @@ def mission_of(radius: float, height: float, ground: float, clearance: float) ->
     return mission
 
 
-def hovering(mission: MissionIR, place: Vec3, phase: str) -> Flight:
+def hovering(mission: MissionIR, place: Vec3, phase: str) -> JudgedFlight:
     """A drone that stays at a place for a second."""
     pose = np.zeros(len(CHANNELS))
     pose[:3], pose[HFOV] = place, 1.2
     curve = Piecewise(np.array([0.0, 1.0]), np.tile(pose, (1, 6, 1)))
     drone = mission.drones[0]
     phases = (Phase(phase, None, 0.0, 1.0),)  # type: ignore[arg-type]
-    return Flight(mission, drone, DroneTrajectory(drone.name, curve, phases, (), ()))
+    return JudgedFlight(mission, drone, DroneTrajectory(drone.name, curve, phases, (), ()))
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from shotc.importers.cameras.takes import Asked
+from shotc.importers.cameras.takes import ImportOptions
 from shotc.importers.mission import Imported, imported
 
 LAT, LON = 47.3769, 8.5417
@@ -91,7 +91,7 @@ GOOD = {"kml": GOOD_TOUR, "blender-camera": BLENDER.encode(), "qgc": GOOD_PLAN, 
 
 
 def made(format: str, data: bytes, *, strict: bool = False, **asked: Any) -> Imported:
-    return imported(format, data, "file", strict=strict, asked=Asked(**asked))
+    return imported(format, data, "file", strict=strict, asked=ImportOptions(**asked))
 
 
 def assumed(result: Imported) -> list[tuple[int, str]]:

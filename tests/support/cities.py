@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import ScreenBox, aim_at
 from shotc.geom.surface.inside import bodies
 from shotc.geom.surface.tree import surface_of
-from shotc.identify.views import FRAME, Camera, look
+from shotc.identify.views import FRAME, CameraPose, look
 from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from tests.support.meshes import box_mesh
@@ -43,7 +43,7 @@ class Drawn(NamedTuple):
     """A keyframe that somebody framed: of which building, its camera, and the box round the building."""
 
     building: int
-    camera: Camera
+    camera: CameraPose
     box: ScreenBox
 
 
@@ -153,7 +153,7 @@ def _keyframe(random: np.random.Generator, city: City, number: int, azimuth: flo
     aim = aim_at(offset, (float(place[0]), float(place[1])), HFOV_RAD, ASPECT)
     if aim is None or city.mission.meshes[0].holds(np.array([eye])).any():
         return None
-    camera = Camera(tuple(map(float, eye)), aim[0], aim[1], HFOV_RAD, ASPECT)
+    camera = CameraPose(tuple(map(float, eye)), aim[0], aim[1], HFOV_RAD, ASPECT)
     box = box_of(b.triangles, camera)
     if box is None or _blocked(city, number, eye):
         return None
@@ -171,7 +171,7 @@ def _blocked(city: City, number: int, eye) -> bool:
     )
 
 
-def box_of(triangles: Array, camera: Camera) -> ScreenBox | None:
+def box_of(triangles: Array, camera: CameraPose) -> ScreenBox | None:
     """Return the box round triangles on screen, or None where a part of them is out of the frame."""
     u, v, depth = camera.view.project(tuple((triangles.reshape(-1, 3) - camera.eye).T))
     if (depth <= 0.1).any():

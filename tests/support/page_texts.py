@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from shotc.emit.storyboard.canvas import CAPITAL, Box, Canvas, Type
+from shotc.emit.storyboard.canvas import CAPITAL, Canvas, PageRectangle, Type
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class Written:
 
     text: str
     style: Type
-    box: Box
+    box: PageRectangle
     capital: float
 
 
@@ -33,7 +33,9 @@ def texts() -> Iterator[list[Written]]:
         left = x - width * {"left": 0.0, "center": 0.5, "right": 1.0}[style.across]
         low = y - height * (0.5 if style.along.startswith("center") else 0.0)
         dpi = 9.0 * 72.0 / (CAPITAL * self.least_size)
-        found.append(Written(words, style, Box(left, low, width, height), style.size * dpi / 72.0 * CAPITAL))
+        found.append(
+            Written(words, style, PageRectangle(left, low, width, height), style.size * dpi / 72.0 * CAPITAL)
+        )
         text(self, x, y, words, style, *rest)
 
     with pytest.MonkeyPatch.context() as patch:

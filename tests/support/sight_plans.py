@@ -13,7 +13,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.promise import Promise
 from shotc.ir.rules import Rules
 from shotc.ir.trajectory import Claim, DroneTrajectory
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.sight import sights
 from tests.support.film_plans import orbit_mission
 from tests.support.records import replace
@@ -70,4 +70,4 @@ def unfilmed(name: str, curve: Piecewise) -> DroneTrajectory:
 
 def claims(of: MissionIR, *tracks: DroneTrajectory) -> list[Claim]:
     """Return the claims of mutual visibility."""
-    return list(sights([Flight(of, of.drone(t.drone), t) for t in tracks]))
+    return list(sights([JudgedFlight(of, of.drone(t.drone), t) for t in tracks]))

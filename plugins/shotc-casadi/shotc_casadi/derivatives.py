@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc_casadi.conditions import Visibility
-from shotc_casadi.symbols import Stage, stage
+from shotc_casadi.symbols import StageSymbols, stage
 
 Index = NDArray[np.int64]
 
@@ -124,7 +124,7 @@ def derived(
     return differentiated(stage(visibility, planes, extents, windy, zooms))
 
 
-def differentiated(s: Stage) -> Derived:
+def differentiated(s: StageSymbols) -> Derived:
     """Return the functions of a stage; its state is what comes first in ``z``."""
     states = s.following.numel()
     inputs = s.z.numel() - states

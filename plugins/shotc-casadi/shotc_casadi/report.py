@@ -9,7 +9,7 @@ import numpy as np
 from shotc.plugin_api import Diagnostic, PathIR, SolverState, unrefined
 from shotc.plugin_api.refiner import PathDeviation, leg_of
 from shotc_casadi.messages import UNITS, fallen_back, unsolved
-from shotc_casadi.rounds import Gap, Refined
+from shotc_casadi.rounds import Refined, UnprovedPlace
 from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
 
@@ -29,7 +29,7 @@ def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
     return unsolved(path, state_of(refined, solution.constraint, name), solution)
 
 
-def _between(refined: Refined, gap: Gap, name: str) -> SolverState:
+def _between(refined: Refined, gap: UnprovedPlace, name: str) -> SolverState:
     """Return the state of a problem whose solution does not hold between its nodes."""
     k = min(int(np.searchsorted(refined.nodes.s, gap.s)), len(refined.nodes.s) - 1)
     what = "the gimbal's pitch range" if isnan(gap.metres) else "the clearances between stages"

@@ -31,7 +31,7 @@ ROUNDS = 6
 HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
 
 
-class Gap(NamedTuple):
+class UnprovedPlace(NamedTuple):
     """Where a camera is not proved to be clear, though its nodes are: path parameter, and by metres.
 
     metres : NaN where no camera goes through the nodes within the gimbal's pitch range
@@ -61,7 +61,7 @@ class Refined:
     solution: Solution
     seconds: float
     first: Solution | None
-    gap: Gap | None
+    gap: UnprovedPlace | None
     shows_less: bool = False
 
 
@@ -179,12 +179,12 @@ def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -
     seconds = sum(t.attempt.seconds for t in done)
     gap = None
     if kept.camera is None and solution.status == "solved" and not shows_less:
-        gap = Gap(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
+        gap = UnprovedPlace(float(nodes.s[0]), nan) if best.camera is None else _widest(subject, best.camera)
     of = (leg.shot, kept.camera, nodes, len(done), kept.problem, solution, seconds, failed, gap)
     return Refined(*of, shows_less)
 
 
-def _widest(subject: Subject, found: Piecewise) -> Gap:
+def _widest(subject: Subject, found: Piecewise) -> UnprovedPlace:
     lack = shortfall(subject.space, found.ctrl[:, :, :3])
     k = int(lack.argmax())
-    return Gap(float(found.breaks[k]), float(lack[k]))
+    return UnprovedPlace(float(found.breaks[k]), float(lack[k]))

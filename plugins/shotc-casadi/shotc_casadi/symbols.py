@@ -86,7 +86,7 @@ lens_off, spread_off, lens_still, lens_acceleration : weights of squares: off th
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class StageSymbols:
     """Symbols of one stage.
 
     z : state and input; p : parameters
@@ -119,7 +119,7 @@ class Stage:
 
 def stage(
     visibility: Visibility, planes: int, extents: int = 0, windy: bool = False, zooms: bool = False
-) -> Stage:
+) -> StageSymbols:
     """Return a stage with that many half-spaces to stay in, of a target of that many bodies.
 
     extents : 0 where the target is one upright cylinder; windy : whether the air moves
@@ -165,7 +165,7 @@ def stage(
     ]
     level = x[VELOCITY][:2] - p[-WIND:] if windy else x[VELOCITY][:2]
     held = ca.vertcat(ca.sumsqr(level), ca.sumsqr(x[ACCELERATION]), *slack)
-    return Stage(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
+    return StageSymbols(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
 
 
 def size(planes: int, extents: int = 0, windy: bool = False, zooms: bool = False) -> int:

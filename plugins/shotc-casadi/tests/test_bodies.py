@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.clock import program, symbols, weights
-from shotc_casadi.clock.bodies import NONE, Body, inscribed, kept_from
+from shotc_casadi.clock.bodies import NONE, MovingEllipsoid, inscribed, kept_from
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.refiner import subject_of
@@ -74,7 +74,7 @@ def subject() -> ClockSubject:
     return subject_of(next(r.output for r in done.reports if r.name == "solve-path-qp"), "s")
 
 
-def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProblem, Body]:
+def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProblem, MovingEllipsoid]:
     """A straight flight without half-spaces, and an ellipsoid just beside its middle: y is off by ``at``."""
     of = subject()
     breaks = breaks_of(of)
@@ -82,7 +82,7 @@ def in_the_way(at: float, touch: float, field: float = 0.0) -> tuple[ClockProble
     course = guide(breaks)
     middle = len(breaks) // 2
     centres = np.tile(course[middle] + np.array([0.0, at, 0.0]), (len(breaks), 1))
-    body = Body(np.eye(3), centres, 1.5, 1.0)
+    body = MovingEllipsoid(np.eye(3), centres, 1.5, 1.0)
     references = kept_from((body,), references_at(of, breaks), course)
     made = problem(
         of,
@@ -143,7 +143,7 @@ def test_what_is_far_away_makes_no_part_of_the_problem() -> None:
     of = subject()
     breaks = breaks_of(of)
     references, course = references_at(of, breaks), of.leg.curve(breaks)[:, :3]
-    far = Body(np.eye(3), course + np.array([0.0, 0.0, 5.0]), 1.5, 1.0)
+    far = MovingEllipsoid(np.eye(3), course + np.array([0.0, 0.0, 5.0]), 1.5, 1.0)
     assert kept_from((far,), references, course).bodies.shape[1] == 0
     near: ClockReferences = kept_from((far,), references, course + np.array([0.0, 0.0, 3.0]))
     assert near.bodies.shape[1] == 1

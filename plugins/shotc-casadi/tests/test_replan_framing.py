@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.replan import framing
-from shotc_casadi.replan.evaluation import Evaluation, Stage
+from shotc_casadi.replan.evaluation import Evaluation, StageExpressions
 from shotc_casadi.replan.framing import Framing
 from shotc_casadi.replan.pictures import Symbols, clear, in_field, uncovered
 from shotc_casadi.replan.steps import Until
@@ -120,7 +120,7 @@ def test_converged_it_costs_what_a_second_solver_finds(count, moment):
     assert mine == pytest.approx(theirs, rel=4e-3, abs=3e-3)
 
 
-def by_ipopt(of: Evaluation, s: Stage, inputs: np.ndarray) -> float:
+def by_ipopt(of: Evaluation, s: StageExpressions, inputs: np.ndarray) -> float:
     """Solve the same stages by IPOPT, from the same inputs, and return the merit of its inputs."""
     n, prices = of.of.stages, of.of.prices
     u, slack = ca.MX.sym("u", s.u.numel(), n), ca.MX.sym("slack", len(prices.lacking), n)

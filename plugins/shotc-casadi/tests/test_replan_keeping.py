@@ -8,7 +8,7 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi.replan.keeping import Standing, common, each, ends, kept, pitched, rows
+from shotc_casadi.replan.keeping import StaticObstacles, common, each, ends, kept, pitched, rows
 
 from shotc.geom.solids import Cylinder, box
 from shotc.plugin_api.replanner import NO_TRAFFIC, Cone, Keeping, Traffic
@@ -36,7 +36,7 @@ class Found(NamedTuple):
 def found(
     keeping: Keeping, traffic: Traffic = NO_TRAFFIC, states: np.ndarray = STATES, step: float = DT
 ) -> Found:
-    near = Standing(keeping).near(np.zeros(3), 1e3)
+    near = StaticObstacles(keeping).near(np.zeros(3), 1e3)
     of = kept(keeping, near, traffic)
     shared = [*common(keeping, near, step), *(cone.half_angle for cone in traffic.cones)]
     own = each(traffic) if of.each else np.zeros((len(states), 0))
@@ -136,6 +136,6 @@ def test_a_straight_step_cuts_off_what_is_added():
 
 def test_of_much_that_stands_what_is_out_of_reach_is_left_out():
     trees = tuple(zone(Cylinder((20.0 * k, 0.0), 1.0, 0.0, 5.0)) for k in range(6))
-    assert len(Standing(Keeping(LIMITS, zones=trees)).near(np.zeros(3), 50.0)) == 3
-    assert len(Standing(Keeping(LIMITS, zones=trees, floor=1.0)).near(np.zeros(3), 50.0)) == 4
-    assert len(Standing(Keeping(LIMITS, zones=trees[:3])).near(np.zeros(3), 0.0)) == 3
+    assert len(StaticObstacles(Keeping(LIMITS, zones=trees)).near(np.zeros(3), 50.0)) == 3
+    assert len(StaticObstacles(Keeping(LIMITS, zones=trees, floor=1.0)).near(np.zeros(3), 50.0)) == 4
+    assert len(StaticObstacles(Keeping(LIMITS, zones=trees[:3])).near(np.zeros(3), 0.0)) == 3

@@ -7,7 +7,7 @@ from math import inf
 import casadi as ca
 import numpy as np
 import pytest
-from shotc_casadi.replan.solids import Room, count, free_at, rooms
+from shotc_casadi.replan.solids import SolidConstraint, count, free_at, rooms
 
 from shotc.geom.solids import Cylinder, Prism, box, signed_distance
 from tests.support.replans import zone
@@ -23,7 +23,7 @@ ELL = Prism(((0.0, 0.0), (6.0, 0.0), (6.0, 2.0), (2.0, 2.0), (2.0, 6.0), (0.0, 6
 POINTS = np.random.default_rng(3).uniform([-6.0, -6.0, -3.0], [8.0, 8.0, 8.0], (400, 3))
 
 
-def measured(room: Room, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def measured(room: SolidConstraint, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Room at points (M, 3), and its gradient (M, 3)."""
     p, sizes = ca.SX.sym("p", 3), ca.SX.sym("sizes", count(room.shape))
     free = free_at(room.shape, p, sizes)

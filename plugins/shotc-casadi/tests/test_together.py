@@ -110,7 +110,7 @@ def test_the_terms_are_those_by_which_the_ideal_is_found(asked: dict[str, object
         )
         for centre, s in zip(centres[0], framed, strict=True)
     ]
-    rng, room = np.random.default_rng(5), viewpoint.Room(0.0, 0.0)
+    rng, room = np.random.default_rng(5), viewpoint.PlaceBounds(0.0, 0.0)
     for _ in range(20):
         at = np.array([2.0, -7.0, 2.0]) + rng.uniform(-2, 2, 3)
         look = np.array([0.5 * pi, -0.1]) + rng.uniform(-0.2, 0.2, 2)

@@ -7,11 +7,11 @@ from typing import ClassVar
 
 from shotc.emit.base import Emission
 from shotc.emit.dji.kmz import POINTS_MOST, read_kmz, write_kmz
-from shotc.emit.waypoints.machine_files import Format, emit_files
+from shotc.emit.waypoints.machine_files import FileFormat, emit_files
 from shotc.emit.waypoints.models import CURVED
 from shotc.ir.trajectory import VerifiedIR
 
-FORMAT = Format(
+FORMAT = FileFormat(
     "dji",
     ("dji-fly", "pilot-2"),
     POINTS_MOST,

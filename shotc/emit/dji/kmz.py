@@ -9,7 +9,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from shotc.emit.dji.profiles import profile_of
 from shotc.emit.dji.wpml import KML, PASS, Document
-from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.link import NOTHING
 from shotc.emit.waypoints.route import Action, Waypoint
 from shotc.ir.drone import Drone
@@ -58,7 +58,7 @@ def read_kmz(data: bytes) -> list[Waypoint]:
 def _waypoint(mark: ET.Element) -> Waypoint:
     lon, lat = (float(part) for part in _text(mark, "coordinates").split(","))
     return Waypoint(
-        Place(lat, lon, float(_text(mark, "executeHeight"))),
+        GeoPosition(lat, lon, float(_text(mark, "executeHeight"))),
         float(_text(mark, "waypointHeadingAngle")),
         float(_text(mark, "waypointGimbalPitchAngle")),
         float(_text(mark, "waypointSpeed")),

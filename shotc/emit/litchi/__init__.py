@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from shotc.emit.base import Emission
 from shotc.emit.litchi.table import POINTS_MOST, read_table, write_table
-from shotc.emit.waypoints.machine_files import Format, emit_files
+from shotc.emit.waypoints.machine_files import FileFormat, emit_files
 from shotc.emit.waypoints.models import ROUNDED
 from shotc.emit.waypoints.report import without_waypoints
 from shotc.ir.trajectory import VerifiedIR
@@ -15,7 +15,7 @@ from shotc.ir.trajectory import VerifiedIR
 FARTHEST_M = 30_000.0
 """Of a mission: DJI's older programming interface, by which Litchi flies, takes no longer one."""
 
-FORMAT = Format(
+FORMAT = FileFormat(
     "litchi",
     ("dji-fly", "litchi"),
     POINTS_MOST,

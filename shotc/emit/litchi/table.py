@@ -7,7 +7,7 @@ from dataclasses import replace
 from io import StringIO
 from math import ceil
 
-from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.route import Action, Waypoint
 from shotc.ir.photos import Photos
 
@@ -89,7 +89,7 @@ def _row(point: Waypoint, photos: Photos | None) -> list[str]:
     ]
 
 
-def _focus(watched: Place | None) -> tuple[str, ...]:
+def _focus(watched: GeoPosition | None) -> tuple[str, ...]:
     """Return the point of interest of a row, whose height counts from take-off; 0 where there is none."""
     if watched is None:
         return ("0", "0", "0", "0")
@@ -117,14 +117,14 @@ def _waypoint(row: dict[str, str]) -> Waypoint:
     lat, lon, alt = (float(row[f"poi_{name}"]) for name in ("latitude", "longitude", "altitude(m)"))
     pairs = [(int(row[f"actiontype{n}"]), int(row[f"actionparam{n}"])) for n in range(1, ACTIONS_MOST + 1)]
     return Waypoint(
-        Place(float(row["latitude"]), float(row["longitude"]), float(row["altitude(m)"])),
+        GeoPosition(float(row["latitude"]), float(row["longitude"]), float(row["altitude(m)"])),
         heading - 360.0 if heading >= 180.0 else heading,
         float(row["gimbalpitchangle"]),
         float(row["speed(m/s)"]),
         stops=False,
         actions=tuple(_action(kind, value) for kind, value in pairs if kind != NONE),
         curve=float(row["curvesize(m)"]),
-        watched=None if lat == lon == 0.0 else Place(lat, lon, alt),
+        watched=None if lat == lon == 0.0 else GeoPosition(lat, lon, alt),
     )
 
 

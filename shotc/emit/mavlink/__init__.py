@@ -19,7 +19,7 @@ from shotc.emit.mavlink.build import Builder
 from shotc.emit.mavlink.dialect import DIALECTS, Dialect
 from shotc.emit.mavlink.fence import fence_of
 from shotc.emit.mavlink.focus import Focus, focus_of
-from shotc.emit.mavlink.items import CHANGE_SPEED, Item
+from shotc.emit.mavlink.items import CHANGE_SPEED, MissionItem
 from shotc.emit.mavlink.plan_file import read_plan, write_plan
 from shotc.emit.mavlink.refly import refly
 from shotc.emit.mavlink.report import (
@@ -39,12 +39,12 @@ from shotc.emit.mavlink.thin import Leg, Tolerance, thinner_of
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.emit.waypoints.clearance import Obstacle, keep_outs
 from shotc.emit.waypoints.compare import Error, compare, nearest_miss
-from shotc.emit.waypoints.flown import Flown
-from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, Place, tie
+from shotc.emit.waypoints.flown import ReflownSamples
+from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, GeoPosition, tie
 from shotc.emit.waypoints.link import link_notes
 from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
-from shotc.emit.waypoints.track import SAMPLE_STEP, Track, track_of
+from shotc.emit.waypoints.track import SAMPLE_STEP, SampledFlight, track_of
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -89,7 +89,7 @@ class MavlinkEmitter:
 class _Flight:
     """A flight list, and whether tolerances had to give way for it to fit."""
 
-    items: list[Item]
+    items: list[MissionItem]
     asked: list[Step]
     steps: list[Step]
     coarser: bool
@@ -104,7 +104,7 @@ class _Job:
     drone: Drone
     dialect: Dialect
     geo: Geo
-    track: Track
+    track: SampledFlight
     style: Style
     obstacles: tuple[Obstacle, ...]
     focus: Focus | None
@@ -159,7 +159,7 @@ class _Job:
         ]
         return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes)), flown.position
 
-    def _rally(self) -> list[Place]:
+    def _rally(self) -> list[GeoPosition]:
         """Return the rally points, at the height at which the drone returns, or that of its highest point."""
         safety = self.drone.safety
         if safety is None:
@@ -168,11 +168,13 @@ class _Job:
         height = round(safety.return_height or highest, METRE_DECIMALS)
         return [replace(self.geo.place(place), alt=height) for place in safety.rally]
 
-    def _check(self, items: list[Item], home: tuple[float, float, float]) -> tuple[Flown, Error]:
+    def _check(
+        self, items: list[MissionItem], home: tuple[float, float, float]
+    ) -> tuple[ReflownSamples, Error]:
         flown = refly(items, Geo(self.geo.origin, *home), self.drone)
         return flown, compare(self.mission, self.flight, flown)
 
-    def _warnings(self, flight: _Flight, flown: Flown, error: Error) -> list[Diagnostic]:
+    def _warnings(self, flight: _Flight, flown: ReflownSamples, error: Error) -> list[Diagnostic]:
         height = float(self.track.poses.position[0, 2]) - self.drone.home[2]
         warnings: list[Diagnostic | None] = [
             coarsened(self.mission, self.drone, error, self.dialect.most_items) if flight.coarser else None,

@@ -32,7 +32,7 @@ from shotc.emit.mavlink.items import (
     SPEED_GROUND,
     VIDEO_START,
     VIDEO_STOP,
-    Item,
+    MissionItem,
     action,
     at,
     compass_deg,
@@ -41,9 +41,9 @@ from shotc.emit.mavlink.items import (
 from shotc.emit.mavlink.speed import Speeds, adapted, seconds
 from shotc.emit.mavlink.steps import SAME, Step
 from shotc.emit.mavlink.style import Command, Style, turns_body
-from shotc.emit.waypoints.geo import Geo, Place
+from shotc.emit.waypoints.geo import Geo, GeoPosition
 from shotc.emit.waypoints.lens import SAME_LENS, edge
-from shotc.emit.waypoints.track import Poses, Track, select
+from shotc.emit.waypoints.track import Poses, SampledFlight, select
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
 from shotc.ir.photos import Photos
@@ -70,7 +70,7 @@ class Builder:
     dialect: Dialect
     geo: Geo
     speeds: Speeds
-    items: list[Item] = field(default_factory=list)
+    items: list[MissionItem] = field(default_factory=list)
     yaw: float | None = None
     aimed: Command | None = None
     region: Vec3 | None = None
@@ -79,11 +79,11 @@ class Builder:
     focus: Focus | None = None
     focused: float | None = None
 
-    def build(self, track: Track, steps: list[Step]) -> list[Item]:
+    def build(self, track: SampledFlight, steps: list[Step]) -> list[MissionItem]:
         """Return the whole flight: take-off, the steps, landing."""
         places = self.geo.places(track.poses.position)
         start = float(track.poses.body_yaw[0])
-        home = Place(self.geo.home_lat, self.geo.home_lon, 0.0)
+        home = GeoPosition(self.geo.home_lat, self.geo.home_lon, 0.0)
         above = replace(home, alt=max(places[0].alt, self.dialect.least_takeoff))
         self.items.extend(self.dialect.takeoff(above, start))
         shot: str | None = None
@@ -105,7 +105,7 @@ class Builder:
             self.items.append(action(ROI_NONE))
             self.region = self.aimed = self.yaw = None
 
-    def _go(self, step: Step, entered: str | None, place: Place, end: Poses) -> None:
+    def _go(self, step: Step, entered: str | None, place: GeoPosition, end: Poses) -> None:
         self._pace(step)
         turned = False
         if step.region is None:
@@ -120,7 +120,7 @@ class Builder:
             self._turn(step, float(end.body_yaw[0]), force=turned)
         self.items.append(self.dialect.waypoint(place, step.hold, step.radius, step.command.body_yaw))
 
-    def _start(self, shot: str) -> list[Item]:
+    def _start(self, shot: str) -> list[MissionItem]:
         """Return what begins the film or the photos of a shot."""
         photos = self.photos.get(shot)
         changes = self.dialect.changes_mode and self.photos
@@ -133,7 +133,7 @@ class Builder:
             return [*mode, action(PHOTO_START, 0.0, photos.seconds)]
         return [*mode, action(PHOTO_DISTANCE, photos.metres, 0.0, 1.0)]
 
-    def _stop(self, shot: str) -> Item:
+    def _stop(self, shot: str) -> MissionItem:
         photos = self.photos.get(shot)
         if photos is None:
             return action(VIDEO_STOP)

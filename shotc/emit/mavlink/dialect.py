@@ -25,7 +25,7 @@ from shotc.emit.mavlink.items import (
     YAW_LOCK,
     ZOOM_FOCAL_LENGTH,
     ZOOM_RANGE,
-    Item,
+    MissionItem,
     action,
     at,
     compass_deg,
@@ -33,7 +33,7 @@ from shotc.emit.mavlink.items import (
     signed_deg,
 )
 from shotc.emit.mavlink.style import Command, Style
-from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.geo import GeoPosition
 from shotc.geom.focal import field_of_view
 from shotc.ir.drone import LensRange
 from shotc.ir.source import Autopilot
@@ -54,22 +54,22 @@ class Px4:
     focuses = True
     changes_mode = True
 
-    def takeoff(self, place: Place, yaw: float) -> list[Item]:
+    def takeoff(self, place: GeoPosition, yaw: float) -> list[MissionItem]:
         """Return the take-off, after which the mission claims the gimbal."""
         claim = action(GIMBAL_CONFIGURE, ITSELF, ITSELF, 0.0, 0.0)
         return [at(TAKEOFF, place, 0.0, 0.0, 0.0, compass_deg(yaw)), claim]
 
-    def waypoint(self, place: Place, hold: float, radius: float, yaw: float) -> Item:
+    def waypoint(self, place: GeoPosition, hold: float, radius: float, yaw: float) -> MissionItem:
         """Return a waypoint: hold in s, acceptance radius in m, body yaw in rad."""
         return at(WAYPOINT, place, round(hold, 2), round(radius, 2), 0.0, compass_deg(yaw))
 
-    def gimbal(self, command: Command, style: Style) -> Item:
+    def gimbal(self, command: Command, style: Style) -> MissionItem:
         """Return the gimbal's angles; horizon-level, and against the earth where it pans."""
         flags = float(ROLL_LOCK | PITCH_LOCK | (YAW_LOCK if style.pans else 0))
         yaw = signed_deg(pi / 2 - command.cam_yaw) if style.pans else 0.0
         return action(GIMBAL_PITCHYAW, degrees_of(command.cam_pitch), yaw, None, None, flags)
 
-    def zoom(self, lens: LensRange, hfov: float) -> Item:
+    def zoom(self, lens: LensRange, hfov: float) -> MissionItem:
         """Return a zoom to a field of view, rad: a focal length in mm, as the lens counts them."""
         return action(CAMERA_ZOOM, float(ZOOM_FOCAL_LENGTH), round(1000 * lens.focal(hfov), 2))
 
@@ -77,7 +77,7 @@ class Px4:
         """Return the field of view, rad, of what a zoom says."""
         return field_of_view(value / 1000, lens.frame)
 
-    def land(self, place: Place, yaw: float) -> Item:
+    def land(self, place: GeoPosition, yaw: float) -> MissionItem:
         """Return the landing."""
         return at(LAND, place, 0.0, 0.0, 0.0, compass_deg(yaw))
 
@@ -95,22 +95,22 @@ class ArduPilot:
     focuses = False  # but by itself, or in percent of what nobody knows
     changes_mode = False
 
-    def takeoff(self, place: Place, yaw: float) -> list[Item]:
+    def takeoff(self, place: GeoPosition, yaw: float) -> list[MissionItem]:
         """Return the take-off; it keeps its heading."""
         return [at(TAKEOFF, place, 0.0, 0.0, 0.0, 0.0)]
 
-    def waypoint(self, place: Place, hold: float, radius: float, yaw: float) -> Item:
+    def waypoint(self, place: GeoPosition, hold: float, radius: float, yaw: float) -> MissionItem:
         """Return a waypoint: hold in whole s; radius and yaw come from parameters and CONDITION_YAW."""
         return at(WAYPOINT, place, hold, 0.0, 0.0, 0.0)
 
-    def gimbal(self, command: Command, style: Style) -> Item:
+    def gimbal(self, command: Command, style: Style) -> MissionItem:
         """Return the gimbal's angles, yaw against the body."""
         yaw = signed_deg(-command.pan) if style.pans else 0.0
         return action(
             MOUNT_CONTROL, degrees_of(command.cam_pitch), 0.0, yaw, 0.0, 0.0, 0.0, float(MOUNT_ANGLES)
         )
 
-    def zoom(self, lens: LensRange, hfov: float) -> Item:
+    def zoom(self, lens: LensRange, hfov: float) -> MissionItem:
         """Return a zoom to a field of view, rad: in percent of the range of focal lengths."""
         short, long = lens.focal(lens.widest), lens.focal(lens.longest)
         share = (lens.focal(hfov) - short) / (long - short)
@@ -121,7 +121,7 @@ class ArduPilot:
         short, long = lens.focal(lens.widest), lens.focal(lens.longest)
         return field_of_view(short + value / 100 * (long - short), lens.frame)
 
-    def land(self, place: Place, yaw: float) -> Item:
+    def land(self, place: GeoPosition, yaw: float) -> MissionItem:
         """Return the landing."""
         return at(LAND, place, 0.0, 0.0, 0.0, 0.0)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.waypoints.track import Track
+from shotc.emit.waypoints.track import SampledFlight
 from shotc.geom.thin_lens import blur
 from shotc.ir.drone import Drone, Optics
 from shotc.ir.mission import MissionIR
@@ -47,7 +47,7 @@ class Focus:
         return bool((discs[np.isfinite(depth)] <= REFOCUS_SHARE * self.optics.circle).all())
 
 
-def focus_of(mission: MissionIR, drone: Drone, flight: DroneTrajectory, track: Track) -> Focus | None:
+def focus_of(mission: MissionIR, drone: Drone, flight: DroneTrajectory, track: SampledFlight) -> Focus | None:
     """Return where a drone's lens is to be focused; None where the mission says no aperture."""
     optics = drone.optics
     if optics is None or optics.aperture is None:

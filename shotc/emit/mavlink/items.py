@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.geo import GeoPosition
 from shotc.geom.camera import heading_of
 from shotc.geom.vec import wrapped
 
@@ -31,7 +31,7 @@ ROLL_LOCK, PITCH_LOCK, YAW_LOCK = 4, 8, 16
 
 
 @dataclass(frozen=True, slots=True)
-class Item:
+class MissionItem:
     """One mission item.
 
     params : seven numbers; None stands for NaN, "the autopilot's own choice"
@@ -42,14 +42,14 @@ class Item:
     params: tuple[float | None, ...]
 
 
-def action(command: int, *params: float | None) -> Item:
+def action(command: int, *params: float | None) -> MissionItem:
     """Return an item that is no place to fly to, padded with zeros to seven parameters."""
-    return Item(command, FRAME_MISSION, (*params, *(0.0,) * (7 - len(params))))
+    return MissionItem(command, FRAME_MISSION, (*params, *(0.0,) * (7 - len(params))))
 
 
-def at(command: int, place: Place, *params: float | None) -> Item:
+def at(command: int, place: GeoPosition, *params: float | None) -> MissionItem:
     """Return an item at a place, with its first four parameters."""
-    return Item(command, FRAME_RELATIVE, (*params, place.lat, place.lon, place.alt))
+    return MissionItem(command, FRAME_RELATIVE, (*params, place.lat, place.lon, place.alt))
 
 
 def degrees_of(angle: float) -> float:

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from shotc.emit.mavlink.fence import Fence
-from shotc.emit.mavlink.items import FRAME_RELATIVE, POSITION_COMMANDS, Item
-from shotc.emit.waypoints.geo import Geo, Place
+from shotc.emit.mavlink.items import FRAME_RELATIVE, POSITION_COMMANDS, MissionItem
+from shotc.emit.waypoints.geo import Geo, GeoPosition
 
 QUADROTOR = 2
 CRUISE_SPEED = 15  # m/s; the loader wants a number, a multirotor never uses it
@@ -16,12 +16,12 @@ RELATIVE = 1  # altitude mode: relative to home
 
 
 def write_plan(
-    items: list[Item],
+    items: list[MissionItem],
     geo: Geo,
     fence: Fence,
     firmware: int,
     hover_speed: float,
-    rally: Sequence[Place] = (),
+    rally: Sequence[GeoPosition] = (),
 ) -> bytes:
     """Return the plan's bytes; the same input gives the same bytes.
 
@@ -51,15 +51,15 @@ def write_plan(
     return (text + "\n").encode()
 
 
-def read_plan(data: bytes) -> tuple[list[Item], tuple[float, float, float]]:
+def read_plan(data: bytes) -> tuple[list[MissionItem], tuple[float, float, float]]:
     """Return the items of a plan and its home: degrees, degrees, metres above sea level."""
     mission = json.loads(data)["mission"]
-    items = [Item(i["command"], i["frame"], tuple(i["params"])) for i in mission["items"]]
+    items = [MissionItem(i["command"], i["frame"], tuple(i["params"])) for i in mission["items"]]
     lat, lon, alt = mission["plannedHomePosition"]
     return items, (lat, lon, alt)
 
 
-def _item(item: Item, number: int) -> dict[str, Any]:
+def _item(item: MissionItem, number: int) -> dict[str, Any]:
     row: dict[str, Any] = {
         "type": "SimpleItem",
         "autoContinue": True,

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink import items as mav
 from shotc.emit.mavlink.dialect import DIALECTS
-from shotc.emit.mavlink.items import Item
+from shotc.emit.mavlink.items import MissionItem
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
-from shotc.emit.waypoints.flown import STAY_PACE, Flown
-from shotc.emit.waypoints.geo import Geo, Place
+from shotc.emit.waypoints.flown import STAY_PACE, ReflownSamples
+from shotc.emit.waypoints.geo import Geo, GeoPosition
 from shotc.geom.camera import yaw_of
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
@@ -59,13 +59,13 @@ class _Pilot:
     rows: list[Array] = field(default_factory=list)
 
 
-def refly(items: list[Item], geo: Geo, drone: Drone) -> Flown:
+def refly(items: list[MissionItem], geo: Geo, drone: Drone) -> ReflownSamples:
     """Fly the items, as read from a file, with this drone's autopilot and gimbal."""
     pilot = _Pilot(drone, geo, DEFAULTS[drone.autopilot])
     for item in items:
         _RUN[item.command](pilot, item.params)
     table = np.concatenate(pilot.rows) if pilot.rows else np.zeros((0, 10))
-    return Flown(
+    return ReflownSamples(
         table[:, :3],
         table[:, 3],
         table[:, 4],
@@ -185,7 +185,7 @@ def _nothing(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
 
 def _point(pilot: _Pilot, params: tuple[float | None, ...]) -> Array:
     lat, lon, alt = (_number(p) for p in params[4:7])
-    return pilot.geo.point(Place(lat, lon, alt))
+    return pilot.geo.point(GeoPosition(lat, lon, alt))
 
 
 _RUN: dict[int, Callable[[_Pilot, tuple[float | None, ...]], None]] = {

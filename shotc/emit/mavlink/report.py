@@ -10,7 +10,7 @@ from shotc.emit.mavlink.speed import is_steep
 from shotc.emit.mavlink.steps import Step
 from shotc.emit.waypoints.compare import Error
 from shotc.emit.waypoints.report import by_hand, zoomed_to
-from shotc.emit.waypoints.timing import Meeting
+from shotc.emit.waypoints.timing import WaysTooNear
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
@@ -76,7 +76,7 @@ def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     ]
 
 
-def in_step(mission: MissionIR, meeting: Meeting) -> Diagnostic:
+def in_step(mission: MissionIR, meeting: WaysTooNear) -> Diagnostic:
     """Say that two drones would meet by their mission files, were they not where they are in time."""
     return Diagnostic(
         "E145",

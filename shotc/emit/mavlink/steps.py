@@ -12,7 +12,7 @@ from shotc.emit.mavlink.speed import SLOWEST
 from shotc.emit.mavlink.style import Command, Style, command_of, region_of
 from shotc.emit.mavlink.thin import Leg
 from shotc.emit.waypoints.lens import SAME_LENS, edge
-from shotc.emit.waypoints.track import Track
+from shotc.emit.waypoints.track import SampledFlight
 from shotc.ir.limits import Vec3
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ class Step:
     radius: float
 
 
-def steps_of(track: Track, style: Style, legs: list[Leg]) -> list[Step]:
+def steps_of(track: SampledFlight, style: Style, legs: list[Leg]) -> list[Step]:
     """Return the steps that fly ``legs``; a stay that asks for no new angles joins the step before it."""
     steps: list[Step] = []
     if legs and legs[0].shot is not None:
@@ -70,13 +70,13 @@ def whole_seconds(steps: list[Step]) -> list[Step]:
     return out
 
 
-def _aligned(track: Track) -> Step:
+def _aligned(track: SampledFlight) -> Step:
     """Return a stay above the pad, for a flight that films from there: no other leg turns the body first."""
     command = command_of(track.poses, 0, 0, filmed=False)
     return Step(Leg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
 
 
-def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:
+def _step(track: SampledFlight, style: Style, leg: Leg, following: Leg | None) -> Step:
     points, time = track.poses.position, track.time
     way = points[leg.last] - points[leg.first]
     command = command_of(track.poses, leg.first, leg.last, filmed=leg.shot is not None)
@@ -95,7 +95,7 @@ def _step(track: Track, style: Style, leg: Leg, following: Leg | None) -> Step:
     return Step(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
 
 
-def _joins(track: Track, style: Style, before: Step, stay: Step) -> bool:
+def _joins(track: SampledFlight, style: Style, before: Step, stay: Step) -> bool:
     if before.leg.shot != stay.leg.shot or before.leg.rest:
         return False
     part = slice(stay.leg.first, stay.leg.last + 1)
@@ -110,7 +110,7 @@ def _joins(track: Track, style: Style, before: Step, stay: Step) -> bool:
     return not style.zooms or bool(edge(poses.hfov[part], before.command.hfov).max() <= SAME_LENS)
 
 
-def _speed(track: Track, index: int) -> float:
+def _speed(track: SampledFlight, index: int) -> float:
     gap = track.poses.position[index] - track.poses.position[index - 1]
     return float(np.linalg.norm(gap) / (track.time[index] - track.time[index - 1]))
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.lens import middle_lens
-from shotc.emit.waypoints.track import Poses, Track, project, select
+from shotc.emit.waypoints.track import Poses, SampledFlight, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
@@ -70,7 +70,7 @@ class Command:
     hfov: float
 
 
-def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style:
+def style_of(mission: MissionIR, flight: DroneTrajectory, track: SampledFlight) -> Style:
     """Choose how this drone's camera is pointed."""
     drone = mission.drone(flight.drone)
     poses = track.poses
@@ -90,7 +90,7 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: Track) -> Style
     return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed), drone.zooms)
 
 
-def region_of(style: Style, track: Track, part: slice, shot: str | None) -> Vec3 | None:
+def region_of(style: Style, track: SampledFlight, part: slice, shot: str | None) -> Vec3 | None:
     """Return the point of W that the gimbal is to look at on a leg, or None where it is told angles."""
     if shot in style.followed:
         return style.followed[shot or ""]

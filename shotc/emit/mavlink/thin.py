@@ -16,7 +16,7 @@ from shotc.emit.mavlink.focus import Focus
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, turns_body
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.lens import edge
-from shotc.emit.waypoints.track import SAMPLE_STEP, Poses, Stretch, Track, project, select
+from shotc.emit.waypoints.track import SAMPLE_STEP, Poses, SampledFlight, SampleRange, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 
@@ -60,7 +60,7 @@ class Thinner:
     focus : where the lens is to be focused, None where the file does not say
     """
 
-    track: Track
+    track: SampledFlight
     drone: Drone
     style: Style
     obstacles: tuple[Obstacle, ...]
@@ -72,7 +72,7 @@ class Thinner:
         cut = self._even if even else self._greedy
         return [leg for stretch in self.track.stretches for leg in cut(stretch, tolerance)]
 
-    def _even(self, stretch: Stretch, tolerance: Tolerance) -> list[Leg]:
+    def _even(self, stretch: SampleRange, tolerance: Tolerance) -> list[Leg]:
         # Greedy cutting leaves a short last leg; a tighter tolerance that needs no more legs evens them.
         best, low, high = self._greedy(stretch, tolerance), 0.0, 1.0
         for _ in range(EVENING):
@@ -84,7 +84,7 @@ class Thinner:
                 low = share
         return best
 
-    def _greedy(self, stretch: Stretch, tolerance: Tolerance) -> list[Leg]:
+    def _greedy(self, stretch: SampleRange, tolerance: Tolerance) -> list[Leg]:
         out: list[Leg] = []
         first = stretch.first
         while first < stretch.last:
@@ -93,7 +93,7 @@ class Thinner:
             first = last
         return out
 
-    def _longest(self, stretch: Stretch, first: int, tolerance: Tolerance) -> int:
+    def _longest(self, stretch: SampleRange, first: int, tolerance: Tolerance) -> int:
         time = self.track.time
         least = int(np.searchsorted(time, time[first] + LEG_LEAST - SAMPLE_STEP / 2))
         good, step = min(max(least, first + 1), stretch.last), 4
@@ -166,7 +166,7 @@ class Thinner:
 
 
 def thinner_of(
-    track: Track,
+    track: SampledFlight,
     drone: Drone,
     style: Style,
     obstacles: tuple[Obstacle, ...],

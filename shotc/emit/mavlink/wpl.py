@@ -4,33 +4,33 @@ from __future__ import annotations
 
 from math import nan
 
-from shotc.emit.mavlink.items import FRAME_GLOBAL, FRAME_MISSION, WAYPOINT, Item
+from shotc.emit.mavlink.items import FRAME_GLOBAL, FRAME_MISSION, WAYPOINT, MissionItem
 from shotc.emit.waypoints.geo import Geo
 
 HEADER = "QGC WPL 110"
 
 
-def write_waypoints(items: list[Item], geo: Geo) -> bytes:
+def write_waypoints(items: list[MissionItem], geo: Geo) -> bytes:
     """Return the file's bytes; the same input gives the same bytes."""
-    home = Item(WAYPOINT, FRAME_GLOBAL, (0.0, 0.0, 0.0, 0.0, geo.home_lat, geo.home_lon, geo.home_alt))
+    home = MissionItem(WAYPOINT, FRAME_GLOBAL, (0.0, 0.0, 0.0, 0.0, geo.home_lat, geo.home_lon, geo.home_alt))
     rows = [_row(n, item) for n, item in enumerate((home, *items))]
     return ("\n".join((HEADER, *rows)) + "\n").encode()
 
 
-def read_waypoints(data: bytes) -> tuple[list[Item], tuple[float, float, float]]:
+def read_waypoints(data: bytes) -> tuple[list[MissionItem], tuple[float, float, float]]:
     """Return the items after the home row, and home: degrees, degrees, metres above sea level."""
     header, *rows = data.decode().splitlines()
     if header != HEADER:
         raise ValueError(f"not a waypoint file: {header!r}")
-    items: list[Item] = []
+    items: list[MissionItem] = []
     for row in rows:
         _, _, frame, command, *params = row.split("\t")
-        items.append(Item(int(command), int(frame), tuple(float(p) for p in params[:7])))
+        items.append(MissionItem(int(command), int(frame), tuple(float(p) for p in params[:7])))
     lat, lon, alt = (nan if p is None else p for p in items[0].params[4:])
     return items[1:], (lat, lon, alt)
 
 
-def _row(number: int, item: Item) -> str:
+def _row(number: int, item: MissionItem) -> str:
     if any(p is None for p in item.params):
         raise ValueError(f"command {item.command}: this format has no empty parameters")
     params = [0.0 if p is None else p for p in item.params]

@@ -19,7 +19,16 @@ from shotc import __version__
 from shotc.emit.attitude import upright
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.cameras import without_fleets
-from shotc.emit.previs.scene import FAR_M, NEAR_M, Body, Camera, Paint, Scene, frames_note, scene_of
+from shotc.emit.previs.scene import (
+    FAR_M,
+    NEAR_M,
+    CameraSamples,
+    FilmSet,
+    Paint,
+    SceneBody,
+    frames_note,
+    scene_of,
+)
 from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import VerifiedIR
 
@@ -61,7 +70,7 @@ class Gltf:
 EMITTER = Gltf()
 
 
-def written(scene: Scene) -> bytes:
+def written(scene: FilmSet) -> bytes:
     """Return a scene as the bytes of a GLB file."""
     file = _File(scene.paints)
     for body in scene.bodies:
@@ -142,7 +151,7 @@ def _material(paint: Paint) -> dict[str, Any]:
     return {"name": paint.name, "pbrMetallicRoughness": surface, "doubleSided": True, **blend}
 
 
-def _body(file: _File, body: Body) -> None:
+def _body(file: _File, body: SceneBody) -> None:
     node: dict[str, Any] = {"name": body.name, "mesh": len(file.meshes)}
     file.meshes.append({"name": body.name, "primitives": _primitives(file, body)})
     if body.motion is not None:
@@ -157,7 +166,7 @@ def _body(file: _File, body: Body) -> None:
     file.nodes.append(node)
 
 
-def _primitives(file: _File, body: Body) -> list[dict[str, Any]]:
+def _primitives(file: _File, body: SceneBody) -> list[dict[str, Any]]:
     material = file.paints.index(body.paint)
     points = _south(body.points)
     if body.kind == "lines":
@@ -176,7 +185,7 @@ def _primitives(file: _File, body: Body) -> list[dict[str, Any]]:
     return [{**made, "mode": TRIANGLES if body.kind == "mesh" else POINTS, "material": material}]
 
 
-def _camera(file: _File, camera: Camera) -> None:
+def _camera(file: _File, camera: CameraSamples) -> None:
     node, places = len(file.nodes), _south(camera.places)
     turns = upright(camera.yaw, camera.pitch)
     index = len(file.cameras)

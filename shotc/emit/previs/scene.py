@@ -50,7 +50,7 @@ PAINTS = (TARGET, STANDING, EARTH, OUT, IN)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Motion:
+class BodyMotion:
     """How a body goes at times (M,): where its middle is, (M, 3), and how far it has turned, rad, (M,)."""
 
     times: Array
@@ -59,7 +59,7 @@ class Motion:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class SceneBody:
     """Something that is seen.
 
     kind   : of triangles, of polylines or of points
@@ -74,12 +74,12 @@ class Body:
     kind: Literal["mesh", "lines", "points"]
     points: Array
     runs: NDArray[np.uint32]
-    motion: Motion | None = None
+    motion: BodyMotion | None = None
     width: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Camera:
+class CameraSamples:
     """A drone's camera at the ticks of the output clock, (M,): seconds, metres of W, rad.
 
     film : the field of view of its first filmed frame, for what shows no zoom
@@ -101,14 +101,14 @@ class Camera:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Scene:
+class FilmSet:
     """A plan as a film set. rate : ticks a second; frames : number of the last tick, from 0."""
 
     title: str
     rate: float
     frames: int
-    cameras: tuple[Camera, ...]
-    bodies: tuple[Body, ...]
+    cameras: tuple[CameraSamples, ...]
+    bodies: tuple[SceneBody, ...]
 
     @property
     def paints(self) -> tuple[Paint, ...]:
@@ -117,25 +117,25 @@ class Scene:
         return tuple(paint for paint in PAINTS if paint in used)
 
 
-def scene_of(plan: VerifiedIR) -> Scene:
+def scene_of(plan: VerifiedIR) -> FilmSet:
     """Return what a plan's files for previsualization show."""
     mission = plan.trajectory.keyframes.mission
     times = clock(mission.rate, scene_time(plan))
     bodies = [_ground(plan), *_standing(mission), *_zones(mission)]
     bodies += [_target(target, times) for target in mission.targets]
     cameras = tuple(_camera(plan, drone) for drone in plan.trajectory.drones)
-    return Scene(mission.name, mission.rate, len(times) - 1, cameras, tuple(bodies))
+    return FilmSet(mission.name, mission.rate, len(times) - 1, cameras, tuple(bodies))
 
 
-def frames_note(scene: Scene, file: str) -> str:
+def frames_note(scene: FilmSet, file: str) -> str:
     """Return the note on the clock of a file, which few programs take from it."""
     return f"{file}: {scene.rate:g} frames a second, frames 0 to {scene.frames}"
 
 
-def _camera(plan: VerifiedIR, drone: DroneTrajectory) -> Camera:
+def _camera(plan: VerifiedIR, drone: DroneTrajectory) -> CameraSamples:
     at = ticks(plan, drone)
     first = next((phase.start for phase in drone.phases if phase.shot is not None), 0.0)
-    return Camera(
+    return CameraSamples(
         name=drone.drone,
         aspect=plan.trajectory.keyframes.mission.drone(drone.drone).aspect,
         times=at.times,
@@ -147,53 +147,53 @@ def _camera(plan: VerifiedIR, drone: DroneTrajectory) -> Camera:
     )
 
 
-def _ground(plan: VerifiedIR) -> Body:
+def _ground(plan: VerifiedIR) -> SceneBody:
     """Return the terrain, or as much of the plane z = 0 as a plan needs and as much again on every side."""
     terrain = plan.trajectory.keyframes.mission.terrain
     if terrain is not None:
         mesh = mesh_of(terrain.ground.surface.triangles)
-        return Body("terrain", EARTH, "mesh", np.asarray(mesh.corners, dtype=float), mesh.faces)
+        return SceneBody("terrain", EARTH, "mesh", np.asarray(mesh.corners, dtype=float), mesh.faces)
     low, high = scene_bounds(plan)
     size = float(np.max(high[:2] - low[:2]))
     (x, y), (right, top) = low[:2] - size, high[:2] + size
     corners = np.array([[x, y, 0.0], [right, y, 0.0], [right, top, 0.0], [x, top, 0.0]])
-    return Body("ground", EARTH, "mesh", corners, np.array([[0, 1, 2], [0, 2, 3]], dtype=np.uint32))
+    return SceneBody("ground", EARTH, "mesh", corners, np.array([[0, 1, 2], [0, 2, 3]], dtype=np.uint32))
 
 
-def _standing(mission: MissionIR) -> Iterator[Body]:
+def _standing(mission: MissionIR) -> Iterator[SceneBody]:
     for mesh in mission.meshes:
         triangles = mesh.surface.triangles
         points = (triangles == triangles[:, :1]).all(axis=(1, 2))
         if not points.all():
             corners = triangles[~points].reshape(-1, 3)
-            yield Body(mesh.kind, STANDING, "mesh", corners, _in_turn(len(corners)))
+            yield SceneBody(mesh.kind, STANDING, "mesh", corners, _in_turn(len(corners)))
         if points.any():
             none, width = np.zeros(0, dtype=np.uint32), 2.0 * mesh.spacing
             name = f"{mesh.kind}-points"
-            yield Body(name, STANDING, "points", triangles[points, 0], none, width=width)
+            yield SceneBody(name, STANDING, "points", triangles[points, 0], none, width=width)
 
 
-def _zones(mission: MissionIR) -> Iterator[Body]:
+def _zones(mission: MissionIR) -> Iterator[SceneBody]:
     for zone in mission.zones:
         if zone.keep == "out":
             mesh = solid_mesh(zone.solid)
-            yield Body(zone.name, OUT, "mesh", mesh.points, mesh.faces)
+            yield SceneBody(zone.name, OUT, "mesh", mesh.points, mesh.faces)
         else:
             strips = edge_strips(zone.solid)
             counts = np.array([len(strip) for strip in strips], dtype=np.uint32)
-            yield Body(zone.name, IN, "lines", np.concatenate(strips), counts)
+            yield SceneBody(zone.name, IN, "lines", np.concatenate(strips), counts)
 
 
-def _target(target: Target, times: Array) -> Body:
+def _target(target: Target, times: Array) -> SceneBody:
     mesh = solid_mesh(target.solid)
     if target.track is None:
-        return Body(target.name, TARGET, "mesh", mesh.points, mesh.faces)
+        return SceneBody(target.name, TARGET, "mesh", mesh.points, mesh.faces)
     turns = np.zeros(len(times))
     if target.shape.turns:
         turns = headings(target.track, times) - target.track.heading(0.0)
     middle = np.array(target.centre)
-    motion = Motion(times, middle + moved(target, times), turns)
-    return Body(target.name, TARGET, "mesh", mesh.points - middle, mesh.faces, motion)
+    motion = BodyMotion(times, middle + moved(target, times), turns)
+    return SceneBody(target.name, TARGET, "mesh", mesh.points - middle, mesh.faces, motion)
 
 
 def _in_turn(count: int) -> NDArray[np.uint32]:

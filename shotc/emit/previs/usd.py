@@ -21,11 +21,11 @@ from shotc.emit.cameras import without_fleets
 from shotc.emit.previs.scene import (
     FAR_M,
     NEAR_M,
-    Body,
-    Camera,
-    Motion,
+    BodyMotion,
+    CameraSamples,
+    FilmSet,
     Paint,
-    Scene,
+    SceneBody,
     frames_note,
     scene_of,
 )
@@ -61,7 +61,7 @@ class Usd:
 EMITTER = Usd()
 
 
-def written(scene: Scene) -> str:
+def written(scene: FilmSet) -> str:
     """Return a scene as the text of a USD layer."""
     names = _Names()
     lines = [
@@ -141,7 +141,7 @@ def _prim(kind: str, name: tuple[str, str], lines: Iterable[str], schema: str = 
     yield "}"
 
 
-def _body(name: tuple[str, str], body: Body) -> Iterator[str]:
+def _body(name: tuple[str, str], body: SceneBody) -> Iterator[str]:
     low, high = body.points.min(axis=0), body.points.max(axis=0)
     lines = [
         f"float3[] extent = [{_tuple(low)}, {_tuple(high)}]",
@@ -171,12 +171,12 @@ def _body(name: tuple[str, str], body: Body) -> Iterator[str]:
     yield from _prim(kind, name, lines, "MaterialBindingAPI")
 
 
-def _carried(motion: Motion) -> list[str]:
+def _carried(motion: BodyMotion) -> list[str]:
     none, half = np.zeros(len(motion.turns)), motion.turns / 2
     return _moved(motion.places, np.column_stack([none, none, np.sin(half), np.cos(half)]))
 
 
-def _camera(name: tuple[str, str], camera: Camera) -> Iterator[str]:
+def _camera(name: tuple[str, str], camera: CameraSamples) -> Iterator[str]:
     focal = [focal_length(hfov, APERTURE) for hfov in camera.hfov.tolist()]
     lens = f"float focalLength = {focal[0]:.9g}"
     if camera.zooms:

@@ -11,7 +11,7 @@ from rerun.components import LineStrip3DBatch
 from rerun.encodings import Vec3DBatch
 
 from shotc.emit.palette import CAMERA, KEEP_OUT, SUBJECT, WHITE, rgba8, shade
-from shotc.emit.rerun_log.series import Line, Plot, clearance_plot, motion_plots, sample_times
+from shotc.emit.rerun_log.series import Plot, PlotCurve, clearance_plot, motion_plots, sample_times
 from shotc.emit.screen import guide_lines, screen_track
 from shotc.geom.bernstein import Array
 from shotc.geom.framing import Cameras, Frames
@@ -268,9 +268,9 @@ def _screen_plot(plan: VerifiedIR, flight: DroneTrajectory, t: Array) -> Plot | 
             promise[inside] = shots[shot].promise.screen_error
     if np.isnan(error).all():
         return None
-    lines = [Line("screen error", error)]
+    lines = [PlotCurve("screen error", error)]
     if not np.isnan(promise).all():
-        lines.append(Line(PROMISED, promise))
+        lines.append(PlotCurve(PROMISED, promise))
     return Plot("screen_error", "Screen error", tuple(lines))
 
 

@@ -21,7 +21,7 @@ RATE, MOST = 25.0, 6000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Line:
+class PlotCurve:
     """One curve of a plot: its name, and its samples at the flight's sample times, NaN for none."""
 
     name: str
@@ -37,7 +37,7 @@ class Plot:
 
     name: str
     title: str
-    lines: tuple[Line, ...]
+    lines: tuple[PlotCurve, ...]
     limits: tuple[float, ...] = ()
 
 
@@ -58,20 +58,22 @@ def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot,
     pitch = np.degrees(flight.curve.channels(CAM_PITCH)(t)[:, 0])
     most_yaw, gimbal = degrees(limits.yaw_rate), tuple(degrees(end) for end in drone.gimbal.pitch)
     windy, (east, north) = any(limits.wind), limits.wind
-    speed = Line("airspeed" if windy else "speed", np.hypot(velocity[:, 0] - east, velocity[:, 1] - north))
-    climb = Line("climb", velocity[:, 2])
+    speed = PlotCurve(
+        "airspeed" if windy else "speed", np.hypot(velocity[:, 0] - east, velocity[:, 1] - north)
+    )
+    climb = PlotCurve("climb", velocity[:, 2])
     return (
         Plot("speed", f"Horizontal {speed.name} (m/s)", (speed,), (limits.speed,)),
         Plot("climb", "Climb and descent (m/s)", (climb,), (limits.climb, -limits.descent)),
         Plot(
             "acceleration",
             "Acceleration (m/s²)",
-            (Line("acceleration", acceleration),),
+            (PlotCurve("acceleration", acceleration),),
             (limits.acceleration,),
         ),
-        Plot("jerk", "Jerk (m/s³)", (Line("jerk", jerk),), (limits.jerk,)),
-        Plot("yaw_rate", "Yaw rate (°/s)", (Line("yaw rate", yaw_rate),), (most_yaw, -most_yaw)),
-        Plot("gimbal_pitch", "Gimbal pitch (°)", (Line("pitch", pitch),), gimbal),
+        Plot("jerk", "Jerk (m/s³)", (PlotCurve("jerk", jerk),), (limits.jerk,)),
+        Plot("yaw_rate", "Yaw rate (°/s)", (PlotCurve("yaw rate", yaw_rate),), (most_yaw, -most_yaw)),
+        Plot("gimbal_pitch", "Gimbal pitch (°)", (PlotCurve("pitch", pitch),), gimbal),
     )
 
 
@@ -100,5 +102,5 @@ def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t:
     ]
     ground = p[:, 2] - radius - rules.ground_clearance + bound
     groups = (("zones", zones), ("subjects", subjects), ("ground", [ground]))
-    lines = tuple(Line(name, np.fmin.reduce(group)) for name, group in groups if group)
+    lines = tuple(PlotCurve(name, np.fmin.reduce(group)) for name, group in groups if group)
     return Plot("clearance", "Room left (m)", lines)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.emit.audience import picture_name, pictures_shown
-from shotc.emit.rerun_log.series import Line, Plot
+from shotc.emit.rerun_log.series import Plot, PlotCurve
 from shotc.emit.rerun_log.text import SHOWN, certificate_text
 from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
@@ -76,11 +76,11 @@ def fleet_plots(fleet: Fleet, flight: FleetTrajectory, t: Array) -> tuple[Plot, 
     climb, descent = rate[..., 2].max(axis=0), rate[..., 2].min(axis=0)
     limits = fleet.limits
     moves = (
-        Plot("speed", "Largest horizontal speed (m/s)", (Line("speed", speed),), (limits.speed,)),
+        Plot("speed", "Largest horizontal speed (m/s)", (PlotCurve("speed", speed),), (limits.speed,)),
         Plot(
             "climb",
             "Climb and descent, extremes (m/s)",
-            (Line("climb", climb), Line("descent", descent)),
+            (PlotCurve("climb", climb), PlotCurve("descent", descent)),
             (limits.climb, -limits.descent),
         ),
     )
@@ -90,7 +90,7 @@ def fleet_plots(fleet: Fleet, flight: FleetTrajectory, t: Array) -> tuple[Plot, 
     nearest = np.array([nearest_pair(points[aloft[:, k]], fleet.apart) for k, points in enumerate(at)])
     which = "two drones in the air" if take_off_of(fleet).layered else "two drones"
     title = f"Nearest {which} (m, heights stretched as separation asks)"
-    return (Plot("separation", title, (Line("nearest", nearest),), (fleet.apart.across,)), *moves)
+    return (Plot("separation", title, (PlotCurve("nearest", nearest),), (fleet.apart.across,)), *moves)
 
 
 def nearest_pair(points: Array, apart: Apart) -> float:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.emit.palette import Rgb, shade
-from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.camera_picture import PictureRectangle
 from shotc.emit.storyboard.canvas import Canvas
 from shotc.geom.bernstein import Array
 from shotc.geom.shapes import BodyShape, CylinderShape
@@ -33,7 +33,7 @@ class Sides(NamedTuple):
     top: Array
 
 
-def draw_body(canvas: Canvas, shown: Picture, shape: BodyShape, offset: Vec3, color: Rgb) -> None:
+def draw_body(canvas: Canvas, shown: PictureRectangle, shape: BodyShape, offset: Vec3, color: Rgb) -> None:
     """Draw a body; offset : its centre less the eye, W, metres."""
     outline = shape_outline(shown.camera, offset, shape)
     if not len(outline):

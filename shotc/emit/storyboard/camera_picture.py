@@ -7,7 +7,7 @@ from math import tan
 
 import numpy as np
 
-from shotc.emit.storyboard.canvas import Box
+from shotc.emit.storyboard.canvas import PageRectangle
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.vec import Vec3
@@ -16,13 +16,13 @@ from shotc.ir.target import Target
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Picture:
+class PictureRectangle:
     """A camera pose and the rectangle it is drawn into."""
 
     camera: View
     eye: Vec3
     pitch: float
-    box: Box
+    box: PageRectangle
 
     @property
     def horizon(self) -> float:
@@ -41,7 +41,9 @@ class Picture:
         return (x - self.eye[0], y - self.eye[1], z - self.eye[2])
 
 
-def picture(pose: Array, aspect: float, box: Box) -> Picture:
+def picture(pose: Array, aspect: float, box: PageRectangle) -> PictureRectangle:
     """Return the picture of one pose, channels of shape (7,)."""
     camera = view(float(pose[CAM_YAW]), float(pose[CAM_PITCH]), float(pose[HFOV]), aspect)
-    return Picture(camera, (float(pose[0]), float(pose[1]), float(pose[2])), float(pose[CAM_PITCH]), box)
+    return PictureRectangle(
+        camera, (float(pose[0]), float(pose[1]), float(pose[2])), float(pose[CAM_PITCH]), box
+    )

@@ -46,7 +46,7 @@ CAPITAL = 1493 / 2048
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class PageRectangle:
     """A rectangle on the page, inches."""
 
     x: float
@@ -64,18 +64,18 @@ class Box:
         """Upper edge."""
         return self.y + self.height
 
-    def meets(self, other: Box) -> bool:
+    def meets(self, other: PageRectangle) -> bool:
         """Tell whether two rectangles overlap."""
         return self.x < other.right and other.x < self.right and self.y < other.top and other.y < self.top
 
-    def holds(self, other: Box) -> bool:
+    def holds(self, other: PageRectangle) -> bool:
         """Tell whether another rectangle lies inside this one."""
         return self.x <= other.x and self.y <= other.y and other.right <= self.right and other.top <= self.top
 
-    def with_box(self, other: Box) -> Box:
+    def with_box(self, other: PageRectangle) -> PageRectangle:
         """Return the smallest rectangle that holds both."""
         x, y = min(self.x, other.x), min(self.y, other.y)
-        return Box(x, y, max(self.right, other.right) - x, max(self.top, other.top) - y)
+        return PageRectangle(x, y, max(self.right, other.right) - x, max(self.top, other.top) - y)
 
     def outline(self) -> Array:
         """Return its corners, shape (4, 2)."""
@@ -128,7 +128,7 @@ class Canvas:
         face: Color | Sequence[Color] | str,
         edge: Color | Sequence[Color] | str = "none",
         width: float = 0.0,
-        clip: Box | None = None,
+        clip: PageRectangle | None = None,
     ) -> None:
         """Fill closed shapes, each of shape (k, 2); one colour for all or one each."""
         self._add(
@@ -138,7 +138,7 @@ class Canvas:
             clip,
         )
 
-    def union(self, shapes: Sequence[Array], face: Color, clip: Box | None = None) -> None:
+    def union(self, shapes: Sequence[Array], face: Color, clip: PageRectangle | None = None) -> None:
         """Fill the union of closed shapes that all run the same way round, as one shape."""
         parts = [Path(np.concatenate([s, s[:1]]), closed=True) for s in shapes]
         path = Path.make_compound_path(*parts)
@@ -149,7 +149,7 @@ class Canvas:
         strips: Sequence[Array],
         color: Color | Sequence[Color] | Array,
         width: float = 1.0,
-        clip: Box | None = None,
+        clip: PageRectangle | None = None,
         dash: tuple[float, ...] | None = None,
     ) -> None:
         """Draw open lines, each of shape (k, 2); width in points, dash in line widths."""
@@ -167,7 +167,7 @@ class Canvas:
             clip,
         )
 
-    def pieces(self, ends: Array, color: Color, width: float, clip: Box) -> None:
+    def pieces(self, ends: Array, color: Color, width: float, clip: PageRectangle) -> None:
         """Draw many short lines at once, shape (n, 2, 2), in one colour."""
         codes = np.tile(np.array([Path.MOVETO, Path.LINETO], dtype=Path.code_type), len(ends))
         path = Path(ends.reshape(-1, 2), codes)
@@ -175,7 +175,7 @@ class Canvas:
             PathPatch(path, facecolor="none", edgecolor=color, linewidth=width, transform=self._inches), clip
         )
 
-    def image(self, pixels: NDArray[np.uint8], box: Box) -> None:
+    def image(self, pixels: NDArray[np.uint8], box: PageRectangle) -> None:
         """Put a picture into a rectangle; pixels : shape (rows, columns, 3), the upper left one first.
 
         Or (rows, columns, 4), where what is not opaque shows what is below.
@@ -185,7 +185,7 @@ class Canvas:
         picture.set_data(pixels)
         self._add(picture, None)
 
-    def mesh(self, corners: Array, faces: Array, clip: Box) -> None:
+    def mesh(self, corners: Array, faces: Array, clip: PageRectangle) -> None:
         """Fill the quads of a net, row by row, the last row on top; none where a corner is NaN.
 
         corners : shape (m + 1, n + 1, 2); faces : colours, shape (m, n, 3)
@@ -203,7 +203,7 @@ class Canvas:
         ring = np.stack([at[0] + radius * np.cos(turn), at[1] + radius * np.sin(turn)], axis=-1)
         self.polygons([ring], face, edge, width)
 
-    def text(self, x: float, y: float, text: str, style: Type, clip: Box | None = None) -> None:
+    def text(self, x: float, y: float, text: str, style: Type, clip: PageRectangle | None = None) -> None:
         """Write one line of text."""
         self._order += 1
         artist = self._figure.text(
@@ -272,14 +272,14 @@ class Canvas:
         page.save(stream, "PNG", compress_level=QUICK, dpi=(self._figure.dpi, self._figure.dpi))
         return stream.getvalue()
 
-    def _add(self, artist: Any, clip: Box | None) -> None:
+    def _add(self, artist: Any, clip: PageRectangle | None) -> None:
         self._order += 1
         artist.set_zorder(self._order)
         self._figure.add_artist(artist, clip=False)
         if clip is not None:
             artist.set_clip_box(self._window(clip))
 
-    def _window(self, clip: Box) -> Any:
+    def _window(self, clip: PageRectangle) -> Any:
         return TransformedBbox(Bbox([[clip.x, clip.y], [clip.right, clip.top]]), self._inches)
 
 
@@ -291,11 +291,11 @@ def _without_glyph_warnings() -> Iterator[None]:
         yield
 
 
-def chip(canvas: Canvas, at: tuple[float, float], text: str, face: Rgb, size: float = 7.5) -> Box:
+def chip(canvas: Canvas, at: tuple[float, float], text: str, face: Rgb, size: float = 7.5) -> PageRectangle:
     """Write white text on a coloured ground whose upper right corner is ``at``; return the ground."""
     style = Type(size, WHITE, bold=True, across="center", along="center")
     width, height = canvas.extent(text, style)
-    box = Box(at[0] - width - 0.12, at[1] - height - 0.08, width + 0.12, height + 0.08)
+    box = PageRectangle(at[0] - width - 0.12, at[1] - height - 0.08, width + 0.12, height + 0.08)
     canvas.polygons([box.outline()], face)
     canvas.text(box.x + box.width / 2, box.y + box.height / 2, text, style)
     return box

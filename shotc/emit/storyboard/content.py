@@ -10,7 +10,7 @@ from shotc.emit.screen import ScreenSummary, certified, framed_targets
 from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.fleet_lights import FleetLights, lights_at
 from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
-from shotc.emit.storyboard.worst import Worst, worst_framing
+from shotc.emit.storyboard.worst import WorstFrame, worst_framing
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.keyed import is_keyed
@@ -30,7 +30,7 @@ SAME_MOMENT = 0.05
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Moment:
+class StoryboardFrame:
     """One keyframe as it is flown, or a moment of a shot whose keyframes a kind generated.
 
     number : from 1, of the keyframe in the shot, or of the moment among those shown; 0 of neither
@@ -78,7 +78,7 @@ class ShotBoard:
     drone: Drone
     start: float
     end: float
-    moments: tuple[Moment, ...]
+    moments: tuple[StoryboardFrame, ...]
     total: int | None
     path: Array
     flight: Array
@@ -142,7 +142,7 @@ def _board(
 
 def _moments(
     plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], interval: Vec2, most_generated: int
-) -> tuple[Moment, ...]:
+) -> tuple[StoryboardFrame, ...]:
     """Return the moments of a shot in the order of time, its worst among them."""
     placed, flight = pair
     times = [k for k in flight.keyframes if k.shot == placed.shot.id]
@@ -163,8 +163,11 @@ def _moments(
 
 
 def _with(
-    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], moments: list[Moment], worst: Worst | None
-) -> tuple[Moment, ...]:
+    plan: VerifiedIR,
+    pair: tuple[PlacedShot, DroneTrajectory],
+    moments: list[StoryboardFrame],
+    worst: WorstFrame | None,
+) -> tuple[StoryboardFrame, ...]:
     """Return moments with the worst one marked, which joins them where none of them shows it."""
     if worst is None:
         return tuple(moments)
@@ -180,9 +183,11 @@ def _spread(times: list[KeyframeTime], most: int) -> list[KeyframeTime]:
     return [times[i] for i in np.linspace(0, len(times) - 1, most).round().astype(int)]
 
 
-def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime) -> Moment:
+def _keyframe(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime
+) -> StoryboardFrame:
     placed, flight = pair
-    return Moment(
+    return StoryboardFrame(
         number=at.index + 1,
         time=at.time,
         pose=flight.curve(at.time),
@@ -192,15 +197,17 @@ def _keyframe(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: Ke
     )
 
 
-def _passed(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime) -> Moment:
+def _passed(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime) -> StoryboardFrame:
     """Return a keyframe of a shot on its own clock, whose picture is that of the moment."""
     moment = passing(plan, pair, at.time, at.index + 1)
     return replace(moment, hold=pair[0].keyframes[at.index].hold)
 
 
-def passing(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int) -> Moment:
+def passing(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float, number: int
+) -> StoryboardFrame:
     """Return the moment of a shot at some time, seconds."""
-    return Moment(
+    return StoryboardFrame(
         number,
         time,
         pair[1].curve(time),

@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.emit.hillshade import hillshade, shades
 from shotc.emit.palette import GROUND, GROUND_FAR, SKY_LOW, shade
-from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 from shotc.emit.storyboard.furniture import round_length
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.bernstein import Array
@@ -123,12 +123,14 @@ def contour(triangles: Array, level: float) -> Array:
     return np.asarray(tip[..., :2] + share[..., None] * (others[..., :2] - tip[..., :2]))
 
 
-def contour_heights(canvas: Canvas, sheet: Sheet, relief: Relief, taken: Sequence[Box]) -> list[Box]:
+def contour_heights(
+    canvas: Canvas, sheet: Sheet, relief: Relief, taken: Sequence[PageRectangle]
+) -> list[PageRectangle]:
     """Write heights on a few contours, each near the middle where nothing else is; return their room."""
-    rooms: list[Box] = []
+    rooms: list[PageRectangle] = []
     style = Type(6.8, shade(GROUND, 0.35), across="center", along="center_baseline", halo=GROUND_FAR)
     box, triangles = sheet.box, relief.triangles
-    inner = Box(box.x + 0.05, box.y + 0.05, box.width - 0.1, box.height - 0.1)
+    inner = PageRectangle(box.x + 0.05, box.y + 0.05, box.width - 0.1, box.height - 0.1)
     middle = np.array([box.x + box.width / 2, box.y + box.height / 2])
     levels = relief.told
     for level in levels[:: max(1, -(-len(levels) // MOST_LABELS))]:
@@ -136,7 +138,7 @@ def contour_heights(canvas: Canvas, sheet: Sheet, relief: Relief, taken: Sequenc
         width, height = canvas.extent(text, style)
         spots = sheet.at(contour(triangles, float(level))).mean(axis=1)
         for x, y in spots[np.argsort(np.linalg.norm(spots - middle, axis=1), kind="stable")]:
-            room = Box(float(x) - width / 2, float(y) - height / 2, width, height)
+            room = PageRectangle(float(x) - width / 2, float(y) - height / 2, width, height)
             if inner.holds(room) and not any(room.meets(other) for other in [*taken, *rooms]):
                 canvas.text(float(x), float(y), text, style)
                 rooms.append(room)

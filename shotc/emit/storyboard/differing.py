@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.emit.palette import INK, QUIET
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
 from shotc.emit.storyboard.frame import Cell, caption_height
 from shotc.emit.storyboard.side_by_side import (
     CELL,
@@ -55,7 +55,7 @@ def _row(
         assert each.plan is not None
         shot = next(s for s in each.shots if s.id == found.shot)
         canvas.write(left, top - 0.3, f"{name}, {found.shot}", Type(13, INK, bold=True), CELL)
-        picture = Box(left, top - NAMES - height, width, height)
+        picture = PageRectangle(left, top - NAMES - height, width, height)
         draw_moment(canvas, Cell(picture, CELL), each.plan, moment_at(each.plan, shot, time, column + 1))
     facts = f"{found.metres:.2f} m and {found.degrees:.1f} deg apart; mean of their sum {found.mean:.2f}"
     base = top - NAMES - height - caption_height(CELL) - 0.02

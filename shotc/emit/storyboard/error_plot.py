@@ -7,18 +7,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from shotc.emit.palette import CAMERA, FAINT, INK, KEEP_OUT, QUIET, WHITE
-from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.ir.comparison import FlownShot, Trace
 
 
-def draw_error(canvas: Canvas, box: Box, shot: FlownShot, what: tuple[float, float]) -> None:
+def draw_error(canvas: Canvas, box: PageRectangle, shot: FlownShot, what: tuple[float, float]) -> None:
     """Draw the errors of a shot; what : the time of the frame to mark, seconds, and the error at the top."""
     time, top = what
     canvas.polygons([box.outline()], WHITE, FAINT, 0.6)
     cropped = [
-        Box(box.x + a * box.width, box.y, (b - a) * box.width, box.height).outline()
+        PageRectangle(box.x + a * box.width, box.y, (b - a) * box.width, box.height).outline()
         for trace in shot.traces
         for a, b in stretches(trace.share, trace.margin < 0.0)
     ]
@@ -58,7 +58,7 @@ def joins(share: Array) -> Mask:
     return np.asarray(steps <= 1.5 * float(np.median(steps))) if len(steps) else np.zeros(0, dtype=np.bool_)
 
 
-def _curves(box: Box, trace: Trace, top: float) -> Iterator[Array]:
+def _curves(box: PageRectangle, trace: Trace, top: float) -> Iterator[Array]:
     """Yield the line of an error in parts: where none is known it is broken, above the top it is cut."""
     x = box.x + trace.share * box.width
     y = box.y + np.minimum(trace.error, 2 * top) / top * box.height

@@ -15,7 +15,7 @@ import numpy as np
 
 from shotc.emit.hillshade import hillshade, shades
 from shotc.emit.palette import GROUND, GROUND_FAR
-from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.camera_picture import PictureRectangle
 from shotc.emit.storyboard.canvas import Canvas
 from shotc.emit.storyboard.flat_ground import NEAR_M, draw_squares, squares
 from shotc.geom.bernstein import Array
@@ -75,7 +75,7 @@ class Fan:
         return np.asarray(np.maximum.accumulate(np.where(np.isnan(slope), -np.inf, slope), axis=0))
 
 
-def fan_of(shown: Picture, ground: Ground, parts: Sequence[float] = ()) -> Fan:
+def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ()) -> Fan:
     """Return the ground that a picture may show; parts : radii that a ring has to have, metres."""
     eye = np.array(shown.eye)
     low, high = (box.reshape(-1, 3) for box in (ground.surface.low[-1], ground.surface.high[-1]))
@@ -116,7 +116,7 @@ class FanPainter:
     grid : width of a square, metres
     """
 
-    def __init__(self, canvas: Canvas, shown: Picture, fan: Fan, grid: float) -> None:
+    def __init__(self, canvas: Canvas, shown: PictureRectangle, fan: Fan, grid: float) -> None:
         self._canvas, self._shown, self._fan, self._grid = canvas, shown, fan, grid
         self._top = len(fan.radius) - 1
         self._corners = _on_page(shown, fan)
@@ -140,7 +140,7 @@ class FanPainter:
             draw_squares(self._canvas, self._shown, self._lines[now], self._grid)
 
 
-def _on_page(shown: Picture, fan: Fan) -> Array:
+def _on_page(shown: PictureRectangle, fan: Fan) -> Array:
     """Return where rings and columns are on the page, (R, C, 2); NaN behind the camera."""
     points = fan.points
     right, down, forward = shown.camera.to_camera((points[..., 0], points[..., 1], points[..., 2]))

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from shotc.emit.palette import GROUND, GROUND_FAR, SKY, SKY_LOW, Rgb, shade
-from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.camera_picture import PictureRectangle
 from shotc.emit.storyboard.canvas import Canvas
 from shotc.geom.bernstein import Array
 from shotc.geom.vec import Vec3
@@ -19,7 +19,7 @@ NEAR_M = 0.05
 """Depth from which ground is drawn, metres."""
 
 
-def draw_flat(canvas: Canvas, shown: Picture, grid: float) -> None:
+def draw_flat(canvas: Canvas, shown: PictureRectangle, grid: float) -> None:
     """Draw the sky, and the plane z = 0 with its squares; grid : width of a square, metres."""
     draw_sky(canvas, shown)
     horizon = shown.horizon
@@ -30,14 +30,14 @@ def draw_flat(canvas: Canvas, shown: Picture, grid: float) -> None:
     draw_squares(canvas, shown, squares(shown.eye, grid), grid)
 
 
-def draw_sky(canvas: Canvas, shown: Picture, below: Rgb = SKY) -> None:
+def draw_sky(canvas: Canvas, shown: PictureRectangle, below: Rgb = SKY) -> None:
     """Draw the sky above the horizon; below : a colour for what is below it."""
     canvas.polygons([shown.box.outline()], below)
     if shown.horizon < 1:
         _bands(canvas, shown, (shown.horizon, 1.0), SKY_LOW, SKY)
 
 
-def _bands(canvas: Canvas, shown: Picture, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
+def _bands(canvas: Canvas, shown: PictureRectangle, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
     # A soft gradient away from the horizon, over one screen height, in thin bands.
     edges = span[0] + np.linspace(0.0, 1.0, 13) ** 1.5 * (2.0 if span[1] > 0 else -2.0)
     edges[-1] = span[1] * 40.0
@@ -69,7 +69,7 @@ def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
     return np.stack([ground[:, :-1], ground[:, 1:]], axis=2).reshape(-1, 2, 3)
 
 
-def draw_squares(canvas: Canvas, shown: Picture, pieces: Array, grid: float) -> None:
+def draw_squares(canvas: Canvas, shown: PictureRectangle, pieces: Array, grid: float) -> None:
     """Draw pieces of the squares' lines, metres from the eye, (n, 2, 3): the farther, the fainter."""
     reach = REACH * grid
     right, down, forward = shown.camera.to_camera((pieces[..., 0], pieces[..., 1], pieces[..., 2]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.emit.palette import INK
-from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.camera_picture import PictureRectangle
 from shotc.emit.storyboard.canvas import Canvas, Color
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
@@ -38,7 +38,7 @@ def lights_at(plan: VerifiedIR, time: float) -> FleetLights | None:
     return FleetLights(np.concatenate(where), np.concatenate(shine))
 
 
-def draw_lights(canvas: Canvas, shown: Picture, lights: FleetLights) -> None:
+def draw_lights(canvas: Canvas, shown: PictureRectangle, lights: FleetLights) -> None:
     """Draw the lights in a picture, the near ones last; a dark drone is a ring."""
     away = lights.places - np.array(shown.eye)
     u, v, depth = shown.camera.project((away[:, 0], away[:, 1], away[:, 2]))

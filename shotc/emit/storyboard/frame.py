@@ -10,9 +10,9 @@ import numpy as np
 
 from shotc.emit.palette import CAMERA, INK, KEEP_OUT, QUIET, WHITE
 from shotc.emit.screen import guide_lines
-from shotc.emit.storyboard.camera_picture import Picture, picture
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, chip
-from shotc.emit.storyboard.content import Moment
+from shotc.emit.storyboard.camera_picture import PictureRectangle, picture
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, chip
+from shotc.emit.storyboard.content import StoryboardFrame
 from shotc.emit.storyboard.fleet_lights import draw_lights
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.scene import draw_scene, name_places
@@ -43,11 +43,11 @@ POINTS_OF_THE_COMPASS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
 class Cell:
     """Where a panel goes: its picture, and the width that its caption may take, inches."""
 
-    picture: Box
+    picture: PageRectangle
     width: float
 
 
-def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, grid: float) -> None:
+def draw_frame(canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: MissionIR, grid: float) -> None:
     """Draw a panel: the picture, and its caption under it; grid is the width of a ground square, metres."""
     box, mission = cell.picture, frozen(mission, moment.time)
     shown = picture(moment.pose, box.width / box.height, box)
@@ -56,7 +56,7 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, g
         draw_lights(canvas, shown, moment.lights)
     for composition in dict.fromkeys(subject.composition for subject in moment.framed):
         _composition(canvas, shown, composition)
-    taken: list[Box] = []
+    taken: list[PageRectangle] = []
     seen = {name: place for name, _, place in name_places(shown, mission)}
     for subject in moment.framed:
         offset = shown.offset(mission.target(subject.target))
@@ -79,7 +79,7 @@ def compass(yaw: float) -> str:
     return f"{heading:03d}° {POINTS_OF_THE_COMPASS[round(heading / 45) % 8]}"
 
 
-def _composition(canvas: Canvas, shown: Picture, composition: Composition) -> None:
+def _composition(canvas: Canvas, shown: PictureRectangle, composition: Composition) -> None:
     us, vs = guide_lines(composition)
     strips = [np.array([[u, -1.0], [u, 1.0]]) for u in us] + [np.array([[-1.0, v], [1.0, v]]) for v in vs]
     placed = [shown.place(strip) for strip in strips]
@@ -91,19 +91,21 @@ def _composition(canvas: Canvas, shown: Picture, composition: Composition) -> No
         canvas.disc((float(x), float(y)), 0.032, (*WHITE, 0.9), (*INK, 0.55), 0.5)
 
 
-def _marks(canvas: Canvas, shown: Picture, subject: Framed, offset: Vec3, body: Box | None) -> list[Box]:
+def _marks(
+    canvas: Canvas, shown: PictureRectangle, subject: Framed, offset: Vec3, body: PageRectangle | None
+) -> list[PageRectangle]:
     """Draw where a subject is wanted and where it is; return the room that takes.
 
     body : the rectangle of what is seen of it, or None
     """
-    taken: list[Box] = []
+    taken: list[PageRectangle] = []
     if subject.reference is not None:
         if subject.asked is not None and subject.is_moved:
             _asked(canvas, shown, subject.asked, subject.reference)
             x, y = (float(c) for c in shown.place(np.array(subject.asked)))
-            taken.append(Box(x - 0.07, y - 0.07, 0.14, 0.14))
+            taken.append(PageRectangle(x - 0.07, y - 0.07, 0.14, 0.14))
         x, y = _cross(canvas, shown, subject.reference)
-        taken.append(Box(x - 0.13, y - 0.13, 0.26, 0.26))
+        taken.append(PageRectangle(x - 0.13, y - 0.13, 0.26, 0.26))
     u, v, depth = shown.camera.project(offset)
     if depth > 0 and max(abs(u), abs(v)) <= 1:
         x, y = (float(c) for c in shown.place(np.array([u, v])))
@@ -111,20 +113,20 @@ def _marks(canvas: Canvas, shown: Picture, subject: Framed, offset: Vec3, body: 
     return taken
 
 
-def _actual(canvas: Canvas, at: Vec2, body: Box | None) -> Box:
+def _actual(canvas: Canvas, at: Vec2, body: PageRectangle | None) -> PageRectangle:
     """Mark where a subject is: by a dot on it, or by a ring about one that the dot would cover."""
     if body is None or max(body.width, body.height) >= LEAST_UNDER_DOT:
         canvas.disc(at, DOT, WHITE, INK, 0.9)
-        return Box(at[0] - DOT, at[1] - DOT, 2 * DOT, 2 * DOT)
+        return PageRectangle(at[0] - DOT, at[1] - DOT, 2 * DOT, 2 * DOT)
     reach = max(hypot(body.width, body.height) / 2 + 0.03, 2 * DOT)
     turn = np.linspace(0, 2 * np.pi, 41)
     ring = np.stack([at[0] + reach * np.cos(turn), at[1] + reach * np.sin(turn)], axis=-1)
     canvas.lines([ring], (*INK, 0.8), 2.2)
     canvas.lines([ring], WHITE, 1.2)
-    return Box(at[0] - reach, at[1] - reach, 2 * reach, 2 * reach)
+    return PageRectangle(at[0] - reach, at[1] - reach, 2 * reach, 2 * reach)
 
 
-def _cross(canvas: Canvas, shown: Picture, at: Vec2) -> Vec2:
+def _cross(canvas: Canvas, shown: PictureRectangle, at: Vec2) -> Vec2:
     x, y = (float(c) for c in shown.place(np.array(at)))
     arms = [
         np.array([[x + sx * r, y + sy * r] for r in (0.065, 0.2)])
@@ -137,7 +139,7 @@ def _cross(canvas: Canvas, shown: Picture, at: Vec2) -> Vec2:
     return x, y
 
 
-def _asked(canvas: Canvas, shown: Picture, asked: Vec2, reference: Vec2) -> None:
+def _asked(canvas: Canvas, shown: PictureRectangle, asked: Vec2, reference: Vec2) -> None:
     ends = shown.place(np.array([asked, reference]))
     canvas.lines([ends], (*WHITE, 0.9), 1.0, shown.box, dash=(2.0, 2.0))
     x, y = ends[0]
@@ -145,9 +147,9 @@ def _asked(canvas: Canvas, shown: Picture, asked: Vec2, reference: Vec2) -> None
     canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, shown.box)
 
 
-def _faults(canvas: Canvas, box: Box, framed: Sequence[Framed]) -> list[Box]:
+def _faults(canvas: Canvas, box: PageRectangle, framed: Sequence[Framed]) -> list[PageRectangle]:
     """Write what is wrong with the subjects, with its name where there are several; return the room."""
-    taken: list[Box] = []
+    taken: list[PageRectangle] = []
     top = box.top - 0.07
     for subject in framed:
         if subject.fault:
@@ -158,11 +160,15 @@ def _faults(canvas: Canvas, box: Box, framed: Sequence[Framed]) -> list[Box]:
 
 
 def _names(
-    canvas: Canvas, shown: Picture, mission: MissionIR, subjects: Sequence[str], taken: list[Box]
+    canvas: Canvas,
+    shown: PictureRectangle,
+    mission: MissionIR,
+    subjects: Sequence[str],
+    taken: list[PageRectangle],
 ) -> list[str]:
     """Write the names of what is seen, the subjects' first, none on a target; return those without room."""
     box = shown.box
-    inner = Box(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
+    inner = PageRectangle(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
     things = sorted(name_places(shown, mission), key=lambda thing: thing[0] not in subjects)
     targets = {target.name for target in mission.targets}
     labels, bodies = [], []
@@ -177,7 +183,9 @@ def _names(
     return write_labels(canvas, inner, labels, [*taken, *bodies])
 
 
-def _caption(canvas: Canvas, cell: Cell, moment: Moment, mission: MissionIR, lost: Sequence[str]) -> None:
+def _caption(
+    canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: MissionIR, lost: Sequence[str]
+) -> None:
     """Write what is true at a moment; lost : names of things in the picture that have no room in it."""
     pose, box = moment.pose, cell.picture
     base = box.y - 0.2

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shotc.emit.palette import GROUND_FAR, INK, PAPER, QUIET, SKY_LOW, WHITE
-from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.camera import heading_of
 
@@ -22,20 +22,23 @@ def round_length(length: float) -> float:
 
 
 def corner(
-    box: Box, size: tuple[float, float], corners: Sequence[tuple[str, str]], content: Sequence[Box]
-) -> Box:
+    box: PageRectangle,
+    size: tuple[float, float],
+    corners: Sequence[tuple[str, str]],
+    content: Sequence[PageRectangle],
+) -> PageRectangle:
     """Return a rectangle in the corner that meets the least of the content, the first such corner."""
     rooms = []
     for across, up in corners:
         x = box.x + 0.07 if across == "left" else box.right - 0.07 - size[0]
         y = box.y + 0.07 if up == "low" else box.top - 0.07 - size[1]
-        rooms.append(Box(x, y, *size))
+        rooms.append(PageRectangle(x, y, *size))
     return min(rooms, key=lambda room: sum(room.meets(other) for other in content))
 
 
 def scale_bar(
-    canvas: Canvas, sheet: Sheet, step: float, content: Sequence[Box], contours: float = 0.0
-) -> Box:
+    canvas: Canvas, sheet: Sheet, step: float, content: Sequence[PageRectangle], contours: float = 0.0
+) -> PageRectangle:
     """Draw the scale, and write how wide the sheet's squares are, metres; return the room that takes.
 
     contours : how far apart they are, metres; 0 where there are none
@@ -48,12 +51,12 @@ def scale_bar(
     x, y = room.x + 0.06, room.y + 0.07
     canvas.polygons([room.outline()], (*GROUND_FAR, 0.85))
     for i, face in enumerate((INK, WHITE)):
-        canvas.polygons([Box(x + i * width / 2, y, width / 2, 0.055).outline()], face, INK, 0.7)
+        canvas.polygons([PageRectangle(x + i * width / 2, y, width / 2, 0.055).outline()], face, INK, 0.7)
     canvas.text(x, y + 0.09, text, style)
     return room
 
 
-def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
+def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) -> PageRectangle:
     """Draw which way is North on a plan; return the room it takes."""
     room = corner(sheet.box, (0.3, 0.52), UPPER_FIRST, content)
     x, y = room.x + 0.15, room.y + 0.14
@@ -63,7 +66,7 @@ def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
     return room
 
 
-def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
+def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) -> PageRectangle:
     """Write which way one looks in a side view; return the room that takes."""
     east, north = sheet.axes[0, :2]
     heading = round(np.degrees(heading_of(float(np.arctan2(east, -north))))) % 360
@@ -75,7 +78,7 @@ def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[Box]) -> Box:
     return room
 
 
-def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> list[Box]:
+def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> list[PageRectangle]:
     """Write heights along the right edge of a side view, away from the camera; return the room they take.
 
     over_plane : the ground is the plane z = 0, which shows where 0 is
@@ -90,7 +93,7 @@ def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> li
         y = float(sheet.at(np.array([0.0, k * step]))[1])
         text = f"{k * step:g} m".replace("-", "−")
         width = canvas.extent(text, style)[0]
-        room = Box(box.right - width - 0.18, y - 0.08, width + 0.17, 0.16)
+        room = PageRectangle(box.right - width - 0.18, y - 0.08, width + 0.17, 0.16)
         if box.holds(room):
             canvas.polygons([room.outline()], (*SKY_LOW, 0.85))
             canvas.lines([np.array([[box.right - 0.08, y], [box.right, y]])], INK, 0.8)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.emit.palette import WHITE, Rgb
-from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 
 GAP = 0.05
 """Between a thing and its name, and between a name and everything else, inches."""
@@ -29,7 +29,7 @@ class Label:
 
     text: str
     color: Rgb
-    thing: Box
+    thing: PageRectangle
     sides: tuple[str, ...] = MAP_SIDES
     size: float = 7.5
     bold: bool = True
@@ -37,7 +37,11 @@ class Label:
 
 
 def write_labels(
-    canvas: Canvas, inner: Box, labels: Iterable[Label], taken: Sequence[Box], avoid: Sequence[Box] = ()
+    canvas: Canvas,
+    inner: PageRectangle,
+    labels: Iterable[Label],
+    taken: Sequence[PageRectangle],
+    avoid: Sequence[PageRectangle] = (),
 ) -> list[str]:
     """Write labels inside a rectangle, the first ones first; return the names that found no room.
 
@@ -60,8 +64,12 @@ def write_labels(
 
 
 def nearest_room(
-    size: tuple[float, float], inner: Box, thing: Box, taken: Sequence[Box], gap: float = GAP
-) -> Box | None:
+    size: tuple[float, float],
+    inner: PageRectangle,
+    thing: PageRectangle,
+    taken: Sequence[PageRectangle],
+    gap: float = GAP,
+) -> PageRectangle | None:
     """Return the free place of some size that is nearest to a thing, or None; gap : to what is taken."""
     width, height = size
     across = np.arange(inner.x, inner.right - width + 1e-9, STEP)
@@ -80,10 +88,10 @@ def nearest_room(
     # Of places equally near, the one that is most in line with the thing.
     off += 1e-3 * np.hypot(x + width / 2 - _middle(thing)[0], y + height / 2 - _middle(thing)[1])
     best = int(np.argmin(np.where(free, off, np.inf)))
-    return Box(float(x[best]), float(y[best]), width, height)
+    return PageRectangle(float(x[best]), float(y[best]), width, height)
 
 
-def leader(canvas: Canvas, room: Box, thing: Box, color: Rgb) -> None:
+def leader(canvas: Canvas, room: PageRectangle, thing: PageRectangle, color: Rgb) -> None:
     """Draw the line from a label to its thing, from the point nearest to it to that thing's edge."""
     x, y = _middle(thing)
     start = min(max(x, room.x), room.right), min(max(y, room.y), room.top)
@@ -92,13 +100,16 @@ def leader(canvas: Canvas, room: Box, thing: Box, color: Rgb) -> None:
     canvas.lines([np.array([start, end])], color, 0.8)
 
 
-def _middle(box: Box) -> tuple[float, float]:
+def _middle(box: PageRectangle) -> tuple[float, float]:
     return box.x + box.width / 2, box.y + box.height / 2
 
 
 def free_room(
-    size: tuple[float, float], inner: Box, label: Label, others: tuple[Sequence[Box], Sequence[Box]]
-) -> Box | None:
+    size: tuple[float, float],
+    inner: PageRectangle,
+    label: Label,
+    others: tuple[Sequence[PageRectangle], Sequence[PageRectangle]],
+) -> PageRectangle | None:
     """Return where a label of some size goes, or None; others : what is taken, and what to avoid."""
     taken, avoid = others
     width, height = size
@@ -109,13 +120,15 @@ def free_room(
     return next((room for room in free if not _meets(room, avoid)), free[0] if free else None)
 
 
-def _meets(room: Box, others: Sequence[Box]) -> bool:
+def _meets(room: PageRectangle, others: Sequence[PageRectangle]) -> bool:
     # A little less than the gap to its own thing, which may be among the others.
-    wide = Box(room.x - 0.9 * GAP, room.y - 0.9 * GAP, room.width + 1.8 * GAP, room.height + 1.8 * GAP)
+    wide = PageRectangle(
+        room.x - 0.9 * GAP, room.y - 0.9 * GAP, room.width + 1.8 * GAP, room.height + 1.8 * GAP
+    )
     return any(wide.meets(other) for other in others)
 
 
-def _beside(thing: Box, side: str, size: tuple[float, float]) -> Box:
+def _beside(thing: PageRectangle, side: str, size: tuple[float, float]) -> PageRectangle:
     width, height = size
     x, y = thing.x + (thing.width - width) / 2, thing.y + (thing.height - height) / 2
     if "left" in side:
@@ -132,4 +145,4 @@ def _beside(thing: Box, side: str, size: tuple[float, float]) -> Box:
         y = thing.top + GAP
     elif "top" in side:
         y = thing.top - height
-    return Box(x, y, width, height)
+    return PageRectangle(x, y, width, height)

@@ -20,8 +20,8 @@ from shotc.emit.palette import (
     WHITE,
     shade,
 )
-from shotc.emit.storyboard.canvas import Box, Canvas, Type
-from shotc.emit.storyboard.content import Moment, ShotBoard, standing
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
+from shotc.emit.storyboard.content import ShotBoard, StoryboardFrame, standing
 from shotc.emit.storyboard.contours import (
     Relief,
     contour_heights,
@@ -48,7 +48,7 @@ MOST_SQUARES = 20
 """In half of what a sheet shows; they are drawn larger where there would be more."""
 
 
-def draw_map(canvas: Canvas, box: Box, board: ShotBoard, mission: MissionIR, grid: float) -> None:
+def draw_map(canvas: Canvas, box: PageRectangle, board: ShotBoard, mission: MissionIR, grid: float) -> None:
     """Draw the map of one shot into ``box``; grid is the width of a ground square in its pictures, metres.
 
     Names that find no room on it are written under it.
@@ -100,7 +100,7 @@ def _ground_below(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: Missi
         return
     level = min(float(sheet.at(np.zeros(2))[1]), box.top)
     if level > box.y:
-        canvas.polygons([Box(box.x, box.y, box.width, level - box.y).outline()], GROUND)
+        canvas.polygons([PageRectangle(box.x, box.y, box.width, level - box.y).outline()], GROUND)
         canvas.lines([np.array([[box.x, level], [box.right, level]])], shade(GROUND, 0.6), 1.2, box)
 
 
@@ -156,7 +156,7 @@ def _body(sheet: Sheet, target: Target) -> Array:
     return sheet.outline(solid)
 
 
-def _frustum(canvas: Canvas, sheet: Sheet, moment: Moment, aspect: float) -> None:
+def _frustum(canvas: Canvas, sheet: Sheet, moment: StoryboardFrame, aspect: float) -> None:
     """Draw which way the camera sees: the outline of the nearest part of its field of view."""
     reach = min(0.75, 0.3 * sheet.box.height) / sheet.inches
     yaw, pitch, half = (float(moment.pose[c]) for c in (CAM_YAW, CAM_PITCH, HFOV))
@@ -205,7 +205,7 @@ def _clear_of(strip: Array, marks: Array, start: int) -> int:
 
 def _furniture(
     canvas: Canvas, sheet: Sheet, what: tuple[float, Relief | None], board: ShotBoard, mission: MissionIR
-) -> list[Box]:
+) -> list[PageRectangle]:
     """Draw directions, scale, how wide the squares are and how far contours are apart; return the room."""
     step, relief = what
     content = _content(sheet, board, mission)
@@ -218,7 +218,7 @@ def _furniture(
     return [*taken, scale_bar(canvas, sheet, step, content + taken, contours)]
 
 
-def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[Box]:
+def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[PageRectangle]:
     """Return the room of what a map is drawn for: path, frames, home, targets and zones."""
     content = [_square(at, 0.06) for at in sheet.place(board.path[::4])]
     content += [_square(sheet.place(m.pose[:3]), 2 * NUMBER) for m in board.moments]
@@ -228,7 +228,9 @@ def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[Box]:
     return content + [seen for shape in shapes if (seen := sheet.visible(shape)) is not None]
 
 
-def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> None:
+def _numbers(
+    canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[PageRectangle]
+) -> None:
     """Write the frames' numbers where the camera is, or beside it: none on a target or another number."""
     bodies = [seen for t in mission.targets if (seen := sheet.visible(_body(sheet, t))) is not None]
     spots = []
@@ -245,7 +247,7 @@ def _numbers(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR,
         canvas.text(*spot, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
 
 
-def _spot(sheet: Sheet, moment: Moment, taken: list[Box]) -> tuple[float, float]:
+def _spot(sheet: Sheet, moment: StoryboardFrame, taken: list[PageRectangle]) -> tuple[float, float]:
     """Return a free place for a frame's number: on it, or beside it, behind the camera first."""
     x, y = (float(c) for c in sheet.place(moment.pose[:3]))
     back = float(moment.pose[CAM_YAW]) + pi if sheet.is_plan else pi
@@ -258,11 +260,13 @@ def _spot(sheet: Sheet, moment: Moment, taken: list[Box]) -> tuple[float, float]
     return (x, y) if room is None else (room.x + NUMBER, room.y + NUMBER)
 
 
-def _square(at: Array, half: float) -> Box:
-    return Box(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
+def _square(at: Array, half: float) -> PageRectangle:
+    return PageRectangle(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
 
 
-def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[Box]) -> list[str]:
+def _names(
+    canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[PageRectangle]
+) -> list[str]:
     """Write the names of what is on the map; return those that find no room."""
     labels = []
     for target in {t.name: t for t in mission.targets}.values():
@@ -280,7 +284,9 @@ def _names(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, t
         seen = sheet.visible(sheet.outline(zone.solid))
         if zone.keep == "out" and seen is not None:
             labels.append(Label(zone.name, shade(KEEP_OUT, 0.8), seen, inside=True))
-    inner = Box(sheet.box.x + 0.03, sheet.box.y + 0.03, sheet.box.width - 0.06, sheet.box.height - 0.06)
+    inner = PageRectangle(
+        sheet.box.x + 0.03, sheet.box.y + 0.03, sheet.box.width - 0.06, sheet.box.height - 0.06
+    )
     lines = [_square(at, 0.03) for at in sheet.place(board.path[::2])]
     # Names may stand on a zone, but not on one so small that it would be lost under them.
     small = [label.thing for label in labels[named:] if label.thing.height < 0.6]

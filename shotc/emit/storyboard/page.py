@@ -21,7 +21,7 @@ from shotc.emit.palette import (
     shade,
 )
 from shotc.emit.screen import ScreenSummary, certified, percent
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
 from shotc.emit.storyboard.furniture import round_length
@@ -39,7 +39,7 @@ MANY = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class ShotLayout:
     """How one shot is set: width of its map, size of a picture, width of its cell, pictures in a row."""
 
     map_width: float
@@ -66,14 +66,14 @@ def band_height(board: ShotBoard) -> float:
     return BAND + LINE * max(0, len(board.framing) - 1)
 
 
-def layout(aspect: float, shots: int) -> Layout:
+def layout(aspect: float, shots: int) -> ShotLayout:
     """Return how shots filmed with one picture format are set on a page of many."""
     map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY else (3.0, 4, 2.4)
     room = WIDTH - 2 * MARGIN - map_width - 0.35
     width = min((room + GAP) / columns - GAP, tallest * aspect)
     cell = max(width, 1.7)
     columns = int((room + GAP + 1e-9) / (cell + GAP))
-    return Layout(map_width, (width, width / aspect), cell, columns)
+    return ShotLayout(map_width, (width, width / aspect), cell, columns)
 
 
 def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
@@ -168,7 +168,7 @@ def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> flo
 
 
 def _sign(canvas: Canvas, what: str, x: float, y: float) -> None:
-    square = Box(x - 0.075, y - 0.06, 0.15, 0.12).outline()
+    square = PageRectangle(x - 0.075, y - 0.06, 0.15, 0.12).outline()
     bar = np.array([[x - 0.1, y], [x + 0.1, y]])
     if what == "wanted":
         arms = [
@@ -198,7 +198,9 @@ def _sign(canvas: Canvas, what: str, x: float, y: float) -> None:
         canvas.polygons([square], GROUND_FAR, FLIGHT, 0.6)
 
 
-def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: VerifiedIR, grid: float) -> None:
+def _shot(
+    canvas: Canvas, top: float, what: tuple[ShotLayout, ShotBoard], plan: VerifiedIR, grid: float
+) -> None:
     place, board = what
     mission = plan.trajectory.keyframes.mission
     canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
@@ -206,13 +208,13 @@ def _shot(canvas: Canvas, top: float, what: tuple[Layout, ShotBoard], plan: Veri
     start = top - band_height(board)
     rows = place.rows(board)
     tall = rows * place.pitch - 0.17
-    draw_map(canvas, Box(MARGIN, start - tall, place.map_width, tall), board, mission, grid)
+    draw_map(canvas, PageRectangle(MARGIN, start - tall, place.map_width, tall), board, mission, grid)
     left = MARGIN + place.map_width + 0.35
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, place.columns)
         x = left + column * (place.cell + GAP)
         y = start - row * place.pitch - place.picture[1]
-        draw_frame(canvas, Cell(Box(x, y, *place.picture), place.cell), moment, mission, grid)
+        draw_frame(canvas, Cell(PageRectangle(x, y, *place.picture), place.cell), moment, mission, grid)
 
 
 def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:

@@ -10,8 +10,8 @@ import numpy as np
 from shotc.emit.hillshade import before
 from shotc.emit.palette import KEEP_OUT, SKY_LOW, SUBJECT, Rgb, shade
 from shotc.emit.storyboard.bodies import draw_body
-from shotc.emit.storyboard.camera_picture import Picture
-from shotc.emit.storyboard.canvas import Box, Canvas
+from shotc.emit.storyboard.camera_picture import PictureRectangle
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle
 from shotc.emit.storyboard.fan import FanPainter, fan_of
 from shotc.emit.storyboard.flat_ground import draw_flat, draw_sky
 from shotc.emit.storyboard.standing import MeshPainter
@@ -29,7 +29,7 @@ AT_FOOT = 0.985
 
 
 def draw_scene(
-    canvas: Canvas, shown: Picture, mission: MissionIR, subjects: Collection[str], grid: float
+    canvas: Canvas, shown: PictureRectangle, mission: MissionIR, subjects: Collection[str], grid: float
 ) -> None:
     """Draw everything that stands in the world, the far things first.
 
@@ -62,7 +62,7 @@ def _draw_beyond(layers: Sequence[FanPainter | MeshPainter], distance: float, ba
             layer.draw_beyond(band)
 
 
-def _thing(canvas: Canvas, shown: Picture, thing: Target | Zone, subjects: Collection[str]) -> None:
+def _thing(canvas: Canvas, shown: PictureRectangle, thing: Target | Zone, subjects: Collection[str]) -> None:
     if isinstance(thing, Target):
         _target(canvas, shown, thing, SUBJECT if thing.name in subjects else shade(SUBJECT, 1.45))
     else:
@@ -131,12 +131,12 @@ def _distance(eye: Vec3, thing: Target | Zone) -> float:
     )
 
 
-def _target(canvas: Canvas, shown: Picture, target: Target, color: Rgb) -> None:
+def _target(canvas: Canvas, shown: PictureRectangle, target: Target, color: Rgb) -> None:
     for part in bodies_of(target.shape):
         draw_body(canvas, shown, part.shape, plus(shown.offset(target), part.offset), color)
 
 
-def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
+def _zone(canvas: Canvas, shown: PictureRectangle, zone: Zone) -> None:
     outlines = [shown.place(o) for o in solid_outlines(shown.camera, shown.eye, zone.solid)]
     if not outlines:
         return
@@ -147,7 +147,7 @@ def _zone(canvas: Canvas, shown: Picture, zone: Zone) -> None:
         canvas.polygons(outlines, "none", (*shade(KEEP_OUT, 0.9), 0.95), 1.0, shown.box)
 
 
-def _outlines(shown: Picture, target: Target) -> list[Array]:
+def _outlines(shown: PictureRectangle, target: Target) -> list[Array]:
     offset = shown.offset(target)
     parts = bodies_of(target.shape)
     return [shape_outline(shown.camera, plus(offset, part.offset), part.shape) for part in parts]
@@ -162,7 +162,7 @@ def _is_behind_ground(eye: Vec3, mission: MissionIR, target: Target) -> bool:
     return bool(before(mission.terrain.ground, np.array(eye), axis).all())
 
 
-def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]]:
+def name_places(shown: PictureRectangle, mission: MissionIR) -> list[tuple[str, Rgb, PageRectangle]]:
     """Return name, colour and page rectangle of everything that is in the picture, the near first.
 
     A target whose axis is behind ground is not in it.
@@ -184,5 +184,5 @@ def name_places(shown: Picture, mission: MissionIR) -> list[tuple[str, Rgb, Box]
         if (low < 1).all() and (high > -1).all():
             left, bottom = (float(c) for c in shown.place(np.maximum(low, -1.0)))
             right, top = (float(c) for c in shown.place(np.minimum(high, 1.0)))
-            names.append((thing.name, color, Box(left, bottom, right - left, top - bottom)))
+            names.append((thing.name, color, PageRectangle(left, bottom, right - left, top - bottom)))
     return names

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shotc.emit.storyboard.canvas import Box
+from shotc.emit.storyboard.canvas import PageRectangle
 from shotc.emit.storyboard.content import ShotBoard
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
@@ -30,7 +30,7 @@ class Sheet:
     drawing is a plan where those are East and North, and a side view where up is up
     """
 
-    box: Box
+    box: PageRectangle
     axes: Array
     centre: Array
     inches: float
@@ -53,14 +53,16 @@ class Sheet:
         """Return a solid's outline on the page, shape (k, 2)."""
         return self.at(outline(self.axes, solid))
 
-    def visible(self, shape: Array) -> Box | None:
+    def visible(self, shape: Array) -> PageRectangle | None:
         """Return the part of a page shape's rectangle that is on the sheet, or None."""
         left, bottom = (float(c) for c in np.maximum(shape.min(axis=0), (self.box.x, self.box.y)))
         right, top = (float(c) for c in np.minimum(shape.max(axis=0), (self.box.right, self.box.top)))
-        return Box(left, bottom, right - left, top - bottom) if right > left and top > bottom else None
+        return (
+            PageRectangle(left, bottom, right - left, top - bottom) if right > left and top > bottom else None
+        )
 
 
-def sheet_of(box: Box, board: ShotBoard, mission: MissionIR) -> Sheet:
+def sheet_of(box: PageRectangle, board: ShotBoard, mission: MissionIR) -> Sheet:
     """Return the drawing that shows a shot: a side view where it rises more than it travels, else a plan."""
     axes = side_axes(board, mission) if rises(board.path) else np.eye(3)[:2]
     low, high = _extent(axes, board, mission)

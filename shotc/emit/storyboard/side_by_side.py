@@ -9,8 +9,8 @@ import numpy as np
 
 from shotc.emit.palette import FAINT, GROUND_FAR, INK, KEEP_OUT, PAPER, QUIET
 from shotc.emit.screen import error_top, off_place, percent
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
-from shotc.emit.storyboard.content import Moment, passing
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
+from shotc.emit.storyboard.content import StoryboardFrame, passing
 from shotc.emit.storyboard.error_plot import draw_error
 from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
 from shotc.emit.storyboard.furniture import round_length
@@ -105,23 +105,25 @@ def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what
     number, top = what
     width, height = panel.picture
     moment = moment_at(plan, shot, worst_frame(shot), number)
-    picture = Box(panel.left, panel.top - NAMES - height, width, height)
+    picture = PageRectangle(panel.left, panel.top - NAMES - height, width, height)
     draw_moment(canvas, Cell(picture, CELL), plan, moment)
-    plot = Box(panel.left + 0.34, picture.y - caption_height(CELL) - PLOT + 0.1, CELL - 0.34, PLOT - 0.22)
+    plot = PageRectangle(
+        panel.left + 0.34, picture.y - caption_height(CELL) - PLOT + 0.1, CELL - 0.34, PLOT - 0.22
+    )
     draw_error(canvas, plot, shot, (moment.time, top))
     for i, text in enumerate(_facts(shot.score)):
         lost = i == 1 and shot.score.in_frame not in (None, 1.0)
         canvas.write(panel.left, plot.y - 0.36 - i * 0.17, text, Type(8.5, KEEP_OUT if lost else INK), CELL)
 
 
-def moment_at(plan: VerifiedIR, shot: FlownShot, time: float, number: int) -> Moment:
+def moment_at(plan: VerifiedIR, shot: FlownShot, time: float, number: int) -> StoryboardFrame:
     """Return what a shot shows at a mission time, with its number on the page."""
     (placed,) = (p for p in plan.trajectory.keyframes.shots if p.shot.id == shot.id)
     (flight,) = (f for f in plan.trajectory.drones if f.drone == shot.drone)
     return passing(plan, (placed, flight), time, number)
 
 
-def draw_moment(canvas: Canvas, cell: Cell, plan: VerifiedIR, moment: Moment) -> None:
+def draw_moment(canvas: Canvas, cell: Cell, plan: VerifiedIR, moment: StoryboardFrame) -> None:
     """Draw the camera's picture at a moment, over a grid that is as wide as it is high."""
     mission = plan.trajectory.keyframes.mission
     over = float(moment.pose[2]) - mission.ground(float(moment.pose[0]), float(moment.pose[1]))
@@ -144,7 +146,7 @@ def _facts(score: Score) -> list[str]:
 
 def _no_plan(canvas: Canvas, each: Condition, panel: Panel) -> None:
     width, height = panel.picture
-    box = Box(panel.left, panel.top - NAMES - height, width, height)
+    box = PageRectangle(panel.left, panel.top - NAMES - height, width, height)
     canvas.polygons([box.outline()], GROUND_FAR, FAINT, 0.8)
     canvas.text(box.x + 0.12, box.top - 0.3, "no plan", Type(11, KEEP_OUT, bold=True))
     lines = [line for d in each.faults for line in wrap(f"{d.code}: {d.message}", 44)]

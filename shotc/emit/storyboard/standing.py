@@ -7,7 +7,7 @@ import numpy as np
 from shotc.emit.hillshade import shades
 from shotc.emit.mesh_shades import Faces, faces_of
 from shotc.emit.palette import STONE
-from shotc.emit.storyboard.camera_picture import Picture
+from shotc.emit.storyboard.camera_picture import PictureRectangle
 from shotc.emit.storyboard.canvas import Canvas
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.emit.storyboard.splats import OnPage, raster_of
@@ -29,7 +29,7 @@ BANDS = 24
 class MeshPainter:
     """Draws the meshes of a mission into a picture, from the far to the near, bit by bit."""
 
-    def __init__(self, canvas: Canvas, shown: Picture, mission: MissionIR) -> None:
+    def __init__(self, canvas: Canvas, shown: PictureRectangle, mission: MissionIR) -> None:
         self._canvas, self._shown = canvas, shown
         eye, half = np.array(shown.eye), (float(shown.camera.half_width), float(shown.camera.half_height))
         rows, columns = _size(shown.box.height), _size(shown.box.width)

@@ -14,7 +14,7 @@ from shotc.rounding import at_least, at_most
 
 
 @dataclass(frozen=True, slots=True)
-class Worst:
+class WorstFrame:
     """When a shot is framed worst, seconds, and by how much, in words."""
 
     time: float
@@ -30,7 +30,7 @@ class _Edge:
     target: str
 
 
-def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> Worst | None:
+def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> WorstFrame | None:
     """Return the worst moment of a shot, or None where the certificate tells nothing of its framing.
 
     That is where a target is cropped most; where none is, where one is farthest from its place; where
@@ -43,7 +43,7 @@ def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> Worst
     if off is not None and off.time is not None and all(c.worst >= 1.0 for c in whole):
         name = f"{off.constraint.removesuffix(SCREEN_ERROR)} " if several else ""
         text = f"screen error {at_least(off.worst, 3)}" if isfinite(off.worst) else "behind the camera"
-        return Worst(off.time, name + text)
+        return WorstFrame(off.time, name + text)
     least = min((_edge(plan, flight, c) for c in whole), key=lambda edge: edge.margin, default=None)
     if least is None:
         return None
@@ -53,7 +53,7 @@ def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> Worst
         if least.margin < 0.0
         else f"{at_most(least.margin, 2)} m from the frame's edge"
     )
-    return Worst(least.time, name + text)
+    return WorstFrame(least.time, name + text)
 
 
 def _edge(plan: VerifiedIR, flight: DroneTrajectory, claim: Claim) -> _Edge:

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.flown import STAY_PACE
 from shotc.emit.waypoints.lens import SAME_LENS, edge, middle_lens, shown_by, stay_and_zoom, zoomed
-from shotc.emit.waypoints.models import TURNINGS, Legs, Shape, legs_of, times_of, turned
+from shotc.emit.waypoints.models import TURNINGS, CurveModel, Legs, legs_of, times_of, turned
 from shotc.emit.waypoints.route import Action, Route
-from shotc.emit.waypoints.stations import LEG_LEAST, Gap, Station, stations_of
-from shotc.emit.waypoints.track import LOST, Poses, Stretch, Track, project, select
+from shotc.emit.waypoints.stations import LEG_LEAST, Station, StationInterval, stations_of
+from shotc.emit.waypoints.track import LOST, Poses, SampledFlight, SampleRange, project, select
 from shotc.ir.drone import Drone, LensRange
 from shotc.ir.photos import Photos
 
@@ -53,10 +53,10 @@ class Chooser:
     photos : of the shots that take some in place of a film
     """
 
-    track: Track
+    track: SampledFlight
     drone: Drone
     obstacles: tuple[Obstacle, ...]
-    shapes: tuple[Shape, ...]
+    shapes: tuple[CurveModel, ...]
     way: Array
     planned: tuple[Array, ...]
     halts: bool
@@ -97,7 +97,7 @@ class Chooser:
             self._actions(stations),
         )
 
-    def _stay(self, stretch: Stretch) -> list[Action]:
+    def _stay(self, stretch: SampleRange) -> list[Action]:
         """Return what is done while the drone stands, films and may zoom."""
         assert self.lens is not None
         part = slice(stretch.first, stretch.last + 1)
@@ -138,7 +138,7 @@ class Chooser:
         stay = angles[station.first : station.last + 1]
         return float(stay.max() + stay.min()) / 2
 
-    def _seeds(self, gap: Gap) -> list[int]:
+    def _seeds(self, gap: StationInterval) -> list[int]:
         """Return the first points within a gap: none, but where its ends are one place."""
         position = self.track.poses.position
         if np.linalg.norm(position[gap.last] - position[gap.first]) >= LEG_LEAST:
@@ -146,7 +146,7 @@ class Chooser:
         thirds = [self._at(self.way[gap.first] + s * self._length(gap) / 3) for s in (1, 2)]
         return [i for i in thirds if gap.first < i < gap.last]
 
-    def _length(self, gap: Gap) -> float:
+    def _length(self, gap: StationInterval) -> float:
         return float(self.way[gap.last] - self.way[gap.first])
 
     def _at(self, way: float) -> int:
@@ -267,15 +267,15 @@ class Chooser:
 class _Part:
     """A gap with the samples chosen in it, in order."""
 
-    gap: Gap
+    gap: StationInterval
     inner: list[int] = field(default_factory=list)
 
 
 def chooser_of(
-    track: Track,
+    track: SampledFlight,
     drone: Drone,
     obstacles: tuple[Obstacle, ...],
-    shapes: tuple[Shape, ...],
+    shapes: tuple[CurveModel, ...],
     *,
     halts: bool = False,
     lens: LensRange | None = None,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
-from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.flown import STAY_PACE, ReflownSamples
 from shotc.emit.waypoints.lens import edge
 from shotc.emit.waypoints.track import LOST, Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
@@ -72,7 +72,7 @@ class _Met(NamedTuple):
     elapsed: Array
 
 
-def compare(mission: MissionIR, flight: DroneTrajectory, flown: Flown, most: float = inf) -> Error:
+def compare(mission: MissionIR, flight: DroneTrajectory, flown: ReflownSamples, most: float = inf) -> Error:
     """Measure a re-flight against the plan at the output rate, by progress and not by time.
 
     most : Hz, a rate that is enough
@@ -114,7 +114,7 @@ def _shot_error(mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Po
     return ShotError(shot, float(shift[index]), float(time[index]), float(shift.mean()), lag, drift, off)
 
 
-def nearest_miss(obstacles: tuple[Obstacle, ...], flown: Flown) -> tuple[str, float]:
+def nearest_miss(obstacles: tuple[Obstacle, ...], flown: ReflownSamples) -> tuple[str, float]:
     """Return the obstacle whose clearance is cut deepest, and by how much, m; ("", 0) if none is."""
     if not len(flown.position):
         return ("", 0.0)
@@ -145,7 +145,7 @@ def _frames(start: float, end: float, rate: float) -> Array:
     return np.arange(ceil(start * rate - 1e-6), floor(end * rate + 1e-6) + 1) / rate
 
 
-def _meet(plan: Poses, time: Array, flown: Flown, inside: NDArray[np.bool_]) -> _Met:
+def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bool_]) -> _Met:
     """Return what is nearest to the planned poses in a re-flight, in order of progress."""
     position = flown.position[inside]
     progress = flown.progress[inside] - flown.progress[inside][0]

@@ -13,7 +13,7 @@ STAY_PACE = 0.1  # m/s at which stays count as progress, as does all slower moti
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flown:
+class ReflownSamples:
     """Samples of the re-flight, between take-off and landing.
 
     part : (n,), counts starts and stops of recording: odd while the shots are filmed, in order

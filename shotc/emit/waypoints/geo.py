@@ -17,7 +17,7 @@ METRE_DECIMALS = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class GeoPosition:
     """A global position: degrees, degrees, metres above home."""
 
     lat: float
@@ -38,10 +38,10 @@ class Geo:
     home_lon: float
     home_alt: float
 
-    def places(self, points: Array) -> list[Place]:
+    def places(self, points: Array) -> list[GeoPosition]:
         """Return the global places of points of W, shape (n, 3), rounded as the files carry them."""
         return [
-            Place(
+            GeoPosition(
                 round(float(a), DEGREE_DECIMALS),
                 round(float(o), DEGREE_DECIMALS),
                 round(float(h) - self.home_alt, METRE_DECIMALS) + 0.0,
@@ -49,11 +49,11 @@ class Geo:
             for a, o, h in of_world(points, self.origin)
         ]
 
-    def place(self, point: Vec3) -> Place:
+    def place(self, point: Vec3) -> GeoPosition:
         """Return the global place of one point of W."""
         return self.places(np.array([point]))[0]
 
-    def point(self, place: Place) -> Array:
+    def point(self, place: GeoPosition) -> Array:
         """Return the point of W, shape (3,), of a global place."""
         where = np.array([[place.lat, place.lon, place.alt + self.home_alt]])
         return np.asarray(to_world(where, self.origin)[0])

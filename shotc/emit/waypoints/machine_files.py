@@ -19,13 +19,13 @@ from shotc.emit.waypoints import report
 from shotc.emit.waypoints.choose import Chooser, chooser_of
 from shotc.emit.waypoints.clearance import Obstacle, bounds, nearer_between, owner_of, shortfall
 from shotc.emit.waypoints.compare import Error, ShotError, compare
-from shotc.emit.waypoints.geo import Geo, Place, tie
+from shotc.emit.waypoints.geo import Geo, GeoPosition, tie
 from shotc.emit.waypoints.link import link_notes, return_height
-from shotc.emit.waypoints.models import TURNINGS, Shape, fly, legs_of
+from shotc.emit.waypoints.models import TURNINGS, CurveModel, fly, legs_of
 from shotc.emit.waypoints.route import Action, Route, Waypoint, route_of
 from shotc.emit.waypoints.stations import Station
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
-from shotc.emit.waypoints.track import Track, track_of
+from shotc.emit.waypoints.track import SampledFlight, track_of
 from shotc.geom.camera import heading_of
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone, LensRange
@@ -45,7 +45,7 @@ RATE_MOST = 10.0  # Hz of frames at which a picture is judged: it changes slowly
 
 
 @dataclass(frozen=True, slots=True)
-class Format:
+class FileFormat:
     """A family of files.
 
     emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
@@ -59,7 +59,7 @@ class Format:
     machines: tuple[Autopilot, ...]
     most: int
     ending: str
-    shapes: tuple[Shape, ...]
+    shapes: tuple[CurveModel, ...]
     write: Callable[[list[Waypoint], Drone], bytes]
     read: Callable[[bytes], list[Waypoint]]
     halts: bool = False
@@ -73,7 +73,7 @@ class Format:
         return drone.lens if drone.zooms and drone.autopilot in self.zooms else None
 
 
-def emit_files(plan: VerifiedIR, form: Format) -> Emission:
+def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
     """Return the files of all drones that fly a format, with what it cannot carry and the error it adds."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
@@ -124,14 +124,14 @@ class _Job:
     mission: MissionIR
     flight: DroneTrajectory
     drone: Drone
-    form: Format
+    form: FileFormat
     geo: Geo
-    track: Track
+    track: SampledFlight
     chooser: Chooser
     obstacles: tuple[Obstacle, ...]
 
     @staticmethod
-    def of(mission: MissionIR, flight: DroneTrajectory, form: Format) -> _Job:
+    def of(mission: MissionIR, flight: DroneTrajectory, form: FileFormat) -> _Job:
         assert mission.origin is not None
         drone = mission.drone(flight.drone)
         track, obstacles = track_of(mission, flight), bounds(mission, drone)
@@ -160,9 +160,9 @@ class _Job:
         legs = tuple(s.samples(route, FINE) for s in self.form.shapes)
         return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
 
-    def _watched(self, stations: list[Station]) -> list[Place | None]:
+    def _watched(self, stations: list[Station]) -> list[GeoPosition | None]:
         """Return what stands still and is looked straight at from each station of a shot, all through it."""
-        found: list[Place | None] = [None] * len(stations)
+        found: list[GeoPosition | None] = [None] * len(stations)
         for each in (s for s in self.track.stretches if s.shot is not None):
             inside = [i for i, s in enumerate(stations) if each.first <= s.first and s.last <= each.last]
             target, at = self.track.subject[each.first : each.last + 1], [stations[i].first for i in inside]
@@ -243,7 +243,7 @@ class _Job:
         return next((each for each in found if each is not None), None)
 
 
-def _photos(mission: MissionIR, track: Track) -> dict[str, Photos]:
+def _photos(mission: MissionIR, track: SampledFlight) -> dict[str, Photos]:
     """Return the photos of shots in which the drone is on its way all along, and that no other shot touches.
 
     Formats tell intervals of legs: a drone that stands has none.
@@ -308,7 +308,7 @@ def waypoints_of(route: Route, geo: Geo) -> list[Waypoint]:
     ]
 
 
-def split(points: list[Waypoint], legs: Array, form: Format) -> list[list[Waypoint]]:
+def split(points: list[Waypoint], legs: Array, form: FileFormat) -> list[list[Waypoint]]:
     """Return blocks that a format holds; each begins where the last one ends, at a stop if it can.
 
     legs : metres from each point to the next, (n - 1,)
@@ -326,7 +326,7 @@ def split(points: list[Waypoint], legs: Array, form: Format) -> list[list[Waypoi
     return [*blocks, points]
 
 
-def _fitting(legs: Array, form: Format) -> int:
+def _fitting(legs: Array, form: FileFormat) -> int:
     """Return how many of the points that legs (n - 1,) join go into a file, two at least."""
     return max(2, min(form.most, 1 + int((np.cumsum(legs) <= form.farthest).sum())))
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints import paths
-from shotc.emit.waypoints.flown import STAY_PACE, Flown
+from shotc.emit.waypoints.flown import STAY_PACE, ReflownSamples
 from shotc.emit.waypoints.lens import shown_by
 from shotc.emit.waypoints.route import Route
 from shotc.ir.drone import LensRange
@@ -27,7 +27,7 @@ SLOWEST = 0.05  # m/s, so that no leg takes for ever
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class CurveModel:
     """Curves by which a machine may fly a route.
 
     tangents : of the cubics through its points; None of straight legs with rounded corners
@@ -51,14 +51,18 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class Turning:
+class AngleRamps:
     """How angles go from one point to the next: ramps in m/s^2; by time, or by way."""
 
     ramp: float
     by_time: bool
 
 
-TURNINGS = (Turning(BRISK, by_time=False), Turning(BRISK, by_time=True), Turning(GENTLE, by_time=True))
+TURNINGS = (
+    AngleRamps(BRISK, by_time=False),
+    AngleRamps(BRISK, by_time=True),
+    AngleRamps(GENTLE, by_time=True),
+)
 
 
 SPLINES: dict[str, paths.Tangents] = {
@@ -69,10 +73,10 @@ SPLINES: dict[str, paths.Tangents] = {
     **{f"Bezier curves with handles of {share:g} legs": paths.handles(share) for share in (0.2, 0.4, 0.6)},
 }
 """Curves that machines of DJI may fly through points, in words."""
-_STRAIGHT = Shape(paths.straight)
-CURVED = (*(Shape(t, cut) for t, cut in product(SPLINES.values(), (True, False))), _STRAIGHT)
+_STRAIGHT = CurveModel(paths.straight)
+CURVED = (*(CurveModel(t, cut) for t, cut in product(SPLINES.values(), (True, False))), _STRAIGHT)
 """Curves through the points, as DJI's machines may fly them."""
-ROUNDED = (Shape(), _STRAIGHT)
+ROUNDED = (CurveModel(), _STRAIGHT)
 """Straight legs with rounded corners, as Litchi flies them."""
 
 
@@ -92,7 +96,7 @@ class Legs:
         return self.way / np.maximum(self.way[:, -1:], paths.SHORT)
 
 
-def legs_of(route: Route, shape: Shape, count: int = SAMPLES) -> Legs:
+def legs_of(route: Route, shape: CurveModel, count: int = SAMPLES) -> Legs:
     """Return the legs of a route."""
     position = shape.samples(route, count)
     steps = np.linalg.norm(np.diff(position, axis=1), axis=2)
@@ -124,14 +128,14 @@ def times_of(route: Route, legs: Legs, ramp: float) -> Array:
     return np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1)
 
 
-def turned(route: Route, legs: Legs, times: Array, turning: Turning) -> Array:
+def turned(route: Route, legs: Legs, times: Array, turning: AngleRamps) -> Array:
     """Return the share of its turn that each sample of a leg has made, (m - 1, k + 1)."""
     if not turning.by_time:
         return legs.share
     return np.asarray(times / np.maximum(times[:, -1:], paths.SHORT))
 
 
-def fly(route: Route, legs: Legs, turning: Turning, lens: LensRange | None = None) -> Flown:
+def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = None) -> ReflownSamples:
     """Return the flight over the legs, stays included; camera and body have one yaw, no gimbal pans here.
 
     lens : what zooms are of, at once; None where there are none
@@ -158,7 +162,7 @@ def fly(route: Route, legs: Legs, turning: Turning, lens: LensRange | None = Non
             way, now = way + float(legs.way[i, -1]), now + float(times[i, -1])
     table = np.concatenate(rows)
     yaw, pitch, progress, elapsed, film, shown = table[:, 3:].T
-    return Flown(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, shown)
+    return ReflownSamples(table[:, :3], yaw, yaw, pitch, film.astype(np.int64), progress, elapsed, shown)
 
 
 def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:

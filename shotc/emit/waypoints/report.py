@@ -13,8 +13,8 @@ from shotc.emit.waypoints.choose import MEAN, WORST
 from shotc.emit.waypoints.compare import Error, ShotError
 from shotc.emit.waypoints.lens import edge
 from shotc.emit.waypoints.stations import LEG_LEAST
-from shotc.emit.waypoints.timing import Meeting, too_near
-from shotc.emit.waypoints.track import Track
+from shotc.emit.waypoints.timing import WaysTooNear, too_near
+from shotc.emit.waypoints.track import SampledFlight
 from shotc.ir.drone import Drone
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Shot
@@ -159,7 +159,9 @@ def _promises(shot: Shot) -> bool:
     return any(each is not None for each in (promise.in_frame, promise.screen_error, promise.size))
 
 
-def beyond(mission: MissionIR, flight: DroneTrajectory, track: Track, error: Error) -> list[Diagnostic]:
+def beyond(
+    mission: MissionIR, flight: DroneTrajectory, track: SampledFlight, error: Error
+) -> list[Diagnostic]:
     """Say which shots a file shows otherwise than the plan, and why."""
     out: list[Diagnostic] = []
     for each in error.shots:
@@ -184,7 +186,7 @@ def beyond(mission: MissionIR, flight: DroneTrajectory, track: Track, error: Err
     return out
 
 
-def _why(track: Track, each: ShotError) -> tuple[str, str]:
+def _why(track: SampledFlight, each: ShotError) -> tuple[str, str]:
     """Return why a shot is shown otherwise, and what to do."""
     for stretch in track.stretches:
         part = slice(stretch.first, stretch.last + 1)
@@ -201,7 +203,9 @@ def _why(track: Track, each: ShotError) -> tuple[str, str]:
     )
 
 
-def drifts(mission: MissionIR, flight: DroneTrajectory, track: Track, error: Error) -> list[Diagnostic]:
+def drifts(
+    mission: MissionIR, flight: DroneTrajectory, track: SampledFlight, error: Error
+) -> list[Diagnostic]:
     """Say how far a moving target is away from where it is filmed: these files have no clock."""
     out: list[Diagnostic] = []
     for each in error.shots:
@@ -244,7 +248,7 @@ def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: f
     )
 
 
-def meets(mission: MissionIR, meeting: Meeting, flown: Collection[str]) -> Diagnostic:
+def meets(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> Diagnostic:
     """Say that two drones would meet, were they not where they are in time, and get no files.
 
     flown : the drones that these files are for, one of the two at least

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.waypoints.geo import Geo, Place
+from shotc.emit.waypoints.geo import Geo, GeoPosition
 from shotc.geom.camera import yaw_of
 from shotc.ir.photos import Photos
 
@@ -38,14 +38,14 @@ class Waypoint:
     watched : the centre of the target that stands and that the camera looks straight at, if there is one
     """
 
-    place: Place
+    place: GeoPosition
     heading: float
     pitch: float
     speed: float
     stops: bool
     actions: tuple[Action, ...] = ()
     curve: float = 0.0
-    watched: Place | None = None
+    watched: GeoPosition | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

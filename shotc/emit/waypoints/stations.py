@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.route import Action
-from shotc.emit.waypoints.track import Stretch, Track
+from shotc.emit.waypoints.track import SampledFlight, SampleRange
 from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Station:
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
+class StationInterval:
     """The way between two stations, ``first`` to ``last`` of the track."""
 
     first: int
@@ -45,11 +45,11 @@ class Gap:
 
 
 def stations_of(
-    track: Track,
+    track: SampledFlight,
     way: Array,
-    stay: Callable[[Stretch], list[Action]] | None = None,
+    stay: Callable[[SampleRange], list[Action]] | None = None,
     photos: Mapping[str, Photos] | None = None,
-) -> tuple[list[Station], list[Gap]]:
+) -> tuple[list[Station], list[StationInterval]]:
     """Return the stations that a track needs, and the gap after each but the last.
 
     way : (n,), metres flown before each sample; stay : what is done in a filmed one, if more than to stay
@@ -80,30 +80,41 @@ def stations_of(
     return stations, gaps
 
 
-def _grouped(track: Track, way: Array) -> tuple[list[list[Stretch]], list[Gap]]:
+def _grouped(track: SampledFlight, way: Array) -> tuple[list[list[SampleRange]], list[StationInterval]]:
     """Return the stays at each station, and the gaps between them."""
-    groups: list[list[Stretch]] = [[]]
-    gaps: list[Gap] = []
+    groups: list[list[SampleRange]] = [[]]
+    gaps: list[StationInterval] = []
     for stretch in track.stretches:
         if stretch.rest or _is_short(track, way, stretch):
             groups[-1].append(stretch)
         else:
-            gaps.append(Gap(stretch.first, stretch.last, stretch.shot))
+            gaps.append(StationInterval(stretch.first, stretch.last, stretch.shot))
             groups.append([])
     return groups, gaps
 
 
-def _is_short(track: Track, way: Array, stretch: Stretch) -> bool:
+def _is_short(track: SampledFlight, way: Array, stretch: SampleRange) -> bool:
     return bool(way[stretch.last] - way[stretch.first] < LEG_LEAST)
 
 
-def _ends(track: Track, group: list[Stretch], before: Gap | None, after: Gap | None) -> tuple[int, int]:
+def _ends(
+    track: SampledFlight,
+    group: list[SampleRange],
+    before: StationInterval | None,
+    after: StationInterval | None,
+) -> tuple[int, int]:
     first = group[0].first if group else before.last if before else after.first if after else 0
     last = group[-1].last if group else first
     return first, last
 
 
-def _aim(group: list[Stretch], before: Gap | None, after: Gap | None, first: int, last: int) -> int | None:
+def _aim(
+    group: list[SampleRange],
+    before: StationInterval | None,
+    after: StationInterval | None,
+    first: int,
+    last: int,
+) -> int | None:
     """Return the sample whose angles serve what is filmed: the way on, the way here, or the stay itself."""
     if after is not None and after.shot is not None:
         return last
@@ -119,7 +130,7 @@ def _changed(before: str | None, after: str | None, photos: Mapping[str, Photos]
         yield Action("start", photos=photos.get(after))
 
 
-def _speed(track: Track, index: int) -> float:
+def _speed(track: SampledFlight, index: int) -> float:
     """Return the speed about a sample, the smaller of before and behind it, m/s."""
     low, high = max(index - 1, 0), min(index + 1, len(track.time) - 1)
     steps = np.linalg.norm(np.diff(track.poses.position[low : high + 1], axis=0), axis=1)

@@ -23,7 +23,7 @@ STEP = 0.5  # metres between places of a way; at 3 m that makes a distance 0.02 
 LESS = 0.05  # metres of a separation that rounding may cost
 
 
-class Meeting(NamedTuple):
+class WaysTooNear(NamedTuple):
     """Two drones by name, and how near their ways come, m."""
 
     names: tuple[str, str]
@@ -32,7 +32,7 @@ class Meeting(NamedTuple):
 
 def kept_apart_by_time(
     mission: MissionIR, ways: dict[str, Array], others: Sequence[DroneTrajectory]
-) -> list[Meeting]:
+) -> list[WaysTooNear]:
     """Return the pairs of drones whose ways come nearer than the separation, whenever they are there.
 
     ways : places (n, 3) of each drone without a clock; those above its pad are added
@@ -44,11 +44,11 @@ def kept_apart_by_time(
     clocked = {flight.drone: cKDTree(evenly(_places(flight))) for flight in others}
     pairs = [*combinations(trees, 2), *product(trees, clocked)]
     trees |= clocked
-    found: list[Meeting] = []
+    found: list[WaysTooNear] = []
     for one, other in pairs:
         distance = float(trees[one].query(trees[other].data)[0].min())
         if distance < mission.rules.separation - LESS:
-            found.append(Meeting((one, other), distance))
+            found.append(WaysTooNear((one, other), distance))
     return found
 
 

@@ -32,7 +32,7 @@ FAR = 1e4  # metres to the point that stands for "straight ahead" where nothing 
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class SampleRange:
     """Samples ``first`` to ``last`` of one phase; ``rest`` where the drone stands still."""
 
     first: int
@@ -53,7 +53,7 @@ class Poses:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Track:
+class SampledFlight:
     """Samples of one drone's flight from the end of take-off to the start of landing.
 
     time : (n,), s; subject : point of W that is watched, shape (n, 3)
@@ -63,7 +63,7 @@ class Track:
     time: Array
     poses: Poses
     subject: Array
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[SampleRange, ...]
     start_yaw: float
 
 
@@ -73,22 +73,22 @@ def poses_at(flight: DroneTrajectory, time: Array) -> Poses:
     return Poses(value[:, :3], value[:, BODY_YAW], value[:, CAM_YAW], value[:, CAM_PITCH], value[:, HFOV])
 
 
-def track_of(mission: MissionIR, flight: DroneTrajectory) -> Track:
+def track_of(mission: MissionIR, flight: DroneTrajectory) -> SampledFlight:
     """Sample a drone's flight between take-off and landing."""
     spans = _spans(flight)
     begin = spans[0][0] if spans else flight.phases[0].end
     times: list[Array] = [np.array([begin])]
-    stretches: list[Stretch] = []
+    stretches: list[SampleRange] = []
     first = 0
     for start, end, shot, rest in spans:
         count = max(2, ceil((end - start) / SAMPLE_STEP))
         times.append(np.linspace(start, end, count + 1)[1:])
-        stretches.append(Stretch(first, first + count, shot, rest))
+        stretches.append(SampleRange(first, first + count, shot, rest))
         first += count
     time = np.concatenate(times)
     poses = poses_at(flight, time)
     start_yaw = float(flight.curve(flight.curve.start)[BODY_YAW])
-    return Track(time, poses, subject_at(mission, flight, time, poses), tuple(stretches), start_yaw)
+    return SampledFlight(time, poses, subject_at(mission, flight, time, poses), tuple(stretches), start_yaw)
 
 
 def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: Poses) -> Array:

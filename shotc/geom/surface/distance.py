@@ -16,7 +16,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces, join
-from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, Bound
+from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, ProvedExtreme
 from shotc.geom.surface.near import nearest, some_distance
 from shotc.geom.surface.tree import Pairs, Surface, TooMany, box_distances, search
 from shotc.geom.surface.triangles import closest, dot, highest, lowest
@@ -30,7 +30,7 @@ LIKELIEST = 8
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceBound(Bound):
+class SurfaceBound(ProvedExtreme):
     """A bound, and where its value is attained.
 
     piece    : number of the piece, of those given; -1 where there is none

@@ -23,7 +23,7 @@ SHORT = 4.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Nearest:
+class NearestOnSurface:
     """What of a surface is nearest to points.
 
     distance : (K,), metres; inf where nothing is nearer than the limit
@@ -36,21 +36,23 @@ class Nearest:
     triangle: IntArray
 
 
-def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> Nearest:
+def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> NearestOnSurface:
     """Return what is nearest to points (K, 3), if it is nearer than ``limit``, one for all or one each."""
     count = len(p)
-    found = Nearest(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
+    found = NearestOnSurface(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
     limits = np.broadcast_to(np.asarray(limit, dtype=np.float64), (count,))
     for start in range(0, count, AT_ONCE):
         part = slice(start, start + AT_ONCE)
-        _nearest(surface, p[part], limits[part], Nearest(*(getattr(found, f)[part] for f in _FIELDS)))
+        _nearest(
+            surface, p[part], limits[part], NearestOnSurface(*(getattr(found, f)[part] for f in _FIELDS))
+        )
     return found
 
 
 _FIELDS = ("distance", "point", "triangle")
 
 
-def _nearest(surface: Surface, p: Array, limit: Array, out: Nearest) -> None:
+def _nearest(surface: Surface, p: Array, limit: Array, out: NearestOnSurface) -> None:
     if not len(surface):
         return
     reach = limit.copy()

@@ -25,7 +25,7 @@ _ALONG = 33  # places on each side of a box that are put into the system of the 
 _SPARE = 2  # posts beyond the box on each side: sides of boxes bulge in other systems, by far less
 
 
-class Box(NamedTuple):
+class PlanRectangle(NamedTuple):
     """A rectangle in the plan of W, metres."""
 
     low: tuple[float, float]
@@ -44,7 +44,9 @@ class Relief(NamedTuple):
     holes: int
 
 
-def relief_of(posts: Posts, box: Box, origin: Vec3 | None, offset: float = 0.0) -> Relief | TerrainFault:
+def relief_of(
+    posts: Posts, box: PlanRectangle, origin: Vec3 | None, offset: float = 0.0
+) -> Relief | TerrainFault:
     """Return the ground of a box, and a post or two beyond it, or why there is none.
 
     origin : of W: latitude, longitude in degrees and altitude in metres; needed by posts on the earth
@@ -82,7 +84,9 @@ def relief_of(posts: Posts, box: Box, origin: Vec3 | None, offset: float = 0.0) 
     )
 
 
-def _part(posts: Posts, box: Box, system: System | None, origin: Vec3 | None) -> Posts | TerrainFault:
+def _part(
+    posts: Posts, box: PlanRectangle, system: System | None, origin: Vec3 | None
+) -> Posts | TerrainFault:
     x, y = _sides(posts, box, system, origin)
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
         return TerrainFault("outside", "the mission is at no place in the file's system of coordinates")
@@ -95,7 +99,9 @@ def _part(posts: Posts, box: Box, system: System | None, origin: Vec3 | None) ->
     return Posts(posts.heights[rows, columns], posts.x[columns], posts.y[rows], posts.system)
 
 
-def _sides(posts: Posts, box: Box, system: System | None, origin: Vec3 | None) -> tuple[Array, Array]:
+def _sides(
+    posts: Posts, box: PlanRectangle, system: System | None, origin: Vec3 | None
+) -> tuple[Array, Array]:
     """Return places on the sides of a box in the system of posts."""
     share = np.linspace(0.0, 1.0, _ALONG)
     (x0, y0), (x1, y1) = box

@@ -13,8 +13,8 @@ from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 from shotc.geom.focal import field_of_view
 from shotc.geom.vec import Vec3
 from shotc.importers.cameras.places import level, reached, shown, without_far
-from shotc.importers.cameras.table import Row, Table, table_of
-from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Refused, Take
+from shotc.importers.cameras.table import Table, TableRow, table_of
+from shotc.importers.cameras.takes import MOST_CAMERAS, Footage, ImportedCamera, ImportOptions, Refused, Take
 from shotc.importers.notes import Notes
 
 USUAL_FPS = 24.0
@@ -38,7 +38,7 @@ LEVEL_AXIS = 1e-6
 """How much of the view is level at least, for its heading to be that of the view itself."""
 
 
-def footage(text: str, asked: Asked, notes: Notes) -> Footage | Refused:
+def footage(text: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
     """Return the one take of a table of frames."""
     table = table_of(text, [NAMES[k] for k in "xyz"], EXAMPLE)
     if isinstance(table, Refused):
@@ -64,11 +64,13 @@ def _column(table: Table, names: tuple[str, ...]) -> str:
     return next((n + end for n in names for end in endings if n + end in table.heads), "")
 
 
-def _cameras(table: Table, columns: dict[str, str], asked: Asked, notes: Notes) -> list[Camera]:
+def _cameras(
+    table: Table, columns: dict[str, str], asked: ImportOptions, notes: Notes
+) -> list[ImportedCamera]:
     rate = _rate(table, columns, asked, notes)
     unit = _unit(table, columns, notes)
     _lens_noted(table, columns, notes)
-    cameras: list[Camera] = []
+    cameras: list[ImportedCamera] = []
     first = 0.0
     for row in table.rows:
         values = {key: row.number(name, notes) for key, name in columns.items()}
@@ -86,7 +88,7 @@ def _cameras(table: Table, columns: dict[str, str], asked: Asked, notes: Notes) 
     return cameras
 
 
-def _rate(table: Table, columns: dict[str, str], asked: Asked, notes: Notes) -> float:
+def _rate(table: Table, columns: dict[str, str], asked: ImportOptions, notes: Notes) -> float:
     if "time" in columns or asked.fps is not None:
         return asked.fps or USUAL_FPS
     head = table.heads[columns["frame"]]
@@ -116,7 +118,9 @@ def _lens_noted(table: Table, columns: dict[str, str], notes: Notes) -> None:
         notes.assume(table.node, "the file has no column `hfov`, nor `lens`", taken)
 
 
-def _camera(row: Row, values: dict[str, float | None], unit: float, notes: Notes) -> Camera | None:
+def _camera(
+    row: TableRow, values: dict[str, float | None], unit: float, notes: Notes
+) -> ImportedCamera | None:
     x, y, z = (values.get(k) for k in "xyz")
     axes = _axes(values, unit)
     if x is None or y is None or z is None or axes is None:
@@ -128,7 +132,7 @@ def _camera(row: Row, values: dict[str, float | None], unit: float, notes: Notes
     )
     level(row.node, degrees(asin(max(-1.0, min(1.0, right[2])))), notes)
     heading = degrees(atan2(flat[0], flat[1])) % 360.0
-    return Camera(row.node, (x, y, z), heading, reached(row.node, pitch, notes), _hfov(values))
+    return ImportedCamera(row.node, (x, y, z), heading, reached(row.node, pitch, notes), _hfov(values))
 
 
 def _hfov(values: dict[str, float | None]) -> float:

@@ -23,7 +23,7 @@ from shotc.importers.cameras.places import (
     without_far,
     world,
 )
-from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Refused, Take
+from shotc.importers.cameras.takes import MOST_CAMERAS, Footage, ImportedCamera, ImportOptions, Refused, Take
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import LARGEST, Node, XmlFault
 from shotc.ir.mission import GeoOrigin
@@ -36,7 +36,7 @@ GROUND_MODES = ("relativeToGround", "clampToGround", "relativeToSeaFloor", "clam
 SILENT = {"TourControl": "a pause", "SoundCue": "a sound", "AnimatedUpdate": "an update of the map"}
 
 
-class View(NamedTuple):
+class KmlView(NamedTuple):
     """A camera as a file has it.
 
     place : latitude, longitude, altitude of the camera or of what it looks at; absolute : from sea level
@@ -62,7 +62,7 @@ def unpacked(data: bytes) -> bytes | XmlFault:
     return XmlFault(found) if isinstance(found, str) else found
 
 
-def footage(root: Node, asked: Asked, notes: Notes) -> Footage | Refused:
+def footage(root: Node, asked: ImportOptions, notes: Notes) -> Footage | Refused:
     """Return the takes of a KML document."""
     if local(root) != "kml":
         return Refused("I002", f"it is no KML: its root is `{plain(root.tag, 30)}`", root)
@@ -118,9 +118,9 @@ def _marked(root: Node) -> Iterator[Node]:
             yield view
 
 
-def _tour(tour: Node, notes: Notes) -> Iterator[View]:
+def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
     """Yield the cameras of a tour with their times from its first one."""
-    last: View | None = None
+    last: KmlView | None = None
     time = 0.0
     steps = [
         step for playlist in tour.children if local(playlist) == "Playlist" for step in playlist.children
@@ -160,7 +160,7 @@ def _seconds(step: Node, notes: Notes) -> float:
     return value
 
 
-def _view(node: Node, notes: Notes) -> View | None:
+def _view(node: Node, notes: Notes) -> KmlView | None:
     """Return a Camera or a LookAt, None where it does not say where it is."""
     lat, lon = _number(node, "latitude", None, notes), _number(node, "longitude", None, notes)
     if lat is None or lon is None or not is_place(lat, lon):
@@ -182,7 +182,7 @@ def _view(node: Node, notes: Notes) -> View | None:
     far = (_number(node, "range", 0.0, notes) or 0.0) if local(node) == "LookAt" else 0.0
     tilt = _number(node, "tilt", 0.0, notes) or 0.0
     level(node, _number(node, "roll", 0.0, notes) or 0.0, notes)
-    return View(
+    return KmlView(
         node=node,
         place=(lat, (lon + 180.0) % 360.0 - 180.0, alt),
         absolute=mode == "absolute",
@@ -205,14 +205,14 @@ def _number(node: Node, tag: str, otherwise: float | None, notes: Notes) -> floa
     return value
 
 
-def _lens(views: list[View], notes: Notes) -> None:
+def _lens(views: list[KmlView], notes: Notes) -> None:
     bare = [view for view in views if view.hfov is None]
     if bare:
         message = f"{len(bare)} of {len(views)} cameras have no field of view"
         notes.assume(bare[0].node, message, f"{USUAL_HFOV_DEG:g} deg, as Google Earth does")
 
 
-def _ground(views: list[View], asked: Asked, notes: Notes) -> float | Refused:
+def _ground(views: list[KmlView], asked: ImportOptions, notes: Notes) -> float | Refused:
     """Return the altitude of the ground, which is the plane z = 0, above sea level."""
     absolute = [view for view in views if view.absolute]
     if asked.ground is not None:
@@ -232,11 +232,11 @@ def _ground(views: list[View], asked: Asked, notes: Notes) -> float | Refused:
     return low - OVER_GROUND_M
 
 
-def _camera(view: View, origin: GeoOrigin, notes: Notes) -> Camera:
+def _camera(view: KmlView, origin: GeoOrigin, notes: Notes) -> ImportedCamera:
     x, y, z = world(origin, *view.place, absolute=view.absolute)
     heading, tilt = radians(view.heading), radians(view.tilt)
     back = view.range * sin(tilt)
     at = (x - back * sin(heading), y - back * cos(heading), z + view.range * cos(tilt))
     pitch = reached(view.node, view.tilt - 90.0, notes)
     hfov = USUAL_HFOV_DEG if view.hfov is None else shown(view.hfov)
-    return Camera(view.node, at, view.heading, pitch, hfov, view.time, view.hold)
+    return ImportedCamera(view.node, at, view.heading, pitch, hfov, view.time, view.hold)

@@ -9,8 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from shotc.importers.cameras.places import aim, is_place, origin_at, reached, without_far, world
-from shotc.importers.cameras.table import Row, table_of
-from shotc.importers.cameras.takes import MOST_CAMERAS, Asked, Camera, Footage, Refused, recorded
+from shotc.importers.cameras.table import TableRow, table_of
+from shotc.importers.cameras.takes import (
+    MOST_CAMERAS,
+    Footage,
+    ImportedCamera,
+    ImportOptions,
+    Refused,
+    recorded,
+)
 from shotc.importers.notes import Notes
 from shotc.ir.mission import GeoOrigin
 
@@ -22,7 +29,7 @@ FOCUS = 1
 """Gimbal mode in which the camera keeps to the point of interest."""
 
 
-def footage(text: str, asked: Asked, notes: Notes) -> Footage | Refused:
+def footage(text: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
     """Return the takes of a Litchi mission: what is recorded, or all of it where nothing is."""
     height = ("altitude(m)", "altitude(ft)")
     table = table_of(text, [("latitude",), ("longitude",), height, ("heading(deg)",)], EXAMPLE)
@@ -59,7 +66,7 @@ def footage(text: str, asked: Asked, notes: Notes) -> Footage | Refused:
     return Footage(table.node, without_far(takes, notes), origin)
 
 
-def _is_placed(row: Row, notes: Notes) -> bool:
+def _is_placed(row: TableRow, notes: Notes) -> bool:
     lat, lon = row.number("latitude", notes), row.number("longitude", notes)
     if is_place(lat, lon):
         return True
@@ -67,7 +74,9 @@ def _is_placed(row: Row, notes: Notes) -> bool:
     return False
 
 
-def _cameras(rows: list[Row], origin: GeoOrigin, notes: Notes, *, feet: bool) -> Iterator[Camera]:
+def _cameras(
+    rows: list[TableRow], origin: GeoOrigin, notes: Notes, *, feet: bool
+) -> Iterator[ImportedCamera]:
     pitch = 0.0
     for row in rows:
         unit = FOOT_M if feet else 1.0
@@ -88,14 +97,16 @@ def _cameras(rows: list[Row], origin: GeoOrigin, notes: Notes, *, feet: bool) ->
         focus = _focus(row, origin, notes, feet=feet)
         if focus is None or mode != FOCUS:
             reach = reached(row.cells.get("gimbalpitchangle", row.node), pitch, notes)
-            yield Camera(row.node, at, (heading or 0.0) % 360.0, reach, hold=max(0.0, hold))
+            yield ImportedCamera(row.node, at, (heading or 0.0) % 360.0, reach, hold=max(0.0, hold))
         else:
             bearing, tilt = aim(at, focus)
             reached(row.node, tilt, notes)
-            yield Camera(row.node, at, bearing, tilt, hold=max(0.0, hold), look_at=focus)
+            yield ImportedCamera(row.node, at, bearing, tilt, hold=max(0.0, hold), look_at=focus)
 
 
-def _focus(row: Row, origin: GeoOrigin, notes: Notes, *, feet: bool) -> tuple[float, float, float] | None:
+def _focus(
+    row: TableRow, origin: GeoOrigin, notes: Notes, *, feet: bool
+) -> tuple[float, float, float] | None:
     """Return a waypoint's point of interest, None where it has none (0, 0)."""
     lat, lon = row.number("poi_latitude", notes), row.number("poi_longitude", notes)
     if not is_place(lat, lon) or lat is None or lon is None or (lat == 0.0 and lon == 0.0):
@@ -104,7 +115,7 @@ def _focus(row: Row, origin: GeoOrigin, notes: Notes, *, feet: bool) -> tuple[fl
     return world(origin, lat, lon, height * (FOOT_M if feet else 1.0), absolute=False)
 
 
-def actions_of(row: Row, notes: Notes) -> Iterator[tuple[int, float]]:
+def actions_of(row: TableRow, notes: Notes) -> Iterator[tuple[int, float]]:
     """Yield what is done at a waypoint: the numbers of actions and their parameters."""
     for i in ACTIONS:
         kind = row.number(f"actiontype{i}", notes)

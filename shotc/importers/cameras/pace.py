@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import degrees, dist, hypot, sqrt
 
-from shotc.importers.cameras.takes import Camera
+from shotc.importers.cameras.takes import ImportedCamera
 from shotc.importers.cameras.thin import unwound
 from shotc.ir.limits import Limits
 from shotc.spec.presets import ZOOM_RATE
@@ -15,7 +15,7 @@ SHARE = 0.75
 """Of what the drone can do that a take may ask for."""
 
 
-def too_fast(cameras: Sequence[Camera], limits: Limits) -> Camera | None:
+def too_fast(cameras: Sequence[ImportedCamera], limits: Limits) -> ImportedCamera | None:
     """Return the first camera from which a drone comes too late to what is next, None where it is in time."""
     for camera, lasts, least in (*_turns(unwound(cameras), limits), *_stretches(cameras, limits)):
         if least > SHARE * lasts:
@@ -23,7 +23,9 @@ def too_fast(cameras: Sequence[Camera], limits: Limits) -> Camera | None:
     return None
 
 
-def _turns(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, float, float]]:
+def _turns(
+    cameras: Sequence[ImportedCamera], limits: Limits
+) -> Iterator[tuple[ImportedCamera, float, float]]:
     """Yield every camera with the seconds to the next, and the least for the turn, way and zoom to it."""
     for a, b in pairwise(cameras):
         up = b.at[2] - a.at[2]
@@ -34,7 +36,9 @@ def _turns(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, 
         yield a, (b.time or 0.0) - (a.time or 0.0) - a.hold, max(across, upright, turn, zoom)
 
 
-def _stretches(cameras: Sequence[Camera], limits: Limits) -> Iterator[tuple[Camera, float, float]]:
+def _stretches(
+    cameras: Sequence[ImportedCamera], limits: Limits
+) -> Iterator[tuple[ImportedCamera, float, float]]:
     """Yield where each flight from rest to rest begins, how long it lasts, and the least that it takes."""
     inner = [i for i in range(1, len(cameras) - 1) if cameras[i].hold > 0.0]
     for i, j in pairwise([0, *inner, len(cameras) - 1]):

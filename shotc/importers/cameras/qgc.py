@@ -25,9 +25,9 @@ from shotc.importers.cameras.places import (
 )
 from shotc.importers.cameras.takes import (
     MOST_CAMERAS,
-    Asked,
-    Camera,
     Footage,
+    ImportedCamera,
+    ImportOptions,
     Refused,
     Take,
     recorded,
@@ -56,7 +56,7 @@ PARAMETERS = 7
 LARGEST_FOCAL_MM = 2000.0
 
 
-class Item(NamedTuple):
+class CameraCommand(NamedTuple):
     """One command. params : seven numbers, None where there is none."""
 
     node: Node
@@ -102,7 +102,7 @@ def opened(data: bytes, name: str) -> Opened | Refused:
     return Opened(document, mission, listed, whole)
 
 
-def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Refused:
+def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
     """Return the takes of a plan: what is recorded, or all waypoints where nothing is."""
     plan = opened(data, name)
     if isinstance(plan, Refused):
@@ -140,7 +140,7 @@ def footage(data: bytes, name: str, asked: Asked, notes: Notes) -> Footage | Ref
     return Footage(whole, without_far(takes, notes), origin, home=(0.0, 0.0, 0.0))
 
 
-def _assumed(items: Sequence[Item], notes: Notes) -> None:
+def _assumed(items: Sequence[CameraCommand], notes: Notes) -> None:
     """Note what is taken of a camera's commands, once each."""
     zooms = [item for item in items if item.command == ZOOM]
     for item in [item for item in zooms if item.params[0] == FOCAL_LENGTH][:1]:
@@ -151,7 +151,7 @@ def _assumed(items: Sequence[Item], notes: Notes) -> None:
         notes.assume(item.node, "photos are taken", "a film of the same way")
 
 
-def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[Item]:
+def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[CameraCommand]:
     for i, item in enumerate(listed):
         node = node_at(document, "mission", "items", i)
         command = item.get("command") if isinstance(item, dict) else None
@@ -164,7 +164,9 @@ def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[
         numbers = [number_of(value) for value in params[:PARAMETERS]]
         numbers += [None] * (PARAMETERS - len(numbers))
         frame = item.get("frame")
-        made = Item(node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers))
+        made = CameraCommand(
+            node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers)
+        )
         if command in (WAYPOINT, SPLINE) and not _is_placed(made):
             notes.assume(node, f"item {i + 1} is a waypoint without a place", "it is left out")
             continue
@@ -174,12 +176,12 @@ def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[
         yield made
 
 
-def _is_placed(item: Item) -> bool:
+def _is_placed(item: CameraCommand) -> bool:
     return is_place(item.params[4], item.params[5]) and item.params[6] is not None
 
 
 def _origin(
-    document: Document, mission: dict[str, Any], first: Item, asked: Asked, notes: Notes
+    document: Document, mission: dict[str, Any], first: CameraCommand, asked: ImportOptions, notes: Notes
 ) -> GeoOrigin | Refused:
     home = mission.get("plannedHomePosition")
     if home is not None:
@@ -196,9 +198,9 @@ def _origin(
     return origin_at(first.params[4] or 0.0, first.params[5] or 0.0, asked.ground or 0.0)
 
 
-def _takes(whole: Node, items: Sequence[Item], origin: GeoOrigin, notes: Notes) -> list[Take]:
+def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes: Notes) -> list[Take]:
     """Return the waypoints as cameras; the commands after one belong to it."""
-    cameras: list[Camera] = []
+    cameras: list[ImportedCamera] = []
     starts: list[bool] = []
     stops: list[bool] = []
     looks, heading = _Aim(), 0.0
@@ -222,16 +224,16 @@ def _takes(whole: Node, items: Sequence[Item], origin: GeoOrigin, notes: Notes) 
     return recorded(whole, cameras, starts, stops)
 
 
-def _begins(item: Item) -> bool:
+def _begins(item: CameraCommand) -> bool:
     """Tell whether a film or photos begin with a command."""
     return item.command in (START, PHOTOS) or (item.command == PHOTOS_BY_WAY and bool(item.params[0]))
 
 
-def _ends(item: Item) -> bool:
+def _ends(item: CameraCommand) -> bool:
     return item.command in (STOP, NO_PHOTOS) or (item.command == PHOTOS_BY_WAY and not item.params[0])
 
 
-def _place(item: Item, origin: GeoOrigin, notes: Notes) -> Vec3:
+def _place(item: CameraCommand, origin: GeoOrigin, notes: Notes) -> Vec3:
     _, _, _, _, lat, lon, height = item.params
     if item.frame in TERRAIN:
         notes.assume(item.node, "a height over terrain", "the ground is flat")
@@ -239,7 +241,7 @@ def _place(item: Item, origin: GeoOrigin, notes: Notes) -> Vec3:
     return world(origin, lat or 0.0, lon or 0.0, above, absolute=True)
 
 
-def _ahead(items: Sequence[Item], i: int, at: Vec3, origin: GeoOrigin, otherwise: float) -> float:
+def _ahead(items: Sequence[CameraCommand], i: int, at: Vec3, origin: GeoOrigin, otherwise: float) -> float:
     """Return the way to the next waypoint: where a vehicle faces that is told nothing."""
     for item in items[i:]:
         if item.command in (WAYPOINT, SPLINE):
@@ -248,7 +250,7 @@ def _ahead(items: Sequence[Item], i: int, at: Vec3, origin: GeoOrigin, otherwise
     return otherwise
 
 
-def _told(item: Item, looks: _Aim, origin: GeoOrigin) -> None:
+def _told(item: CameraCommand, looks: _Aim, origin: GeoOrigin) -> None:
     """Take what a command says of where the camera looks."""
     p = item.params
     if item.command in (LOOK, LOOK_OLD) and is_place(p[4], p[5]) and (p[4], p[5]) != (0.0, 0.0):
@@ -264,16 +266,16 @@ def _told(item: Item, looks: _Aim, origin: GeoOrigin) -> None:
         looks.pitch, looks.yaw, looks.locked, looks.place = p[0], p[2] or 0.0, False, None
 
 
-def _camera(item: Item, at: Vec3, heading: float, looks: _Aim, notes: Notes) -> Camera:
+def _camera(item: CameraCommand, at: Vec3, heading: float, looks: _Aim, notes: Notes) -> ImportedCamera:
     if looks.place is not None and dist(at, looks.place) > 0.1:
         bearing, pitch = aim(at, looks.place)
         if reached(item.node, pitch, notes) == pitch:
-            return Camera(item.node, at, bearing, pitch, look_at=looks.place)
-        return Camera(item.node, at, bearing, reached(item.node, pitch, notes))
+            return ImportedCamera(item.node, at, bearing, pitch, look_at=looks.place)
+        return ImportedCamera(item.node, at, bearing, reached(item.node, pitch, notes))
     if looks.pitch is None:
         notes.assume(item.node, "no command says where the gimbal points", "level, straight ahead")
     bearing = looks.yaw if looks.locked else heading + looks.yaw
-    return Camera(item.node, at, bearing % 360.0, reached(item.node, looks.pitch or 0.0, notes))
+    return ImportedCamera(item.node, at, bearing % 360.0, reached(item.node, looks.pitch or 0.0, notes))
 
 
 def number_of(value: Any) -> float | None:

@@ -13,7 +13,7 @@ from shotc.importers.xml_tree import Node
 SEPARATORS = (",", ";", "\t")
 
 
-class Row(NamedTuple):
+class TableRow(NamedTuple):
     """One row: its first cell, which stands for it, and its cells by the names of their columns."""
 
     node: Node
@@ -40,7 +40,7 @@ class Table(NamedTuple):
 
     node: Node
     heads: dict[str, Node]
-    rows: tuple[Row, ...]
+    rows: tuple[TableRow, ...]
 
 
 def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> Table | Refused:
@@ -64,11 +64,11 @@ def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> Table 
     return Table(head, heads, tuple(_rows(lines, first, separator, order)))
 
 
-def _rows(lines: Sequence[str], first: int, separator: str, order: Sequence[str]) -> Iterator[Row]:
+def _rows(lines: Sequence[str], first: int, separator: str, order: Sequence[str]) -> Iterator[TableRow]:
     for i in range(first + 1, len(lines)):
         cells = _cells(lines[i], i, separator)
         if any(cell.text for cell in cells):
-            yield Row(cells[0], dict(zip(order, cells, strict=False)))
+            yield TableRow(cells[0], dict(zip(order, cells, strict=False)))
 
 
 def _cells(line: str, index: int, separator: str) -> list[Node]:

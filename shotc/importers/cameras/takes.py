@@ -13,7 +13,7 @@ MOST_CAMERAS = 10_000
 """How many cameras of a file are read: more is no shot, and would take minutes."""
 
 
-class Camera(NamedTuple):
+class ImportedCamera(NamedTuple):
     """One camera.
 
     node : where it stands in the file; heading : compass bearing, pitch : over the horizon, deg
@@ -36,11 +36,11 @@ class Take(NamedTuple):
 
     name: str
     node: Node
-    cameras: tuple[Camera, ...]
+    cameras: tuple[ImportedCamera, ...]
 
 
 def recorded(
-    node: Node, cameras: Sequence[Camera], starts: Sequence[bool], stops: Sequence[bool]
+    node: Node, cameras: Sequence[ImportedCamera], starts: Sequence[bool], stops: Sequence[bool]
 ) -> list[Take]:
     """Return what is recorded, take by take; all in one where recording is never started.
 
@@ -48,7 +48,7 @@ def recorded(
     """
     if not any(starts):
         return [Take("", node, tuple(cameras))]
-    takes: list[list[Camera]] = []
+    takes: list[list[ImportedCamera]] = []
     running = False
     for camera, starts_here, stops_here in zip(cameras, starts, stops, strict=True):
         if running:
@@ -73,7 +73,7 @@ class Footage(NamedTuple):
     home: Vec3 | None = None
 
 
-class Asked(NamedTuple):
+class ImportOptions(NamedTuple):
     """What the user says about a file.
 
     every : keep cameras that the others imply; times : keep when each camera is reached

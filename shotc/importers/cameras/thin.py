@@ -13,7 +13,7 @@ from math import cos, hypot, inf, radians, sin, tan
 from typing import NamedTuple
 
 from shotc.geom.vec import Vec3
-from shotc.importers.cameras.takes import Camera
+from shotc.importers.cameras.takes import ImportedCamera
 
 PICTURE = 0.01
 """Half frames by which a picture may be off."""
@@ -38,7 +38,9 @@ class _View(NamedTuple):
     high: float
 
 
-def thinned(cameras: Sequence[Camera], usual_hfov: float, *, on_clock: bool) -> tuple[Camera, ...]:
+def thinned(
+    cameras: Sequence[ImportedCamera], usual_hfov: float, *, on_clock: bool
+) -> tuple[ImportedCamera, ...]:
     """Return the cameras that are needed, by the method of Ramer, Douglas and Peucker.
 
     The first, the last and every 200th stay, those that rest, and those that look at a place.
@@ -59,16 +61,16 @@ def thinned(cameras: Sequence[Camera], usual_hfov: float, *, on_clock: bool) -> 
     return tuple(cameras[i] for i in sorted(kept))
 
 
-def unwound(cameras: Sequence[Camera]) -> list[Camera]:
+def unwound(cameras: Sequence[ImportedCamera]) -> list[ImportedCamera]:
     """Return the cameras with headings that do not jump by whole turns."""
-    out: list[Camera] = []
+    out: list[ImportedCamera] = []
     for camera in cameras:
         turns = round((out[-1].heading - camera.heading) / 360.0) if out else 0
         out.append(camera._replace(heading=camera.heading + 360.0 * turns))
     return out
 
 
-def picture_change(a: Camera, b: Camera) -> float:
+def picture_change(a: ImportedCamera, b: ImportedCamera) -> float:
     """Return how far apart two cameras show what a sees, half frames; infinite where it is behind b."""
     one, other = _view(a), _view(b)
     depth = max(NEAREST_M, a.at[2])
@@ -85,7 +87,7 @@ def picture_change(a: Camera, b: Camera) -> float:
     return worst
 
 
-def _way(cameras: Sequence[Camera], *, on_clock: bool) -> list[float]:
+def _way(cameras: Sequence[ImportedCamera], *, on_clock: bool) -> list[float]:
     """Return how far along each camera is: its time, or how much the picture has changed."""
     if on_clock:
         return [camera.time or 0.0 for camera in cameras]
@@ -93,7 +95,9 @@ def _way(cameras: Sequence[Camera], *, on_clock: bool) -> list[float]:
     return list(accumulate(steps, initial=0.0))
 
 
-def _worst(cameras: Sequence[Camera], way: Sequence[float], first: int, last: int) -> tuple[float, int]:
+def _worst(
+    cameras: Sequence[ImportedCamera], way: Sequence[float], first: int, last: int
+) -> tuple[float, int]:
     """Return how far the picture is off at worst between two cameras that stay, and at which."""
     a, b = cameras[first], cameras[last]
     if last - first < 2:
@@ -110,7 +114,7 @@ def _worst(cameras: Sequence[Camera], way: Sequence[float], first: int, last: in
     return worst, at
 
 
-def _between(a: Camera, b: Camera, share: float) -> Camera:
+def _between(a: ImportedCamera, b: ImportedCamera, share: float) -> ImportedCamera:
     def mixed(p: float, q: float) -> float:
         return p + share * (q - p)
 
@@ -121,7 +125,7 @@ def _between(a: Camera, b: Camera, share: float) -> Camera:
     )
 
 
-def _view(camera: Camera) -> _View:
+def _view(camera: ImportedCamera) -> _View:
     h, p, wide = radians(camera.heading), radians(camera.pitch), tan(radians(camera.hfov or 0.0) / 2)
     forward = (sin(h) * cos(p), cos(h) * cos(p), sin(p))
     up = (-sin(h) * sin(p), -cos(h) * sin(p), cos(p))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from shotc.geom.focal import focal_length
 from shotc.importers.cameras.pace import too_fast
-from shotc.importers.cameras.takes import Asked, Camera, Footage, Take
+from shotc.importers.cameras.takes import Footage, ImportedCamera, ImportOptions, Take
 from shotc.importers.cameras.thin import PICTURE, thinned
 from shotc.importers.names import safe
 from shotc.importers.notes import Notes
@@ -32,7 +32,7 @@ class Written(NamedTuple):
     cameras: int
 
 
-def written(name: str, what: str, footage: Footage, asked: Asked, notes: Notes) -> Written | None:
+def written(name: str, what: str, footage: Footage, asked: ImportOptions, notes: Notes) -> Written | None:
     """Return a mission, None where no take has two cameras; name : of it, what : it comes from."""
     takes = [take for take in map(_rested, footage.takes) if len(take.cameras) > 1]
     for take in footage.takes:
@@ -62,7 +62,7 @@ def written(name: str, what: str, footage: Footage, asked: Asked, notes: Notes) 
 
 def _rested(take: Take) -> Take:
     """Return a take without cameras that are the one before once more: the camera rests there."""
-    out: list[Camera] = []
+    out: list[ImportedCamera] = []
     for camera in take.cameras:
         if not out or not _same(out[-1], camera):
             out.append(camera)
@@ -71,7 +71,7 @@ def _rested(take: Take) -> Take:
     return take._replace(cameras=tuple(out))
 
 
-def _same(a: Camera, b: Camera) -> bool:
+def _same(a: ImportedCamera, b: ImportedCamera) -> bool:
     turned = abs((b.heading - a.heading + 180.0) % 360.0 - 180.0) + abs(b.pitch - a.pitch)
     zoomed = abs((a.hfov or 0.0) - (b.hfov or 0.0))
     return dist(a.at, b.at) < SAME_M and turned < SAME_DEG and zoomed < SAME_LENS_DEG
@@ -90,7 +90,9 @@ def _world(footage: Footage) -> Iterator[str]:
         yield f"world: {{origin: {{lat: {lat:.7f}, lon: {lon:.7f}, alt: {alt:.3f}}}}}"
 
 
-def _drone(footage: Footage, first: Camera, notes: Notes, *, zoom: tuple[float, float] | None) -> list[str]:
+def _drone(
+    footage: Footage, first: ImportedCamera, notes: Notes, *, zoom: tuple[float, float] | None
+) -> list[str]:
     """Return the line of the drone; zoom : its widest and narrowest field of view, where it has several."""
     home = footage.home
     if home is None:
@@ -121,7 +123,7 @@ def _id(takes: list[Take], i: int) -> str:
     return names[i] if names.count(names[i]) == 1 else f"{names[i]}-{names[: i + 1].count(names[i])}"
 
 
-def _shot(name: str, take: Take, asked: Asked, notes: Notes, *, lenses: bool) -> Iterator[str]:
+def _shot(name: str, take: Take, asked: ImportOptions, notes: Notes, *, lenses: bool) -> Iterator[str]:
     yield f"  - id: {name}"
     yield "    kind: keyframes"
     yield "    drone: cam1"

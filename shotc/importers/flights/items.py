@@ -47,7 +47,7 @@ PARAMETERS = 7
 CLIMB, DESCENT = 2, 3
 
 
-class Item(NamedTuple):
+class FlightCommand(NamedTuple):
     """One command. params : seven numbers, None where there is none."""
 
     node: Node
@@ -92,7 +92,7 @@ def table(text: str) -> Waypoints:
     return _flown(start, items[1:], "ardupilot")
 
 
-def _row(line: str, index: int) -> Item:
+def _row(line: str, index: int) -> FlightCommand:
     cells = line.split("\t") if "\t" in line else line.split()
     node = Node("", index, 1, wide=max(1, len(line)))
     if len(cells) != 12:
@@ -102,10 +102,10 @@ def _row(line: str, index: int) -> Item:
     if wrong is not None:
         refuse(BROKEN, f"`{plain(cells[wrong], 20)}` is no number", node)
     known = [0.0 if value is None else value for value in numbers]
-    return Item(node, f"item {known[0]:.0f}", int(known[3]), int(known[2]), tuple(known[4:11]))
+    return FlightCommand(node, f"item {known[0]:.0f}", int(known[3]), int(known[2]), tuple(known[4:11]))
 
 
-def _of_plan(found: Opened) -> Iterator[Item]:
+def _of_plan(found: Opened) -> Iterator[FlightCommand]:
     for i, item in enumerate(found.items):
         node = node_at(found.document, "mission", "items", i)
         inner = item.get("TransectStyleComplexItem") if isinstance(item, dict) else None
@@ -117,7 +117,7 @@ def _of_plan(found: Opened) -> Iterator[Item]:
             yield _simple(item, f"item {i + 1}", node)
 
 
-def _simple(item: Any, name: str, node: Node) -> Item:
+def _simple(item: Any, name: str, node: Node) -> FlightCommand:
     command = item.get("command") if isinstance(item, dict) else None
     params = item.get("params") if isinstance(item, dict) else None
     frame = item.get("frame") if isinstance(item, dict) else None
@@ -127,10 +127,10 @@ def _simple(item: Any, name: str, node: Node) -> Item:
         message = f"{name} is {what}: it has no `command`, `frame` and `params`"
         refuse(BROKEN, message, node, "save the plan with its items laid out")
     numbers = [number_of(value) for value in params[:PARAMETERS]]
-    return Item(node, name, command, frame, (*numbers, *[None] * (PARAMETERS - len(numbers))))
+    return FlightCommand(node, name, command, frame, (*numbers, *[None] * (PARAMETERS - len(numbers))))
 
 
-def _flown(whole: Node, items: Sequence[Item], autopilot: Literal["px4", "ardupilot"]) -> Waypoints:
+def _flown(whole: Node, items: Sequence[FlightCommand], autopilot: Literal["px4", "ardupilot"]) -> Waypoints:
     run = _Run()
     for item in items:
         if run.landing is not None or run.ending:
@@ -145,7 +145,7 @@ def _flown(whole: Node, items: Sequence[Item], autopilot: Literal["px4", "ardupi
     return checked(Waypoints(whole, "mavlink", points, words, autopilot, run.climb, run.landing, run.ending))
 
 
-def _take(run: _Run, item: Item) -> None:
+def _take(run: _Run, item: FlightCommand) -> None:
     """Take one item into account."""
     command, p = item.command, item.params
     if command in (WAYPOINT, SPLINE, LOITER_TIME):
@@ -164,7 +164,7 @@ def _take(run: _Run, item: Item) -> None:
         _do(run, item)
 
 
-def _do(run: _Run, item: Item) -> None:
+def _do(run: _Run, item: FlightCommand) -> None:
     """Take an item that is no place to fly to."""
     command, p = item.command, item.params
     if command in ASTRAY or command <= LAST_NAV:
@@ -176,7 +176,7 @@ def _do(run: _Run, item: Item) -> None:
         run.pitches = (*run.pitches, p[0])
 
 
-def _landing(run: _Run, item: Item) -> Point | None:
+def _landing(run: _Run, item: FlightCommand) -> Point | None:
     """Return where it lands: at a place of its own, or where it is."""
     p = item.params
     if p[4] is None or p[5] is None or (p[4], p[5]) == (0.0, 0.0):
@@ -197,7 +197,7 @@ def _stayed(point: Point, run: _Run) -> Point:
     return point._replace(stay=run.stay, stops=run.stay > 0.0, pitches=run.pitches)
 
 
-def _speed(run: _Run, item: Item) -> None:
+def _speed(run: _Run, item: FlightCommand) -> None:
     kind, value = item.params[0] or 0.0, item.params[1]
     if value is None or value <= 0.0:
         return
@@ -209,7 +209,7 @@ def _speed(run: _Run, item: Item) -> None:
         run.pace = run.pace._replace(ground=value)
 
 
-def _level(item: Item) -> Level:
+def _level(item: FlightCommand) -> Level:
     if item.frame not in LEVELS:
         message = (
             f"{item.name} counts its height in frame {item.frame}, which nothing here ties to the ground"
@@ -218,7 +218,7 @@ def _level(item: Item) -> Level:
     return LEVELS[item.frame]
 
 
-def _point(item: Item, *, straight: bool) -> Point:
+def _point(item: FlightCommand, *, straight: bool) -> Point:
     lat, lon, height = item.params[4:7]
     if lat is None or lon is None or height is None:
         refuse(BROKEN, f"{item.name} has no latitude, longitude and altitude", item.node)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.importers.cameras.litchi import EXAMPLE, FOOT_M, STAY, actions_of
-from shotc.importers.cameras.table import Row, table_of
+from shotc.importers.cameras.table import TableRow, table_of
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights.points import (
     BROKEN,
@@ -40,7 +40,7 @@ def waypoints(text: str) -> Waypoints:
 _ENDING = "it does what the mission's settings in Litchi say, which the table does not hold"
 
 
-def _point(row: Row, index: int, units: dict[str, str]) -> Point:
+def _point(row: TableRow, index: int, units: dict[str, str]) -> Point:
     name, notes = f"waypoint {index + 1}", Notes()
     foot = 1.0 if units is PACES else FOOT_M
     lat, lon = (_needed(row, column, name, notes) for column in ("latitude", "longitude"))
@@ -69,7 +69,7 @@ def _point(row: Row, index: int, units: dict[str, str]) -> Point:
     )
 
 
-def _needed(row: Row, column: str, name: str, notes: Notes) -> float:
+def _needed(row: TableRow, column: str, name: str, notes: Notes) -> float:
     value = row.number(column, notes)
     if value is None:
         cell = row.cells.get(column, row.node)

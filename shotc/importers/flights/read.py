@@ -8,10 +8,10 @@ from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights import items, litchi, skyc, wpml, zipped
 from shotc.importers.flights.names import SHOW, TABLE, TABLES, largest, suffix_of
 from shotc.importers.flights.points import UNREADABLE, Unread, Waypoints, refuse
-from shotc.importers.flights.rows import Rows, rows
+from shotc.importers.flights.rows import DroneRows, rows
 from shotc.importers.xml_tree import Node, shown
 
-Found = Waypoints | tuple[Rows, ...] | skyc.Show
+Found = Waypoints | tuple[DroneRows, ...] | skyc.Show
 
 
 class Read(NamedTuple):

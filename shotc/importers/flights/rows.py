@@ -36,7 +36,7 @@ SHORTEST_S = 1e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rows:
+class DroneRows:
     """The rows of one drone, in order of time.
 
     drone : its name, empty where the table has no such column; numbers : the lines of its rows, from 1
@@ -93,7 +93,7 @@ def _cell(line: str, k: int) -> str:
     return parts[k].strip() if k < len(parts) else ""
 
 
-def rows(text: str) -> tuple[Rows, ...]:
+def rows(text: str) -> tuple[DroneRows, ...]:
     """Return the rows of every drone, drones in the order in which they first stand."""
     lines = text.splitlines()
     start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
@@ -114,7 +114,7 @@ def rows(text: str) -> tuple[Rows, ...]:
     values = numbers_of(body, numbers, [columns[c] for c in (TIME, *PLACE, *(VELOCITY if moves else ()))])
     drones = [_cell(line, columns[DRONE]) for line in body] if DRONE in columns else [""] * len(body)
     found = tuple(
-        Rows(
+        DroneRows(
             name,
             tuple(numbers[i] for i in index),
             values[index, 0],
@@ -158,7 +158,7 @@ def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]
     refuse(UNREADABLE, "its rows cannot be told apart", Node("", lines[0], 1, wide=1))
 
 
-def check_order(found: Rows) -> None:
+def check_order(found: DroneRows) -> None:
     """Refuse rows that are no flight: too few of them, or times that do not rise."""
     if len(found.time) < 2:
         refuse(BROKEN, "a drone has one row, and a flight takes two", found.node(0))

@@ -17,7 +17,7 @@ from shotc.importers.cameras.places import number
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights.names import LARGEST_CLOCKED
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, Unread, refuse
-from shotc.importers.flights.rows import MOST_ROWS, PLACE, Rows, check_order, numbers_of
+from shotc.importers.flights.rows import MOST_ROWS, PLACE, DroneRows, check_order, numbers_of
 from shotc.importers.notes import plain
 from shotc.importers.xml_tree import Node, shown
 
@@ -47,9 +47,9 @@ class _Table(NamedTuple):
     text: str
 
 
-def tables(data: bytes) -> tuple[Rows, ...]:
+def tables(data: bytes) -> tuple[DroneRows, ...]:
     """Return the rows of every drone, in the order in which their tables stand in the archive."""
-    found: dict[str, Rows] = {}
+    found: dict[str, DroneRows] = {}
     left = MOST_ROWS
     for member in members(data, _is_table, LARGEST_CLOCKED):
         if isinstance(member, str):
@@ -75,7 +75,7 @@ def _is_table(name: str) -> bool:
     return name.lower().endswith(".csv") and not name.startswith("__MACOSX/")
 
 
-def _rows(table: _Table, left: int, others: dict[str, Rows]) -> Rows:
+def _rows(table: _Table, left: int, others: dict[str, DroneRows]) -> DroneRows:
     """Return the rows of one table; left : how many may still be read; others : by the names of drones."""
     drone = PurePosixPath(table.name).stem
     lines = table.text.splitlines()
@@ -98,7 +98,7 @@ def _rows(table: _Table, left: int, others: dict[str, Rows]) -> Rows:
     return _numbered(drone, table.name, kept)
 
 
-def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> Rows:
+def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> DroneRows:
     numbers, body = [i for i, _ in kept], [line for _, line in kept]
     shines = len(_cells(body[0])) > 4
     columns = {"time": 0, **{name: k for k, name in enumerate(PLACE, 1)}}
@@ -107,7 +107,7 @@ def _numbered(drone: str, member: str, kept: list[tuple[int, str]]) -> Rows:
     values = numbers_of(body, numbers, list(columns.values()))
     lights = values[:, 4:] if shines else None
     times, places = values[:, 0] / 1e3, values[:, 1:4]
-    rows = Rows(drone, tuple(numbers), times, places, None, columns, tuple(body), member, lights)
+    rows = DroneRows(drone, tuple(numbers), times, places, None, columns, tuple(body), member, lights)
     check_order(rows)
     if shines:
         _check_colors(rows, values[:, 4:])
@@ -118,7 +118,7 @@ def _cells(line: str) -> list[str]:
     return [cell.strip().strip('"') for cell in line.split(",")]
 
 
-def _check_colors(rows: Rows, colors: NDArray[np.float64]) -> None:
+def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
     """Refuse lights that are no whole numbers from 0 to 255."""
     wrong = (colors < 0) | (colors > BRIGHTEST) | (colors != np.round(colors))
     if wrong.any():
@@ -127,7 +127,7 @@ def _check_colors(rows: Rows, colors: NDArray[np.float64]) -> None:
         refuse(BROKEN, message, rows.node(i))
 
 
-def _all_land(found: tuple[Rows, ...]) -> None:
+def _all_land(found: tuple[DroneRows, ...]) -> None:
     """Refuse a show in which the table of one drone ends in the air, before the others do."""
     longest = max(found, key=lambda rows: float(rows.time[-1]))
     end = float(longest.time[-1])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import Place, written
 from shotc.importers.multidrone.read import Role
-from shotc.importers.multidrone.task import NEAREST, Made, Said, Task
+from shotc.importers.multidrone.task import NEAREST, Made, RoleTask, Said
 
 BESIDE = 8.0  # metres to the East of a target on whose place a camera would stand
 LEAST = 0.1  # metres that an elevator goes
@@ -17,7 +17,7 @@ MOST_PAN = 720.0  # degrees
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
 
 
-def elevator(task: Task) -> Made:
+def elevator(task: RoleTask) -> Made:
     """Return a camera that rises or sinks in its place and watches its target."""
     low, one = task.altitude("z_s")
     high, two = task.altitude("z_e")
@@ -31,7 +31,7 @@ def elevator(task: Task) -> Made:
     return Made("follow-path", points, path, (*one, *two, *said))
 
 
-def static(task: Task) -> Made:
+def static(task: RoleTask) -> Made:
     """Return a camera that stands, and watches its target or turns by itself."""
     z, low = task.altitude()
     place, (at,), said = _stand(task, z)
@@ -47,7 +47,7 @@ def static(task: Task) -> Made:
     return Made("keyframes", rows, path, (*low, *said, *more), watches=False)
 
 
-def fly_through(task: Task) -> Made:
+def fly_through(task: RoleTask) -> Made:
     """Return a camera that flies along the trajectory itself, and turns by itself or looks where it goes."""
     z, low = task.altitude()
     points, frame = task.action.points, task.frame
@@ -72,7 +72,7 @@ def _turned(role: Role) -> bool:
     return "pan_s" in role.params or "tilt_s" in role.params
 
 
-def _panned(task: Task, poses: list[tuple[str, float]]) -> tuple[str, Said]:
+def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
     """Return keyframes whose camera pans and tilts from start to end, and comments.
 
     poses : places with the way there, rad, from which a pan counts
@@ -133,7 +133,7 @@ class _Stand(NamedTuple):
     said: Said
 
 
-def _stand(task: Task, *altitudes: float) -> _Stand:
+def _stand(task: RoleTask, *altitudes: float) -> _Stand:
     """Return where a camera that goes with nobody stands: the formation's origin, but beside the target."""
     x, y = task.course.at(task.start)
     origin = task.action.origin

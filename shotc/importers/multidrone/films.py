@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Action, Sequence
-from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, Course, courses_of, gap, route_of
+from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, GroundTrack, courses_of, gap, route_of
 from shotc.importers.notes import Notes, plain
 from shotc.rounding import at_least
 
@@ -23,7 +23,7 @@ class Film(NamedTuple):
 
     id: str
     action: Action
-    course: Course
+    course: GroundTrack
     target: str
     start: float
     duration: float
@@ -36,7 +36,7 @@ class _Target(NamedTuple):
     """A target that has been seen; identity : the number that the file gives it, or None."""
 
     name: str
-    course: Course
+    course: GroundTrack
     identity: float | None
 
 
@@ -63,7 +63,7 @@ def films_of(sequences: Rows[Sequence], frame: Frame, notes: Notes) -> Iterator[
 
 
 def _name(
-    action: Action, course: Course, targets: list[_Target], notes: Notes
+    action: Action, course: GroundTrack, targets: list[_Target], notes: Notes
 ) -> tuple[str, tuple[str, ...]]:
     """Return the name of the target with this course, which may be a new one, and comments."""
     identity = next((role.params["ID"] for role in action.roles if "ID" in role.params), None)

@@ -6,7 +6,7 @@ from math import cos, hypot, sin
 
 from shotc.importers.multidrone.frames import Place
 from shotc.importers.multidrone.read import Role
-from shotc.importers.multidrone.targets import Course
+from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
 
 THIRDS = "RULE_OF_THIRDS"
@@ -54,7 +54,7 @@ def size_of(role: Role, films: bool, fixed: bool, notes: Notes) -> tuple[str | N
 
 
 def composition_of(
-    role: Role, course: Course, camera: Place, t: float, notes: Notes
+    role: Role, course: GroundTrack, camera: Place, t: float, notes: Notes
 ) -> tuple[str, list[str]]:
     """Return the point on the screen where a role puts its target, and comments.
 
@@ -70,7 +70,7 @@ def composition_of(
     return side, [f"{THIRDS}: {side}, {why}"]
 
 
-def _third(course: Course, camera: Place, t: float) -> tuple[str, str]:
+def _third(course: GroundTrack, camera: Place, t: float) -> tuple[str, str]:
     """Return the third in which the target leaves room on the side to which it moves, and why."""
     if not course.moves(t):
         return "left-third", "for the target stands, and either side will do"

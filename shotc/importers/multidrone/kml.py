@@ -11,20 +11,20 @@ from shotc.importers.xml_tree import Node, XmlFault, parse_xml
 MOST = 1000  # coordinates of a line that are read
 
 
-class Drawn(NamedTuple):
+class MapLine(NamedTuple):
     """The line of a map; node : that holds it; points : (lat, lon) in degrees."""
 
     node: Node
     points: tuple[tuple[float, float], ...]
 
 
-def drawn(action: Action) -> Drawn | None:
+def drawn(action: Action) -> MapLine | None:
     """Return the first line of an action's maps, None where there is none that can be read."""
     for holder in below(action.node, "Map"):
         node = holder.first("description")
         points = () if node is None else _line(node.text)
         if node is not None and points:
-            return Drawn(node, points)
+            return MapLine(node, points)
     return None
 
 

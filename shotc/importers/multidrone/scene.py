@@ -9,7 +9,7 @@ from math import cos, sin
 from shotc.importers.multidrone.films import Film
 from shotc.importers.multidrone.frames import Frame, written
 from shotc.importers.multidrone.read import below
-from shotc.importers.multidrone.targets import Course
+from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
@@ -33,7 +33,7 @@ def world(frame: Frame) -> Iterator[str]:
 
 def targets(films: Rows[Film], root: Node, frame: Frame, notes: Notes) -> Iterator[str]:
     """Return the lines of all targets, each once; none where nothing but ways is filmed."""
-    courses: dict[str, Course] = {}
+    courses: dict[str, GroundTrack] = {}
     for film in films:
         if film.target:
             courses.setdefault(film.target, film.course)
@@ -59,7 +59,7 @@ def targets(films: Rows[Film], root: Node, frame: Frame, notes: Notes) -> Iterat
         yield from _target(target, course, [frame.written(p, height / 2) for p in course.points], body)
 
 
-def _target(name: str, course: Course, places: list[str], body: str) -> Iterator[str]:
+def _target(name: str, course: GroundTrack, places: list[str], body: str) -> Iterator[str]:
     if course.stands:
         yield f"  {name}: {{at: {places[0]}, {body}"
         return

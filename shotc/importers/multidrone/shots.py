@@ -11,7 +11,7 @@ from collections.abc import Callable
 from math import cos, degrees, pi, radians, sin
 
 from shotc.importers.multidrone.cameras import elevator, fly_through, static
-from shotc.importers.multidrone.task import NEAREST, Made, Said, Task
+from shotc.importers.multidrone.task import NEAREST, Made, RoleTask, Said
 from shotc.importers.notes import plain
 
 TURNS = 19 * pi  # rad; the most that an orbit turns
@@ -20,7 +20,7 @@ LEAST_TURN = radians(5.0)
 FOLLOWING = frozenset(("CHASE", "LEAD", "LATERAL", "FLYBY", "FLY_BY", "FLYOVER"))
 
 
-def shot_of(task: Task) -> Made:
+def shot_of(task: RoleTask) -> Made:
     """Return one role as a shot; a kind that is not known becomes a still camera, which is noted."""
     kind = task.role.kind.replace(" ", "_")
     make = KINDS.get(kind)
@@ -37,7 +37,7 @@ def shot_of(task: Task) -> Made:
     return make(task)
 
 
-def _chase(task: Task) -> Made:
+def _chase(task: RoleTask) -> Made:
     usual = 8.0 if task.role.kind == "LEAD" else -8.0
     start, said = task.param("x_s", usual)
     z, low = task.altitude()
@@ -51,7 +51,7 @@ def _chase(task: Task) -> Made:
     return Made(kind, params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
-def _lateral(task: Task) -> Made:
+def _lateral(task: RoleTask) -> Made:
     y, said = task.param("y_0", 8.0)
     z, low = task.altitude()
     away, near = _apart(task, abs(y))
@@ -61,7 +61,7 @@ def _lateral(task: Task) -> Made:
     return Made("lateral", params, task.along(spot, spot), (*said, *low, *near), not said)
 
 
-def _flyby(task: Task, beside: float | None = None) -> Made:
+def _flyby(task: RoleTask, beside: float | None = None) -> Made:
     start, one = task.param("x_s", -10.0)
     end, two = task.param("x_e", 10.0)
     y, three = task.param("y_0", 0.0) if beside is None else (beside, ())
@@ -71,7 +71,7 @@ def _flyby(task: Task, beside: float | None = None) -> Made:
     return Made("flyby", params, path, (*one, *two, *three, *low), not one)
 
 
-def _orbit(task: Task) -> Made:
+def _orbit(task: RoleTask) -> Made:
     r, one = task.param("r_0", 8.0)
     turn, two = task.param("azimuth_speed", 0.1)
     begin, three = task.param("azimuth_s", 0.0)
@@ -104,7 +104,7 @@ def _orbit(task: Task) -> Made:
     return Made("orbit", params, (begins, halfway, ends), (*one, *two, *three, *low, *near, said), not one)
 
 
-def _establish(task: Task) -> Made:
+def _establish(task: RoleTask) -> Made:
     far, one = task.param("x_s", -30.0)
     near, two = task.param("x_e", -15.0)
     high, low = task.altitude("z_s")
@@ -129,13 +129,13 @@ def _establish(task: Task) -> Made:
     return Made("crane", params, path, (*one, *two, *low, *lowest, *apart, *close, *kept), not one)
 
 
-def _apart(task: Task, away: float) -> tuple[float, Said]:
+def _apart(task: RoleTask, away: float) -> tuple[float, Said]:
     if away >= NEAREST:
         return away, ()
     return NEAREST, (task.assume(f"{away:g} m from the target is too near", f"{NEAREST:g} m"),)
 
 
-KINDS: dict[str, Callable[[Task], Made]] = {
+KINDS: dict[str, Callable[[RoleTask], Made]] = {
     "CHASE": _chase,
     "LEAD": _chase,
     "LATERAL": _lateral,

@@ -19,7 +19,7 @@ SLOWEST = 0.05  # m/s; what is slower stands
 DIFFERS = 1.5  # by which factor two speeds may differ and count as one
 
 
-class Course(NamedTuple):
+class GroundTrack(NamedTuple):
     """Where a target is, on the ground: mission times in seconds, East and North in metres.
 
     points : the same places as the file has them; comments : what had to be assumed
@@ -57,7 +57,7 @@ class Course(NamedTuple):
         return self.places[-1]
 
 
-def courses_of(sequence: Sequence, frame: Frame, notes: Notes) -> tuple[Course | None, ...]:
+def courses_of(sequence: Sequence, frame: Frame, notes: Notes) -> tuple[GroundTrack | None, ...]:
     """Return the course of every action's target: one for actions that take up where the last one ended.
 
     None for an action that films no target, or says nowhere where it is.
@@ -86,7 +86,7 @@ def courses_of(sequence: Sequence, frame: Frame, notes: Notes) -> tuple[Course |
             runs[-1].add(clock, places, points, said)
             found.append(len(runs) - 1)
         begins += action.duration
-    courses = [Course(tuple(r.times), tuple(r.places), tuple(r.points), tuple(r.comments)) for r in runs]
+    courses = [GroundTrack(tuple(r.times), tuple(r.places), tuple(r.points), tuple(r.comments)) for r in runs]
     return tuple(None if k is None else courses[k] for k in found)
 
 
@@ -113,15 +113,15 @@ class _Run(NamedTuple):
             self.points.append(point)
 
 
-def route_of(action: Action, frame: Frame, begins: float) -> Course:
+def route_of(action: Action, frame: Frame, begins: float) -> GroundTrack:
     """Return the way of a fly-through, which is its camera's own, evenly over the action's time."""
     points = action.points or ((action.origin,) if action.origin else ())
     share = action.duration / max(len(points) - 1, 1)
     times = tuple(begins + i * share for i in range(len(points)))
-    return Course(times, tuple(frame.place(p) for p in points), points, ())
+    return GroundTrack(times, tuple(frame.place(p) for p in points), points, ())
 
 
-def gap(one: Course, other: Course) -> float:
+def gap(one: GroundTrack, other: GroundTrack) -> float:
     """Return how far two courses are apart, at most, in metres."""
     return max(dist(one.at(t), other.at(t)) for t in {*one.times, *other.times})
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from shotc.geom.vec import Vec3
 from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Action, Role
-from shotc.importers.multidrone.targets import Course
+from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
 
 NEAREST = 3.0  # metres beside a target that a shot keeps where nothing is said
@@ -33,12 +33,12 @@ class Made(NamedTuple):
     watches: bool = True
 
 
-class Task(NamedTuple):
+class RoleTask(NamedTuple):
     """One role to be made a shot, from mission time ``start`` on, for ``duration`` seconds."""
 
     action: Action
     role: Role
-    course: Course
+    course: GroundTrack
     frame: Frame
     start: float
     duration: float

@@ -11,7 +11,7 @@ from shotc.importers.multidrone.frames import Frame
 from shotc.importers.multidrone.read import Role
 from shotc.importers.multidrone.shots import shot_of
 from shotc.importers.multidrone.targets import OVERLAP
-from shotc.importers.multidrone.task import Task
+from shotc.importers.multidrone.task import RoleTask
 from shotc.importers.notes import Notes
 
 SETTLE, PACE = 9.0, 3.0  # seconds to leave one shot and enter the next, and m/s between them
@@ -34,9 +34,9 @@ def timed(films: Iterable[Film], frame: Frame, notes: Notes) -> Iterator[Film]:
         yield found
 
 
-def task_of(film: Film, role: Role, frame: Frame, notes: Notes) -> Task:
+def task_of(film: Film, role: Role, frame: Frame, notes: Notes) -> RoleTask:
     """Return what has to be known to make a shot of one role of a film."""
-    return Task(film.action, role, film.course, frame, film.start, film.duration, film.target, notes)
+    return RoleTask(film.action, role, film.course, frame, film.start, film.duration, film.target, notes)
 
 
 def _cut(film: Film, change: float, notes: Notes) -> Film:

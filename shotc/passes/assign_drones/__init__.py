@@ -19,7 +19,7 @@ from shotc.spec.load import LoadedMission
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.passes.assign_drones.choice import Choice
-    from shotc.passes.assign_drones.tasks import Task
+    from shotc.passes.assign_drones.tasks import ShotTask
 
 
 class AssignDrones:
@@ -63,7 +63,7 @@ def _with(ir: LoadedMission, choice: Choice) -> LoadedMission:
     return ir._replace(spec=ir.spec.model_copy(update={"shots": shots}), chosen=chosen)
 
 
-def _too_few(ir: LoadedMission, tasks: tuple[Task, ...]) -> Diagnostic:
+def _too_few(ir: LoadedMission, tasks: tuple[ShotTask, ...]) -> Diagnostic:
     time, busy = busiest(tasks)
     shots = ", ".join(f"`{task.id}`" for task in busy)
     number = len(ir.spec.drones)

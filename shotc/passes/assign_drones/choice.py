@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from shotc.passes.assign_drones.tasks import Task
+from shotc.passes.assign_drones.tasks import ShotTask
 from shotc.solvers.assignment import Programme, least_cost
 
 Choice = Mapping[int, str]
@@ -19,7 +19,7 @@ SLACK = 1e-6
 Row = tuple[dict[int, float], float]
 
 
-def choose(tasks: Sequence[Task], drones: Sequence[str]) -> Choice | None:
+def choose(tasks: Sequence[ShotTask], drones: Sequence[str]) -> Choice | None:
     """Return the drone of every task by the task's index; None if infeasible.
 
     The work of the busiest drone is minimal, in seconds of film and transfers. Among such choices the least
@@ -47,7 +47,7 @@ def choose(tasks: Sequence[Task], drones: Sequence[str]) -> Choice | None:
     return {task.number: drones[k] for task, k in zip(tasks, chosen, strict=True)}
 
 
-def _can(task: Task, drone: str) -> bool:
+def _can(task: ShotTask, drone: str) -> bool:
     """Return whether a drone can film a shot at all: by assignment, in time, and within its endurance."""
     if task.flown_by is not None:
         return task.flown_by == drone
@@ -58,7 +58,7 @@ def _can(task: Task, drone: str) -> bool:
 
 
 def _work(
-    tasks: Sequence[Task], drones: Sequence[str], column: Mapping[tuple[int, str], int], busiest: int
+    tasks: Sequence[ShotTask], drones: Sequence[str], column: Mapping[tuple[int, str], int], busiest: int
 ) -> Iterator[Row]:
     """Yield the constraints that no drone works more than the busiest one, whose work is the last unknown."""
     for d in drones:
@@ -69,7 +69,7 @@ def _work(
 
 
 def _clashes(
-    tasks: Sequence[Task], drones: Sequence[str], column: Mapping[tuple[int, str], int]
+    tasks: Sequence[ShotTask], drones: Sequence[str], column: Mapping[tuple[int, str], int]
 ) -> Iterator[Row]:
     """Yield the constraints that no drone films two shots between which it has too little time."""
     for (i, a), (j, b) in combinations(enumerate(tasks), 2):

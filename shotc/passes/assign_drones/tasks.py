@@ -21,7 +21,7 @@ SLOWER = 2.0
 """Duration of a transfer over its least time, for smooth starts and stops and for obstacles."""
 
 
-class Task(NamedTuple):
+class ShotTask(NamedTuple):
     """One shot.
 
     number : its index in the mission
@@ -49,7 +49,7 @@ class Task(NamedTuple):
         """Return the least time from the shot to a drone's home, seconds."""
         return least_travel([self.last, self.drones[drone].home], self.drones[drone].limits)
 
-    def to(self, other: Task, drone: str) -> float:
+    def to(self, other: ShotTask, drone: str) -> float:
         """Return the least time from the end of this shot to the start of another, seconds."""
         return least_travel([self.last, other.first], self.drones[drone].limits)
 
@@ -58,7 +58,7 @@ class Task(NamedTuple):
         return dist(self.drones[drone].home, self.first)
 
 
-def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] | None:
+def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[ShotTask, ...] | None:
     """Return every shot as a task; None where one is invalid.
 
     Each shot is resolved alone, with the first drone where that is open. Its place depends neither on the
@@ -67,7 +67,7 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] |
     spec = ir.spec
     world = spec.world.model_copy(update={"scene": None, "buildings": None})
     some = next(iter(spec.drones))
-    tasks: list[Task] = []
+    tasks: list[ShotTask] = []
     for i, written in enumerate(spec.shots):
         open_ = written.drone == AUTO
         alone = written.model_copy(update={"drone": some}) if open_ else written
@@ -81,7 +81,7 @@ def tasks_of(ir: LoadedMission, kinds: Mapping[str, Kind]) -> tuple[Task, ...] |
     return tuple(tasks)
 
 
-def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> Task:
+def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> ShotTask:
     drones = {drone.name: drone for drone in mission.drones}
     start = shot.timing.start
     if shot.ideal is not None:
@@ -92,10 +92,10 @@ def _task(index: int, mission: MissionIR, shot: Shot, flown_by: str | None) -> T
         first, last = shot.keyframes[0].at, shot.keyframes[-1].at
         least = min(least_shot(shot.keyframes, drone.limits) for drone in mission.drones)
         duration = shot.timing.duration or least
-    return Task(index, shot.id, start, duration, first, last, flown_by, drones)
+    return ShotTask(index, shot.id, start, duration, first, last, flown_by, drones)
 
 
-def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
+def busiest(tasks: tuple[ShotTask, ...]) -> tuple[float, list[ShotTask]]:
     """Return the time at which the most shots with a start are filmed, and these shots."""
     timed = [task for task in tasks if task.start is not None]
     if not timed:
@@ -105,7 +105,7 @@ def busiest(tasks: tuple[Task, ...]) -> tuple[float, list[Task]]:
     return time, at[time]
 
 
-def later(busy: list[Task]) -> str:
+def later(busy: list[ShotTask]) -> str:
     """Return when the last of several shots could start, so that a drone has filmed another one and
     arrived.
     """
@@ -115,5 +115,5 @@ def later(busy: list[Task]) -> str:
     return f"start shot `{last.id}` later, by `timing: {{start: {ceil(free)} s}}`"
 
 
-def _end(task: Task) -> float:
+def _end(task: ShotTask) -> float:
     return (task.start or 0.0) + task.duration

@@ -30,10 +30,10 @@ from shotc.passes.parameterize_time.explain.times import (
     without_length,
 )
 from shotc.planning.timing.estimate import LegTiming, can_be_timed, time_leg
-from shotc.planning.timing.flight import Flight
+from shotc.planning.timing.flight import TrajectoryBuilder
 from shotc.planning.timing.leg import TINY
 from shotc.planning.timing.limits import ceiling_of
-from shotc.planning.timing.move import Move
+from shotc.planning.timing.move import TimedMove
 
 Stats = list[tuple[str, float | str]]
 
@@ -76,11 +76,11 @@ class _Pilot:
     warnings: list[Diagnostic] = field(default_factory=list)
     stats: Stats = field(default_factory=list)
     done: int = 0
-    flight: Flight = field(init=False)
+    flight: TrajectoryBuilder = field(init=False)
     drone: Drone = field(init=False)
 
     def __post_init__(self) -> None:
-        self.flight = Flight(self.path.drone)
+        self.flight = TrajectoryBuilder(self.path.drone)
         self.drone = self.mission.drone(self.path.drone)
 
     def advance(self, ends: dict[str, float]) -> bool:
@@ -156,7 +156,7 @@ def _fault(mission: MissionIR, drone: Drone, leg: PathLeg, timing: LegTiming) ->
     return too_fast(mission, drone, leg, timing.too_fast, remedies)
 
 
-def _stats(name: str, move: Move) -> Stats:
+def _stats(name: str, move: TimedMove) -> Stats:
     return [
         (f"{name} topp_time", move.topp_time if isfinite(move.topp_time) else "none"),
         (f"{name} time", move.duration),

@@ -45,7 +45,7 @@ ENOUGH = 1e-4
 """Accuracy of the worst violation in metres."""
 
 
-class Near(NamedTuple):
+class ClearanceLack(NamedTuple):
     """A point of a path that is too near to an obstacle, at parameter s, and the lack in metres."""
 
     s: float
@@ -68,7 +68,7 @@ def limits(path: PathIR) -> Iterator[Finding]:
     yield from _keyframes(path)
 
 
-def nearest(space: FreeSpace, curve: Piecewise) -> Near | None:
+def nearest(space: FreeSpace, curve: Piecewise) -> ClearanceLack | None:
     """Return where a curve of channels x, y, z lacks the most clearance; None if nowhere."""
     bag, worst = pieces(curve), None
     for _ in range(HALVINGS):
@@ -83,12 +83,12 @@ def nearest(space: FreeSpace, curve: Piecewise) -> Near | None:
     return worst
 
 
-def _worst_of(space: FreeSpace, bag: Pieces) -> Near:
+def _worst_of(space: FreeSpace, bag: Pieces) -> ClearanceLack:
     at = np.concatenate([bag.low, bag.high])
     points = np.concatenate([bag.ctrl[:, 0], bag.ctrl[:, -1]])
     lack = shortfall(space, points[:, None, :])
     k = int(lack.argmax())
-    return Near(float(at[k]), points[k], float(lack[k]))
+    return ClearanceLack(float(at[k]), points[k], float(lack[k]))
 
 
 def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise) -> Iterator[Finding]:

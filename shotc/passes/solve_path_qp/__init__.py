@@ -42,7 +42,7 @@ from shotc.planning.clock.visibility import visibility_of
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import free_spaces_of, pad_space
-from shotc.planning.path.legs import Blocked, Flight, drone_legs
+from shotc.planning.path.legs import Blocked, LegContext, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
 from shotc.planning.path.shots import PlannedShot, shot_curve
 from shotc.solvers.headings import DEFAULT
@@ -206,7 +206,10 @@ def _plan(
     if faults:
         return _stopped(*faults)
     ctx.progress(f"way of {drone.name}")
-    flight, warnings = Flight(drone, spaces, top, mission.rules.look_ahead), _warnings(mission, drone, shots)
+    flight, warnings = (
+        LegContext(drone, spaces, top, mission.rules.look_ahead),
+        _warnings(mission, drone, shots),
+    )
     if not on_clock(ir):
         return _in_a_row(mission, flight, shots, warnings)
     moving = (*moving_targets(mission, drone), *other_drones(mission, drone.name, known.flights))
@@ -246,7 +249,7 @@ def _warnings(mission: MissionIR, drone: Drone, shots: Sequence[PlannedShot]) ->
 
 
 def _in_a_row(
-    mission: MissionIR, flight: Flight, shots: list[PlannedShot], warnings: tuple[Diagnostic, ...]
+    mission: MissionIR, flight: LegContext, shots: list[PlannedShot], warnings: tuple[Diagnostic, ...]
 ) -> _Planned:
     """Plan the legs of a drone without a clock: its shots one after another."""
     joined = drone_legs(flight, shots)

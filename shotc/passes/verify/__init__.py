@@ -18,7 +18,7 @@ from shotc.ir.parked import bodies
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.trajectory import Claim, CoveredShares, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.ahead import ahead
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.course import course
 from shotc.passes.verify.energy import energy
 from shotc.passes.verify.filmed_pictures import not_standing
@@ -68,7 +68,7 @@ def judge(ir: TrajectoryIR, ctx: PassContext) -> Verdict:
         return Verdict((), broken)
     everyone = bodies(ir)
     present = [
-        Flight(mission, mission.drone(track.drone), track, others_of(everyone, track.drone))
+        JudgedFlight(mission, mission.drone(track.drone), track, others_of(everyone, track.drone))
         for track in everyone
     ]
     flights, on_pads = present[: len(ir.drones)], present[len(ir.drones) :]

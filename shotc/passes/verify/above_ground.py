@@ -10,15 +10,15 @@ from collections.abc import Iterator
 from math import inf, isfinite
 
 from shotc.geom.pieces import Pieces, cut
-from shotc.geom.proof import Bound, inf_channel, sup_convex
+from shotc.geom.proof import ProvedExtreme, inf_channel, sup_convex
 from shotc.geom.surface.distance import inf_distance
 from shotc.geom.surface.ground import NoGround
 from shotc.geom.surface.height import inf_height, sup_height
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
 
 
-def above_ground(flight: Flight, free: Pieces) -> Iterator[Claim]:
+def above_ground(flight: JudgedFlight, free: Pieces) -> Iterator[Claim]:
     """Yield claims on ground clearance, distance from terrain, and greatest height above ground.
 
     free : the flight without take-off and landing
@@ -47,6 +47,6 @@ def above_ground(flight: Flight, free: Pieces) -> Iterator[Claim]:
     yield bounded(flight, limit, high)
 
 
-def _known(found: Bound | NoGround, unknown: float) -> Bound:
+def _known(found: ProvedExtreme | NoGround, unknown: float) -> ProvedExtreme:
     """Return a bound; where the flight leaves the terrain, one that proves nothing."""
-    return Bound(unknown, unknown, found.at) if isinstance(found, NoGround) else found
+    return ProvedExtreme(unknown, unknown, found.at) if isinstance(found, NoGround) else found

@@ -25,7 +25,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.rules import SLOW_M_S
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.ir.transits import Way, ways
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap
 from shotc.rounding import at_least
 
 CONSTRAINT = "look ahead"
@@ -37,14 +37,14 @@ ROOM_SHARE = 0.9
 """Share of the half-angle that a free heading must allow; planning needs the rest."""
 
 
-class Bound(NamedTuple):
+class UnjudgedHeading(NamedTuple):
     """A shot whose heading is not judged, and the reason as an end of a sentence."""
 
     shot: str
     why: str
 
 
-def ahead(flight: Flight) -> Iterator[Claim]:
+def ahead(flight: JudgedFlight) -> Iterator[Claim]:
     """Yield claims on the largest angle between the body's heading and its course, where it is limited.
 
     There is one claim for all transfers, and one for each shot that is judged.
@@ -59,13 +59,13 @@ def ahead(flight: Flight) -> Iterator[Claim]:
             yield from _claimed(flight, half_angle, [(phase.start, phase.end)], phase.shot)
 
 
-def unjudged(mission: MissionIR, tracks: Sequence[DroneTrajectory]) -> Iterator[Bound]:
+def unjudged(mission: MissionIR, tracks: Sequence[DroneTrajectory]) -> Iterator[UnjudgedHeading]:
     """Yield the shots in which a drone moves but its heading is not judged."""
     for track in tracks:
         for phase in _filmed(track):
             why = why_not(mission, track, phase)
             if why is not None and phase.shot is not None:
-                yield Bound(phase.shot, why)
+                yield UnjudgedHeading(phase.shot, why)
 
 
 def why_not(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> str | None:
@@ -108,7 +108,7 @@ def _filmed(track: DroneTrajectory) -> list[Phase]:
 
 
 def _claimed(
-    flight: Flight, half_angle: float, spans: Sequence[tuple[float, float]], shot: str | None
+    flight: JudgedFlight, half_angle: float, spans: Sequence[tuple[float, float]], shot: str | None
 ) -> Iterator[Claim]:
     """Yield the claim on the largest angle in spans of mission time, seconds, if there is a course."""
     curve = flight.track.curve.channels(X, Y, BODY_YAW)
@@ -123,7 +123,7 @@ def _claimed(
         yield bounded(flight, Limit(CONSTRAINT, half_angle, "rad", ("rules", "look_ahead"), shot=shot), found)
 
 
-def judged(flight: Flight, way: Way) -> tuple[float, float] | None:
+def judged(flight: JudgedFlight, way: Way) -> tuple[float, float] | None:
     """Return the start and end of the judged part of a transfer; None where the drone does not come
     to rest.
     """

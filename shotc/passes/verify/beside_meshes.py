@@ -12,14 +12,14 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Pieces
-from shotc.geom.proof import Bound
+from shotc.geom.proof import ProvedExtreme
 from shotc.geom.surface.distance import inf_distance
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
 
 
-def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Claim]:
+def beside_meshes(flight: JudgedFlight, free: Pieces, upright: Pieces) -> Iterator[Claim]:
     """Yield claims on the distance from scenes and buildings, in flight and during take-off and landing.
 
     A point of a cloud represents a ball of half its spacing, which is subtracted from the distance.
@@ -43,6 +43,6 @@ def beside_meshes(flight: Flight, free: Pieces, upright: Pieces) -> Iterator[Cla
             yield bounded(flight, limit, less(bound, body))
 
 
-def _signed(bound: Bound, mesh: ObstacleMesh, home: Array) -> Bound:
+def _signed(bound: ProvedExtreme, mesh: ObstacleMesh, home: Array) -> ProvedExtreme:
     """Return a bound of the distance; negative if the flight starts inside of a closed part."""
-    return Bound(-bound.attained, -bound.attained, bound.at) if mesh.holds(home)[0] else bound
+    return ProvedExtreme(-bound.attained, -bound.attained, bound.at) if mesh.holds(home)[0] else bound

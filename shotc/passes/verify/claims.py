@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 
-from shotc.geom.proof import Bound
+from shotc.geom.proof import ProvedExtreme
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
@@ -20,7 +20,7 @@ TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flight:
+class JudgedFlight:
     """One drone, its mission and its trajectory; others : trajectories of the other drones."""
 
     mission: MissionIR
@@ -43,7 +43,7 @@ class Limit:
 
 
 @dataclass(frozen=True, slots=True)
-class Worst:
+class WorstValue:
     """The worst value, its time, and how it was found; no time where it belongs to none."""
 
     value: float
@@ -65,7 +65,7 @@ def gap(limit: float) -> Callable[[float], float]:
     return lambda worst: max(0.5 * slack(limit), 1e-4 * abs(limit - worst))
 
 
-def claim(flight: Flight, limit: Limit, worst: Worst) -> Claim:
+def claim(flight: JudgedFlight, limit: Limit, worst: WorstValue) -> Claim:
     """Return the claim of a worst value against a limit."""
     if worst.position is None and worst.time is not None:
         x, y, z = (float(c) for c in flight.track.curve(worst.time)[:3])
@@ -73,7 +73,7 @@ def claim(flight: Flight, limit: Limit, worst: Worst) -> Claim:
     return held(flight.drone.name, limit, worst)
 
 
-def held(subject: str, limit: Limit, worst: Worst, drones: tuple[str, ...] = ()) -> Claim:
+def held(subject: str, limit: Limit, worst: WorstValue, drones: tuple[str, ...] = ()) -> Claim:
     """Return the claim of a worst value against a limit; subject and drones as in ``Claim``."""
     over = worst.value - limit.value if limit.upper else limit.value - worst.value
     holds = limit.value in (inf, -inf) or over <= slack(limit.value)
@@ -95,11 +95,11 @@ def held(subject: str, limit: Limit, worst: Worst, drones: tuple[str, ...] = ())
     )
 
 
-def bounded(flight: Flight, limit: Limit, bound: Bound) -> Claim:
+def bounded(flight: JudgedFlight, limit: Limit, bound: ProvedExtreme) -> Claim:
     """Return the claim of a proven bound against a limit."""
-    return claim(flight, limit, Worst(bound.proven, bound.at))
+    return claim(flight, limit, WorstValue(bound.proven, bound.at))
 
 
-def less(bound: Bound, radius: float) -> Bound:
+def less(bound: ProvedExtreme, radius: float) -> ProvedExtreme:
     """Return a bound on the distance of a body's centre as one of its surface."""
-    return Bound(bound.proven - radius, bound.attained - radius, bound.at)
+    return ProvedExtreme(bound.proven - radius, bound.attained - radius, bound.at)

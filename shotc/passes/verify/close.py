@@ -20,7 +20,7 @@ from shotc.geom.turning import turning
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import beside, projected, rate_beside, references
 from shotc.ir.target import Target
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 
 HALVINGS = 10
 """Most halvings of the time between two samples."""
@@ -45,7 +45,7 @@ class Rates:
     wide: float
 
 
-def rates(flight: Flight, target: str, start: float, end: float) -> Rates:
+def rates(flight: JudgedFlight, target: str, start: float, end: float) -> Rates:
     """Return bounds that hold at every instant between two times."""
     pieces = cut(flight.track.curve, start, end)
     filmed = flight.mission.target(target)
@@ -65,7 +65,7 @@ def rates(flight: Flight, target: str, start: float, end: float) -> Rates:
     )
 
 
-def margins_close(flight: Flight, target: str, times: Array) -> bool:
+def margins_close(flight: JudgedFlight, target: str, times: Array) -> bool:
     """Return whether a target is proved whole in the frame between adjoining sample times as well."""
     if len(times) < 2:
         return True
@@ -97,7 +97,7 @@ def _turned(target: Target, start: float, end: float) -> Callable[[Array], tuple
     return turning(target.track, start, end).at
 
 
-def errors_close(flight: Flight, shot: str, target: str, times: Array, limit: float) -> bool:
+def errors_close(flight: JudgedFlight, shot: str, target: str, times: Array, limit: float) -> bool:
     """Return whether the distance to the reference on screen is proved below a limit between samples."""
     if len(times) < 2:
         return True

@@ -25,7 +25,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.tolerances import BOW_SHARE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, gap
 from shotc.passes.verify.explained import (
     NEAR_M,
     PICTURE_SHARE,
@@ -61,7 +61,7 @@ AROUND_RAD = pi / 2
 """Tolerance of a turn, radians; a whole turn more or less is another shot."""
 
 
-def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
+def course(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Yield claims that this drone's shots with keyframes are flown in order, on their paths, as aimed."""
     for placed in ir.keyframes.shots:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
@@ -75,7 +75,7 @@ def course(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _looking(flight, placed, t)
 
 
-def _told(flight: Flight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> float:
+def _told(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> float:
     """Return how far a shot may leave its path, metres: as reported, around obstacles and for its picture."""
     blocks = in_the_way(flight, way)
     distances = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
@@ -90,12 +90,12 @@ def _chords(at: Array) -> Way:
     return Way(np.concatenate(parts) if parts else at, None)
 
 
-def _times(flight: Flight, placed: PlacedShot) -> list[float]:
+def _times(flight: JudgedFlight, placed: PlacedShot) -> list[float]:
     at = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
     return [at.get(i, inf) for i in range(len(placed.keyframes))]
 
 
-def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
+def _in_order(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Claim:
     """Return the claim that each keyframe is met once, in order, with the first and last at the shot's ends.
 
     A keyframe with a time of its own is not bound to an end: the camera may stand before it, or after it.
@@ -111,10 +111,10 @@ def _in_order(flight: Flight, placed: PlacedShot, phase: Phase) -> Claim:
         ends.append(abs(beyond) if keyframes[-1].time is None else beyond)
     worst = max([*late, *ends]) if len(entries) == len(keyframes) else inf
     limit = Limit("keyframes out of order", ON_TIME_S, "s", placed.shot.path, shot=placed.shot.id)
-    return claim(flight, limit, Worst(max(worst, 0.0), None, "exact"))
+    return claim(flight, limit, WorstValue(max(worst, 0.0), None, "exact"))
 
 
-def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> Iterator[Claim]:
+def _along(flight: JudgedFlight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> Iterator[Claim]:
     """Yield claims that a generated path is left only as reported, at its ends only where they are
     blocked.
     """
@@ -126,7 +126,7 @@ def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> It
     reported = _told(flight, ir, placed, _chords(at))
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - at, axis=1)
     k = int(away.argmax())
-    worst = Worst(float(away[k]), float(t[k]), "exact")
+    worst = WorstValue(float(away[k]), float(t[k]), "exact")
     for i in range(len(t) - 1):
         between = _between(flight, (t[i], t[i + 1]), (at[i], at[i + 1]))
         worst = between if between.value > worst.value else worst
@@ -137,19 +137,19 @@ def _along(flight: Flight, placed: PlacedShot, t: Array, ir: TrajectoryIR) -> It
     if ends:
         k = max(ends, key=lambda i: float(away[i]))
         limit = Limit("distance from its ends", AT_ENDS_M, "m", shot.path, shot=shot.id)
-        yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "exact"))
+        yield claim(flight, limit, WorstValue(float(away[k]), float(t[k]), "exact"))
     share = np.where(free, away / np.maximum(_distances(flight.mission, keyframes), 1e-9), 0.0)
     k = int(share.argmax())
     limit = Limit("detour where it is free", PICTURE_SHARE, "of the distance", shot.path, shot=shot.id)
-    yield claim(flight, limit, Worst(float(share[k]), float(t[k]), "exact"))
+    yield claim(flight, limit, WorstValue(float(share[k]), float(t[k]), "exact"))
 
 
-def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
+def _swing(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     """Yield the claim that the path between placed keyframes stays near the chord where it is free."""
     keyframes, shot = placed.keyframes, placed.shot
     at = np.array([k.at for k in keyframes])
     lengths = norm(np.diff(at, axis=0))
-    swings: list[tuple[float, float, Worst]] = []
+    swings: list[tuple[float, float, WorstValue]] = []
     for i, (start, end) in enumerate(pairwise(t)):
         times, ends = (float(start) + keyframes[i].hold, float(end)), (at[i], at[i + 1])
         longest = float(lengths[max(i - 1, 0) : i + 2].max())
@@ -162,26 +162,28 @@ def _swing(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
         yield claim(flight, limit, worst)
 
 
-def _between(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array]) -> Worst:
+def _between(flight: JudgedFlight, times: tuple[float, float], ends: tuple[Array, Array]) -> WorstValue:
     """Return how far the flight is from the chord between two keyframes, minus its allowed bow."""
     bow = BOW_SHARE * float(np.linalg.norm(ends[1] - ends[0]))
     worst = _off_chord(flight, times, ends, bow + UNREPORTED_M)
     return replace(worst, value=max(worst.value - bow, 0.0))
 
 
-def _off_chord(flight: Flight, times: tuple[float, float], ends: tuple[Array, Array], most: float) -> Worst:
+def _off_chord(
+    flight: JudgedFlight, times: tuple[float, float], ends: tuple[Array, Array], most: float
+) -> WorstValue:
     """Return how far the flight is from the chord between two keyframes; most : limit, metres."""
     first, along = ends[0], ends[1] - ends[0]
     length = float(np.linalg.norm(along))
     if times[1] <= times[0]:
-        return Worst(0.0, times[0])
+        return WorstValue(0.0, times[0])
 
     def off(points: Array) -> Array:
         share = np.clip((points - first) @ along / max(length * length, 1e-12), 0.0, 1.0)
         return norm(points - first - share[..., None] * along)
 
     bound = sup_convex(cut(flight.track.curve.channels(0, 1, 2), *times), off, gap(most))
-    return Worst(bound.proven, bound.at)
+    return WorstValue(bound.proven, bound.at)
 
 
 def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Array:
@@ -195,7 +197,7 @@ def _distances(mission: MissionIR, keyframes: tuple[PlacedKeyframe, ...]) -> Arr
     )
 
 
-def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
+def _is_free(flight: JudgedFlight, keyframe: PlacedKeyframe) -> bool:
     """Return whether no obstacle is near a keyframe that could explain a deviation from it."""
     mission, at, body = flight.mission, keyframe.at, flight.drone.radius + NEAR_M
     rules = mission.rules
@@ -212,7 +214,7 @@ def _is_free(flight: Flight, keyframe: PlacedKeyframe) -> bool:
     return all(distance(target.solid, at) >= rules.target_clearance + body for target in standing)
 
 
-def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
+def _looking(flight: JudgedFlight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
     """Yield claims on the lens, the direction and the turns at a shot's keyframes."""
     keyframes, shot = placed.keyframes, placed.shot
     pose = flight.track.curve(t)
@@ -233,7 +235,7 @@ def _looking(flight: Flight, placed: PlacedShot, t: Array) -> Iterator[Claim]:
 
 
 def _off_course(
-    flight: Flight, at: tuple[Array, Array], half_angle: float, span: tuple[float, float]
+    flight: JudgedFlight, at: tuple[Array, Array], half_angle: float, span: tuple[float, float]
 ) -> Array:
     """Return how far a camera that looks along its path is outside the cone about its course, rad.
 
@@ -252,9 +254,11 @@ def _off_course(
     return np.asarray(np.maximum(least - half_angle, 0.0))
 
 
-def _largest(flight: Flight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]) -> Claim:
+def _largest(
+    flight: JudgedFlight, what: tuple[str, float, str], shot: Shot, values: tuple[Array, Array]
+) -> Claim:
     value, t = values
     k = int(value.argmax())
     name, limit, unit = what
     wanted = Limit(name, limit, unit, shot.path, shot=shot.id)
-    return claim(flight, wanted, Worst(float(value[k]), float(t[k]), "exact"))
+    return claim(flight, wanted, WorstValue(float(value[k]), float(t[k]), "exact"))

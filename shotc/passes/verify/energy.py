@@ -17,7 +17,7 @@ from shotc.ir.measures import measure
 from shotc.ir.power import Power
 from shotc.ir.thrust import hover_ratio
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
 ENERGY = "energy"
 J_WH = 3600.0
@@ -25,7 +25,7 @@ SHARE = 1e-4
 """Largest relative overestimate of an energy."""
 
 
-def energy(flight: Flight) -> Iterator[Claim]:
+def energy(flight: JudgedFlight) -> Iterator[Claim]:
     """Yield the claim that the battery suffices from lift-off to touch-down, and the energy of every shot."""
     power, curve = flight.drone.power, flight.track.curve
     if power is None:
@@ -33,11 +33,11 @@ def energy(flight: Flight) -> Iterator[Claim]:
     path = (*flight.drone.path, "power", "battery")
     whole = taken(flight, power, lift_off(curve), curve.end)
     limit = Limit(ENERGY, power.usable / J_WH, "Wh", path)
-    yield claim(flight, limit, Worst(whole / J_WH))
+    yield claim(flight, limit, WorstValue(whole / J_WH))
     for phase in flight.track.phases:
         if phase.shot is not None:
             told = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
-            yield claim(flight, told, Worst(taken(flight, power, phase.start, phase.end) / J_WH))
+            yield claim(flight, told, WorstValue(taken(flight, power, phase.start, phase.end) / J_WH))
 
 
 def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
@@ -50,7 +50,7 @@ def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
     return ", ".join([*parts, f"all else {measure(rest, claim.unit)}"])
 
 
-def taken(flight: Flight, power: Power, start: float, end: float) -> float:
+def taken(flight: JudgedFlight, power: Power, start: float, end: float) -> float:
     """Return an upper bound of the energy of this trajectory between two times, J.
 
     Climbing adds half of the gain of potential and kinetic energy, divided by the efficiency.

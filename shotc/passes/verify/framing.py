@@ -16,7 +16,7 @@ from shotc.ir.mission import Shot
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock, framed, projected, references, subjects
 from shotc.ir.trajectory import Claim, Method, TrajectoryIR
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 from shotc.passes.verify.close import errors_close, margins_close
 from shotc.passes.verify.reference import held, wanted_framing
 from shotc.passes.verify.visible import visible
@@ -24,7 +24,7 @@ from shotc.planning.framing.moments import placed_at
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class View:
+class FramingSamples:
     """The samples of one target in one shot, at the times at which the shot frames it.
 
     times : ticks of the output clock and both ends, shape (M,)
@@ -46,10 +46,10 @@ class Filmed:
 
     placed: PlacedShot
     phase: Phase
-    views: tuple[View, ...]
+    views: tuple[FramingSamples, ...]
 
 
-def filmed(flight: Flight, ir: TrajectoryIR) -> Iterator[Filmed]:
+def filmed(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Filmed]:
     """Yield the shots that a drone films, with the samples of all their targets."""
     for placed in ir.keyframes.shots:
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
@@ -60,7 +60,7 @@ def filmed(flight: Flight, ir: TrajectoryIR) -> Iterator[Filmed]:
         yield Filmed(placed, flown[0], tuple(view for view in views if view is not None))
 
 
-def framing(flight: Flight, shot: Filmed) -> Iterator[Claim]:
+def framing(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:
     """Yield claims on what a shot promises of its targets; without a promise they are soft."""
     yield from wanted_framing(flight, placed_at(flight.mission, shot.placed, shot.phase.start), shot.phase)
     for view in shot.views:
@@ -70,7 +70,7 @@ def framing(flight: Flight, shot: Filmed) -> Iterator[Claim]:
         yield from visible(flight, view.shot, view.target, view.times, view.covered)
 
 
-def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> View | None:
+def view_of(flight: JudgedFlight, placed: PlacedShot, target: str, phase: Phase) -> FramingSamples | None:
     """Return the samples of a target in a shot's phase; None where the shot never frames it."""
     shot = placed.shot
     ticks = clock(flight.mission.rate, phase.end)
@@ -88,10 +88,10 @@ def view_of(flight: Flight, placed: PlacedShot, target: str, phase: Phase) -> Vi
     error = np.where(np.isnan(frames.u) & ~np.isnan(wanted[:, 0]), inf, error)
     eyes = flight.track.curve(times)[:, :3]
     covered = coverage(flight.mission, flight.others, target, eyes, times).share
-    return View(shot, target, times, frames, error, covered)
+    return FramingSamples(shot, target, times, frames, error, covered)
 
 
-def _in_frame(flight: Flight, view: View) -> Claim:
+def _in_frame(flight: JudgedFlight, view: FramingSamples) -> Claim:
     asked = view.shot.promise.in_frame
     share = float(view.frames.in_frame.mean())
     k = int(np.argmin(view.frames.margin))
@@ -108,10 +108,10 @@ def _in_frame(flight: Flight, view: View) -> Claim:
     method: Method = "sampled"
     if share == 1.0 and margins_close(flight, view.target, view.times):
         method = "bounded"
-    return claim(flight, limit, Worst(share, float(view.times[k]), method))
+    return claim(flight, limit, WorstValue(share, float(view.times[k]), method))
 
 
-def _screen_error(flight: Flight, view: View) -> Iterator[Claim]:
+def _screen_error(flight: JudgedFlight, view: FramingSamples) -> Iterator[Claim]:
     asked = view.shot.promise.screen_error
     known = ~np.isnan(view.error)
     if not known.any():
@@ -126,7 +126,7 @@ def _screen_error(flight: Flight, view: View) -> Iterator[Claim]:
     yield claim
 
 
-def _size(flight: Flight, view: View) -> Iterator[Claim]:
+def _size(flight: JudgedFlight, view: FramingSamples) -> Iterator[Claim]:
     asked = view.shot.promise.size
     size = view.frames.size
     for name, pick, unseen in (("smallest", np.argmin, -inf), ("largest", np.argmax, inf)):
@@ -137,7 +137,7 @@ def _size(flight: Flight, view: View) -> Iterator[Claim]:
 
 
 def _sampled(
-    flight: Flight, view: View, what: tuple[str, str, float | None], worst: tuple[float, int]
+    flight: JudgedFlight, view: FramingSamples, what: tuple[str, str, float | None], worst: tuple[float, int]
 ) -> Claim:
     name, key, asked = what
     upper = name != "size smallest"
@@ -150,4 +150,4 @@ def _sampled(
         hard=asked is not None,
         shot=view.shot.id,
     )
-    return claim(flight, limit, Worst(worst[0], float(view.times[worst[1]]), "sampled"))
+    return claim(flight, limit, WorstValue(worst[0], float(view.times[worst[1]]), "sampled"))

@@ -15,13 +15,13 @@ from shotc.ir.drone import SAME_LENS_RAD
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.thrust import lean, thrust_to_weight
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap
 
 HFOV_RANGE_RAD = (radians(1.0), radians(170.0))
 """Range of fields of view of a pinhole camera."""
 
 
-def motion(flight: Flight) -> Iterator[Claim]:
+def motion(flight: JudgedFlight) -> Iterator[Claim]:
     """Yield claims on the limits of drone, gimbal and lens over the whole flight."""
     whole = pieces(flight.track.curve)
     yield from _translation(flight, whole.channels(0, 1, 2))
@@ -31,7 +31,7 @@ def motion(flight: Flight) -> Iterator[Claim]:
     yield from _zoom(flight, whole.channels(HFOV))
 
 
-def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
+def _translation(flight: JudgedFlight, position: Pieces) -> Iterator[Claim]:
     limits = flight.drone.limits
     velocity = position.derivative()
     acceleration = velocity.derivative()
@@ -47,7 +47,7 @@ def _translation(flight: Flight, position: Pieces) -> Iterator[Claim]:
     yield from _thrust(flight, acceleration)
 
 
-def _speed(flight: Flight, level: Pieces) -> Claim:
+def _speed(flight: JudgedFlight, level: Pieces) -> Claim:
     """Return the claim on ground speed, or on airspeed where the wind is known."""
     limits = flight.drone.limits
     name = "airspeed" if any(limits.wind) else "speed"
@@ -56,7 +56,7 @@ def _speed(flight: Flight, level: Pieces) -> Claim:
     return bounded(flight, limit, sup_convex(through, norm, gap(limits.speed)))
 
 
-def _thrust(flight: Flight, acceleration: Pieces) -> Iterator[Claim]:
+def _thrust(flight: JudgedFlight, acceleration: Pieces) -> Iterator[Claim]:
     """Yield claims on tilt and thrust where they are limited; both are functions of the acceleration
     alone.
     """
@@ -70,14 +70,14 @@ def _thrust(flight: Flight, acceleration: Pieces) -> Iterator[Claim]:
             yield bounded(flight, wanted, sup_convex(acceleration, value, gap(limit)))
 
 
-def _body_yaw(flight: Flight, yaw: Pieces) -> Iterator[Claim]:
+def _body_yaw(flight: JudgedFlight, yaw: Pieces) -> Iterator[Claim]:
     limits = flight.drone.limits
     rate = yaw.derivative()
     yield _below(flight, "yaw_rate", rate, limits.yaw_rate, "rad/s")
     yield _below(flight, "yaw_acceleration", rate.derivative(), limits.yaw_acceleration, "rad/s^2")
 
 
-def _gimbal(flight: Flight, axis: str, angle: Pieces) -> Iterator[Claim]:
+def _gimbal(flight: JudgedFlight, axis: str, angle: Pieces) -> Iterator[Claim]:
     gimbal = flight.drone.gimbal
     reach = gimbal.pitch if axis == "pitch" else gimbal.yaw
     yield from _range(flight, f"gimbal {axis}", angle, reach, _path(flight, "gimbal", axis))
@@ -90,7 +90,7 @@ def _gimbal(flight: Flight, axis: str, angle: Pieces) -> Iterator[Claim]:
         yield bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
 
 
-def _zoom(flight: Flight, hfov: Pieces) -> Iterator[Claim]:
+def _zoom(flight: JudgedFlight, hfov: Pieces) -> Iterator[Claim]:
     """Yield claims on the lens's range, and on its zoom rate where the mission gives one."""
     lens = flight.drone.lens
     if lens is None:
@@ -103,7 +103,7 @@ def _zoom(flight: Flight, hfov: Pieces) -> Iterator[Claim]:
         yield bounded(flight, rate, sup_convex(hfov.derivative(), norm, gap(lens.rate)))
 
 
-def _against_body(flight: Flight, whole: Pieces) -> Pieces:
+def _against_body(flight: JudgedFlight, whole: Pieces) -> Pieces:
     # Whole turns are removed at the start; from there on the gimbal has to stay in its range.
     relative: Array = whole.ctrl[:, :, [CAM_YAW]] - whole.ctrl[:, :, [BODY_YAW]]
     low, high = flight.drone.gimbal.yaw
@@ -112,7 +112,11 @@ def _against_body(flight: Flight, whole: Pieces) -> Pieces:
 
 
 def _range(
-    flight: Flight, name: str, angle: Pieces, reach: tuple[float, float], path: tuple[str | int, ...] = ()
+    flight: JudgedFlight,
+    name: str,
+    angle: Pieces,
+    reach: tuple[float, float],
+    path: tuple[str | int, ...] = (),
 ) -> Iterator[Claim]:
     low, high = reach
     path = path or _path(flight, "camera")
@@ -121,11 +125,11 @@ def _range(
     yield bounded(flight, Limit(f"{name} max", high, "rad", path), sup_channel(angle, 0, gap(high)))
 
 
-def _below(flight: Flight, key: str, order: Pieces, limit: float, unit: str) -> Claim:
+def _below(flight: JudgedFlight, key: str, order: Pieces, limit: float, unit: str) -> Claim:
     name = f"body {key}".replace("_", " ") if key.startswith("yaw") else key
     wanted = Limit(name, limit, unit, _path(flight, "limits", key))
     return bounded(flight, wanted, sup_convex(order, norm, gap(limit)))
 
 
-def _path(flight: Flight, *keys: str) -> tuple[str | int, ...]:
+def _path(flight: JudgedFlight, *keys: str) -> tuple[str | int, ...]:
     return (*flight.drone.path, *keys)

@@ -14,17 +14,17 @@ import numpy as np
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.bspline import held_until, restrict
 from shotc.geom.pieces import Pieces, pieces
-from shotc.geom.proof import Bound, box_gap, inf_distance
+from shotc.geom.proof import ProvedExtreme, box_gap, inf_distance
 from shotc.geom.solids import point
 from shotc.ir.parked import parked_fleets
 from shotc.ir.show import Fleet
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap
 
 POINT = point((0.0, 0.0, 0.0))
 
 
-def separation(flights: list[Flight], on_pads: list[Flight]) -> Iterator[Claim]:
+def separation(flights: list[JudgedFlight], on_pads: list[JudgedFlight]) -> Iterator[Claim]:
     """Yield claims on the separation of every pair of drones of which one flies; landed drones stand at home.
 
     on_pads : the drones that the plan does not fly
@@ -36,7 +36,7 @@ def separation(flights: list[Flight], on_pads: list[Flight]) -> Iterator[Claim]:
         yield bounded(one, limit, inf_distance(apart, POINT, gap(least)))
 
 
-def from_fleets(ir: TrajectoryIR, flights: list[Flight]) -> Iterator[Claim]:
+def from_fleets(ir: TrajectoryIR, flights: list[JudgedFlight]) -> Iterator[Claim]:
     """Yield claims on the separation of every drone from the pads of fleets that the plan does not fly."""
     least = ir.keyframes.mission.rules.separation
     for flight, fleet in product(flights, parked_fleets(ir)):
@@ -44,12 +44,12 @@ def from_fleets(ir: TrajectoryIR, flights: list[Flight]) -> Iterator[Claim]:
         yield bounded(flight, limit, _from_pads(pieces(flight.track.curve.channels(0, 1, 2)), fleet, least))
 
 
-def _from_pads(flown: Pieces, fleet: Fleet, least: float) -> Bound:
+def _from_pads(flown: Pieces, fleet: Fleet, least: float) -> ProvedExtreme:
     """Return a bound on the distance from the nearest pad; pads are excluded by their boxes where
     possible.
     """
     boxes = np.array([box_gap(flown.ctrl, point(pad)).min() for pad in fleet.pads])
-    best = Bound(inf, inf, 0.0)
+    best = ProvedExtreme(inf, inf, 0.0)
     for k in np.argsort(boxes, kind="stable"):
         if boxes[k] >= best.proven:
             break

@@ -21,13 +21,13 @@ from shotc.ir.promise import Promise
 from shotc.ir.sampling import clock, framed, references
 from shotc.ir.tolerances import OFF_LINE
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
 Mask = NDArray[np.bool_]
 Leg = tuple[float, float, PlacedKeyframe, PlacedKeyframe]
 
 
-def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+def wanted_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     """Yield claims that targets between two keyframes are framed, with the keyframes' references at the ends.
 
     Between two references the wanted one lies on the straight line from one to the other. Both claims are
@@ -40,7 +40,7 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
     times = {k.index: k.time for k in flight.track.keyframes if k.shot == shot.id}
     if len(times) < len(placed.keyframes):
         limit = Limit("keyframes without a time", 0.0, "", shot.path, hard=hard, shot=shot.id)
-        yield claim(flight, limit, Worst(float(len(placed.keyframes) - len(times)), None, "exact"))
+        yield claim(flight, limit, WorstValue(float(len(placed.keyframes) - len(times)), None, "exact"))
         return
     legs = list(_legs(placed, times, phase))
     if not legs:
@@ -51,7 +51,7 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
     ]
     missing, where = max(gaps, key=lambda pair: pair[0])
     limit = Limit("frames without their target", 0.0, "", shot.path, hard=hard, shot=shot.id)
-    yield claim(flight, limit, Worst(missing, float(where[0]), "sampled"))
+    yield claim(flight, limit, WorstValue(missing, float(where[0]), "sampled"))
     errors = [
         _off(flight, shot.id, leg)
         for leg in _sampled(flight, legs)
@@ -62,10 +62,10 @@ def wanted_framing(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator
         limit = Limit(
             "reference off its keyframes", OFF_LINE, "of half a frame", shot.path, hard=hard, shot=shot.id
         )
-        yield claim(flight, limit, Worst(worst, time, "sampled"))
+        yield claim(flight, limit, WorstValue(worst, time, "sampled"))
 
 
-def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) -> Iterator[Claim]:
+def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: bool) -> Iterator[Claim]:
     """Yield claims that the subjects of a shot on its own clock are framed throughout, with their
     references.
     """
@@ -88,10 +88,10 @@ def _all_along(flight: Flight, placed: PlacedShot, phase: Phase, *, hard: bool) 
         ("reference off its composition", OFF_LINE, off, "of half a frame"),
     ):
         found = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
-        yield claim(flight, found, Worst(worst, when, "sampled"))
+        yield claim(flight, found, WorstValue(worst, when, "sampled"))
 
 
-def held(flight: Flight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
+def held(flight: JudgedFlight, placed: PlacedShot, phase: Phase, target: str, times: Array) -> Mask:
     """Return at which times of a shot a target is framed between two keyframes of its own.
 
     While the camera turns from one target to the next, neither can be whole in the frame. If a shot never has
@@ -126,7 +126,7 @@ class _SampledLeg(NamedTuple):
     after: PlacedKeyframe
 
 
-def _sampled(flight: Flight, legs: list[Leg]) -> Iterator[_SampledLeg]:
+def _sampled(flight: JudgedFlight, legs: list[Leg]) -> Iterator[_SampledLeg]:
     for start, end, a, b in legs:
         ticks = clock(flight.mission.rate, end)
         inside = ticks[(ticks > start) & (ticks < end)]
@@ -135,7 +135,9 @@ def _sampled(flight: Flight, legs: list[Leg]) -> Iterator[_SampledLeg]:
         )
 
 
-def _off(flight: Flight, shot: str, leg: tuple[Array, PlacedKeyframe, PlacedKeyframe]) -> tuple[float, float]:
+def _off(
+    flight: JudgedFlight, shot: str, leg: tuple[Array, PlacedKeyframe, PlacedKeyframe]
+) -> tuple[float, float]:
     t, a, b = leg
     first, second = np.array(a.reference), np.array(b.reference)
     wanted = references(flight.track, shot, str(a.target), t)

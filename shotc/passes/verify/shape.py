@@ -19,7 +19,7 @@ from shotc.ir.path import CHANNELS, Z
 from shotc.ir.phases import Phase
 from shotc.ir.tolerances import AT_REST
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.passes.verify.claims import TOLERANCE, Flight, Limit, Worst, claim
+from shotc.passes.verify.claims import TOLERANCE, JudgedFlight, Limit, WorstValue, claim
 
 AT_HOME_M = 1e-3
 """Distance from home within which a flight begins and ends, metres."""
@@ -139,7 +139,7 @@ def gaps(phases: tuple[Phase, ...], start: float, end: float) -> Iterator[str]:
             yield f"its {phase.name} phase ends at {phase.end:.6g} s, and begins at {phase.start:.6g} s"
 
 
-def shape(flight: Flight) -> Iterator[Claim]:
+def shape(flight: JudgedFlight) -> Iterator[Claim]:
     """Yield claims on continuity of value, rate and acceleration, home and rest at both ends, and
     endurance.
     """
@@ -149,16 +149,16 @@ def shape(flight: Flight) -> Iterator[Claim]:
     away = np.linalg.norm(curve(ends)[:, :3] - np.array(drone.home), axis=1)
     k = int(np.argmax(away))
     home = Limit("distance from home", AT_HOME_M, "m", (*drone.path, "home"))
-    yield claim(flight, home, Worst(float(away[k]), float(ends[k]), "exact"))
+    yield claim(flight, home, WorstValue(float(away[k]), float(ends[k]), "exact"))
     still = np.max([np.abs(curve.derivative(n)(ends)).max(axis=1) for n in (1, 2)], axis=0)
     k = int(np.argmax(still))
     rest = Limit("rate at start and end", AT_REST, "m/s", drone.path)
-    yield claim(flight, rest, Worst(float(still[k]), float(ends[k]), "exact"))
+    yield claim(flight, rest, WorstValue(float(still[k]), float(ends[k]), "exact"))
     endurance = Limit("endurance", drone.endurance, "s", (*drone.path, "endurance"))
-    yield claim(flight, endurance, Worst(curve.end - lift_off(curve), curve.end, "exact"))
+    yield claim(flight, endurance, WorstValue(curve.end - lift_off(curve), curve.end, "exact"))
 
 
-def _joints(flight: Flight) -> Iterator[Claim]:
+def _joints(flight: JudgedFlight) -> Iterator[Claim]:
     curve = flight.track.curve
     for joints in JOINTS:
         steps = joint_steps(curve, joints.order)
@@ -167,7 +167,7 @@ def _joints(flight: Flight) -> Iterator[Claim]:
         when = float(curve.breaks[1 + np.argmax(steps[:, channel])]) if total[channel] else None
         unit = ("m" if channel <= Z else "rad") + joints.unit
         limit = Limit(f"jump of {joints.name}", joints.most, unit, flight.drone.path)
-        yield claim(flight, limit, Worst(float(total[channel]), when, "exact"))
+        yield claim(flight, limit, WorstValue(float(total[channel]), when, "exact"))
 
 
 def joint_steps(curve: Piecewise, order: int) -> Array:

@@ -17,8 +17,8 @@ from shotc.ir.drone import Optics
 from shotc.ir.mission import MissionIR
 from shotc.ir.sharpness import sharpness
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim
-from shotc.passes.verify.framing import Filmed, View
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
+from shotc.passes.verify.framing import Filmed, FramingSamples
 from shotc.rounding import at_least, exposure
 from shotc.spec.exposure import LEAST_S, MOST_F
 
@@ -38,7 +38,7 @@ def most_motion(optics: Optics) -> float:
     return MOTION_SHARE * optics.pixels
 
 
-def sharp(flight: Flight, shot: Filmed) -> Iterator[Claim]:
+def sharp(flight: JudgedFlight, shot: Filmed) -> Iterator[Claim]:
     """Yield claims on the sharpness of a shot's targets, where the mission gives the exposure."""
     optics = flight.drone.optics
     if optics is None:
@@ -61,11 +61,11 @@ def sharp(flight: Flight, shot: Filmed) -> Iterator[Claim]:
                 yield _claimed(flight, view, limit, values)
 
 
-def _claimed(flight: Flight, view: View, limit: Limit, values: Array) -> Claim:
+def _claimed(flight: JudgedFlight, view: FramingSamples, limit: Limit, values: Array) -> Claim:
     """Return the claim on the largest of some values; an unknown value counts as infinite."""
     known = np.where(np.isnan(values), inf, values)
     k = int(np.argmax(known))
-    return claim(flight, limit, Worst(float(known[k]), float(view.times[k]), "sampled"))
+    return claim(flight, limit, WorstValue(float(known[k]), float(view.times[k]), "sampled"))
 
 
 def unsharp(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnostic]:

@@ -19,7 +19,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.sampling import clock
 from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Flight, Limit, Worst, bounded, claim, gap
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap
 from shotc.passes.verify.explained import (
     Way,
     believed,
@@ -39,7 +39,7 @@ IN_PLACE_M = 0.01
 """Tolerance of a camera's place given by the author while it follows a moving target, metres."""
 
 
-def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
+def shots(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
     """Yield claims that this drone's shots are flown, on time, through placed keyframes, at rest in holds."""
     ends = {p.shot: p.end for t in ir.drones for p in t.phases if p.shot is not None}
     for placed in ir.keyframes.shots:
@@ -47,38 +47,38 @@ def shots(flight: Flight, ir: TrajectoryIR) -> Iterator[Claim]:
             continue
         flown = [p for p in flight.track.phases if p.shot == placed.shot.id]
         once = Limit("times flown", 1.0, "", placed.shot.path, upper=len(flown) > 0, shot=placed.shot.id)
-        yield claim(flight, once, Worst(float(len(flown)), None, "exact"))
+        yield claim(flight, once, WorstValue(float(len(flown)), None, "exact"))
         if len(flown) == 1:
             yield from _timing(flight, placed.shot, flown[0], ends)
             yield from _keyframes(flight, placed_at(flight.mission, placed, flown[0].start), flown[0])
             yield from _place(flight, ir, placed.shot, flown[0])
 
 
-def _timing(flight: Flight, shot: Shot, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
+def _timing(flight: JudgedFlight, shot: Shot, phase: Phase, ends: dict[str, float]) -> Iterator[Claim]:
     timing, path = shot.timing, (*shot.path, "timing")
     if timing.duration is not None:
         off = abs(phase.end - phase.start - timing.duration)
         limit = Limit("error of duration", ON_TIME_S, "s", (*path, "duration"), shot=shot.id)
-        yield claim(flight, limit, Worst(off, phase.end, "exact"))
+        yield claim(flight, limit, WorstValue(off, phase.end, "exact"))
     if timing.start is not None:
         limit = Limit("error of start", ON_TIME_S, "s", (*path, "start"), shot=shot.id)
-        yield claim(flight, limit, Worst(abs(phase.start - timing.start), phase.start, "exact"))
+        yield claim(flight, limit, WorstValue(abs(phase.start - timing.start), phase.start, "exact"))
     if timing.after is not None and timing.after in ends:
         limit = Limit("start too early", ON_TIME_S, "s", (*path, "after"), shot=shot.id)
-        yield claim(flight, limit, Worst(ends[timing.after] - phase.start, phase.start, "exact"))
+        yield claim(flight, limit, WorstValue(ends[timing.after] - phase.start, phase.start, "exact"))
 
 
-def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
+def _keyframes(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> Iterator[Claim]:
     times = {k.index: k.time for k in flight.track.keyframes if k.shot == placed.shot.id}
-    met: list[tuple[Worst, PlacedKeyframe]] = []
-    late: list[tuple[Worst, PlacedKeyframe]] = []
+    met: list[tuple[WorstValue, PlacedKeyframe]] = []
+    late: list[tuple[WorstValue, PlacedKeyframe]] = []
     for index, keyframe in enumerate(placed.keyframes):
         time = times.get(index)
         if keyframe.placed:
             met += [(_miss(flight, (placed, index), phase, t), keyframe) for t in _there(placed, index, time)]
         if keyframe.time is not None:
             off = inf if time is None else abs(time - phase.start - keyframe.time)
-            late.append((Worst(off, time, "exact"), keyframe))
+            late.append((WorstValue(off, time, "exact"), keyframe))
         rests = keyframe.hold > 0 and placed.shot.keyframes[index].beside is None
         if rests or len(placed.keyframes) == 1:
             end = phase.end if len(placed.keyframes) == 1 else (time or 0.0) + keyframe.hold
@@ -92,7 +92,7 @@ def _keyframes(flight: Flight, placed: PlacedShot, phase: Phase) -> Iterator[Cla
             yield claim(flight, Limit(name, limit, unit, keyframe.path, shot=placed.shot.id), worst)
 
 
-def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterator[Claim]:
+def _place(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterator[Claim]:
     """Yield the claim that a shot on its own clock leaves its ideal only as far as reported and explained."""
     if shot.ideal is None:
         return
@@ -105,10 +105,10 @@ def _place(flight: Flight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> Iterat
     limit = Limit(
         "distance from its place", _allowed(flight, ir, begun, Way(ideal, t)), "m", shot.path, shot=shot.id
     )
-    yield claim(flight, limit, Worst(float(away[k]), float(t[k]), "sampled"))
+    yield claim(flight, limit, WorstValue(float(away[k]), float(t[k]), "sampled"))
 
 
-def _allowed(flight: Flight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
+def _allowed(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
     """Return how far a shot may be from its ideal, metres, as the plan reports and the mission explains."""
     assert shot.ideal is not None
     placed = shot.ideal.placed
@@ -130,18 +130,20 @@ def _there(placed: PlacedShot, index: int, time: float | None) -> tuple[float | 
     return (time, time + hold)
 
 
-def _miss(flight: Flight, which: tuple[PlacedShot, int], phase: Phase, time: float | None) -> Worst:
+def _miss(
+    flight: JudgedFlight, which: tuple[PlacedShot, int], phase: Phase, time: float | None
+) -> WorstValue:
     if time is None or not phase.start - ON_TIME_S <= time <= phase.end + ON_TIME_S:
-        return Worst(inf, None, "exact")
+        return WorstValue(inf, None, "exact")
     placed, index = which
     asked = placed.shot.keyframes[index]
     at = placed.keyframes[index].at if asked.beside is None else place_of(flight.mission, asked, time)
     away = flight.track.curve(time)[:3] - np.array(at)
-    return Worst(float(np.linalg.norm(away)), time, "exact")
+    return WorstValue(float(np.linalg.norm(away)), time, "exact")
 
 
 def _still(
-    flight: Flight,
+    flight: JudgedFlight,
     keyframe: PlacedKeyframe,
     span: tuple[float | None, float],
     where: tuple[Shot, int, Phase],
@@ -150,7 +152,7 @@ def _still(
     start, end = span
     limit = Limit(f"drift at keyframe {index + 1}", ON_PLACE, "m", keyframe.path, shot=shot.id)
     if start is None or start < phase.start - ON_TIME_S or end > phase.end + ON_TIME_S:
-        return claim(flight, limit, Worst(inf, start, "exact"))
+        return claim(flight, limit, WorstValue(inf, start, "exact"))
     # A camera that follows a moving target turns while it rests.
     curve = flight.track.curve.channels(*range(Z + 1 if is_keyed(shot) else HFOV + 1))
     pose = curve(start)

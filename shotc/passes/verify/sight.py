@@ -15,7 +15,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import cut
-from shotc.geom.proof import Bound, norm, sup_convex
+from shotc.geom.proof import ProvedExtreme, norm, sup_convex
 from shotc.geom.sight import WITHIN_RAD, off_axis, outside
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
@@ -23,7 +23,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Phase
 from shotc.ir.sampling import cameras, ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim, slack
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, slack
 
 OUT_OF_PICTURE = " out of the picture"
 """Ending of such a claim, after the other drone's name."""
@@ -40,7 +40,7 @@ OPEN_INTERVALS_LIMIT = 200_000
 """Most intervals that are halved at once; beyond it the worst value is the sampled one."""
 
 
-def sights(flights: list[Flight]) -> Iterator[Claim]:
+def sights(flights: list[JudgedFlight]) -> Iterator[Claim]:
     """Yield the claims that no other drone is in a shot's picture."""
     for flight in flights:
         rules = flight.mission.rules
@@ -54,7 +54,7 @@ def sights(flights: list[Flight]) -> Iterator[Claim]:
                     yield _claim(flight, other, phase)
 
 
-def _claim(flight: Flight, other: Flight, phase: Phase) -> Claim:
+def _claim(flight: JudgedFlight, other: JudgedFlight, phase: Phase) -> Claim:
     rules = flight.mission.rules
     cone = rules.half_angle is not None
     limit = Limit(
@@ -95,7 +95,7 @@ class Sight:
         return measured(eyes, places, self.body.radius)
 
 
-def _worst(sight: Sight, times: Array, limit: float) -> Worst:
+def _worst(sight: Sight, times: Array, limit: float) -> WorstValue:
     """Return the least value between the first and the last time: proved, or sampled where no proof
     succeeds.
     """
@@ -105,15 +105,15 @@ def _worst(sight: Sight, times: Array, limit: float) -> Worst:
     bound = infimum(sight, times, limit)
     closed = bound.proven >= bound.attained - _gap(bound.attained, limit)
     if closed or bound.proven >= limit - slack(limit):
-        return Worst(bound.proven, bound.at, "bounded")
-    return Worst(bound.attained, bound.at, "sampled")
+        return WorstValue(bound.proven, bound.at, "bounded")
+    return WorstValue(bound.attained, bound.at, "sampled")
 
 
-def infimum(sight: Sight, times: Array, limit: float) -> Bound:
+def infimum(sight: Sight, times: Array, limit: float) -> ProvedExtreme:
     """Return bounds of the least value over the time that the samples span."""
     if times[-1] <= times[0]:
         least = float(sight.out(times[:1])[0])
-        return Bound(least, least, float(times[0]))
+        return ProvedExtreme(least, least, float(times[0]))
     fastest = _fastest(sight, float(times[0]), float(times[-1]))
     rows = _sampled(sight, times)
     k = int(np.argmin(rows[:, 0]))
@@ -134,7 +134,7 @@ def infimum(sight: Sight, times: Array, limit: float) -> Bound:
             best, at = float(m[k, 0]), float(middle[k])
         low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
         a, b = np.concatenate([a, m]), np.concatenate([m, b])
-    return Bound(min(closed, best, rest), best, at)
+    return ProvedExtreme(min(closed, best, rest), best, at)
 
 
 def _gap(best: float, limit: float) -> float:

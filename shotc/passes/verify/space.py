@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from shotc.geom.pieces import Pieces, cut, join
-from shotc.geom.proof import Bound, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.proof import ProvedExtreme, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solids import Solid, distance
 from shotc.ir.mission import Zone
 from shotc.ir.phases import UPRIGHT
@@ -21,13 +21,13 @@ from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.above_ground import above_ground
 from shotc.passes.verify.beside_meshes import beside_meshes
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
 
 DRIFT_M = 1e-6
 """Largest deviation of take-off and landing from the vertical, metres."""
 
 
-def space(flight: Flight) -> Iterator[Claim]:
+def space(flight: JudgedFlight) -> Iterator[Claim]:
     """Yield claims on zones, ground and target clearance, and vertical motion at home."""
     free, upright = _split(flight)
     for zone in flight.mission.zones:
@@ -47,7 +47,7 @@ def space(flight: Flight) -> Iterator[Claim]:
         yield from _vertical(flight, upright)
 
 
-def _split(flight: Flight, target: Target | None = None) -> tuple[Pieces, Pieces]:
+def _split(flight: JudgedFlight, target: Target | None = None) -> tuple[Pieces, Pieces]:
     """Return the flight without take-off and landing, and these; relative to a target if one is given."""
     curve = flight.track.curve.channels(0, 1, 2)
     if target is not None:
@@ -60,7 +60,11 @@ def _split(flight: Flight, target: Target | None = None) -> tuple[Pieces, Pieces
 
 
 def _keep_out(
-    flight: Flight, name: str, solid: Solid, parts: tuple[Pieces, Pieces, float], path: tuple[str | int, ...]
+    flight: JudgedFlight,
+    name: str,
+    solid: Solid,
+    parts: tuple[Pieces, Pieces, float],
+    path: tuple[str | int, ...],
 ) -> Iterator[Claim]:
     free, upright, clearance = parts
     radius = flight.drone.radius
@@ -74,17 +78,17 @@ def _keep_out(
         yield bounded(flight, limit, less(bound, radius))
 
 
-def _keep_in(flight: Flight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:
+def _keep_in(flight: JudgedFlight, zone: Zone, free: Pieces, upright: Pieces) -> Claim:
     radius = flight.drone.radius
-    worst = Bound(-inf, -inf, 0.0)
+    worst = ProvedExtreme(-inf, -inf, 0.0)
     for pieces, floor in ((free, True), (upright, False)):
         bound = sup_outside(pieces, zone.solid, gap(-radius), floor=floor)
         worst = bound if bound.proven > worst.proven else worst
-    margin = Bound(-worst.proven, -worst.attained, worst.at)
+    margin = ProvedExtreme(-worst.proven, -worst.attained, worst.at)
     return bounded(flight, Limit(f"zone {zone.name}", 0.0, "m", zone.path, upper=False), less(margin, radius))
 
 
-def _vertical(flight: Flight, upright: Pieces) -> Iterator[Claim]:
+def _vertical(flight: JudgedFlight, upright: Pieces) -> Iterator[Claim]:
     home, path = np.array(flight.drone.home), (*flight.drone.path, "home")
     drift = sup_convex(upright, lambda c: norm(c[..., :2] - home[:2]), gap(DRIFT_M))
     yield bounded(flight, Limit("drift from the vertical", DRIFT_M, "m", path), drift)

@@ -13,19 +13,19 @@ import numpy as np
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import cut
-from shotc.geom.proof import Bound, inf_tapered
+from shotc.geom.proof import ProvedExtreme, inf_tapered
 from shotc.geom.solids import Solid, distance
 from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.ir.transits import Apart, Way, from_target, from_zones, ways
-from shotc.passes.verify.claims import Flight, Limit, bounded, gap, less
+from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
 
 ENDING = " on transits"
 """Ending of these claims."""
 
 
-def transits(flight: Flight) -> Iterator[Claim]:
+def transits(flight: JudgedFlight) -> Iterator[Claim]:
     """Yield claims on the clearances of all transfers of one flight, one claim per solid."""
     mission, own = flight.mission, flight.track.curve.channels(0, 1, 2)
     for target in mission.targets:
@@ -38,7 +38,7 @@ def transits(flight: Flight) -> Iterator[Claim]:
             yield from _kept(flight, f"zone {zone.name}", (zone.solid, own), apart)
 
 
-def _kept(flight: Flight, name: str, near: tuple[Solid, Piecewise], apart: Apart) -> Iterator[Claim]:
+def _kept(flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart: Apart) -> Iterator[Claim]:
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
     bounds = [on_way(near, clearance, way) for way in ways(flight.track.phases)]
@@ -50,7 +50,7 @@ def _kept(flight: Flight, name: str, near: tuple[Solid, Piecewise], apart: Apart
     yield bounded(flight, limit, less(worst, flight.drone.radius))
 
 
-def on_way(near: tuple[Solid, Piecewise], clearance: float, way: Way) -> Bound:
+def on_way(near: tuple[Solid, Piecewise], clearance: float, way: Way) -> ProvedExtreme:
     """Return a bound on the distance from a solid, plus what the taper allows, on a transfer.
 
     near : the solid, and the flight relative to it

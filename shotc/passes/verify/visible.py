@@ -12,7 +12,7 @@ from shotc.geom.pieces import Mask
 from shotc.ir.coverage import HALF_SHARE
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import Flight, Limit, Worst, claim
+from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
 VISIBLE, IN_SIGHT = " visible", " in sight"
 AT_FIRST, AT_LAST = " visible at first", " visible at last"
@@ -25,7 +25,7 @@ SAME_SHARE = 1e-9
 """Tolerance of equal shares of an outline."""
 
 
-def visible(flight: Flight, shot: Shot, target: str, times: Array, covered: Array) -> Iterator[Claim]:
+def visible(flight: JudgedFlight, shot: Shot, target: str, times: Array, covered: Array) -> Iterator[Claim]:
     """Yield claims on the visible share of a target: in any frame, in most frames, and for a reveal.
 
     times : of the frames, (M,)
@@ -37,7 +37,9 @@ def visible(flight: Flight, shot: Shot, target: str, times: Array, covered: Arra
     most = -inf if asked else HALF_SHARE  # a promise replaces this claim
     limit = Limit(f"{target}{IN_SIGHT}", most, "of samples", shot.path, upper=False, hard=False, shot=shot.id)
     hidden = free < HALF_SHARE
-    yield claim(flight, limit, Worst(float(1.0 - hidden.mean()), float(times[longest(hidden)]), "sampled"))
+    yield claim(
+        flight, limit, WorstValue(float(1.0 - hidden.mean()), float(times[longest(hidden)]), "sampled")
+    )
     if shot.promise.reveal is not None:
         first, last = shot.promise.reveal
         for name, key, wanted, k, upper in (
@@ -46,10 +48,10 @@ def visible(flight: Flight, shot: Shot, target: str, times: Array, covered: Arra
         ):
             path = (*shot.path, "require", "reveal", key)
             limit = Limit(f"{target}{name}", wanted, OUTLINE, path, upper=upper, shot=shot.id)
-            yield claim(flight, limit, Worst(float(free[k]), float(times[k]), "sampled"))
+            yield claim(flight, limit, WorstValue(float(free[k]), float(times[k]), "sampled"))
 
 
-def _least(flight: Flight, shot: Shot, target: str, times: Array, free: Array) -> Claim:
+def _least(flight: JudgedFlight, shot: Shot, target: str, times: Array, free: Array) -> Claim:
     asked, least = shot.promise.visible, float(free.min())
     told = -inf if shot.promise.reveal is not None else HALF_SHARE
     limit = Limit(
@@ -62,7 +64,7 @@ def _least(flight: Flight, shot: Shot, target: str, times: Array, free: Array) -
         shot=shot.id,
     )
     k = longest(free <= least + SAME_SHARE)
-    return claim(flight, limit, Worst(least, float(times[k]), "sampled"))
+    return claim(flight, limit, WorstValue(least, float(times[k]), "sampled"))
 
 
 def longest(hidden: Mask) -> int:

@@ -22,7 +22,7 @@ Span = tuple[float, float]
 """Mission times of the first and the last filmed frame, seconds."""
 
 
-class Standing(NamedTuple):
+class StandingDrone(NamedTuple):
     """The obstacles' motions while the drone stands, and its position as control points, shape (1, 6, 3)."""
 
     motions: tuple[LinearMotion, ...]
@@ -80,7 +80,7 @@ def widened(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> t
 
 def standing_apart(
     motions: Sequence[LinearMotion], course: Piecewise, span: Span
-) -> tuple[Standing, Standing]:
+) -> tuple[StandingDrone, StandingDrone]:
     """Return the obstacles and their clearances while the drone stands at the start and at the end of a
     motion.
     """
@@ -93,7 +93,7 @@ def standing_apart(
         stands = np.tile(place, (1, 6, 1))
         linear_motions = (linearised(motion.what, np.array(window)) for motion in motions)
         pairs.append(
-            Standing(tuple(_standing(linear, course, film, stands) for linear in linear_motions), stands)
+            StandingDrone(tuple(_standing(linear, course, film, stands) for linear in linear_motions), stands)
         )
     return pairs[0], pairs[1]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.geom.bspline import Rows, control_rows, hull_rows
+from shotc.geom.bspline import SplineFunctionals, control_rows, hull_rows
 from shotc.ir.keyed import arrivals, is_keyed, place_of
 from shotc.ir.limits import Limits, Vec3
 from shotc.ir.mission import MissionIR, Shot
@@ -51,7 +51,7 @@ def bounds_of(mission: MissionIR, shot: Shot, start: float) -> tuple[Bound, ...]
     return tuple(bounds)
 
 
-def at_rest(breaks: Array) -> Rows:
+def at_rest(breaks: Array) -> SplineFunctionals:
     """Return the rows for the first and second derivative of a spline at both ends.
 
     breaks : shape (P + 1,), mission times in seconds
@@ -60,7 +60,7 @@ def at_rest(breaks: Array) -> Rows:
     for order in (1, 2):
         rows = control_rows(breaks, order)
         parts.append((rows.piece[[0, -1]], rows.weight[[0, -1]]))
-    return Rows(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
+    return SplineFunctionals(np.concatenate([p for p, _ in parts]), np.concatenate([w for _, w in parts]))
 
 
 def limits_of(limits: Limits, breaks: Array) -> tuple[Cones, ...]:

@@ -9,7 +9,15 @@ from math import sqrt
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import Rows, control_rows, count, energy_rows, hull_rows, spline, value_rows
+from shotc.geom.bspline import (
+    SplineFunctionals,
+    control_rows,
+    count,
+    energy_rows,
+    hull_rows,
+    spline,
+    value_rows,
+)
 from shotc.geom.vec import Vec2
 from shotc.ir.drone import Drone
 from shotc.planning.clock.aims import CameraTask, aims_at
@@ -85,7 +93,7 @@ def _ends(angle_task: AngleTask, breaks: Array) -> Equalities:
     if angle_task.ends is None:
         return Equalities(rest, still)
     values = control_rows(breaks)
-    rows = Rows(
+    rows = SplineFunctionals(
         np.concatenate([rest.piece, values.piece[[0, -1]]]),
         np.concatenate([rest.weight, values.weight[[0, -1]]]),
     )
@@ -136,7 +144,7 @@ def _motion(velocity: Array) -> Array:
     return np.asarray(np.interp(np.arange(len(velocity)), moves, course))
 
 
-def _goals(rows: Rows, root: Array, wanted: Array) -> tuple[Goal, ...]:
+def _goals(rows: SplineFunctionals, root: Array, wanted: Array) -> tuple[Goal, ...]:
     """Return one least-squares term a channel, weighted by the squares of ``root``, shape (M, 3)."""
     goals = []
     for channel in range(3):
@@ -182,5 +190,5 @@ def _bounds(drone: Drone, breaks: Array) -> tuple[HalfSpaceRows, ...]:
     return tuple(found)
 
 
-def _scaled(rows: Rows, factor: Array) -> Rows:
-    return Rows(rows.piece, rows.weight * factor[:, None])
+def _scaled(rows: SplineFunctionals, factor: Array) -> SplineFunctionals:
+    return SplineFunctionals(rows.piece, rows.weight * factor[:, None])

@@ -50,7 +50,7 @@ Course = Callable[[Array], Array]
 
 
 @dataclass(frozen=True, slots=True)
-class Meeting:
+class TargetConflict:
     """The place where a transfer comes too near to a target, by ``lack`` metres at mission time ``time``.
 
     phase : "takeoff" or "land" at the pad, "transit" elsewhere
@@ -78,7 +78,7 @@ class Transfer:
     end: float
     slack: float = inf
     unseen: float = inf
-    met: Meeting | None = None
+    met: TargetConflict | None = None
     kept: float = inf
     required: float = inf
 
@@ -297,14 +297,14 @@ def _needs(what: Moving, radius: float, upright: Mask) -> Array:
     return np.where(upright & (not what.always), radius, what.clearance)
 
 
-def _met(moving: Sequence[Moving], radius: float, course: _Course, times: Array) -> Meeting | None:
+def _met(moving: Sequence[Moving], radius: float, course: _Course, times: Array) -> TargetConflict | None:
     """Return the target that a course comes nearest to, if that is too near."""
     nearest = [_nearest(what, radius, course, times) for what in moving if not what.always]
     worst = max(nearest, key=lambda met: met.lack, default=None)
     return worst if worst is not None and worst.lack > PROVED_M else None
 
 
-def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> Meeting:
+def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> TargetConflict:
     """Return where a course is nearest to a target, with sampling refined around the minimum for
     verification.
     """
@@ -316,4 +316,4 @@ def _nearest(what: Moving, radius: float, course: _Course, times: Array) -> Meet
         most, when = float(lack.max()), float(times[int(lack.argmax())])
         inside = np.linspace(max(when - step, times[0]), min(when + step, times[-1]), 2 * CLOSER + 1)
         step, times = step / CLOSER, inside
-    return Meeting(what.owner, when, most, course.phase(when))
+    return TargetConflict(what.owner, when, most, course.phase(when))

@@ -12,7 +12,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.path import MovingLeg, Pose
 from shotc.planning.clock.shot import OtherVehicles
 from shotc.planning.clock.sweeps import with_sweeps
-from shotc.planning.path.legs import Flight, end_of, raised, take_off, way_home, way_to
+from shotc.planning.path.legs import LegContext, end_of, raised, take_off, way_home, way_to
 
 LIFTS_M = (4.0, 10.0, 20.0)  # metres above the higher end of a transfer
 
@@ -23,7 +23,7 @@ class Meanwhile(NamedTuple):
     others: OtherVehicles
     span: tuple[float, float]
 
-    def beside(self, flight: Flight) -> Flight:
+    def beside(self, flight: LegContext) -> LegContext:
         """Return the flight with a free space that excludes all places of targets during that time."""
         return replace(flight, spaces=with_sweeps(flight.spaces, self.others.moving, self.span))
 
@@ -33,14 +33,14 @@ class Transit:
     """A transfer from a pose to another, and the key path of the shot or drone that it is flown for."""
 
     mission: MissionIR
-    flight: Flight
+    flight: LegContext
     pose: Pose
     goal: Pose
     path: KeyPath
 
 
 def ways_home(
-    flight: Flight, pose: Pose, direct: list[MovingLeg], meanwhile: Meanwhile
+    flight: LegContext, pose: Pose, direct: list[MovingLeg], meanwhile: Meanwhile
 ) -> Iterator[list[MovingLeg]]:
     """Yield the direct way home, the one around everything that moves, and those that first rise
     straight up.
@@ -93,7 +93,7 @@ def _lifted(wanted: Transit, first: Pose) -> Iterator[list[MovingLeg]]:
             yield [lift, *rest]
 
 
-def _through(flight: Flight, stops: list[Pose], path: KeyPath) -> list[MovingLeg] | None:
+def _through(flight: LegContext, stops: list[Pose], path: KeyPath) -> list[MovingLeg] | None:
     """Return legs through a sequence of poses, or None where two of them cannot be joined."""
     legs: list[MovingLeg] = []
     for a, b in pairwise(stops):

@@ -13,7 +13,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import ClockLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.timing.estimate import leg_motion
-from shotc.planning.timing.flight import Flight
+from shotc.planning.timing.flight import TrajectoryBuilder
 from shotc.planning.timing.profile import Profile
 
 LATE_S = 1e-6  # seconds
@@ -71,7 +71,7 @@ def flight(mission: MissionIR, flown: TimedPath, ends: dict[str, float]) -> Dron
 
     ends : mission times at which the shots of drones before it end, by id, seconds; its own are added
     """
-    drone, made = mission.drone(flown.drone), Flight(flown.drone)
+    drone, made = mission.drone(flown.drone), TrajectoryBuilder(flown.drone)
     after = {shot.id: shot.timing.after for shot in mission.shots}
     for leg in flown.legs:
         if isinstance(leg, ClockLeg):

@@ -46,7 +46,7 @@ from shotc.planning.clock.starts import (
     put_off,
 )
 from shotc.planning.path.legs import (
-    Flight,
+    LegContext,
     end_of,
     nearest,
     take_off,
@@ -99,7 +99,7 @@ class Itinerary:
     """
 
     mission: MissionIR
-    flight: Flight
+    flight: LegContext
     others: OtherVehicles
     ends: dict[str, float]
     legs: list[Leg] = field(default_factory=list)
@@ -115,7 +115,7 @@ class Itinerary:
         """The drone that flies."""
         return self.flight.drone
 
-    def copied(self, mission: MissionIR, flight: Flight) -> Itinerary:
+    def copied(self, mission: MissionIR, flight: LegContext) -> Itinerary:
         """Return a copy for another mission with the same shots so far, to try changes."""
         lists = list(self.legs), self.clock, list(self.deviations), list(self.stats)
         return Itinerary(mission, flight, self.others, dict(self.ends), *lists, self.last, self.slack)

@@ -34,7 +34,7 @@ SAME_S = 1e-9  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class KeyframeSegment:
     """The interval from a keyframe to the next one, or a hold (then ``a`` is ``b``); mission time, seconds.
 
     parts : number of parts in which the lens zooms, as in ``geom.ease``
@@ -76,7 +76,7 @@ class Keyed:
 
     mission: MissionIR
     drone: Drone
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[KeyframeSegment, ...]
     chosen: Piecewise | None = None
 
     def hfov(self, times: Array) -> Array:
@@ -127,7 +127,7 @@ class Keyed:
             share[of == k] = self.stretches[k].share(times[of == k])
         return share, of
 
-    def _aims(self, stretch: Stretch, share: Array, times: Array, places: Array) -> Array:
+    def _aims(self, stretch: KeyframeSegment, share: Array, times: Array, places: Array) -> Array:
         a, b = stretch.a, stretch.b
         first = np.array([a.yaw, a.pitch])
         step = np.array([wrapped(b.yaw - a.yaw) if b.turn is None or a is b else b.turn, b.pitch - a.pitch])
@@ -188,7 +188,7 @@ def keyframe_times(placed: PlacedShot, start: float) -> tuple[KeyframeTime, ...]
     return tuple(KeyframeTime(placed.shot.id, i, start + t) for i, t in enumerate(arrivals(placed.shot)))
 
 
-def _stretches(placed: PlacedShot, start: float, lens: LensRange | None) -> Iterator[Stretch]:
+def _stretches(placed: PlacedShot, start: float, lens: LensRange | None) -> Iterator[KeyframeSegment]:
     keyframes, duration = placed.keyframes, placed.shot.timing.duration or 0.0
     arrive = arrivals(placed.shot)
     parts = zoom_parts(placed.shot, lens)
@@ -201,11 +201,11 @@ def _stretches(placed: PlacedShot, start: float, lens: LensRange | None) -> Iter
     ends = [*(stop[0] for stop in long[1:]), duration]
     begin = 0.0
     for (_, _, a, b, n), end in zip(long, ends, strict=True):
-        yield Stretch(start + begin, start + end, a, b, n)
+        yield KeyframeSegment(start + begin, start + end, a, b, n)
         begin = end
 
 
-def _spans(shot: str, stretch: Stretch) -> Iterator[Reference]:
+def _spans(shot: str, stretch: KeyframeSegment) -> Iterator[Reference]:
     a, b = stretch.a, stretch.b
     if stretch.follows:
         ctrl = np.array([[a.reference] * 3 + [b.reference] * 3], dtype=np.float64)

@@ -10,14 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.bspline import DEGREE, Rows, control_rows, count, energy_rows, spline, value_rows
+from shotc.geom.bspline import DEGREE, SplineFunctionals, control_rows, count, energy_rows, spline, value_rows
 from shotc.ir.preference import Price, prefers_free_pictures
 from shotc.ir.smoothing import NORMAL_S
 from shotc.planning.clock.between import lacking, sides_apart, standing_apart
 from shotc.planning.clock.bounds import at_rest, limits_of
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
 from shotc.planning.clock.preferred import cost
-from shotc.planning.clock.task import Task, drawn_to, ideal_of
+from shotc.planning.clock.task import ClockTask, drawn_to, ideal_of
 from shotc.planning.clock.visibility import Kept, keep_free
 from shotc.planning.corridor import Around, with_corridor
 from shotc.planning.free_space import HalfSpaces, shortfall
@@ -44,7 +44,7 @@ HOPE_SHARE = 0.8  # largest share of the lack that may remain after a round, to 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flown:
+class PositionResult:
     """The position over mission time, or why there is none.
 
     objective : m^2 s
@@ -62,7 +62,7 @@ class Flown:
     given_up: Price | None = None
 
 
-def fly(task: Task) -> Flown:
+def fly(task: ClockTask) -> PositionResult:
     """Return the position curve of a shot, with clearances proved by its convex hulls.
 
     It stays out of pictures as far as possible. Where free pictures are only preferred, and their price is
@@ -92,7 +92,7 @@ def fly(task: Task) -> Flown:
     return replace(plain, rounds=best.rounds, given_up=Price(price.moved, price.share, free))
 
 
-def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
+def _apart(task: ClockTask, plain: PositionResult) -> tuple[ClockTask, PositionResult]:
     """Return the motion whose run-up and run-out keep the clearances of transfers, and its task.
 
     Clearances that the mission does not state may hardly change the film; otherwise the plain motion is
@@ -119,7 +119,7 @@ def _apart(task: Task, plain: Flown) -> tuple[Task, Flown]:
     return best
 
 
-def _apart_floors(task: Task, course: Piecewise) -> tuple[HalfSpaceRows, ...]:
+def _apart_floors(task: ClockTask, course: Piecewise) -> tuple[HalfSpaceRows, ...]:
     """Return half-spaces for the clearances of the run-up and the run-out beside a course."""
     span, breaks, first = (task.clock.start, task.clock.end), task.clock.breaks, len(task.walls.owners)
     ways = motion_rows(breaks, sides_apart(task.motions, course, span), first)
@@ -128,7 +128,7 @@ def _apart_floors(task: Task, course: Piecewise) -> tuple[HalfSpaceRows, ...]:
     return tuple(half_spaces for half_spaces in (ways, *ends) if len(half_spaces.offset))
 
 
-def _kept(task: Task, course: Piecewise) -> Kept:
+def _kept(task: ClockTask, course: Piecewise) -> Kept:
     span = (task.clock.start, task.clock.end)
     return keep_free(task.camera_task, task.visibility, span, task.clock.breaks, course)
 
@@ -153,7 +153,7 @@ class _Round:
     ended: bool = False
 
 
-def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
+def _fly(task: ClockTask, free: tuple[HalfSpaceRows, ...]) -> PositionResult:
     """Return the position curve under additional half-spaces that keep pictures free."""
     breaks, base = task.clock.breaks, _base(task)
     places = ideal_of(task, breaks) if task.course is None else task.course.places
@@ -176,12 +176,12 @@ def _fly(task: Task, free: tuple[HalfSpaceRows, ...]) -> Flown:
         else:
             now = _improved(now, solution, points, done=not problem.half_spaces)
     if now.best is None:
-        return Flown(None, now.status, float("nan"), now.rounds, now.relaxation)
+        return PositionResult(None, now.status, float("nan"), now.rounds, now.relaxation)
     assert now.best.coef is not None
-    return Flown(spline(breaks, now.best.coef), now.best.status, now.best.objective, now.rounds)
+    return PositionResult(spline(breaks, now.best.coef), now.best.status, now.best.objective, now.rounds)
 
 
-def _astray(task: Task, solution: SplineSolution) -> bool:
+def _astray(task: ClockTask, solution: SplineSolution) -> bool:
     """Return whether a motion is far from its ideal.
 
     Planes that almost contradict each other leave a feasible point only where they cross, kilometres away.
@@ -189,7 +189,7 @@ def _astray(task: Task, solution: SplineSolution) -> bool:
     return solution.objective > ASTRAY_M**2 * (task.clock.end - task.clock.start)
 
 
-def _relaxed(task: Task, problem: SplineProblem, now: _Round, hope: float) -> _Round:
+def _relaxed(task: ClockTask, problem: SplineProblem, now: _Round, hope: float) -> _Round:
     """Return the round that follows an infeasible programme.
 
     Half-spaces about a course that runs through an obstacle may contradict each other. The curve that
@@ -219,14 +219,14 @@ def _points(breaks: Array, coef: Array) -> Array:
     return control_rows(breaks).apply(coef).reshape(-1, 6, 3)
 
 
-def _lack(task: Task, points: Array) -> float:
+def _lack(task: ClockTask, points: Array) -> float:
     """Return the largest lack of proved clearance of a motion, metres."""
     lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
     standing = (shortfalls(end.passing, end.place).max() for end in _stands(task, points))
     return float(max(lacking.max(), *standing))
 
 
-def _base(task: Task) -> SplineProblem:
+def _base(task: ClockTask) -> SplineProblem:
     breaks = task.clock.breaks
     step = np.diff(breaks)
     inner = (np.arange(SAMPLES_PER_PIECE) + 0.5) / SAMPLES_PER_PIECE
@@ -245,7 +245,7 @@ def _base(task: Task) -> SplineProblem:
     return SplineProblem(count(breaks), goals, held, (), limits_of(task.drone.limits, breaks))
 
 
-def _through(task: Task, rest: Equalities) -> Equalities:
+def _through(task: ClockTask, rest: Equalities) -> Equalities:
     """Return the constraints of rest at both ends, and of the keyframes' places at their times.
 
     Where the camera stands still in W for a while, all coefficients of that interval equal its place. For a
@@ -260,18 +260,20 @@ def _through(task: Task, rest: Equalities) -> Equalities:
             found = value_rows(breaks, np.array([bound.start]))
         rows.append(found)
         values.append(np.tile(np.array(bound.place), (len(found.piece), 1)))
-    every = Rows(np.concatenate([r.piece for r in rows]), np.concatenate([r.weight for r in rows]))
+    every = SplineFunctionals(
+        np.concatenate([r.piece for r in rows]), np.concatenate([r.weight for r in rows])
+    )
     return Equalities(every, np.concatenate(values))
 
 
-def _coefficients(first: int, last: int, pieces: int) -> Rows:
+def _coefficients(first: int, last: int, pieces: int) -> SplineFunctionals:
     """Return rows that select the spline coefficients from index ``first`` to ``last``, exclusive."""
     index = np.arange(first, last)
     piece = np.minimum(index, pieces - 1)
-    return Rows(piece, np.eye(DEGREE + 1)[index - piece])
+    return SplineFunctionals(piece, np.eye(DEGREE + 1)[index - piece])
 
 
-def _walled(task: Task, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:
+def _walled(task: ClockTask, base: SplineProblem, hulls: Array, reach: float, share: float) -> SplineProblem:
     breaks = task.clock.breaks
     problem = with_corridor(base, Around(task.walls, breaks, hulls, reach, share))
     first = len(task.walls.owners)
@@ -296,7 +298,7 @@ def standing_by(
     return before, after
 
 
-def held_where_it_rests(task: Task, curve: Piecewise) -> bool:
+def held_where_it_rests(task: ClockTask, curve: Piecewise) -> bool:
     """Return whether a motion rests so near to something that the half-spaces there may bind."""
     return any(
         shortfalls(end.passing, end.place).max(initial=-inf) > -NEAR_M for end in _stands(task, curve.ctrl)
@@ -314,7 +316,7 @@ class _Stand(NamedTuple):
     row: int
 
 
-def _stands(task: Task, hulls: Array) -> tuple[_Stand, ...]:
+def _stands(task: ClockTask, hulls: Array) -> tuple[_Stand, ...]:
     """Return both ends of a motion."""
     ends = ((hulls[0, 0], 0), (hulls[-1, -1], -1))
     return tuple(
@@ -326,11 +328,13 @@ def _stands(task: Task, hulls: Array) -> tuple[_Stand, ...]:
 def _standing(breaks: Array, beside: HalfSpaces, first: int, row: int) -> HalfSpaceRows:
     """Return the half-spaces that hold for a control point the whole time."""
     every, number = control_rows(breaks), len(beside.piece)
-    rows = Rows(np.repeat(every.piece[[row]], number), np.repeat(every.weight[[row]], number, axis=0))
+    rows = SplineFunctionals(
+        np.repeat(every.piece[[row]], number), np.repeat(every.weight[[row]], number, axis=0)
+    )
     return HalfSpaceRows(
         rows, beside.normal, beside.offset.max(axis=1, initial=-np.inf), first + beside.owner
     )
 
 
-def _scaled(rows: Rows, factor: Array) -> Rows:
-    return Rows(rows.piece, rows.weight * factor[:, None])
+def _scaled(rows: SplineFunctionals, factor: Array) -> SplineFunctionals:
+    return SplineFunctionals(rows.piece, rows.weight * factor[:, None])

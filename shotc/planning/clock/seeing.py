@@ -28,9 +28,9 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.target import Target
 from shotc.planning.clock.aims import aims_at
 from shotc.planning.clock.moving import Moving
-from shotc.planning.clock.task import Task
+from shotc.planning.clock.task import ClockTask
 from shotc.planning.free_space import MARGIN_M
-from shotc.planning.layered import Course, Passing, Watched, led_round
+from shotc.planning.layered import Passing, VisiblePath, Watched, led_round
 
 STEP_S = 0.1  # seconds between samples
 ABOUT_M = 1.0  # metres by which a target is enlarged, because the motion deviates from the course
@@ -47,7 +47,7 @@ class Way(NamedTuple):
     target: Target
 
 
-def ways_of(task: Task) -> tuple[Way, ...]:
+def ways_of(task: ClockTask) -> tuple[Way, ...]:
     """Return the ways between keyframes that may be led, each for the target that both ends show."""
     mission, shot, start = task.mission, task.shot, task.clock.start
     hides = mission.meshes or mission.terrain or mission.opaque_zones
@@ -60,7 +60,7 @@ def ways_of(task: Task) -> tuple[Way, ...]:
     return tuple(found)
 
 
-def led_to_see(task: Task, ways: tuple[Way, ...], motion: Piecewise) -> Task | None:
+def led_to_see(task: ClockTask, ways: tuple[Way, ...], motion: Piecewise) -> ClockTask | None:
     """Return the task with ways led to where their targets are visible; None where no way is changed.
 
     motion : x, y, z over the task's clock
@@ -72,10 +72,10 @@ def led_to_see(task: Task, ways: tuple[Way, ...], motion: Piecewise) -> Task | N
         if len(inside) > 2:
             course = _led(task, way.target, breaks[inside], places[inside])
             places[inside], for_sight[inside] = course.places, course.for_sight
-    return replace(task, course=Course(places, for_sight)) if for_sight.any() else None
+    return replace(task, course=VisiblePath(places, for_sight)) if for_sight.any() else None
 
 
-def _led(task: Task, target: Target, times: Array, places: Array) -> Course:
+def _led(task: ClockTask, target: Target, times: Array, places: Array) -> VisiblePath:
     held = np.zeros(len(times), dtype=bool)
     held[[0, -1]] = True
     near: list[Passing] = [*(motion.what for motion in task.motions), _no_nearer(target, times, places)]
@@ -122,7 +122,7 @@ class Shown:
         )
 
 
-def shown(task: Task, ways: tuple[Way, ...], curve: Piecewise) -> Shown:
+def shown(task: ClockTask, ways: tuple[Way, ...], curve: Piecewise) -> Shown:
     """Return what a camera shows on ways; curve : all channels over the task's clock."""
     mission, hidden, whole = task.mission, [np.zeros(0)], [np.ones(0, dtype=bool)]
     for way in ways:

@@ -30,11 +30,11 @@ from shotc.planning.clock.clock import Clock, clock_of
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.keyed import keyframe_times
 from shotc.planning.clock.moving import Moving, linearised, standing
-from shotc.planning.clock.position import Flown, fly, held_where_it_rests, standing_by
+from shotc.planning.clock.position import PositionResult, fly, held_where_it_rests, standing_by
 from shotc.planning.clock.resting import LONG_S, aside_of_what_passes
 from shotc.planning.clock.run_up import RunUp, run_ups
 from shotc.planning.clock.seeing import led_to_see, shown, ways_of
-from shotc.planning.clock.task import Task, led
+from shotc.planning.clock.task import ClockTask, led
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.framing.moments import placed_at, slowed
 from shotc.planning.free_space import FreeSpace, breaches
@@ -189,7 +189,7 @@ def timed_shot(
     return TimedShot(leg, deviations, stats, float(away.max()), (lacks[0].any, lacks[1].any))
 
 
-def _with_camera(task: Task, position: Piecewise) -> Piecewise | Status:
+def _with_camera(task: ClockTask, position: Piecewise) -> Piecewise | Status:
     """Return a motion with camera angles and lens, all channels; or the solver's status if there are no
     angles.
     """
@@ -205,8 +205,8 @@ def _with_camera(task: Task, position: Piecewise) -> Piecewise | Status:
 class _Motion(NamedTuple):
     """A motion: its task, its position, and all channels of it."""
 
-    task: Task
-    flown: Flown
+    task: ClockTask
+    flown: PositionResult
     curve: Piecewise
 
 
@@ -234,7 +234,7 @@ def _seeing(best: _Motion) -> _Motion:
 
 def _flown(
     camera_task: CameraTask, around: Around, shot: Shot, start: float, asked: tuple[Ask, ...]
-) -> tuple[Task, Flown]:
+) -> tuple[ClockTask, PositionResult]:
     """Return the motion with the strictest feasible requirements, or the last infeasible one.
 
     The requirements must not move the film: a motion that deviates from its ideal is replaced by one with
@@ -254,7 +254,7 @@ def _flown(
     return best or (task, flown)
 
 
-def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: Ask) -> Task:
+def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask: Ask) -> ClockTask:
     """Return the task of the position for given requirements."""
     spaces, others = around
     near = (*standing(spaces), *others.moving)
@@ -264,7 +264,7 @@ def _task(camera_task: CameraTask, around: Around, shot: Shot, start: float, ask
     passing = standing_by(near, clock.breaks, ask.stand)
     bound = bounds_of(camera_task.mission, shot, start)
     return led(
-        Task(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
+        ClockTask(camera_task, shot, clock, ways, spaces.flight, motions, passing, others.visibility, bound)
     )
 
 
@@ -297,7 +297,7 @@ def _led(
     return led
 
 
-def _missed(task: Task, around: Around, placed: PlacedShot, start: float) -> Missed | None:
+def _missed(task: ClockTask, around: Around, placed: PlacedShot, start: float) -> Missed | None:
     """Return which keyframes are out of reach; None if the shot is infeasible without them as well."""
     free = fly(replace(task, free=True)).curve
     if free is None:
@@ -323,7 +323,7 @@ def _lens(camera_task: CameraTask, clock: Clock) -> Array:
     return np.full((len(clock.breaks) - 1, 6, 1), camera_task.drone.hfov)
 
 
-def _lacks(task: Task, flown: Flown) -> tuple[tuple[Owner, float], ...]:
+def _lacks(task: ClockTask, flown: PositionResult) -> tuple[tuple[Owner, float], ...]:
     if flown.relaxation is None:
         return ()
     found = zip(task.owners, flown.relaxation.owner_lack, strict=True)
@@ -354,7 +354,7 @@ def _place_curve(known: Sequence[tuple[float, Vec2]], start: float, end: float) 
     return Piecewise(np.array([*breaks[:-1], end]), np.array(pieces, dtype=np.float64))
 
 
-def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, ...]:
+def _deviations(task: ClockTask, flown: PositionResult, away: Array) -> tuple[ClockDeviation, ...]:
     """Return the worst deviation of each interval off the ideal; away : as of ``_away``."""
     times = _filmed(task)
     return tuple(
@@ -363,19 +363,19 @@ def _deviations(task: Task, flown: Flown, away: Array) -> tuple[ClockDeviation, 
     )
 
 
-def _filmed(task: Task) -> Array:
+def _filmed(task: ClockTask) -> Array:
     """Return the times at which the film is compared with its ideal, shape (M,)."""
     return np.append(np.arange(task.clock.start, task.clock.end, STEP_S), task.clock.end)
 
 
-def _away(task: Task, curve: Piecewise) -> Array:
+def _away(task: ClockTask, curve: Piecewise) -> Array:
     """Return the distances of the camera from its ideal at those times, metres, shape (M,)."""
     times = _filmed(task)
     ideal = ideal_places(task.mission, task.shot, task.clock.start, times)
     return np.asarray(np.linalg.norm(curve(times) - ideal, axis=1))
 
 
-def _cause(task: Task, flown: Flown, t: float) -> str:
+def _cause(task: ClockTask, flown: PositionResult, t: float) -> str:
     near = _in_the_way(task, np.array(ideal_place(task.mission, task.shot, task.clock.start, t)), t)
     if near is not None:
         return str(near[0])
@@ -386,7 +386,7 @@ def _cause(task: Task, flown: Flown, t: float) -> str:
     return SIGHT if aside else LIMITS
 
 
-def _in_the_way(task: Task, place: Array, t: float) -> tuple[Owner, float] | None:
+def _in_the_way(task: ClockTask, place: Array, t: float) -> tuple[Owner, float] | None:
     """Return the owner of an obstacle too near to a place, shape (3,), at a time, and the lack in metres."""
     near = breaches(task.space, place)
     if near:

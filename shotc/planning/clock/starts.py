@@ -17,7 +17,7 @@ from shotc.ir.keyed import carriers, is_keyed
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase
-from shotc.planning.clock.departure import Meeting, Transfer
+from shotc.planning.clock.departure import TargetConflict, Transfer
 from shotc.planning.clock.ideals import ideal_places
 from shotc.planning.clock.shot import LESS_SHARE, NoMotion, TimedShot
 from shotc.planning.framing.moments import placed_at
@@ -60,7 +60,7 @@ class Meets:
     start : a start of the next shot with a clear transfer, seconds; None if none was found
     """
 
-    met: Meeting
+    met: TargetConflict
     start: float | None = None
 
 

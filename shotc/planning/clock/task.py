@@ -21,14 +21,14 @@ from shotc.planning.clock.moving import LinearMotion
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
-from shotc.planning.layered import Course, Watched, led_round
+from shotc.planning.layered import VisiblePath, Watched, led_round
 from shotc.solvers.spline_problem import HalfSpaceRows
 
 ROUNDING_S = 1e-9  # seconds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Task:
+class ClockTask:
     """One shot to be planned.
 
     camera_task : the drone and its subjects
@@ -54,7 +54,7 @@ class Task:
     bound: tuple[Bound, ...] = ()
     free: bool = False
     apart: tuple[HalfSpaceRows, ...] = ()
-    course: Course | None = None
+    course: VisiblePath | None = None
 
     @property
     def mission(self) -> MissionIR:
@@ -77,7 +77,7 @@ class Task:
         return self.space.bounds
 
 
-def ideal_of(task: Task, times: Array) -> Array:
+def ideal_of(task: ClockTask, times: Array) -> Array:
     """Return the reference positions: the ideal in the film, and the run-up and run-out outside of it.
 
     times : shape (M,), mission time; result (M, 3)
@@ -90,14 +90,14 @@ def ideal_of(task: Task, times: Array) -> Array:
     return np.asarray(np.where(late, after.at(times - clock.end), led))
 
 
-def led(task: Task) -> Task:
+def led(task: ClockTask) -> ClockTask:
     """Return the task with a course around meshes, and to where its subject is visible."""
     breaks, near = task.clock.breaks, [motion.what for motion in task.motions]
     course = led_round(task.walls, near, (breaks, ideal_of(task, breaks)), _watched(task))
     return replace(task, course=course)
 
 
-def _watched(task: Task) -> Watched | None:
+def _watched(task: ClockTask) -> Watched | None:
     """Return the subject to see at the clock's breaks; None where the author gave the camera's places."""
     mission, camera_task, ideal = task.mission, task.camera_task, task.shot.ideal
     bound = (
@@ -115,7 +115,7 @@ def _watched(task: Task) -> Watched | None:
     return Watched(places, filmed, target.radius, target.height, surfaces)
 
 
-def drawn_to(task: Task, times: Array) -> Array:
+def drawn_to(task: ClockTask, times: Array) -> Array:
     """Return the reference positions: the ideal, or the course where that leads to see the subject.
 
     times : shape (M,), mission time; result (M, 3)

@@ -44,7 +44,7 @@ class Watcher:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class DroneBody:
     """Another drone as a body: its radius, and its positions (M, 3) at times (M,)."""
 
     radius: float
@@ -60,7 +60,7 @@ class Visibility:
     """
 
     watchers: tuple[Watcher, ...] = ()
-    bodies: tuple[Body, ...] = ()
+    bodies: tuple[DroneBody, ...] = ()
     half_angle: float | None = None
     preferred: bool = False
 
@@ -76,10 +76,10 @@ def visibility_of(mission: MissionIR, drone: Drone, flights: Mapping[str, DroneT
         other = mission.drone(name)
         camera = partial(_camera, flight.curve, other.aspect)
         watchers += [Watcher(p.start, p.end, camera) for p in flight.phases if p.shot is not None]
-        bodies.append(Body(other.radius, partial(flying, flight.curve)))
+        bodies.append(DroneBody(other.radius, partial(flying, flight.curve)))
     if not prefers_free_pictures(mission):
         # A preference does not move a shot for a parked drone.
-        bodies += [Body(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
+        bodies += [DroneBody(d.radius, partial(standing_at, np.array(d.home))) for d in mission.parked]
     preferred = prefers_free_pictures(mission)
     return Visibility(tuple(watchers), tuple(bodies), mission.rules.half_angle, preferred)
 
@@ -173,7 +173,7 @@ def _in_theirs(
 
 
 def _in_own(
-    camera_task: CameraTask, body: Body, half_angle: float | None, times: Array, places: Array
+    camera_task: CameraTask, body: DroneBody, half_angle: float | None, times: Array, places: Array
 ) -> Array:
     drone, aims = camera_task.drone, aims_at(camera_task, times, places)
     camera = Cameras(places, aims[:, 0], aims[:, 1], camera_task.hfov(times), drone.aspect)

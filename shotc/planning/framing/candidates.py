@@ -87,7 +87,7 @@ class Setting(NamedTuple):
         return hypot(*(p - q for p, q in zip(self.direction(a), self.direction(b), strict=True)))
 
 
-class Line(NamedTuple):
+class ScreenLine(NamedTuple):
     """A line of the screen, u = c (upright) or v = c, with parameter t in [-1, 1]."""
 
     c: float
@@ -118,7 +118,10 @@ class Line(NamedTuple):
 def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
     """Return the candidate of the composition nearest to ``asked``, or None."""
     points = [p for p in composition.points if setting.slack(p) >= -TOUCH_M]
-    lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
+    lines = (
+        *(ScreenLine(c, True) for c in composition.u_lines),
+        *(ScreenLine(c, False) for c in composition.v_lines),
+    )
     place = _nearest(setting, asked, (*points, *(_along(setting, line, asked) for line in lines)))
     return place or _nearest(setting, asked, (p for p in composition.last if setting.slack(p) >= -TOUCH_M))
 
@@ -129,20 +132,23 @@ def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2
     It is used where the target is cropped at every place of the set itself.
     """
     verticals = dict.fromkeys((*(u for u, _ in composition.points), *composition.u_lines))
-    return _nearest(setting, asked, (_along(setting, Line(u, True), asked) for u in verticals))
+    return _nearest(setting, asked, (_along(setting, ScreenLine(u, True), asked) for u in verticals))
 
 
 def roomiest(setting: Setting, composition: Composition) -> float:
     """Return the largest slack on the set's points and lines, and on the verticals through its points."""
     points = (*composition.points, *composition.last)
     verticals = dict.fromkeys((*(u for u, _ in points), *composition.u_lines))
-    lines = (*(Line(u, True) for u in verticals), *(Line(c, False) for c in composition.v_lines))
+    lines = (*(ScreenLine(u, True) for u in verticals), *(ScreenLine(c, False) for c in composition.v_lines))
     return max(setting.slack(line.point(_best(setting, line))) for line in lines)
 
 
 def has_candidate(setting: Setting, composition: Composition) -> bool:
     """Return whether the set itself has a candidate."""
-    lines = (*(Line(c, True) for c in composition.u_lines), *(Line(c, False) for c in composition.v_lines))
+    lines = (
+        *(ScreenLine(c, True) for c in composition.u_lines),
+        *(ScreenLine(c, False) for c in composition.v_lines),
+    )
     return any(setting.slack(p) >= -TOUCH_M for p in (*composition.points, *composition.last)) or any(
         setting.slack(line.point(_best(setting, line))) >= -TOUCH_M for line in lines
     )
@@ -158,7 +164,7 @@ def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Ve
     return best
 
 
-def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
+def _along(setting: Setting, line: ScreenLine, asked: Vec2) -> Vec2 | None:
     """Return the candidate of the line nearest to ``asked``, or None.
 
     The distance increases away from the foot, so the first candidate on either side of it is the nearest of
@@ -174,12 +180,12 @@ def _along(setting: Setting, line: Line, asked: Vec2) -> Vec2 | None:
     return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
 
 
-def _best(setting: Setting, line: Line) -> float:
+def _best(setting: Setting, line: ScreenLine) -> float:
     """Return the t of the largest slack."""
     return max(_peaks(setting, line), key=lambda t: setting.slack(line.point(t)))
 
 
-def _peaks(setting: Setting, line: Line) -> list[float]:
+def _peaks(setting: Setting, line: ScreenLine) -> list[float]:
     """Return the t of every local maximum of the slack in an even sample.
 
     The slack may have several, of equal height on a level line; each belongs to an interval where the target
@@ -195,7 +201,7 @@ def _peaks(setting: Setting, line: Line) -> list[float]:
     return [_summit(setting, line, t) for t in tops] or [0.0]
 
 
-def _summit(setting: Setting, line: Line, middle: float) -> float:
+def _summit(setting: Setting, line: ScreenLine, middle: float) -> float:
     """Return the t of the largest slack within a step of ``middle``, by golden section."""
 
     def slack(t: float) -> float:
@@ -216,7 +222,7 @@ def _summit(setting: Setting, line: Line, middle: float) -> float:
     return max(middle, (low + high) / 2, key=slack)
 
 
-def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float | None:
+def _first(setting: Setting, line: ScreenLine, way: Vec2, peaks: list[float]) -> float | None:
     """Return the first candidate from the foot to an end of the line, its border bisected; None if none."""
     foot, end = way
     steps = [foot + (end - foot) * i / LINE_SAMPLES for i in range(1, LINE_SAMPLES + 1)]
@@ -231,7 +237,7 @@ def _first(setting: Setting, line: Line, way: Vec2, peaks: list[float]) -> float
     return None
 
 
-def _border(setting: Setting, line: Line, outside: float, inside: float) -> float:
+def _border(setting: Setting, line: ScreenLine, outside: float, inside: float) -> float:
     """Return where candidates begin, by bisection; there the whole target is inside the frame if possible."""
     least = min(TOUCH_M, setting.slack(line.point(inside)))
     for _ in range(HALVINGS):

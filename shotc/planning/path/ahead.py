@@ -30,7 +30,7 @@ KEPT_SHARE = 0.97  # share of the half-angle that is used, because the course is
 ANY_RAD = 1e3  # rad, bounds of the yaw where there is no course
 
 
-class Course(NamedTuple):
+class CourseBounds(NamedTuple):
     """The course of a transfer over s, and the bounds of a yaw in the cone about it.
 
     breaks : shape (P + 1,)
@@ -51,14 +51,14 @@ class Course(NamedTuple):
         """Bounds of the yaw at the start and at the end."""
         return (float(self.low[0]), float(self.high[0])), (float(self.low[-1]), float(self.high[-1]))
 
-    def wound(self, near: float) -> Course:
+    def wound(self, near: float) -> CourseBounds:
         """Return the course shifted by whole turns, so that it begins nearest to a yaw."""
         low, high = self.ends[0]
         turns = 2 * pi * round((near - 0.5 * (low + high)) / (2 * pi))
         return self._replace(yaw=self.yaw + turns, low=self.low + turns, high=self.high + turns)
 
 
-def course_of(drone: Drone, position: Piecewise, half_angle: float) -> Course | None:
+def course_of(drone: Drone, position: Piecewise, half_angle: float) -> CourseBounds | None:
     """Return the course of a position curve, x, y, z over s.
 
     None if the curve is vertical, or if its corners leave no yaw in the cone.
@@ -70,7 +70,7 @@ def course_of(drone: Drone, position: Piecewise, half_angle: float) -> Course | 
     return None
 
 
-def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: float) -> Course | None:
+def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: float) -> CourseBounds | None:
     """Return the course on pieces so short that the bounds are at least ``room`` apart, rad; None as there.
 
     Where the curve reverses, its course turns within a short part of its length.
@@ -87,7 +87,7 @@ def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: flo
     return None
 
 
-def _sampled(drone: Drone, position: Piecewise, half_angle: float, breaks: Array) -> Course | None:
+def _sampled(drone: Drone, position: Piecewise, half_angle: float, breaks: Array) -> CourseBounds | None:
     """Return the course on given pieces, whose bounds may be empty; None if there is no course."""
     share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
     at = breaks[:-1, None] + np.diff(breaks)[:, None] * share
@@ -100,7 +100,7 @@ def _sampled(drone: Drone, position: Piecewise, half_angle: float, breaks: Array
     each, there = yaw.reshape(at.shape), moves.reshape(at.shape).any(axis=1)
     low = np.where(there, each.max(axis=1) - KEPT_SHARE * half_angle, -ANY_RAD)
     high = np.where(there, each.min(axis=1) + KEPT_SHARE * half_angle, ANY_RAD)
-    return Course(breaks, at.ravel(), yaw, moves, low, high)
+    return CourseBounds(breaks, at.ravel(), yaw, moves, low, high)
 
 
 def _moves(drone: Drone, rate: Array) -> Array:
@@ -116,7 +116,7 @@ def _moves(drone: Drone, rate: Array) -> Array:
 
 
 def headed(
-    drone: Drone, position: Piecewise, course: Course, ends: tuple[Pose, Pose | None]
+    drone: Drone, position: Piecewise, course: CourseBounds, ends: tuple[Pose, Pose | None]
 ) -> Piecewise | Status:
     """Return all channels of a transfer whose body heads along its course, or the solver's status.
 
@@ -157,7 +157,7 @@ def headed(
 
 
 def near_course(
-    drone: Drone, course: Course, wish: Array, anchors: Sequence[tuple[float, float]]
+    drone: Drone, course: CourseBounds, wish: Array, anchors: Sequence[tuple[float, float]]
 ) -> Piecewise | Status:
     """Return a yaw in the cone about a course, one channel on its breaks, or the solver's status.
 
@@ -186,8 +186,8 @@ def near_course(
 
 
 def nearest_ends(
-    course: Course, start: Pose, goal: Pose | None
-) -> tuple[Course, Pose, Pose | None, Pose | None]:
+    course: CourseBounds, start: Pose, goal: Pose | None
+) -> tuple[CourseBounds, Pose, Pose | None, Pose | None]:
     """Return the course, and the poses in which a transfer from one pose to another begins and ends.
 
     The course is unwrapped to the start's winding. The body yaws of both poses are as near to the given ones

@@ -18,7 +18,7 @@ from shotc.geom.vec import wrapped
 from shotc.ir.ahead import looks_along
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR, Shot
-from shotc.planning.path.ahead import KEPT_SHARE, Course, finer_course, near_course
+from shotc.planning.path.ahead import KEPT_SHARE, CourseBounds, finer_course, near_course
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.solvers.conic import Status
 
@@ -76,7 +76,7 @@ def faced(drone: Drone, ahead: Ahead, task: BodyTask, camera: Piecewise) -> Face
     return None
 
 
-def _along(drone: Drone, ahead: Ahead, course: Course, camera: Piecewise) -> Piecewise | None:
+def _along(drone: Drone, ahead: Ahead, course: CourseBounds, camera: Piecewise) -> Piecewise | None:
     """Return the camera moved into the cone about its course, unless it is there; None if infeasible."""
     yaw = camera.ctrl[:, :, YAW]
     if (yaw >= course.low[:, None]).all() and (yaw <= course.high[:, None]).all():
@@ -89,7 +89,7 @@ def _along(drone: Drone, ahead: Ahead, course: Course, camera: Piecewise) -> Pie
     return Piecewise(course.breaks, np.concatenate([line.ctrl, camera.ctrl[:, :, 1:]], axis=2))
 
 
-def _cone(drone: Drone, course: Course, camera: Piecewise) -> tuple[Array, Array] | None:
+def _cone(drone: Drone, course: CourseBounds, camera: Piecewise) -> tuple[Array, Array] | None:
     """Return the bounds of the body yaw on each piece, (P,), rad; None where the gimbal prevents any."""
     yaw = camera.ctrl[:, :, YAW]
     if drone.body == "follow-camera":

@@ -24,7 +24,7 @@ LACK_SHARE = 0.8  # largest loan over the least clearance
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
+class NarrowPassage:
     """A narrow gap: a note with the numbers, and a remedy."""
 
     note: str
@@ -76,7 +76,9 @@ class _Pair(NamedTuple):
         return abs(self.lack - 2 * lent)
 
 
-def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner, ...]) -> Gap | None:
+def narrow_gap(
+    space: FreeSpace, start: Array, end: Array, openers: tuple[Owner, ...]
+) -> NarrowPassage | None:
     """Return the narrowest gap that closes the path, and a remedy; None if no smaller clearance opens one.
 
     start, end : shape (3,)
@@ -86,12 +88,12 @@ def narrow_gap(space: FreeSpace, start: Array, end: Array, openers: tuple[Owner,
         return None
     pair = _closing_pair(space, openers, lent)
     if pair is None:
-        return Gap(
+        return NarrowPassage(
             f"with {lent:.2f} m less clearance to everything there would be a way",
             f"use a drone with a radius {lent:.2f} m smaller, or make that much room",
         )
     (first, second), gap, needed = pair.owners, pair.gap, pair.needed
-    return Gap(
+    return NarrowPassage(
         f"the gap between {first.words} and {second.words} is {gap:.2f} m; the drone needs {needed:.2f} m",
         f"widen the gap by {needed - gap + MARGIN_M:.2f} m, "
         f"or use a drone with a radius {lent:.2f} m smaller",

@@ -31,7 +31,7 @@ from shotc.ir.path import (
 from shotc.ir.phases import PhaseName
 from shotc.planning.free_space import FreeSpace, bounds_slack, breaches
 from shotc.planning.obstacles import FreeSpaces, pad_space
-from shotc.planning.path.ahead import KEPT_SHARE, Course, course_of, headed, nearest_ends
+from shotc.planning.path.ahead import KEPT_SHARE, CourseBounds, course_of, headed, nearest_ends
 from shotc.planning.path.bends import as_clear, bent_ends, bent_starts, over_cone
 from shotc.planning.path.body import BodyTask, allowed_body, body_line
 from shotc.planning.path.lines import SAME_PLACE_M, TURN_LENGTH_M_RAD
@@ -48,7 +48,7 @@ CurveLeg = TypeVar("CurveLeg", MovingLeg, ClockLeg)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flight:
+class LegContext:
     """The data that all unfilmed legs of one drone share.
 
     top : transit point above the pad, shape (3,)
@@ -74,7 +74,7 @@ class Blocked:
     shot: PlannedShot | None
 
 
-def drone_legs(flight: Flight, shots: list[PlannedShot]) -> tuple[PathLeg, ...] | Blocked:
+def drone_legs(flight: LegContext, shots: list[PlannedShot]) -> tuple[PathLeg, ...] | Blocked:
     """Join the shots of one drone with take-off, transits, return and landing."""
     legs: list[PathLeg] = [take_off(flight, shots[0].leg.pose)]
     for shot in shots:
@@ -89,7 +89,7 @@ def drone_legs(flight: Flight, shots: list[PlannedShot]) -> tuple[PathLeg, ...] 
     return Blocked(back, None) if isinstance(back, Failure) else (*legs, *back)
 
 
-def take_off(flight: Flight, goal: Pose) -> MovingLeg:
+def take_off(flight: LegContext, goal: Pose) -> MovingLeg:
     """Return the take-off leg from the pad, before a shot that begins at ``goal``."""
     lift = _lift(flight, _at_pad(flight, goal), "takeoff")
     ctrl = lift.curve.ctrl.copy()
@@ -97,7 +97,7 @@ def take_off(flight: Flight, goal: Pose) -> MovingLeg:
     return replace(lift, curve=Piecewise(lift.curve.breaks, ctrl))
 
 
-def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
+def raised(mission: MissionIR, flight: LegContext, metres: float) -> LegContext | None:
     """Return the flight with a higher transit point; None where that is not free."""
     top = flight.top + np.array([0.0, 0.0, metres])
     home, pad = np.array(flight.drone.home), pad_space(mission, flight.drone)
@@ -106,7 +106,7 @@ def raised(mission: MissionIR, flight: Flight, metres: float) -> Flight | None:
     return replace(flight, top=top) if free and min(above, default=0.0) >= -ROUNDING_M else None
 
 
-def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[MovingLeg] | Failure:
+def way_to(flight: LegContext, pose: Pose, goal: Pose, path: KeyPath) -> list[MovingLeg] | Failure:
     """Return the unfilmed leg from a pose to a shot's first pose; empty where they are equal.
 
     path : key path of the shot
@@ -114,7 +114,7 @@ def way_to(flight: Flight, pose: Pose, goal: Pose, path: KeyPath) -> list[Moving
     return _transit(flight, pose, goal, "transit", path)
 
 
-def way_home(flight: Flight, pose: Pose) -> list[MovingLeg] | Failure:
+def way_home(flight: LegContext, pose: Pose) -> list[MovingLeg] | Failure:
     """Return the legs from the end of the last shot to the pad."""
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
@@ -126,7 +126,7 @@ def way_home(flight: Flight, pose: Pose) -> list[MovingLeg] | Failure:
     return [*back, _lift(flight, pose, "land")]
 
 
-def _at_pad(flight: Flight, first: Pose) -> Pose:
+def _at_pad(flight: LegContext, first: Pose) -> Pose:
     """Return the pose on the pad, with the heading of the first frame or of the transfer to it."""
     drone = flight.drone
     level = min(max(0.0, drone.gimbal.pitch[0]), drone.gimbal.pitch[1])
@@ -173,7 +173,7 @@ def turned_leg(leg: CurveLeg, pose: Pose) -> CurveLeg:
     return replace(leg, curve=Piecewise(leg.curve.breaks, ctrl))
 
 
-def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> MovingLeg:
+def _lift(flight: LegContext, pose: Pose, phase: PhaseName) -> MovingLeg:
     home, top = np.array(flight.drone.home), flight.top
     ends = (home, top) if phase == "takeoff" else (top, home)
     x = np.linspace(0.0, 1.0, 6)[:, None]
@@ -183,7 +183,7 @@ def _lift(flight: Flight, pose: Pose, phase: PhaseName) -> MovingLeg:
 
 
 def _transit(
-    flight: Flight, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath
+    flight: LegContext, start: Pose, goal: Pose, phase: PhaseName, path: KeyPath
 ) -> list[MovingLeg] | Failure:
     """Return the leg from one pose to another; empty where they are equal."""
     a, b = np.array(start[:3]), np.array(goal[:3])
@@ -217,7 +217,7 @@ def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> l
 
 
 def _soonest(
-    flight: Flight, position: Piecewise, start: Pose, goal: Pose | None
+    flight: LegContext, position: Piecewise, start: Pose, goal: Pose | None
 ) -> list[Piecewise] | AngleFailure | None:
     """Return the fastest transfer that looks ahead: bent at its ends, or with turns on the spot.
 
@@ -251,7 +251,7 @@ def _seconds(drone: Drone, curves: list[Piecewise]) -> float:
 
 
 def _looking_ahead(
-    drone: Drone, way: tuple[Piecewise, Course], start: Pose, goal: Pose | None
+    drone: Drone, way: tuple[Piecewise, CourseBounds], start: Pose, goal: Pose | None
 ) -> list[Piecewise] | AngleFailure:
     """Return a transfer with the body along its course, and the turns on the spot before and after it.
 

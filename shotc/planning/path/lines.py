@@ -30,7 +30,7 @@ RINGS_M = np.geomspace(0.1, 60.0, 33)  # metres around a place near a mesh, cand
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Line:
+class Polyline:
     """A polyline with the path parameter at its corners.
 
     corners : shape (M, 3)
@@ -78,7 +78,7 @@ class TooNear:
     breach: Breach
 
 
-def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | TooNear:
+def straight_line(space: FreeSpace, start: Array, end: Array) -> Polyline | NoWay | TooNear:
     """Return the polyline of a transfer between two points of shape (3,)."""
     for p in (start, end):
         near = breaches(space, p)
@@ -89,12 +89,12 @@ def straight_line(space: FreeSpace, start: Array, end: Array) -> Line | NoWay | 
         return NoWay(start, end)
     steps = np.linalg.norm(np.diff(route, axis=0), axis=1)
     s = np.concatenate([[0.0], np.cumsum(steps)])
-    return Line(route, s, tuple([-1] * len(route)))
+    return Polyline(route, s, tuple([-1] * len(route)))
 
 
 def shot_line(
     space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], watched: Watched | None = None
-) -> Line | NoWay | TooNear:
+) -> Polyline | NoWay | TooNear:
     """Return the polyline through a shot's keyframes.
 
     watched : the subject at the keyframes, to which generated keyframes are led; None without one
@@ -127,7 +127,7 @@ def shot_line(
 
 def line_beside(
     space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], aside: Sequence[Array]
-) -> Line | NoWay:
+) -> Polyline | NoWay:
     """Return the polyline through placed keyframes and places between them.
 
     aside : for each keyframe but the last, places on the way to the next one, (N, 3)
@@ -175,7 +175,9 @@ def _ways(space: FreeSpace, points: Array, kept: list[int]) -> list[Array] | NoW
     return ways
 
 
-def _joined(keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int], ways: list[Array]) -> Line:
+def _joined(
+    keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int], ways: list[Array]
+) -> Polyline:
     """Return the polyline of the ways from node to node; nodes : keyframe of each node, or -1."""
     corners, s, of = [start], [0.0], [nodes[0]]
     for (i, j), way in zip(pairwise(nodes), ways, strict=True):
@@ -187,7 +189,7 @@ def _joined(keyframes: tuple[PlacedKeyframe, ...], start: Array, nodes: list[int
             corners += list(way[1:])
         s += list(s[-1] + np.cumsum(steps))
         of += [-1] * (len(way) - 2) + [j]
-    return Line(np.array(corners), np.array(s), tuple(of))
+    return Polyline(np.array(corners), np.array(s), tuple(of))
 
 
 def _turn_length(a: PlacedKeyframe, b: PlacedKeyframe) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import (
-    Rows,
+    SplineFunctionals,
     control_rows,
     count,
     energy_rows,
@@ -46,7 +46,7 @@ GAIN_SHARE = 0.01  # a round that improves the objective by less ends the iterat
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class PolylineTask:
     """A polyline to be smoothed.
 
     corners : shape (M, 3)
@@ -95,7 +95,7 @@ class Solved:
 
 
 def solve_stretch(
-    space: FreeSpace, stretch: Stretch, limits: Limits, wide: FreeSpace | None = None
+    space: FreeSpace, stretch: PolylineTask, limits: Limits, wide: FreeSpace | None = None
 ) -> Solved:
     """Return the curve of one stretch, proved clear in a free space.
 
@@ -121,7 +121,7 @@ def solve_stretch(
     return Solved(None, status, float("nan"), rounds, relaxation, owners)
 
 
-def _line(stretch: Stretch) -> Piecewise:
+def _line(stretch: PolylineTask) -> Piecewise:
     x = np.linspace(0.0, 1.0, 6)[:, None]
     ctrl = (1 - x) * stretch.corners[0] + x * stretch.corners[-1]
     line = Piecewise(stretch.s[[0, -1]], ctrl[None])
@@ -137,7 +137,7 @@ class _Iterated(NamedTuple):
 
 
 def _iterate(
-    spaces: tuple[FreeSpace, FreeSpace], stretch: Stretch, limits: Limits, breaks: Array
+    spaces: tuple[FreeSpace, FreeSpace], stretch: PolylineTask, limits: Limits, breaks: Array
 ) -> _Iterated:
     """Return the result of sequential convex programming on given breaks.
 
@@ -171,7 +171,7 @@ def _iterate(
     return _Iterated(problem, best or Status.INFEASIBLE, used)
 
 
-def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProblem:
+def _base_problem(stretch: PolylineTask, limits: Limits, breaks: Array) -> SplineProblem:
     corners, s = stretch.corners, stretch.s
     scale = float(s[-1] - s[0]) / max(len(stretch.bound) + len(stretch.pulled_at) - 1, 1)
     jerk = _scaled(energy_rows(breaks, 3), scale**2.5)
@@ -191,7 +191,7 @@ def _base_problem(stretch: Stretch, limits: Limits, breaks: Array) -> SplineProb
     return SplineProblem(count(breaks), tuple(goals), equalities, (), cones)
 
 
-def _nominal(stretch: Stretch, limits: Limits, breaks: Array) -> tuple[Array, Array]:
+def _nominal(stretch: PolylineTask, limits: Limits, breaks: Array) -> tuple[Array, Array]:
     """Return each piece's direction q'(s) on the polyline and its nominal path velocity, m/s."""
     middle = 0.5 * (breaks[:-1] + breaks[1:])
     leg = np.clip(np.searchsorted(stretch.s, middle) - 1, 0, len(stretch.s) - 2)
@@ -214,7 +214,9 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
     v1, v2 = speed[first.piece], speed[second.piece]
     unit = EXCESS_PRICE * scale**2
 
-    def cone(rows: Rows, axes: tuple[int, ...], centre: Array, bound: Array, price: float) -> Cones:
+    def cone(
+        rows: SplineFunctionals, axes: tuple[int, ...], centre: Array, bound: Array, price: float
+    ) -> Cones:
         owner = np.zeros(len(bound), dtype=np.intp)
         return Cones(rows, axes, centre, bound, price * share[rows.piece], owner)
 
@@ -226,12 +228,12 @@ def _soft_limits(breaks: Array, speed: Array, limits: Limits, scale: float) -> t
     )
 
 
-def _pinned(curve: Piecewise, stretch: Stretch) -> Piecewise:
+def _pinned(curve: Piecewise, stretch: PolylineTask) -> Piecewise:
     """Set the ends to their exact values, so that joints are equal; the solver is accurate to 1e-8 m."""
     ctrl = curve.ctrl.copy()
     ctrl[0, 0], ctrl[-1, -1] = stretch.corners[0], stretch.corners[-1]
     return Piecewise(curve.breaks, ctrl)
 
 
-def _scaled(rows: Rows, factor: float) -> Rows:
-    return Rows(rows.piece, rows.weight * factor)
+def _scaled(rows: SplineFunctionals, factor: float) -> SplineFunctionals:
+    return SplineFunctionals(rows.piece, rows.weight * factor)

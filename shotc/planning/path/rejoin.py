@@ -15,7 +15,7 @@ from shotc.ir.path import DronePath, HoldLeg, PathIR, PathLeg
 from shotc.planning.obstacles import free_spaces_of, pad_space
 from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.in_time import in_time
-from shotc.planning.path.legs import Blocked, Flight, drone_legs
+from shotc.planning.path.legs import Blocked, LegContext, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
 from shotc.planning.path.shots import PlannedShot
 from shotc.planning.path.with_camera import NoTransit, same, with_camera
@@ -67,7 +67,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[PathLeg]) -> tuple[PathLeg,
         for leg in legs
         if leg.shot is not None
     ]
-    joined = drone_legs(Flight(drone, spaces, top, mission.rules.look_ahead), shots)
+    joined = drone_legs(LegContext(drone, spaces, top, mission.rules.look_ahead), shots)
     if not isinstance(joined, Blocked):
         return joined
     before = joined.shot

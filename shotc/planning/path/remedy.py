@@ -10,7 +10,7 @@ from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import CEILING, GROUND, Owner, zone_owner
 from shotc.planning.free_space import FreeSpace
-from shotc.planning.path.lines import Line, straight_line
+from shotc.planning.path.lines import Polyline, straight_line
 from shotc.planning.path.shots import PlannedShot, Stuck, shot_curve
 from shotc.planning.path.transit import smooth
 from shotc.rounding import up
@@ -101,4 +101,4 @@ def _fits(mission: MissionIR, drone: Drone, space: FreeSpace, shot: PlacedShot |
     if shot is not None and what.keyframes:
         return isinstance(shot_curve(mission, drone, space, shot), PlannedShot)
     line = straight_line(space, what.corners[0], what.corners[-1])
-    return isinstance(line, Line) and not isinstance(smooth(space, drone, line), Stuck)
+    return isinstance(line, Polyline) and not isinstance(smooth(space, drone, line), Stuck)

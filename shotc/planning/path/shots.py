@@ -19,8 +19,8 @@ from shotc.planning.free_space import FreeSpace, breaches
 from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.filmed_ahead import Faced, ahead_in, faced
-from shotc.planning.path.lines import SAME_PLACE_M, Line, NoWay, TooNear, line_beside, shot_line
-from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, Solved, Stretch, solve_stretch
+from shotc.planning.path.lines import SAME_PLACE_M, NoWay, Polyline, TooNear, line_beside, shot_line
+from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, PolylineTask, Solved, solve_stretch
 from shotc.planning.path.seeing import ROUNDS, FilmedCurve, is_led, watched_at, watched_at_keyframes
 from shotc.planning.path.swings import Swing, worst_swing
 from shotc.planning.path.unwrapping import turns_of
@@ -77,7 +77,7 @@ def shot_curve(
 ) -> PlannedShot | Failure:
     """Return a shot's geometry, or why there is none; headings : method that chooses turns."""
     line = shot_line(space, placed.keyframes, watched_at_keyframes(mission, placed))
-    if not isinstance(line, Line):
+    if not isinstance(line, Polyline):
         return line
     if line.s[-1] <= 0.0:
         return _still(placed, line)
@@ -97,7 +97,7 @@ class _Drawn(NamedTuple):
     """A shot's polyline and its curve; headings : method that chooses turns."""
 
     placed: PlacedShot
-    line: Line
+    line: Polyline
     position: tuple[Piecewise, list[Solved]]
     headings: str
 
@@ -158,7 +158,7 @@ def stack(*curves: Piecewise) -> Piecewise:
     return Piecewise(curves[0].breaks, np.concatenate([c.ctrl for c in curves], axis=2))
 
 
-def _still(placed: PlacedShot, line: Line) -> PlannedShot:
+def _still(placed: PlacedShot, line: Polyline) -> PlannedShot:
     first = placed.keyframes[0]
     asked = placed.shot.timing.duration
     times = _standing(placed.keyframes, asked)
@@ -191,7 +191,7 @@ def _standing(keyframes: tuple[PlacedKeyframe, ...], duration: float | None) -> 
 
 
 def _position(
-    space: FreeSpace, drone: Drone, placed: PlacedShot, line: Line
+    space: FreeSpace, drone: Drone, placed: PlacedShot, line: Polyline
 ) -> tuple[Piecewise, list[Solved]] | Stuck:
     """Solve each stretch; the drone rests where the camera turns on the spot."""
     curves: list[Piecewise] = []
@@ -215,9 +215,9 @@ def _led_to_see(
     mission: MissionIR,
     who: tuple[Drone, FreeSpace],
     placed: PlacedShot,
-    line: Line,
+    line: Polyline,
     position: tuple[Piecewise, list[Solved]],
-) -> tuple[Line, tuple[Piecewise, list[Solved]]] | None:
+) -> tuple[Polyline, tuple[Piecewise, list[Solved]]] | None:
     """Return a polyline through placed keyframes and its curve, led to where less of the targets is hidden.
 
     None where this does not apply, or where no better curve was found; line, position : those without it
@@ -229,17 +229,17 @@ def _led_to_see(
         return None
     watched = {name: watched_at(mission, name, [mission.target(name).centre]) for name in named}
 
-    def filmed(on: Line, curve: Piecewise) -> FilmedCurve:
+    def filmed(on: Polyline, curve: Piecewise) -> FilmedCurve:
         at = on.s[[k >= 0 for k in on.of]]
         return FilmedCurve(placed.keyframes, at, curve, watched, drone.limits, placed.shot.pace)
 
     plain = now = best = filmed(line, position[0])
-    led: tuple[Line, tuple[Piecewise, list[Solved]]] | None = None
+    led: tuple[Polyline, tuple[Piecewise, list[Solved]]] | None = None
     for _ in range(ROUNDS):
         aside = now.beside(space)
         beside = line_beside(space, placed.keyframes, aside) if any(map(len, aside)) else None
-        found = _position(space, drone, placed, beside) if isinstance(beside, Line) else None
-        if not isinstance(beside, Line) or found is None or isinstance(found, Stuck):
+        found = _position(space, drone, placed, beside) if isinstance(beside, Polyline) else None
+        if not isinstance(beside, Polyline) or found is None or isinstance(found, Stuck):
             break
         now = filmed(beside, found[0])
         if now.serves(plain) and now.seconds[1] < best.seconds[1]:
@@ -247,7 +247,7 @@ def _led_to_see(
     return led
 
 
-def _sections(line: Line) -> list[tuple[int, int]]:
+def _sections(line: Polyline) -> list[tuple[int, int]]:
     """Return the corner ranges between turns on the spot; repeated keyframes are left out."""
     moving = np.linalg.norm(np.diff(line.corners, axis=0), axis=1) >= SAME_PLACE_M
     sections: list[tuple[int, int]] = []
@@ -261,7 +261,7 @@ def _sections(line: Line) -> list[tuple[int, int]]:
     return sections
 
 
-def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
+def _stretch(placed: PlacedShot, line: Polyline, first: int, last: int) -> PolylineTask:
     bound, pulled, pulled_at = [0], [], []
     for i in range(first + 1, last):
         k = line.of[i]
@@ -277,7 +277,7 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
             bound.append(i - first)
     bound.append(last - first)
     s = line.s[first : last + 1]
-    return Stretch(
+    return PolylineTask(
         corners=line.corners[first : last + 1],
         s=s,
         bound=tuple(bound),
@@ -288,7 +288,7 @@ def _stretch(placed: PlacedShot, line: Line, first: int, last: int) -> Stretch:
     )
 
 
-def _keyed(placed: PlacedShot, line: Line, curve: Piecewise) -> KeyedPath:
+def _keyed(placed: PlacedShot, line: Polyline, curve: Piecewise) -> KeyedPath:
     """Return where on the curve each keyframe lies; for dropped ones the nearest place."""
     keyframes = placed.keyframes
     s = np.full(len(keyframes), np.nan)
@@ -315,7 +315,7 @@ def _nearest(curve: Piecewise, keyframe: PlacedKeyframe, low: float, high: float
     return float(at[int(away.argmin())])
 
 
-def _stops(keyframes: tuple[PlacedKeyframe, ...], keyed: KeyedPath, line: Line) -> tuple[Stop, ...]:
+def _stops(keyframes: tuple[PlacedKeyframe, ...], keyed: KeyedPath, line: Polyline) -> tuple[Stop, ...]:
     holds = {float(line.s[0]): 0.0, float(line.s[-1]): 0.0}
     for first, last in _sections(line):
         if np.linalg.norm(line.corners[last] - line.corners[first]) < SAME_PLACE_M and last == first + 1:

@@ -25,9 +25,9 @@ from shotc.ir.drone import Drone
 from shotc.ir.owners import Owner
 from shotc.planning.free_space import MARGIN_M, FreeSpace, Obstacle, blocked, bounds_slack, taper
 from shotc.planning.obstacles import FreeSpaces
-from shotc.planning.path.lines import Line, NoWay, TooNear, straight_line
+from shotc.planning.path.lines import NoWay, Polyline, TooNear, straight_line
 from shotc.planning.path.over import over_ground
-from shotc.planning.path.position import Stretch, solve_stretch
+from shotc.planning.path.position import PolylineTask, solve_stretch
 from shotc.planning.path.route import find_route, length
 from shotc.planning.path.shots import Stuck
 
@@ -49,7 +49,7 @@ def transit_curve(
 ) -> Piecewise | NoWay | TooNear | Stuck:
     """Return the position curve between two different places, shapes (3,), or why there is none."""
     near = straight_line(spaces.flight, a, b)
-    if not isinstance(near, Line):
+    if not isinstance(near, Polyline):
         return near
     for wide in _widest(spaces, near.corners):
         line = _line(spaces, wide, near.corners)
@@ -60,11 +60,13 @@ def transit_curve(
     return smooth(spaces.flight, drone, near)
 
 
-def smooth(space: FreeSpace, drone: Drone, line: Line, wide: FreeSpace | None = None) -> Piecewise | Stuck:
+def smooth(
+    space: FreeSpace, drone: Drone, line: Polyline, wide: FreeSpace | None = None
+) -> Piecewise | Stuck:
     """Return the position curve of an unfilmed leg along a polyline; wide : as in ``solve_stretch``."""
     none = np.zeros(0)
     ends = (0, len(line.corners) - 1)
-    stretch = Stretch(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
+    stretch = PolylineTask(line.corners, line.s, ends, none.reshape(0, 3), none, 1.0)
     solved = solve_stretch(space, stretch, drone.limits, wide)
     return Stuck(solved, line.corners, ()) if solved.curve is None else solved.curve
 
@@ -128,7 +130,7 @@ def _passed_nearer(space: FreeSpace, corners: Array) -> frozenset[Owner]:
     )
 
 
-def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Line | None:
+def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Polyline | None:
     """Return a polyline with clearances that taper towards its ends; None where none is short enough.
 
     near : polyline with the clearances of all phases, shape (K, 3)
@@ -167,9 +169,9 @@ def _settled(space: FreeSpace, ends: Array) -> FreeSpace:
     return replace(space, obstacles=tuple(map(settled, space.obstacles)))
 
 
-def _of(corners: Array) -> Line:
+def _of(corners: Array) -> Polyline:
     s = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])
-    return Line(corners, s, tuple([-1] * len(corners)))
+    return Polyline(corners, s, tuple([-1] * len(corners)))
 
 
 def _kept(space: FreeSpace, corners: Array) -> bool:

@@ -33,7 +33,7 @@ TURNS = ".headings"
 
 
 @dataclass(frozen=True, slots=True)
-class Turning:
+class TurnRules:
     """How a shot's camera may turn.
 
     method : of ``solvers.headings.METHODS``
@@ -99,16 +99,16 @@ class Known:
     rest: bool
 
 
-def turning(drone: Drone, pace: float, method: str = DEFAULT) -> Turning:
+def turning(drone: Drone, pace: float, method: str = DEFAULT) -> TurnRules:
     """Return how a drone's camera may turn at a share of its limits."""
     limits, gimbal = drone.limits, drone.gimbal
     own = drone.body != "follow-camera"
     rate = limits.yaw_rate + (gimbal.rate if own else 0.0)
     acceleration = limits.yaw_acceleration + (gimbal.acceleration if own else 0.0)
-    return Turning(method, pace * limits.speed, pace * rate, pace * acceleration)
+    return TurnRules(method, pace * limits.speed, pace * rate, pace * acceleration)
 
 
-def turned(known: list[Known], how: Turning) -> Turned:
+def turned(known: list[Known], how: TurnRules) -> Turned:
     """Return the turns of the camera through known yaws; groups count from 0."""
     found = [0.0] * (known[-1].group + 1)
     planned, unsolved = list[PlannedTurn](), 0
@@ -131,7 +131,7 @@ def turned(known: list[Known], how: Turning) -> Turned:
     return Turned(found, tuple(planned), unsolved)
 
 
-def _chosen(known: list[Known], how: Turning) -> tuple[Array, Headings]:
+def _chosen(known: list[Known], how: TurnRules) -> tuple[Array, Headings]:
     """Return the approximate times of known yaws, seconds, and the chosen turns."""
     yaw = np.array([k.yaw for k in known])
     stated = tuple(_fixed(a, b) for a, b in pairwise(known))
@@ -156,7 +156,7 @@ def _fixed(a: Known, b: Known) -> float | None:
     return b.turn + wrapped(b.yaw - a.yaw - b.turn)
 
 
-def _shortest(turn: Array, how: Turning) -> Array:
+def _shortest(turn: Array, how: TurnRules) -> Array:
     """Return the times of turns from rest to rest at full acceleration, then full rate, seconds."""
     full = how.rate**2 / how.acceleration
     short = 2 * np.sqrt(turn / how.acceleration)

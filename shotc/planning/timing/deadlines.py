@@ -17,7 +17,7 @@ import numpy as np
 from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.leg import Plan, plan_of
 from shotc.planning.timing.limits import Ceiling
-from shotc.planning.timing.move import Move
+from shotc.planning.timing.move import TimedMove
 from shotc.planning.timing.profile import SAME
 from shotc.planning.timing.windows import windowed_move
 
@@ -35,7 +35,7 @@ class Timed:
     """The moves that meet the deadlines, and the plan with the necessary waits."""
 
     plan: Plan
-    moves: tuple[Move, ...]
+    moves: tuple[TimedMove, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,8 +96,8 @@ class DueLeg:
 
     leg: PathLeg
     plan: Plan
-    fast: tuple[Move, ...]
-    paced: tuple[Move, ...]
+    fast: tuple[TimedMove, ...]
+    paced: tuple[TimedMove, ...]
     ceiling: Ceiling
 
     def possible(self) -> bool:
@@ -187,7 +187,7 @@ def _attempt(timed: DueLeg, anchors: list[_Anchor]) -> Timed | _Late:
         parts += [_Part(m, end, room * seconds / least, seconds, i + 1) for m, end, seconds in split]
     rest = _parts(plan, timed.paced, anchors[-1].s, plan.stops[-1].s)
     parts += [_Part(m, end, seconds, seconds, len(anchors)) for m, end, seconds in rest]
-    moves: list[Move] = []
+    moves: list[TimedMove] = []
     for m, move in enumerate(timed.fast):
         own = [p for p in parts if p.move == m]
         made = _made(timed, move, own)
@@ -206,7 +206,7 @@ class _FlownPart(NamedTuple):
     seconds: float
 
 
-def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> list[_FlownPart]:
+def _parts(plan: Plan, moves: tuple[TimedMove, ...], start: float, end: float) -> list[_FlownPart]:
     """Return the parts of moves between two places."""
     parts = []
     for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):
@@ -217,7 +217,7 @@ def _parts(plan: Plan, moves: tuple[Move, ...], start: float, end: float) -> lis
     return parts
 
 
-def _made(timed: DueLeg, fast: Move, parts: list[_Part]) -> Move | None:
+def _made(timed: DueLeg, fast: TimedMove, parts: list[_Part]) -> TimedMove | None:
     if len(parts) == 1:
         return fast.stretched(max(1.0 - SOLVED_TO, parts[0].seconds / fast.duration))
     span = (float(fast.profile.s[0]), float(fast.profile.s[-1]))

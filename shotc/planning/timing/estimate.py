@@ -14,7 +14,7 @@ from shotc.planning.timing.deadlines import DueLeg, TooFast, has_times
 from shotc.planning.timing.grid import evened, rough_profile
 from shotc.planning.timing.leg import LegMotion, Plan, assemble, fastest_moves, plan_of
 from shotc.planning.timing.limits import Ceiling, ceiling_of
-from shotc.planning.timing.move import Move, axes_of
+from shotc.planning.timing.move import TimedMove, axes_of
 
 LEAST_SPEED_M_S = 1e-3  # m/s along the path, at rest
 
@@ -47,7 +47,7 @@ class LegTiming(NamedTuple):
     """
 
     motion: LegMotion | None
-    fast: tuple[Move, ...]
+    fast: tuple[TimedMove, ...]
     too_fast: TooFast | None
 
 
@@ -78,7 +78,7 @@ def can_be_timed(leg: MovingLeg, ceiling: Ceiling) -> bool:
     return _due(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
 
 
-def _due(leg: MovingLeg, plan: Plan, fast: tuple[Move, ...], ceiling: Ceiling) -> DueLeg:
+def _due(leg: MovingLeg, plan: Plan, fast: tuple[TimedMove, ...], ceiling: Ceiling) -> DueLeg:
     paced = fast if leg.duration is not None else fastest_moves(leg, plan, _paced(leg, ceiling))
     return DueLeg(leg, plan, fast, paced, ceiling)
 

@@ -22,7 +22,7 @@ SPLITS = 8
 
 
 @dataclass(slots=True)
-class Flight:
+class TrajectoryBuilder:
     """A drone's trajectory while it grows leg by leg."""
 
     drone: str

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Piecewise, concatenate
 from shotc.ir.path import HoldLeg, PathLeg, Stop
 from shotc.planning.timing.limits import Ceiling
-from shotc.planning.timing.move import Move, time_move
+from shotc.planning.timing.move import TimedMove, time_move
 from shotc.planning.timing.profile import SAME, Profile
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ class LegMotion:
 
     profile: Profile
     curve: Piecewise
-    moves: tuple[Move, ...]
+    moves: tuple[TimedMove, ...]
 
     @property
     def duration(self) -> float:
@@ -83,7 +83,7 @@ def plan_of(leg: PathLeg) -> Plan:
     return Plan(tuple(merged))
 
 
-def fastest_moves(leg: PathLeg, plan: Plan, ceiling: Ceiling) -> tuple[Move, ...]:
+def fastest_moves(leg: PathLeg, plan: Plan, ceiling: Ceiling) -> tuple[TimedMove, ...]:
     """Return every move of the leg as fast as the ceiling allows."""
     if isinstance(leg, HoldLeg):
         return ()
@@ -109,7 +109,7 @@ class SamePath:
 @lru_cache(maxsize=256)
 def timed_once(
     path: SamePath, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...]
-) -> Move:
+) -> TimedMove:
     """Return ``time_move`` of a path, cached; arguments as there.
 
     A leg is timed when it is planned, again where alternatives are tried, and in the time pass.
@@ -117,7 +117,9 @@ def timed_once(
     return time_move(path.path, span, ceiling, through)
 
 
-def assemble(leg: PathLeg, plan: Plan, moves: tuple[Move, ...], duration: float | None) -> LegMotion | None:
+def assemble(
+    leg: PathLeg, plan: Plan, moves: tuple[TimedMove, ...], duration: float | None
+) -> LegMotion | None:
     """Return the leg over time, or None where it has neither moves nor holds.
 
     duration : its exact duration, which removes rounding from the last knot; None to keep the sum

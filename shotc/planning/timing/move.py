@@ -57,7 +57,7 @@ CORNERS = 32
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Move:
+class TimedMove:
     """One timed move.
 
     profile : s over local time from 0
@@ -83,7 +83,7 @@ class Move:
         """Seconds from rest to rest."""
         return self.profile.duration
 
-    def stretched(self, factor: float) -> Move:
+    def stretched(self, factor: float) -> TimedMove:
         """Return the move slowed by ``factor``."""
         curve = Piecewise(self.curve.breaks * factor, self.curve.ctrl)
         return replace(self, profile=self.profile.stretched(factor), curve=curve)
@@ -91,7 +91,7 @@ class Move:
 
 def time_move(
     path: Piecewise, span: tuple[float, float], ceiling: Ceiling, through: tuple[float, ...] = ()
-) -> Move:
+) -> TimedMove:
     """Return the fastest jerk-limited move along path(s) over an interval of s, from rest to rest.
 
     Where the solver finds no profile on any grid, a rough one is slowed until it keeps every limit.
@@ -108,7 +108,7 @@ def time_move(
         profile, flown = on_path(path, bounds.profile(*span), ceiling)
         quickest = bounds._replace(jerk=np.inf).rest_to_rest(span[1] - span[0])
         scale = max(1.0, float(needed_scale(usages(flown, limits)).max()))
-        return Move(path, profile, flown, quickest, scale, 0, len(flown.ctrl)).stretched(scale)
+        return TimedMove(path, profile, flown, quickest, scale, 0, len(flown.ctrl)).stretched(scale)
     samples, start, topp_time = _opening(path, span, limits, through)
     first = samples, start
     steps, best, last = 0, None, np.inf
@@ -136,7 +136,7 @@ def time_move(
         best = _Tried(path, samples.grid, calm, limits, ceiling)
         held = best.held
     cells = len(best.flown.ctrl)
-    move = Move(path, best.profile, best.flown, topp_time, best.slowdown, steps, cells, held)
+    move = TimedMove(path, best.profile, best.flown, topp_time, best.slowdown, steps, cells, held)
     return move.stretched(best.slowdown)
 
 

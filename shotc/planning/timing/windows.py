@@ -9,7 +9,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.planning.timing.flown import needed_scale, on_path, usages
 from shotc.planning.timing.grid import rate_cap
 from shotc.planning.timing.limits import Axis, Ceiling
-from shotc.planning.timing.move import Move, axes_of
+from shotc.planning.timing.move import TimedMove, axes_of
 from shotc.planning.timing.profile import Profile
 from shotc.solvers.conic import Status
 from shotc.solvers.timed_qp import PathLimits, TimeLaw, time_law
@@ -31,7 +31,7 @@ USABLE = (Status.SOLVED, Status.INACCURATE)
 
 def windowed_move(
     path: Piecewise, span: tuple[float, float], ceiling: Ceiling, ends: Array, seconds: Array
-) -> Move | None:
+) -> TimedMove | None:
     """Return the move whose intervals of s, which end at ``ends``, take ``seconds`` each; None if infeasible.
 
     Places are met by equality constraints, to about 1e-7 s.
@@ -48,7 +48,7 @@ def windowed_move(
         profile, flown = on_path(path, _profile(law), ceiling)
         needed = float(needed_scale(usages(flown, limits)).max())
         if needed <= 1.0:
-            return Move(path, profile, flown, np.inf, 1.0, steps, len(flown.ctrl))
+            return TimedMove(path, profile, flown, np.inf, 1.0, steps, len(flown.ctrl))
         previous, law = law, time_law(t, places, _path_limits(path, inner, law.s), law)
         if steps >= SETTLED and law.overdraft > max(LEFT, 0.7 * previous.overdraft):
             return None

@@ -27,7 +27,7 @@ from shotc.ir.show import Apart, Picture, stricter
 from shotc.planning.clearances import Clearance
 from shotc.show.assignment.changed import (
     NEAR_S,
-    Block,
+    FlightBlock,
     block_at,
     earlier,
     ends_of,
@@ -50,7 +50,7 @@ SLACK_M = 1e-6
 """Metres that rounding may take."""
 
 
-class Meeting(NamedTuple):
+class FlightConflict(NamedTuple):
     """Two flights that come too near, by their places among all, and when that begins to be so."""
 
     one: int
@@ -111,7 +111,7 @@ class _Sky:
         key = f"fleet {director.fleet.name} {what}"
         self.told[key] = self.told.get(key, 0.0) + seconds
 
-    def _change(self, meeting: Meeting) -> Change | None:
+    def _change(self, meeting: FlightConflict) -> Change | None:
         """Return the least change that resolves a meeting, None where there is none."""
         pair = (meeting.one, meeting.other)
         changes = [c for k, of in enumerate(pair) for c in self._changes(of, pair[1 - k], meeting.near)]
@@ -130,7 +130,7 @@ class _Sky:
                 return False
         return True
 
-    def _first(self, of: int, beside: int, flight: FleetTrajectory) -> Meeting | None:
+    def _first(self, of: int, beside: int, flight: FleetTrajectory) -> FlightConflict | None:
         """Return the first meeting of one fleet, flying so, with another one."""
         other = self.flights[beside]
         apart = self._apart(of, beside)
@@ -142,7 +142,7 @@ class _Sky:
             marks,
             apart.across - SLACK_M * max(1.0, apart.across),
         )
-        return None if near is None else Meeting(of, beside, near)
+        return None if near is None else FlightConflict(of, beside, near)
 
     def _apart(self, one: int, other: int) -> Apart:
         return stricter(self.directors[one].fleet.apart, self.directors[other].fleet.apart)
@@ -164,7 +164,7 @@ class _Sky:
             yield Change(of, earlier(flight, block, seconds), until, ("sets out earlier", seconds))
         yield from self._around(of, other, block, slack)
 
-    def _around(self, of: int, other: int, block: Block, slack: float) -> Iterator[Change]:
+    def _around(self, of: int, other: int, block: FlightBlock, slack: float) -> Iterator[Change]:
         """Yield the flight round what another one fills meanwhile, where there is time for that."""
         flight, way = self.flights[of], block.way
         low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
@@ -192,7 +192,7 @@ class _Sky:
         display = self.mission.display(shown.display)
         return display.pictures[shown.picture], display.pace
 
-    def _slack(self, flight: FleetTrajectory, block: Block) -> float:
+    def _slack(self, flight: FleetTrajectory, block: FlightBlock) -> float:
         """Return how much earlier a block may begin, s: up to lift-off, or the end of a hold."""
         begin = float(flight.breaks[block.first])
         before = [s for s in flight.shown if s.start <= begin + NEAR_S]

@@ -23,7 +23,7 @@ NEAR_S = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class FlightBlock:
     """Stretches of a flight one right after the other, such as the rise and the way to the first picture."""
 
     stretches: tuple[Window, ...]
@@ -44,7 +44,7 @@ def homeward(flight: FleetTrajectory) -> float:
     return next(phase.start for phase in flight.phases if phase.name == "return")
 
 
-def block_at(flight: FleetTrajectory, time: float) -> Block | None:
+def block_at(flight: FleetTrajectory, time: float) -> FlightBlock | None:
     """Return what is flown at a time, with what is flown right before it; None where the fleet stands.
 
     All up to the first picture is one block, though the fleet may rest above its pads. No picture stands
@@ -54,7 +54,7 @@ def block_at(flight: FleetTrajectory, time: float) -> Block | None:
     shown = [s.start for s in flight.shown]
     up = [w for w in known if breaks[w.last] <= min(shown) + NEAR_S]
     if up and breaks[up[0].first] - NEAR_S <= time <= breaks[up[-1].last] + NEAR_S:
-        return Block(tuple(up))
+        return FlightBlock(tuple(up))
     at = (k for k, w in enumerate(known) if breaks[w.first] - NEAR_S <= time <= breaks[w.last] + NEAR_S)
     last = next(at, None)
     if last is None:
@@ -65,7 +65,7 @@ def block_at(flight: FleetTrajectory, time: float) -> Block | None:
         if any(abs(start - begin) <= NEAR_S for start in shown):
             break
         first -= 1
-    return Block(tuple(known[first : last + 1]))
+    return FlightBlock(tuple(known[first : last + 1]))
 
 
 def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:
@@ -77,7 +77,7 @@ def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:
     return _timed(moved, lambda t: t + seconds if t > start + NEAR_S else t)
 
 
-def earlier(flight: FleetTrajectory, block: Block, seconds: float) -> FleetTrajectory:
+def earlier(flight: FleetTrajectory, block: FlightBlock, seconds: float) -> FleetTrajectory:
     """Return the flight that comes to a picture so much earlier, and stands there until it is shown."""
     flight, block = _ready(flight, block)
     low, high = float(flight.breaks[block.first]), float(flight.breaks[block.way.last])
@@ -88,7 +88,7 @@ def earlier(flight: FleetTrajectory, block: Block, seconds: float) -> FleetTraje
     return _timed(moved, lambda t: t - seconds if low - NEAR_S <= t < high - NEAR_S else t)
 
 
-def on_arcs(flight: FleetTrajectory, block: Block, move: ArcMove) -> FleetTrajectory:
+def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> FleetTrajectory:
     """Return the flight with another way at the end of a block.
 
     The way home takes what it takes; one to a picture begins so much earlier that it ends when it did.
@@ -116,7 +116,7 @@ def on_arcs(flight: FleetTrajectory, block: Block, move: ArcMove) -> FleetTrajec
     return _timed(flown, lambda t: t - longer if since - NEAR_S <= t < high - NEAR_S else t)
 
 
-def _ready(flight: FleetTrajectory, block: Block) -> tuple[FleetTrajectory, Block]:
+def _ready(flight: FleetTrajectory, block: FlightBlock) -> tuple[FleetTrajectory, FlightBlock]:
     """Return a flight that stands before a block in one piece, and the block in it."""
     rest = set(at_rest(flight.coef).tolist())
     first = block.first
@@ -127,7 +127,7 @@ def _ready(flight: FleetTrajectory, block: Block) -> tuple[FleetTrajectory, Bloc
     breaks = np.concatenate([flight.breaks[: since + 1], flight.breaks[since + 1 + fewer :]])
     coef = np.delete(flight.coef, np.s_[since + 1 : since + 1 + fewer], axis=1)
     stretches = tuple(Window(w.first - fewer, w.last - fewer) for w in block.stretches)
-    return replace(flight, breaks=breaks, coef=coef), Block(stretches)
+    return replace(flight, breaks=breaks, coef=coef), FlightBlock(stretches)
 
 
 def _repeated(coef: Array, at: int) -> Array:

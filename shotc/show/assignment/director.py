@@ -14,9 +14,9 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
 from shotc.show.assignment.home import come_home, way_up
-from shotc.show.assignment.lights import Images, Standing, rows_of, with_effects
+from shotc.show.assignment.lights import Images, StandingFrame, rows_of, with_effects
 from shotc.show.assignment.moves import Mover
-from shotc.show.assignment.order import Cast, Scene
+from shotc.show.assignment.order import Cast, OrderedFrame
 from shotc.show.assignment.score import Motion, Score
 from shotc.show.assignment.waves import Waves
 
@@ -73,7 +73,7 @@ class Director:
     def trajectory(self, images: Images) -> tuple[FleetTrajectory, list[Diagnostic]]:
         """Return the flight with its lights, and what is to be said of their effects."""
         score = self.score
-        standing = list(map(Standing, self.cast.scenes, score.shown))
+        standing = list(map(StandingFrame, self.cast.scenes, score.shown))
         dark = self._dark()
         rows = rows_of(dark, standing, self._followed())
         lit, told = with_effects(rows, self.mission, standing, dark, images)
@@ -92,7 +92,7 @@ class Director:
         begin = followed[0][1] if up else phases[0].end
         return begin, phases[-1].end if down else phases[-1].start
 
-    def _present(self, display: Display, scenes: tuple[Scene, ...], ready: float) -> None:
+    def _present(self, display: Display, scenes: tuple[OrderedFrame, ...], ready: float) -> None:
         """Write a display and the way to its first picture, which stands when it is to begin."""
         first, score = display.pictures[scenes[0].frame.picture], self.score
         flight = self._recorded.get(display.id)
@@ -140,7 +140,7 @@ class Director:
             self._found.append(faults.too_early(self.mission, display, max(earliest, ready)))
         return max(0.0, start - earliest)
 
-    def _pictures(self, display: Display, scenes: tuple[Scene, ...]) -> None:
+    def _pictures(self, display: Display, scenes: tuple[OrderedFrame, ...]) -> None:
         before = self.score.clock
         for number, group in groupby(scenes, key=lambda scene: scene.frame.picture):
             picture, frames = display.pictures[number], tuple(group)
@@ -165,7 +165,7 @@ class Director:
         self.score.stand(slack)
         self.score.shown[-1] = replace(self.score.shown[-1], end=self.score.clock)
 
-    def _show(self, display: Display, picture: Picture, frames: tuple[Scene, ...]) -> None:
+    def _show(self, display: Display, picture: Picture, frames: tuple[OrderedFrame, ...]) -> None:
         score, times = self.score, [self.score.clock]
         period = picture.source.period if isinstance(picture.source, Model) else None
         if len(frames) > 1 and period is not None:

@@ -52,7 +52,7 @@ class Times(NamedTuple):
     gone: float
 
 
-class Stage(NamedTuple):
+class EffectContext(NamedTuple):
     """What effects go through: places (k, 3) of lit drones, the audience's eye, how many drones there are."""
 
     places: Array
@@ -61,7 +61,7 @@ class Stage(NamedTuple):
     images: Mapping[str, Frames]
 
 
-def layer_of(effect: Effect, stage: Stage, times: Times, seed: int) -> Layer:
+def layer_of(effect: Effect, stage: EffectContext, times: Times, seed: int) -> Layer:
     """Return the layer of an effect; seed : that no other effect of the mission has."""
     own = times._replace(start=times.away, end=times.start) if effect.over == "transition" else times
     paint = _paint(effect, stage, own, seed)
@@ -99,7 +99,7 @@ def _fade(fade: Fade, over: str, times: Times) -> tuple[float, float, float, flo
     return (away, away, start, start + length)
 
 
-def _paint(effect: Effect, stage: Stage, times: Times, seed: int) -> Painted:
+def _paint(effect: Effect, stage: EffectContext, times: Times, seed: int) -> Painted:
     paint = effect.paint
     if isinstance(paint, Fade):
         return Tint(paint.color)
@@ -113,7 +113,7 @@ def _paint(effect: Effect, stage: Stage, times: Times, seed: int) -> Painted:
     return _footage(paint, stage, times)
 
 
-def _gradient(ramp: Ramp, stage: Stage, times: Times) -> Gradient:
+def _gradient(ramp: Ramp, stage: EffectContext, times: Times) -> Gradient:
     along = None if ramp.along is None else along_of(ramp.along, ramp.center, stage)
     rate = 0.0 if ramp.period is None else 1.0 / ramp.period
     if along is None:
@@ -122,7 +122,7 @@ def _gradient(ramp: Ramp, stage: Stage, times: Times) -> Gradient:
     return Gradient(ramp.colors, ramp.at, along, rate, times.start, ramp.period is not None)
 
 
-def along_of(way: Way, center: Vec3 | None, stage: Stage) -> Along:
+def along_of(way: Way, center: Vec3 | None, stage: EffectContext) -> Along:
     """Return what goes a way through the places of a stage; center : from which `out` and `in` count."""
     if way == "index":
         return Order(stage.drones)
@@ -136,21 +136,21 @@ def along_of(way: Way, center: Vec3 | None, stage: Stage) -> Along:
     return Axis(direction, float(at.min()), max(float(at.max()), float(at.min()) + LEAST_M))
 
 
-def _seen(way: Way, stage: Stage) -> Vec3:
+def _seen(way: Way, stage: EffectContext) -> Vec3:
     """Return the level direction of a word that the audience means."""
     right, _, _ = _axes(stage)
     level = np.array([-right[1], right[0], 0.0])
     return _vec({"right": right, "left": -right, "away": level, "near": -level}[way])
 
 
-def _eye(stage: Stage) -> Array:
+def _eye(stage: EffectContext) -> Array:
     if stage.viewpoint is not None:
         return np.array(stage.viewpoint)
     middle = (stage.places.min(axis=0) + stage.places.max(axis=0)) / 2.0
     return np.asarray(middle - np.array([0.0, FAR_M, 0.0]))
 
 
-def _axes(stage: Stage) -> tuple[Array, Array, Array]:
+def _axes(stage: EffectContext) -> tuple[Array, Array, Array]:
     """Return right, up and forward of who looks at the middle of the picture."""
     look = (stage.places.min(axis=0) + stage.places.max(axis=0)) / 2.0 - _eye(stage)
     forward = look / max(float(np.linalg.norm(look)), 1e-9)
@@ -159,7 +159,7 @@ def _axes(stage: Stage) -> tuple[Array, Array, Array]:
     return right, np.cross(right, forward), forward
 
 
-def _footage(image: Image, stage: Stage, times: Times) -> Footage:
+def _footage(image: Image, stage: EffectContext, times: Times) -> Footage:
     frames = stage.images[image.file]
     ends = frames.ends
     if image.period is not None:
@@ -167,7 +167,7 @@ def _footage(image: Image, stage: Stage, times: Times) -> Footage:
     return Footage(frames.rgba, frames.rows, frames.columns, ends, times.start, _screen(image, frames, stage))
 
 
-def _screen(image: Image, frames: Frames, stage: Stage) -> Screen:
+def _screen(image: Image, frames: Frames, stage: EffectContext) -> Screen:
     """Return where the image is: about the middle of the lights as the audience sees them."""
     right, up, forward = _axes(stage)
     away = stage.places - _eye(stage)

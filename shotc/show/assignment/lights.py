@@ -20,8 +20,8 @@ from shotc.ir.light_layers import Layer, Look
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display
 from shotc.show.assignment import faults
-from shotc.show.assignment.layers import Stage, Times, counts, layer_of
-from shotc.show.assignment.order import Scene
+from shotc.show.assignment.layers import EffectContext, Times, counts, layer_of
+from shotc.show.assignment.order import OrderedFrame
 from shotc.show.goals.footage import Frames
 
 SAME_S = 1e-4
@@ -31,10 +31,10 @@ Images = Mapping[str, Frames]
 """The images of a mission's effects, by name."""
 
 
-class Standing(NamedTuple):
+class StandingFrame(NamedTuple):
     """A frame and when it stands."""
 
-    scene: Scene
+    scene: OrderedFrame
     shown: Shown
 
 
@@ -43,23 +43,25 @@ class _Stood(NamedTuple):
 
     display: Display
     number: int
-    frames: tuple[Standing, ...]
+    frames: tuple[StandingFrame, ...]
     times: Times
 
 
-class Row(NamedTuple):
+class LightRow(NamedTuple):
     """What all lights show at a time: their colours, (n, 3), and the frame that these belong to, if any."""
 
     colors: Colors
-    of: Standing | None
+    of: StandingFrame | None
 
 
-Rows = Mapping[float, Row]
+Rows = Mapping[float, LightRow]
 """What is shown by the times between which lights fade."""
 
 
 def rows_of(
-    dark: tuple[float, float], standing: Sequence[Standing], recorded: Sequence[tuple[Recorded, float]] = ()
+    dark: tuple[float, float],
+    standing: Sequence[StandingFrame],
+    recorded: Sequence[tuple[Recorded, float]] = (),
 ) -> Rows:
     """Return what lights show without effects.
 
@@ -68,22 +70,26 @@ def rows_of(
     """
     known = {flight.display for flight, _ in recorded}
     black = np.zeros_like(standing[0].scene.colors)
-    rows = {dark[0]: Row(black, None)}
+    rows = {dark[0]: LightRow(black, None)}
     for one in standing:
         if one.shown.display not in known:
-            rows[one.shown.start] = rows[one.shown.end] = Row(one.scene.colors, one)
-    rows[dark[1]] = Row(black, None)
+            rows[one.shown.start] = rows[one.shown.end] = LightRow(one.scene.colors, one)
+    rows[dark[1]] = LightRow(black, None)
     for flight, origin in recorded:
         first = next(one for one in standing if one.shown.display == flight.display)
         times = [round(origin + t, 9) for t in flight.lights.times.tolist()]
         rows = {t: row for t, row in rows.items() if not times[0] - SAME_S < t < times[-1] + SAME_S}
         colors = np.moveaxis(flight.lights.colors, 1, 0)
-        rows |= {t: Row(color, first) for t, color in zip(times, colors, strict=True)}
+        rows |= {t: LightRow(color, first) for t, color in zip(times, colors, strict=True)}
     return {t: rows[t] for t in sorted(rows)}
 
 
 def with_effects(
-    rows: Rows, mission: MissionIR, standing: Sequence[Standing], dark: tuple[float, float], images: Images
+    rows: Rows,
+    mission: MissionIR,
+    standing: Sequence[StandingFrame],
+    dark: tuple[float, float],
+    images: Images,
 ) -> tuple[Lights, list[Diagnostic]]:
     """Return the programme with the effects of its displays, and what is to be said of these."""
     plain = Lights(np.array(list(rows)), np.stack([row.colors for row in rows.values()], axis=1))
@@ -112,7 +118,7 @@ def with_effects(
 
 
 def _pictures(
-    displays: Sequence[Display], standing: Sequence[Standing], dark: tuple[float, float]
+    displays: Sequence[Display], standing: Sequence[StandingFrame], dark: tuple[float, float]
 ) -> list[_Stood]:
     groups = [
         tuple(group) for _, group in groupby(standing, key=lambda one: (one.shown.display, one.shown.picture))
@@ -184,7 +190,7 @@ def _moment(mark: Mark, pictures: Sequence[_Stood], *, until: bool) -> float:
     return times.end if until else times.start
 
 
-def _stage(display: Display, pictures: Sequence[_Stood], images: Images) -> Stage:
+def _stage(display: Display, pictures: Sequence[_Stood], images: Images) -> EffectContext:
     frames = [one.scene for picture in pictures for one in picture.frames]
     places = np.concatenate([scene.shown for scene in frames])
-    return Stage(places, display.viewpoint, len(frames[0].places), images)
+    return EffectContext(places, display.viewpoint, len(frames[0].places), images)

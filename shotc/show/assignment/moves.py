@@ -18,7 +18,7 @@ from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Ends, Heights, Lack, led
 from shotc.show.geom.arcs import Gaps, straight_enough
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.goals.room import Room, room_of
+from shotc.show.goals.room import DisplaySurroundings, room_of
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from shotc.show.solvers.move import fastest
 
@@ -65,7 +65,9 @@ class Mover:
         move, lack = self._arcs(ends, pace, picture, room)
         return move if lack.metres <= ROUNDING_M else None
 
-    def _arcs(self, ends: Ends, pace: float, picture: Picture | None, room: Room) -> tuple[ArcMove, Lack]:
+    def _arcs(
+        self, ends: Ends, pace: float, picture: Picture | None, room: DisplaySurroundings
+    ) -> tuple[ArcMove, Lack]:
         """Return the fastest arcs found that have room, or those that lack least, and what they lack."""
         easing = "ease-in-out" if picture is None else picture.easing
         least = tuple(nearest_pair(places * self._scale) for places in ends)

@@ -19,7 +19,7 @@ DIGITS = 6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Scene:
+class OrderedFrame:
     """A frame in the order of the drones; places, colors : shape (n, 3); spare : numbers of dark drones."""
 
     frame: Frame
@@ -53,7 +53,7 @@ class Cast:
     """
 
     up: Columns
-    scenes: tuple[Scene, ...]
+    scenes: tuple[OrderedFrame, ...]
     recorded: tuple[Recorded, ...] = ()
 
 
@@ -74,7 +74,7 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
             recorded.append(_in_order(flight, order))
         places = np.round(frame.points[order], DIGITS)
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
-        scenes.append(Scene(frame, places, frame.colors[order], tuple(spare)))
+        scenes.append(OrderedFrame(frame, places, frame.colors[order], tuple(spare)))
         last = places
     return Cast(up, tuple(scenes), tuple(recorded))
 

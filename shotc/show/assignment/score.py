@@ -18,10 +18,10 @@ from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import DIGITS
 from shotc.show.solvers.arc_move import ArcMove
 from shotc.show.solvers.layered_move import LayeredMove
-from shotc.show.solvers.move import Move
+from shotc.show.solvers.move import CommonMove
 from shotc.show.solvers.wave_move import WaveMove
 
-Motion = Move | ArcMove | WaveMove
+Motion = CommonMove | ArcMove | WaveMove
 
 
 class Score:

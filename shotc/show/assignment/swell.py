@@ -20,7 +20,7 @@ from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.fleet_spline import pieces
 from shotc.geom.proof import bounds, box_gap, inf_distance, sup_outside
 from shotc.planning.clearances import ROUNDING_M, Clearance
-from shotc.show.goals.room import Room
+from shotc.show.goals.room import DisplaySurroundings
 from shotc.show.solvers.arc_move import ArcMove
 
 GAP_M = 1e-3
@@ -84,7 +84,7 @@ class Heights:
 
 
 def led(
-    ends: Ends, heights: Heights, room: Room, fastest: Callable[[Array], ArcMove]
+    ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
 ) -> tuple[ArcMove, Lack]:
     """Return a move that is clear of everything, or that which lacks least, and what it lacks.
 
@@ -102,7 +102,7 @@ def led(
 
 
 def _tries(
-    ends: Ends, heights: Heights, room: Room, fastest: Callable[[Array], ArcMove]
+    ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
 ) -> Iterator[ArcMove]:
     """Yield the move about the middle, at a height that has room; if that is not clear, those led aside."""
     middle = 0.25 * sum((e.min(axis=0) + e.max(axis=0) for e in ends), np.zeros(3))
@@ -147,7 +147,7 @@ def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pi
     return best
 
 
-def _lack(ends: Ends, heights: Heights, room: Room, move: ArcMove) -> Lack:
+def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove) -> Lack:
     worst = Lack(heights.lack(ends, move.ctrl, move.pivot), None)
     boxes = _boxes(ends, move)
     flown: FleetPieces | None = None

@@ -24,7 +24,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture, Wave
 from shotc.rounding import down, up
 from shotc.show.assignment.faults import TriedWave, too_fast, wave_too_near, wave_without_extent
-from shotc.show.assignment.layers import LEAST_M, Stage, along_of
+from shotc.show.assignment.layers import LEAST_M, EffectContext, along_of
 from shotc.show.assignment.score import Score
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.wave_move import WaveMove, fastest_wave
@@ -48,7 +48,7 @@ def departures(wave: Wave, viewpoint: Vec3 | None, ends: Ends) -> Array | None:
     The last one sets out ``wave.time`` after the first, all others by where they are between the two.
     """
     places = ends[1] if wave.by == "goal" else ends[0]
-    along = along_of(wave.along, wave.center, Stage(places, viewpoint, len(places), {}))
+    along = along_of(wave.along, wave.center, EffectContext(places, viewpoint, len(places), {}))
     if isinstance(along, Order):
         share = np.arange(len(places), dtype=np.float64)
     else:

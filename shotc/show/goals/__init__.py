@@ -22,9 +22,9 @@ from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import Display, Fleet
-from shotc.show.goals.flown import Flown, flown, is_recorded
-from shotc.show.goals.layout import Task
-from shotc.show.goals.picture import Drawn, draw_picture
+from shotc.show.goals.flown import RecordedPicture, flown, is_recorded
+from shotc.show.goals.layout import PictureTask
+from shotc.show.goals.picture import PictureResult, draw_picture
 from shotc.show.goals.room import room_of
 from shotc.show.goals.spaced import Setting
 
@@ -37,13 +37,13 @@ class PlaceGoals:
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[GoalIR]:
         """Place the goals of every display, fleet by fleet; all faults of all pictures are told."""
         shows: list[FleetGoals] = []
-        drawn: list[Drawn | Flown] = []
+        drawn: list[PictureResult | RecordedPicture] = []
         showing = {display.fleet for display in ir.mission.displays}
         for fleet in (f for f in ir.mission.fleets if f.name in showing):
             displays = [d for d in ir.mission.displays if d.fleet == fleet.name]
             found = [_display(ir.mission, fleet, display, ctx) for display in displays]
             frames = tuple(frame for display in found for picture in display for frame in picture.frames)
-            flights = (one.flight for display in found for one in display if isinstance(one, Flown))
+            flights = (one.flight for display in found for one in display if isinstance(one, RecordedPicture))
             shows.append(FleetGoals(fleet.name, frames, tuple(one for one in flights if one is not None)))
             drawn += [picture for display in found for picture in display]
         diagnostics = tuple(d for picture in drawn for d in picture.diagnostics)
@@ -52,7 +52,9 @@ class PlaceGoals:
         return Outcome(value, diagnostics)
 
 
-def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContext) -> Sequence[Drawn | Flown]:
+def _display(
+    mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContext
+) -> Sequence[PictureResult | RecordedPicture]:
     if is_recorded(display):
         ctx.progress(f"reading the flight of {display.id}")
         return [flown(mission, fleet, display)]
@@ -71,5 +73,7 @@ def _display(mission: MissionIR, fleet: Fleet, display: Display, ctx: PassContex
     drawn = []
     for k in range(len(display.pictures)):
         ctx.progress(f"placing the goals of {display.id}, picture {k + 1} of {len(display.pictures)}")
-        drawn.append(draw_picture(Task(mission, fleet, display, k, (ctx.seed, number, k), files), setting))
+        drawn.append(
+            draw_picture(PictureTask(mission, fleet, display, k, (ctx.seed, number, k), files), setting)
+        )
     return drawn

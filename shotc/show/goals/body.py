@@ -12,7 +12,7 @@ from shotc.ir.fleet import Colors
 Fill = Literal["volume", "surface", "outline"]
 
 
-class Body(Protocol):
+class PlacedShape(Protocol):
     """A shape in its place in W, metres."""
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:

@@ -15,7 +15,7 @@ from shotc.importers.xml_tree import Node, XmlFault, parse_xml
 from shotc.ir.effects import Color
 from shotc.ir.show import Drawing
 from shotc.show.goals.body import SourceFault
-from shotc.show.goals.flat import FlatBody, Shape, chain, standing
+from shotc.show.goals.flat import FlatBody, FlatPart, chain, standing
 
 CURVE = 16
 """Lines that a Bezier curve becomes."""
@@ -68,7 +68,7 @@ def _fault(source: Drawing, what: str, note: str, help_: str) -> SourceFault:
     return SourceFault("D054", "file", f"drawing `{source.file}` {what}", (note,), help_)
 
 
-def _scaled(source: Drawing, shapes: list[Shape]) -> FlatBody | SourceFault:
+def _scaled(source: Drawing, shapes: list[FlatPart]) -> FlatBody | SourceFault:
     corners = np.concatenate([s.edges.reshape(-1, 2) for s in shapes])
     if not np.isfinite(corners).all() or np.abs(corners).max() > 1e12:
         return _fault(source, "is broken", "some of its numbers are no numbers", "save it anew")
@@ -129,13 +129,13 @@ def _name(tag: str) -> str:
     return tag.rsplit(":", 1)[-1]
 
 
-def _shapes(data: bytes) -> list[Shape]:
+def _shapes(data: bytes) -> list[FlatPart]:
     """Return the shapes that are drawn, in the file's units, up positive."""
     from svgelements import SVG
+    from svgelements import FlatPart as Drawn
     from svgelements import Path as Curves
-    from svgelements import Shape as Drawn
 
-    shapes: list[Shape] = []
+    shapes: list[FlatPart] = []
     for element in SVG.parse(io.BytesIO(data), on_error="raise").select(lambda e: isinstance(e, Drawn)):
         filled, stroked = (element.values.get(key) != "none" for key in ("fill", "stroke"))
         if not (filled or stroked) or _hidden(element.values):
@@ -146,7 +146,7 @@ def _shapes(data: bytes) -> list[Shape]:
             parity = element.values.get("fill-rule") == "evenodd"
             width = max(width, 1e-6 * float(np.ptp(edges)))
             color = _color(element.fill if filled else element.stroke)
-            shapes.append(Shape(edges * (1.0, -1.0), filled, parity, width, color))
+            shapes.append(FlatPart(edges * (1.0, -1.0), filled, parity, width, color))
     return shapes
 
 

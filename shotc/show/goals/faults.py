@@ -14,7 +14,7 @@ from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.rounding import at_least, at_most
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.remedies import Remedies
-from shotc.show.goals.room import Room, lack_of, least_shift
+from shotc.show.goals.room import DisplaySurroundings, lack_of, least_shift
 from shotc.show.goals.spaced import Setting
 from shotc.show.labels import word_of
 
@@ -132,7 +132,7 @@ def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | 
 
 
 def in_the_way(
-    mission: MissionIR, fleet: Fleet, picture: Picture, frames: Sequence[Array], room: Room
+    mission: MissionIR, fleet: Fleet, picture: Picture, frames: Sequence[Array], room: DisplaySurroundings
 ) -> list[Diagnostic]:
     """Return one fault for each obstacle in which goals of a picture's frames are, and for the ground."""
     goals = np.concatenate(frames)

@@ -33,7 +33,7 @@ UNPAINTED: Color = (255, 255, 255)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shape:
+class FlatPart:
     """A part of a flat picture.
 
     edges : shape (E, 2, 2), from (right, up) to (right, up), metres from the picture's middle
@@ -53,7 +53,7 @@ class Shape:
 class FlatBody:
     """Shapes in the upright plane that is seen by who looks along a heading; axes as in ``upright_axes``."""
 
-    shapes: tuple[Shape, ...]
+    shapes: tuple[FlatPart, ...]
     centre: Array
     axes: Array
 
@@ -110,7 +110,7 @@ class FlatBody:
         return np.asarray(self.centre + flat[:, :1] * self.axes[0] + flat[:, 1:] * self.axes[2])
 
 
-def standing(shapes: Sequence[Shape], centre: Sequence[float], heading: float) -> FlatBody:
+def standing(shapes: Sequence[FlatPart], centre: Sequence[float], heading: float) -> FlatBody:
     """Return shapes in their place; centre : p_W of their middle, heading : of who reads them, rad."""
     return FlatBody(tuple(shapes), np.array(centre), upright_axes(heading))
 
@@ -138,7 +138,7 @@ def _along(edges: Array, count: int, rng: np.random.Generator) -> Array:
     return np.asarray(edges[k, 0] + share[:, None] * (edges[k, 1] - edges[k, 0]))
 
 
-def _seen(shapes: Sequence[Shape], places: Array) -> Numbers:
+def _seen(shapes: Sequence[FlatPart], places: Array) -> Numbers:
     """Return which shape is seen at places (n, 2): of the filled ones there the last, or else the nearest."""
     rng = np.random.default_rng(0)
     count = max(4, min(FINE_COLUMNS, MOST_POINTS // len(shapes)))

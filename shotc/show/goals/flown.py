@@ -13,11 +13,11 @@ from shotc.ir.light_colors import faded_colors
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, RecordedFlight
 from shotc.show.recorded import faults
-from shotc.show.recorded.stage import Asked, Grounded, Staged, staged
+from shotc.show.recorded.stage import FitRequirements, Grounded, Staged, staged
 from shotc.show.recorded.tracks import Unreadable, read_tracks
 
 
-class Flown(NamedTuple):
+class RecordedPicture(NamedTuple):
     """A recorded flight with its frames, none where it cannot be flown, and what is to be said."""
 
     frames: tuple[Frame, ...]
@@ -31,27 +31,27 @@ def is_recorded(display: Display) -> bool:
     return isinstance(display.pictures[0].source, RecordedFlight)
 
 
-def flown(mission: MissionIR, fleet: Fleet, display: Display) -> Flown:
+def flown(mission: MissionIR, fleet: Fleet, display: Display) -> RecordedPicture:
     """Return the recorded flight of a display, or all that keeps it from being flown."""
     source = display.pictures[0].source
     assert isinstance(source, RecordedFlight)
     tracks = read_tracks(source.file, dict(mission.files)[source.file], mission.origin)
     if isinstance(tracks, Unreadable):
-        return Flown((), None, (faults.unreadable(mission, display, tracks),))
+        return RecordedPicture((), None, (faults.unreadable(mission, display, tracks),))
     if len(tracks.tracks) != len(fleet.pads):
-        return Flown((), None, (faults.other_count(mission, display, fleet, len(tracks.tracks)),))
+        return RecordedPicture((), None, (faults.other_count(mission, display, fleet, len(tracks.tracks)),))
     mine = [one.id for one in mission.displays if one.fleet == fleet.name]
     floor = mission.rules.over_ground(fleet.radius)
     first, last = mine[0] == display.id, mine[-1] == display.id
-    asked = Asked(np.array(fleet.pads), floor, fleet.limits, first, last)
+    asked = FitRequirements(np.array(fleet.pads), floor, fleet.limits, first, last)
     found = staged(display.id, tracks, asked)
     if isinstance(found, Grounded):
-        return Flown((), None, (faults.grounded(mission, display, tracks, found, floor),))
+        return RecordedPicture((), None, (faults.grounded(mission, display, tracks, found, floor),))
     jump = faults.jumps(mission, display, tracks, found)
     if jump is not None:
-        return Flown((), None, (jump,))
+        return RecordedPicture((), None, (jump,))
     said = tuple(faults.told(mission, display, tracks, found, asked))
-    return Flown(_frames(found.flight), found.flight, said, _stats(fleet, found))
+    return RecordedPicture(_frames(found.flight), found.flight, said, _stats(fleet, found))
 
 
 def _frames(flight: Recorded) -> tuple[Frame, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.ir.show import Model
-from shotc.show.goals.body import Body, Fill, SourceFault, upright_axes
+from shotc.show.goals.body import Fill, PlacedShape, SourceFault, upright_axes
 from shotc.show.goals.model import mesh_body, open_edges
 from shotc.show.goals.model_file import Mesh, Unreadable, read_model
 
@@ -23,7 +23,7 @@ LEAP_RATIO = 5.0
 """Factor between the extents of one frame and the next beyond which they cannot be in one unit."""
 
 
-def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[Body] | SourceFault:
+def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[PlacedShape] | SourceFault:
     """Return the body of every frame in its place in W, or what is wrong with the first bad one."""
     meshes: list[Mesh] = []
     for name in source.files:

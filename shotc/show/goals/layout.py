@@ -14,7 +14,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Lettering, Picture
 from shotc.show.geom.fit import MOST_DARK_SHARE
-from shotc.show.goals.body import Body, Fill
+from shotc.show.goals.body import Fill, PlacedShape
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.faults import no_points, too_few_points, viewpoint_inside
 from shotc.show.goals.flat import FlatBody
@@ -22,7 +22,7 @@ from shotc.show.goals.in_layers import filled_in_layers, in_layers
 from shotc.show.goals.letters import lights_needed
 from shotc.show.goals.lit import LEAST_FLAT, Lit, Strokes, all_lit, lit, on_strokes
 from shotc.show.goals.model import CloudBody, MeshBody
-from shotc.show.goals.remedies import Held
+from shotc.show.goals.remedies import GoalCapacity
 from shotc.show.goals.solids import SolidBody
 from shotc.show.goals.spaced import (
     TRIED,
@@ -52,7 +52,7 @@ AS_MANY = 0.9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Task:
+class PictureTask:
     """One picture of a display to be drawn; seed : of its points, the same for all its frames."""
 
     mission: MissionIR
@@ -68,7 +68,7 @@ class Task:
         return self.display.pictures[self.index]
 
 
-class Layout(NamedTuple):
+class GoalLayout(NamedTuple):
     """Goals of all frames as placed, and as spaced: None from the first frame on that they do not fit.
 
     setting : how far apart they are
@@ -100,7 +100,7 @@ class Layout(NamedTuple):
         return self.held if self.flown else 0
 
 
-def laid_out(task: Task, setting: Setting, bodies: Sequence[Body]) -> Layout | Diagnostic:
+def laid_out(task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape]) -> GoalLayout | Diagnostic:
     """Return the goals of all frames: so far apart that all moves are straight, if all find room so.
 
     Else as near as the separation allows, if that is flown on arcs; drones that find no room then stay dark.
@@ -114,7 +114,7 @@ def laid_out(task: Task, setting: Setting, bodies: Sequence[Body]) -> Layout | D
     return layouts.legible(setting, dark=True)
 
 
-def flown_straight(task: Task, bodies: Sequence[Body]) -> bool:
+def flown_straight(task: PictureTask, bodies: Sequence[PlacedShape]) -> bool:
     """Tell whether a picture is an animation, or drones come to it or go from it on straight ways alone."""
     next_ones = task.display.pictures[task.index : task.index + 2]
     straight = (p.transition_path == "straight" or p.wave is not None for p in next_ones)
@@ -124,11 +124,11 @@ def flown_straight(task: Task, bodies: Sequence[Body]) -> bool:
 class _Layouts:
     """Lays out one picture. Its centroids are found once, however far apart they are to be."""
 
-    def __init__(self, task: Task, bodies: Sequence[Body]) -> None:
+    def __init__(self, task: PictureTask, bodies: Sequence[PlacedShape]) -> None:
         self.task, self.bodies = task, bodies
         self._known: dict[tuple[Fill, int], list[Placed] | Diagnostic] = {}
 
-    def legible(self, setting: Setting, *, dark: bool) -> Layout | Diagnostic:
+    def legible(self, setting: Setting, *, dark: bool) -> GoalLayout | Diagnostic:
         """Return the goals of all frames; of a text without a ``fill`` where it reads best."""
         fill = self.task.picture.fill
         if self.task.picture.layers > 1:
@@ -149,7 +149,7 @@ class _Layouts:
         few = inside.bright == setting.number or outline.bright < AS_MANY * max(1, inside.bright)
         return inside if few and outline.bright < setting.number else outline
 
-    def _filled(self, setting: Setting, fill: Fill, *, dark: bool) -> Layout | Diagnostic:
+    def _filled(self, setting: Setting, fill: Fill, *, dark: bool) -> GoalLayout | Diagnostic:
         """Return goals that all find room; or if others may stay dark, as many as do, in a lattice if
         need be.
         """
@@ -164,7 +164,7 @@ class _Layouts:
             if wrong is not None:
                 return wrong
             if self._crowded(setting, fill):
-                return self._lattice(setting, fill) if dark else Layout(fill, (), (None,), setting)
+                return self._lattice(setting, fill) if dark else GoalLayout(fill, (), (None,), setting)
         goals = self._goals(setting, fill)
         if isinstance(goals, Diagnostic):
             return goals
@@ -179,7 +179,7 @@ class _Layouts:
 
     def _crowded_strokes(
         self, setting: Setting, fill: Fill, body: FlatBody, *, dark: bool
-    ) -> Layout | Diagnostic | None:
+    ) -> GoalLayout | Diagnostic | None:
         """Return how a flat picture shows a large fleet that has too little room to be spread evenly, if
         so.
         """
@@ -191,12 +191,12 @@ class _Layouts:
         if not strokes.crowded:
             return None
         if not dark:
-            return Layout(fill, (), (None,), setting)
+            return GoalLayout(fill, (), (None,), setting)
         shown = lit(strokes)
         goals = Placed(shown.points, shown.points[: shown.number], points)
-        return Layout(fill, (goals,), (shown,), setting)
+        return GoalLayout(fill, (goals,), (shown,), setting)
 
-    def _layered(self, setting: Setting, fill: Fill) -> Layout | Diagnostic:
+    def _layered(self, setting: Setting, fill: Fill) -> GoalLayout | Diagnostic:
         """Return a flat picture in layers, one behind the other."""
         (body,) = self.bodies
         assert isinstance(body, FlatBody)
@@ -206,9 +206,9 @@ class _Layouts:
             return wrong or no_points(self.task.mission, self.task.picture)
         shown = in_layers(body, setting, self._draw(fill), self.task.picture.layers)
         goals = Placed(shown.points, shown.points[: shown.number], points)
-        return Layout(fill, (goals,), (shown,), setting)
+        return GoalLayout(fill, (goals,), (shown,), setting)
 
-    def _apart(self, setting: Setting, what: tuple[Fill, Sequence[Placed]], *, dark: bool) -> Layout:
+    def _apart(self, setting: Setting, what: tuple[Fill, Sequence[Placed]], *, dark: bool) -> GoalLayout:
         """Return the goals of all frames moved apart, up to the first frame in which they do not fit."""
         fill, goals = what
         apart: list[Lit | None] = []
@@ -221,7 +221,7 @@ class _Layouts:
                 apart.append(None if points is None else Lit(points, len(points)))
             if apart[-1] is None:
                 break
-        return Layout(fill, tuple(goals), tuple(apart), setting)
+        return GoalLayout(fill, tuple(goals), tuple(apart), setting)
 
     def _is_solid(self, fill: Fill) -> bool:
         """Tell whether there is an inside to lay a lattice in."""
@@ -235,24 +235,24 @@ class _Layouts:
         """Return points of a solid, as dense as its goals can be."""
         return drawn(setting, self._draw(fill), 3)
 
-    def _lattice(self, setting: Setting, fill: Fill) -> Layout:
+    def _lattice(self, setting: Setting, fill: Fill) -> GoalLayout:
         return self._one(setting, fill, in_lattice(setting, self._draw(fill)), lattice=True)
 
-    def _thinned(self, setting: Setting, fill: Fill, goals: Placed) -> Layout:
+    def _thinned(self, setting: Setting, fill: Fill, goals: Placed) -> GoalLayout:
         power = 1 if fill == "outline" else 2
         layout = self._one(setting, fill, thinned_out(setting, self._draw(fill), power), lattice=False)
         return layout._replace(placed=(goals,))
 
-    def _one(self, setting: Setting, fill: Fill, found: Array, *, lattice: bool) -> Layout:
+    def _one(self, setting: Setting, fill: Fill, found: Array, *, lattice: bool) -> GoalLayout:
         """Return the layout of a single frame whose goals are found, other drones dark behind them."""
         points = self._draw(fill)(LEAST_POINTS)
         goals = Placed(found, found, points)
         shown = Lit(found, len(found), lattice)
         few = len(found) < max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number)
         frame = shown if few else _with_dark(shown, setting) or shown
-        return Layout(fill, (goals,), (frame,), setting)
+        return GoalLayout(fill, (goals,), (frame,), setting)
 
-    def _fewer(self, setting: Setting, what: tuple[Fill, Sequence[Placed]]) -> Layout | None:
+    def _fewer(self, setting: Setting, what: tuple[Fill, Sequence[Placed]]) -> GoalLayout | None:
         """Return the frames of as many drones as find room in every one, the others dark behind, or None."""
         fill, goals = what
         power = 3 if fill == "volume" else 2
@@ -285,18 +285,18 @@ class _Layouts:
         return self._known[key]
 
 
-def growth(task: Task, bodies: Sequence[Body], layout: Layout) -> float:
+def growth(task: PictureTask, bodies: Sequence[PlacedShape], layout: GoalLayout) -> float:
     """Return how many times as large a picture should show all drones, of which it holds some."""
     setting, body, number = layout.setting, bodies[0], layout.setting.number
     known = max(1, layout.held)
     if isinstance(body, FlatBody):
         strokes = Strokes(body, layout.fill, layout.placed[0], setting, lambda _: layout.placed[0].points)
-        return Held(known, 1 if layout.fill == "outline" else 2, strokes.edges_share).growth(number)
+        return GoalCapacity(known, 1 if layout.fill == "outline" else 2, strokes.edges_share).growth(number)
     if layout.fill != "volume" or len(bodies) > 1 or isinstance(body, CloudBody):
         power = {"volume": 3, "surface": 2, "outline": 1, "legible": 2}[layout.fill]
-        return Held(known, power).growth(number)
+        return GoalCapacity(known, power).growth(number)
     points = _Layouts(task, bodies).points(setting, layout.fill)
-    low, high = 1.0, 2.0 * Held(known, 3).growth(number)
+    low, high = 1.0, 2.0 * GoalCapacity(known, 3).growth(number)
     while high > 1.01 * low:
         middle = sqrt(low * high)
         low, high = (low, middle) if places_held(setting, points, middle) >= number else (middle, high)
@@ -311,7 +311,9 @@ def _with_dark(frame: Lit, setting: Setting) -> Lit | None:
     return None if behind is None else frame._replace(points=np.concatenate([frame.points, behind]))
 
 
-def _placed(task: Task, setting: Setting, bodies: Sequence[Body], fill: Fill) -> list[Placed] | Diagnostic:
+def _placed(
+    task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape], fill: Fill
+) -> list[Placed] | Diagnostic:
     n = setting.number
     found: list[Placed] = []
     for body in bodies:
@@ -329,7 +331,7 @@ def _placed(task: Task, setting: Setting, bodies: Sequence[Body], fill: Fill) ->
     return found
 
 
-def _wrong(task: Task, setting: Setting, body: Body, points: Array | None) -> Diagnostic | None:
+def _wrong(task: PictureTask, setting: Setting, body: PlacedShape, points: Array | None) -> Diagnostic | None:
     """Return what keeps a body from being drawn: it has no such points, or the audience is in it."""
     if points is None:
         return no_points(task.mission, task.picture)
@@ -338,7 +340,7 @@ def _wrong(task: Task, setting: Setting, body: Body, points: Array | None) -> Di
     return None
 
 
-def _within(viewpoint: Array, body: Body, points: Array) -> bool:
+def _within(viewpoint: Array, body: PlacedShape, points: Array) -> bool:
     # A hollow shape does not enclose its middle, but from there no way of looking is the right one.
     off = float(np.linalg.norm(points.mean(axis=0) - viewpoint))
     return body.encloses(viewpoint) or off < 0.05 * float(np.ptp(points, axis=0).max())

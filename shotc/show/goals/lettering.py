@@ -12,7 +12,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.show import Lettering
 from shotc.show.goals.body import SourceFault
-from shotc.show.goals.flat import FlatBody, Shape, closed, standing
+from shotc.show.goals.flat import FlatBody, FlatPart, closed, standing
 from shotc.spec.words import closest
 
 OUTLINE_PX = 200.0
@@ -37,7 +37,7 @@ def lettering_body(source: Lettering, files: Mapping[str, bytes]) -> FlatBody | 
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     scale = source.height / _capital(font, corners)
     edges = np.concatenate([closed((polygon - middle) * scale) for polygon in letters])
-    return standing([Shape(edges, True, False, 0.0)], source.centre, source.heading)
+    return standing([FlatPart(edges, True, False, 0.0)], source.centre, source.heading)
 
 
 def _unwritable(source: Lettering, missing: list[str]) -> SourceFault:

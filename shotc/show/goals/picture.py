@@ -12,11 +12,11 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors, Frame
 from shotc.ir.show import Lettering, Picture
-from shotc.show.goals.body import Body, SourceFault
+from shotc.show.goals.body import PlacedShape, SourceFault
 from shotc.show.goals.faults import in_the_way, of_source, too_dark, too_few, too_many
 from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.in_layers import layer_stats, seen_spacing
-from shotc.show.goals.layout import Layout, Task, growth, laid_out
+from shotc.show.goals.layout import GoalLayout, PictureTask, growth, laid_out
 from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
 from shotc.show.goals.remedies import Remedies, remedies
 from shotc.show.goals.sources import bodies_of
@@ -25,7 +25,7 @@ from shotc.show.goals.spaced import Setting
 WHITE = (255, 255, 255)
 
 
-class Drawn(NamedTuple):
+class PictureResult(NamedTuple):
     """A picture: its frames, none where it cannot be flown, and what is to be said."""
 
     frames: tuple[Frame, ...]
@@ -33,26 +33,30 @@ class Drawn(NamedTuple):
     stats: tuple[tuple[str, float | str], ...] = ()
 
 
-def draw_picture(task: Task, setting: Setting) -> Drawn:
+def draw_picture(task: PictureTask, setting: Setting) -> PictureResult:
     """Return a picture's frames, or all that keeps it from being flown."""
     bodies = bodies_of(task.picture, task.files)
     if isinstance(bodies, SourceFault):
-        return Drawn((), (of_source(task.mission, task.picture, bodies),))
+        return PictureResult((), (of_source(task.mission, task.picture, bodies),))
     layout = laid_out(task, setting, bodies)
     if isinstance(layout, Diagnostic):
-        return Drawn((), (layout,))
+        return PictureResult((), (layout,))
     shown = [goals.shown for goals in layout.placed]
     faults = in_the_way(task.mission, task.fleet, task.picture, shown, setting.room)
     if faults:
-        return Drawn((), tuple(faults))
+        return PictureResult((), tuple(faults))
     if not layout.flown:
         found = _remedies(task, setting, bodies, layout)
-        return Drawn((), (too_many(task.mission, task.fleet, task.picture, found, layout.setting),))
+        return PictureResult((), (too_many(task.mission, task.fleet, task.picture, found, layout.setting),))
     frames = tuple(_frame(task, k, body, layout) for k, body in enumerate(bodies))
-    return Drawn(frames, tuple(_warnings(task, setting, bodies, layout)), _stats(task, bodies, layout))
+    return PictureResult(
+        frames, tuple(_warnings(task, setting, bodies, layout)), _stats(task, bodies, layout)
+    )
 
 
-def _warnings(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layout) -> list[Diagnostic]:
+def _warnings(
+    task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape], layout: GoalLayout
+) -> list[Diagnostic]:
     """Return what is to be said of a picture that can be flown."""
     diagnostics = []
     if layout.bright < setting.number:
@@ -67,7 +71,7 @@ def _warnings(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layo
     return diagnostics if few is None else [few]
 
 
-def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic | None:
+def _few(task: PictureTask, setting: Setting, body: PlacedShape, layout: GoalLayout) -> Diagnostic | None:
     source = task.picture.source
     if not isinstance(source, Lettering) or not isinstance(body, FlatBody):
         return too_few(task.mission, task.fleet, task.picture)
@@ -79,7 +83,9 @@ def _few(task: Task, setting: Setting, body: Body, layout: Layout) -> Diagnostic
     return too_few_lights(task.mission, task.picture, (body, layout.fill), numbers)
 
 
-def _remedies(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layout) -> Remedies:
+def _remedies(
+    task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape], layout: GoalLayout
+) -> Remedies:
     """Find what would do."""
     apart = task.fleet.apart
     touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
@@ -92,17 +98,17 @@ def _remedies(task: Task, setting: Setting, bodies: Sequence[Body], layout: Layo
     return remedies(fits, task.picture, held, setting.room.lowest, touching, tall)
 
 
-def _shows_all(task: Task, setting: Setting, picture: Picture) -> bool:
+def _shows_all(task: PictureTask, setting: Setting, picture: Picture) -> bool:
     """Tell whether a picture written otherwise shows as many drones as there are: it is laid out."""
     pictures = list(task.display.pictures)
     pictures[task.index] = picture
     changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))
     bodies = bodies_of(picture, task.files)
     layout = bodies if isinstance(bodies, SourceFault) else laid_out(changed, setting, bodies)
-    return isinstance(layout, Layout) and layout.bright == setting.number
+    return isinstance(layout, GoalLayout) and layout.bright == setting.number
 
 
-def _frame(task: Task, index: int, body: Body, layout: Layout) -> Frame:
+def _frame(task: PictureTask, index: int, body: PlacedShape, layout: GoalLayout) -> Frame:
     goals = layout.spaced[index]
     assert goals is not None
     colors = _colors(task.picture, body, goals.points)
@@ -111,14 +117,16 @@ def _frame(task: Task, index: int, body: Body, layout: Layout) -> Frame:
     return Frame(task.display.id, task.index, index, goals.points, colors, spare)
 
 
-def _colors(picture: Picture, body: Body, goals: Array) -> Colors:
+def _colors(picture: Picture, body: PlacedShape, goals: Array) -> Colors:
     own = body.colors(goals) if picture.color is None else None
     if own is not None:
         return own
     return np.tile(np.array(picture.color or WHITE, dtype=np.uint8), (len(goals), 1))
 
 
-def _stats(task: Task, bodies: Sequence[Body], layout: Layout) -> tuple[tuple[str, float | str], ...]:
+def _stats(
+    task: PictureTask, bodies: Sequence[PlacedShape], layout: GoalLayout
+) -> tuple[tuple[str, float | str], ...]:
     name = f"goals {task.display.id}/{task.index + 1}"
     flown = [frame for frame in layout.spaced if frame is not None]
     frames = (f"{name} frames", float(len(flown)))

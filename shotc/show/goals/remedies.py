@@ -30,7 +30,7 @@ class Remedies(NamedTuple):
     share: float | None
 
 
-class Held(NamedTuple):
+class GoalCapacity(NamedTuple):
     """How many goals a shape holds as it is: ``number``. Of these ``edges`` grow with its size, the others
     with its size to a ``power``; edges : a share of them.
     """

@@ -19,7 +19,7 @@ DIRECTIONS = 16
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Room:
+class DisplaySurroundings:
     """What stands around; lowest : z that the centre of a drone may have, metres."""
 
     obstacles: tuple[Clearance, ...]
@@ -38,9 +38,9 @@ class Room:
         return np.where((lacking > np.maximum(self.lack(before), 0.0))[:, None], before, after)
 
 
-def room_of(mission: MissionIR, fleet: Fleet) -> Room:
+def room_of(mission: MissionIR, fleet: Fleet) -> DisplaySurroundings:
     """Return what a fleet's goals keep clear of."""
-    return Room(tuple(clearances_of(mission, fleet)), mission.rules.over_ground(fleet.radius))
+    return DisplaySurroundings(tuple(clearances_of(mission, fleet)), mission.rules.over_ground(fleet.radius))
 
 
 def lack_of(obstacle: Clearance, goals: Array) -> Array:
@@ -49,7 +49,7 @@ def lack_of(obstacle: Clearance, goals: Array) -> Array:
     return obstacle.metres + (gap if obstacle.inside else -gap)
 
 
-def least_shift(goals: Array, room: Room) -> Array | None:
+def least_shift(goals: Array, room: DisplaySurroundings) -> Array | None:
     """Return the shortest shift (3,) found that gives all goals room, rounded up to centimetres, or None.
 
     Along each of a number of directions the goals go on by what is missing; as no distance grows faster
@@ -67,7 +67,7 @@ def least_shift(goals: Array, room: Room) -> Array | None:
     return best
 
 
-def _along(goals: Array, room: Room, way: Array, most: float) -> float | None:
+def _along(goals: Array, room: DisplaySurroundings, way: Array, most: float) -> float | None:
     length = 0.0
     for _ in range(SHIFT_ROUNDS):
         missing = float(room.lack(goals + length * way).max())

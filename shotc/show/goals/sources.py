@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from shotc.ir.show import Drawing, Lettering, Model, Picture, RecordedFlight
-from shotc.show.goals.body import Body, SourceFault
+from shotc.show.goals.body import PlacedShape, SourceFault
 from shotc.show.goals.drawing import drawing_body
 from shotc.show.goals.frames import model_bodies
 from shotc.show.goals.lettering import lettering_body
 from shotc.show.goals.solids import solid_body
 
 
-def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[Body] | SourceFault:
+def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[PlacedShape] | SourceFault:
     """Return one body for each frame of a picture, or why its source cannot be drawn.
 
     files : bytes of the mission's files by name; whatever the source names of them is there
@@ -22,7 +22,7 @@ def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[Body] | 
         assert picture.fill != "legible"  # which is for texts
         return model_bodies(source, files, picture.fill)
     if isinstance(source, Drawing):
-        body: Body | SourceFault = drawing_body(source, files[source.file])
+        body: PlacedShape | SourceFault = drawing_body(source, files[source.file])
     elif isinstance(source, Lettering):
         body = lettering_body(source, files)
     else:

@@ -15,7 +15,7 @@ from shotc.show.geom.centroids import centroids, viewpoint_centroids
 from shotc.show.geom.lattice import Mould, laid, widest
 from shotc.show.geom.push_along import thinned
 from shotc.show.geom.push_apart import SLACK, Hold, grain, push_apart
-from shotc.show.goals.room import Room
+from shotc.show.goals.room import DisplaySurroundings
 
 NEIGHBOURS = 12
 """Points that tell how a surface lies near a goal."""
@@ -50,7 +50,7 @@ class Setting:
     straight: float
     viewpoint: Array | None
     weight: float
-    room: Room
+    room: DisplaySurroundings
 
     @property
     def roomy(self) -> Setting:

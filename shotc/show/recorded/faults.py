@@ -10,8 +10,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, RecordedFlight
 from shotc.rounding import at_least, plain
 from shotc.show.recorded.clock import Need
-from shotc.show.recorded.stage import Asked, Grounded, Leaned, Staged
-from shotc.show.recorded.tracks import Tracks, Unreadable
+from shotc.show.recorded.stage import FitRequirements, Grounded, Leaned, Staged
+from shotc.show.recorded.tracks import RecordedTracks, Unreadable
 
 MOST_FACTOR = 20.0
 """By which a piece may be too fast: beyond it a drone jumps, and the file is wrong."""
@@ -45,7 +45,9 @@ def other_count(mission: MissionIR, display: Display, fleet: Fleet, found: int) 
     return Diagnostic("D151", message, labels, (), help_)
 
 
-def grounded(mission: MissionIR, display: Display, tracks: Tracks, why: Grounded, floor: float) -> Diagnostic:
+def grounded(
+    mission: MissionIR, display: Display, tracks: RecordedTracks, why: Grounded, floor: float
+) -> Diagnostic:
     """Return D152: at no time all drones are clear of the ground."""
     file, label = _file(mission, display)
     one, other = (tracks.tracks[k].where for k in (why.rises, why.falls))
@@ -61,7 +63,7 @@ def grounded(mission: MissionIR, display: Display, tracks: Tracks, why: Grounded
     return Diagnostic("D152", f"the drones of `{file}` are never all in the air", (label,), (note,), help_)
 
 
-def jumps(mission: MissionIR, display: Display, tracks: Tracks, found: Staged) -> Diagnostic | None:
+def jumps(mission: MissionIR, display: Display, tracks: RecordedTracks, found: Staged) -> Diagnostic | None:
     """Return D153 if a drone jumps: no clock makes that a flight."""
     need = found.need
     if need is None or need.factor <= MOST_FACTOR:
@@ -80,7 +82,7 @@ def _value(need: Need) -> str:
 
 
 def told(
-    mission: MissionIR, display: Display, tracks: Tracks, found: Staged, asked: Asked
+    mission: MissionIR, display: Display, tracks: RecordedTracks, found: Staged, asked: FitRequirements
 ) -> list[Diagnostic]:
     """Return the warnings about a flight that is flown."""
     names = [tracks.tracks[k].where for k in found.order]
@@ -110,7 +112,7 @@ def _slower(mission: MissionIR, display: Display, names: Sequence[str], found: S
 
 
 def _by_itself(
-    mission: MissionIR, display: Display, names: Sequence[str], why: Leaned, asked: Asked
+    mission: MissionIR, display: Display, names: Sequence[str], why: Leaned, asked: FitRequirements
 ) -> Diagnostic:
     file, label = _file(mission, display)
     what, verb = ("landing", "comes home") if why.landing else ("take-off", "takes off")

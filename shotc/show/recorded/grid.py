@@ -25,7 +25,7 @@ from scipy.interpolate import BSpline
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.fleet_spline import DEGREE, knots, pieces, places
 from shotc.geom.proof import norm
-from shotc.show.recorded.tracks import Track
+from shotc.show.recorded.tracks import RecordedTrack
 
 PIECE_S = 0.25
 """Seconds of the file's clock from control point to control point, at least."""
@@ -55,12 +55,12 @@ def sources(start: float, end: float, step: float, rests: tuple[bool, bool]) -> 
     return np.concatenate([np.full(DEGREE, start), inner, np.full(DEGREE, end)])
 
 
-def points_of(tracks: Sequence[Track], times: Array) -> Array:
+def points_of(tracks: Sequence[RecordedTrack], times: Array) -> Array:
     """Return where all drones are at times of the file, (n, K, 3)."""
     return np.stack([track.curve(times) for track in tracks])
 
 
-def bound(tracks: Sequence[Track], times: Array, breaks: Array, coef: Array) -> tuple[float, int]:
+def bound(tracks: Sequence[RecordedTrack], times: Array, breaks: Array, coef: Array) -> tuple[float, int]:
     """Return how far a flight is from the tracks at most, metres, and whose it is.
 
     times : of the file, of its control points; breaks, coef : of the flight

@@ -21,7 +21,7 @@ from shotc.ir.fleet import Lights, Recorded
 from shotc.ir.limits import Limits
 from shotc.show.recorded.clock import Need, clocked
 from shotc.show.recorded.grid import bound, points_of, sources, step_of
-from shotc.show.recorded.tracks import Tracks, colors_at
+from shotc.show.recorded.tracks import RecordedTracks, colors_at
 
 ON_PAD_M = 0.05
 """Metres from its pad within which a track begins or ends on it, and from the vertical that it may leave."""
@@ -37,7 +37,7 @@ SHOWN = 9
 """Moments of a recorded flight that stand for it, where pictures are shown."""
 
 
-class Asked(NamedTuple):
+class FitRequirements(NamedTuple):
     """What a flight is to fit.
 
     pads : (n, 3); floor : z from which on a drone is clear of the ground, m
@@ -98,7 +98,7 @@ class _Part(NamedTuple):
     down: int
 
 
-def staged(display: str, tracks: Tracks, asked: Asked) -> Staged | Grounded:
+def staged(display: str, tracks: RecordedTracks, asked: FitRequirements) -> Staged | Grounded:
     """Return the flight of a file with as many tracks as there are pads.
 
     One that takes longer than its file has control points as near in time as others: nearer in the file.
@@ -112,7 +112,7 @@ def staged(display: str, tracks: Tracks, asked: Asked) -> Staged | Grounded:
     return found if finer >= step_of(tracks.step) else _staged(display, tracks, asked, finer)
 
 
-def _staged(display: str, tracks: Tracks, asked: Asked, step: float) -> Staged | Grounded:
+def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: float) -> Staged | Grounded:
     order, on_pads = _order(tracks, asked)
     tracks = replace(tracks, tracks=tuple(tracks.tracks[k] for k in order))
     times = sources(0.0, tracks.end, step, (True, True))
@@ -157,7 +157,7 @@ def _staged(display: str, tracks: Tracks, asked: Asked, step: float) -> Staged |
     return Staged(flight, order, (start, end), off, whose, clock.need, at, longer, tuple(leaned))
 
 
-def _order(tracks: Tracks, asked: Asked) -> tuple[NDArray[np.intp], bool]:
+def _order(tracks: RecordedTracks, asked: FitRequirements) -> tuple[NDArray[np.intp], bool]:
     """Return the tracks in the order of the pads that they begin on, and whether each begins on one."""
     starts = np.stack([track.curve.ctrl[0, 0] for track in tracks.tracks])
     away, nearest = cKDTree(starts).query(asked.pads)
@@ -165,7 +165,7 @@ def _order(tracks: Tracks, asked: Asked) -> tuple[NDArray[np.intp], bool]:
     return (np.asarray(nearest) if fits else np.arange(len(starts))), bool(fits)
 
 
-def _landed(ends: Array, asked: Asked) -> Array | None:
+def _landed(ends: Array, asked: FitRequirements) -> Array | None:
     """Return the pads (n, 3) that drones end on, if each ends on one of its own."""
     away, nearest = cKDTree(asked.pads).query(ends)
     fits = asked.last and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
@@ -223,7 +223,7 @@ def _stood(points: Array) -> Array:
     return found
 
 
-def _lights(tracks: Tracks, times: Array, breaks: Array) -> Lights:
+def _lights(tracks: RecordedTracks, times: Array, breaks: Array) -> Lights:
     """Return the lights by the flight's clock; times : of the file, of its control points."""
     told, colors = colors_at(tracks, float(times[0]), float(times[-1]))
     inner = slice(DEGREE, -DEGREE)

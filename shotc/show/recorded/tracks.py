@@ -15,7 +15,7 @@ from shotc.importers.flights import skyc, zipped
 from shotc.importers.flights.light_program import Keyed
 from shotc.importers.flights.names import TABLES, suffix_of
 from shotc.importers.flights.points import Unread
-from shotc.importers.flights.rows import Rows
+from shotc.importers.flights.rows import DroneRows
 from shotc.ir.fleet import Colors
 from shotc.ir.mission import GeoOrigin
 
@@ -32,7 +32,7 @@ LEVELS = 2.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Track:
+class RecordedTrack:
     """One drone of a file.
 
     name : as the file has it; where : it stands there, in words
@@ -47,14 +47,14 @@ class Track:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tracks:
+class RecordedTracks:
     """All drones of a file.
 
     step : seconds from row to row that most tables have, 0 of curves
     rounding : metres by which places may be rounded; end : s, of the longest track
     """
 
-    tracks: tuple[Track, ...]
+    tracks: tuple[RecordedTrack, ...]
     step: float
     rounding: float
 
@@ -74,7 +74,7 @@ class Unreadable(NamedTuple):
     help: str
 
 
-def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> Tracks | Unreadable:
+def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> RecordedTracks | Unreadable:
     """Return the tracks of a `.zip` of tables or of a `.skyc`; origin : of the mission."""
     try:
         if suffix_of(PurePath(name).name) == TABLES:
@@ -90,12 +90,12 @@ def _unreadable(why: Refused, member: str) -> Unreadable:
     return Unreadable(why.code, why.message, member, why.node.line, why.help)
 
 
-def _of_tables(tables: tuple[Rows, ...]) -> Tracks:
+def _of_tables(tables: tuple[DroneRows, ...]) -> RecordedTracks:
     steps = np.concatenate([np.diff(rows.time) for rows in tables])
-    return Tracks(tuple(map(_of_rows, tables)), float(np.median(steps)), TABLE_ROUNDING_M)
+    return RecordedTracks(tuple(map(_of_rows, tables)), float(np.median(steps)), TABLE_ROUNDING_M)
 
 
-def _of_rows(rows: Rows) -> Track:
+def _of_rows(rows: DroneRows) -> RecordedTrack:
     time, place, colors = rows.time, rows.place, rows.colors
     if time[0] > 0.0:
         time, place = np.append(0.0, time), np.concatenate([place[:1], place])
@@ -105,16 +105,18 @@ def _of_rows(rows: Rows) -> Track:
     if colors is not None:
         levels = [(int(r), int(g), int(b)) for r, g, b in colors.tolist()]
         light = Keyed(tuple(time.tolist()), tuple(levels))
-    return Track(rows.drone, rows.member, Piecewise(time, ctrl), light)
+    return RecordedTrack(rows.drone, rows.member, Piecewise(time, ctrl), light)
 
 
-def _of_show(show: skyc.Show, origin: GeoOrigin | None) -> Tracks:
+def _of_show(show: skyc.Show, origin: GeoOrigin | None) -> RecordedTracks:
     there = skyc.shift(show.origin, origin)
-    tracks = [Track(f.name, f.element, Piecewise(f.breaks, f.ctrl + there), f.light) for f in show.flights]
-    return Tracks(tuple(tracks), 0.0, SHOW_ROUNDING_M)
+    tracks = [
+        RecordedTrack(f.name, f.element, Piecewise(f.breaks, f.ctrl + there), f.light) for f in show.flights
+    ]
+    return RecordedTracks(tuple(tracks), 0.0, SHOW_ROUNDING_M)
 
 
-def colors_at(tracks: Tracks, start: float, end: float) -> tuple[Array, Colors]:
+def colors_at(tracks: RecordedTracks, start: float, end: float) -> tuple[Array, Colors]:
     """Return times of the file's clock, (T,), and the colours of all lights, (n, T, 3), between two times.
 
     The times are all those at which a light changes its course, but for those without which no light is more

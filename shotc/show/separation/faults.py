@@ -17,7 +17,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.show import Fleet, Picture, RecordedFlight, drone_names
 from shotc.rounding import at_least, at_most
 from shotc.show.labels import wider
-from shotc.show.separation.longer import Stretch
+from shotc.show.separation.longer import MoveBetweenStops
 from shotc.show.separation.off_goals import Off
 
 STILL_M = 1e-6
@@ -82,7 +82,7 @@ def recorded_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried:
     )
 
 
-def too_near(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Diagnostic:
+def too_near(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: Tried) -> Diagnostic:
     """Return D086: between two stops no flight was found that keeps the drones apart."""
     path = fleet.path if stretch.shown is None else _path(mission, stretch.shown)
     nearest, across = tried.found, fleet.apart.across
@@ -99,7 +99,7 @@ def too_near(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -
     )
 
 
-def _remedies(mission: MissionIR, fleet: Fleet, stretch: Stretch, tried: Tried) -> Iterator[str]:
+def _remedies(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: Tried) -> Iterator[str]:
     """Yield what would do, as far as it is known: it was planned so, or straight ways cannot fail then."""
     if tried.seconds is not None:
         yield f"give it `{stretch.key}: {tried.seconds:.2f}`, with which they can be kept apart"

@@ -33,7 +33,7 @@ MOST_ROUNDS = 3 * ROUNDS
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class MoveBetweenStops:
     """What is flown from one stop to the next.
 
     breaks : shape (P + 1,); wanted : control points that the goals ask for, shape (n, P + 3, 3)
@@ -48,7 +48,7 @@ class Stretch:
     from_pads: bool
 
     @staticmethod
-    def of(flight: FleetTrajectory, breaks: Array, wanted: Array) -> Stretch:
+    def of(flight: FleetTrajectory, breaks: Array, wanted: Array) -> MoveBetweenStops:
         """Return what is flown between two stops of a flight."""
         start, end = float(breaks[0]) - 1e-9, float(breaks[-1]) + 1e-9
         inside = [shown for shown in flight.shown if start <= shown.start <= end]
@@ -59,7 +59,7 @@ class Stretch:
             if shown is not None and (s.display, s.picture) == (shown.display, shown.picture)
         ]
         from_pads = float(breaks[-1]) <= flight.shown[0].start + 1e-9
-        return Stretch(breaks, wanted, shown, "period" if len(same) > 1 else "transition", from_pads)
+        return MoveBetweenStops(breaks, wanted, shown, "period" if len(same) > 1 else "transition", from_pads)
 
     @property
     def pieces(self) -> int:
@@ -72,7 +72,7 @@ class Stretch:
         return np.array([round(float(self.breaks[0]) + k * piece, 9) for k in range(len(self.breaks))])
 
 
-def longer(stretch: Stretch, fleet: Fleet, ctx: PassContext) -> float | None:
+def longer(stretch: MoveBetweenStops, fleet: Fleet, ctx: PassContext) -> float | None:
     """Return the least time found that is enough, seconds up to a hundredth; None where none is."""
     if stretch.shown is None:
         return None  # No mission says how long the way home takes.
@@ -96,7 +96,7 @@ def longer(stretch: Stretch, fleet: Fleet, ctx: PassContext) -> float | None:
 class _Trial:
     """Plans a stretch with other times; left : rounds that this may still take."""
 
-    def __init__(self, stretch: Stretch, fleet: Fleet, ctx: PassContext) -> None:
+    def __init__(self, stretch: MoveBetweenStops, fleet: Fleet, ctx: PassContext) -> None:
         self.stretch, self.fleet, self.ctx = stretch, fleet, ctx
         self.left = MOST_ROUNDS
 

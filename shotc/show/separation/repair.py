@@ -20,7 +20,7 @@ from shotc.planning.on_pads import standing
 from shotc.show.geom.windows import Window, windows
 from shotc.show.separation.common import common
 from shotc.show.separation.faults import Tried, recorded_in, recorded_too_near, standing_too_near, too_near
-from shotc.show.separation.longer import Stretch, longer
+from shotc.show.separation.longer import MoveBetweenStops, longer
 from shotc.show.separation.pushed import Pushed, pushed
 
 MANY = 1000
@@ -136,7 +136,9 @@ class Keeper:
         return slice(DEGREE + first, min(last, len(breaks) - 1))
 
     def _too_near(self, window: Window, nearest: Nearest, done: Pushed) -> Diagnostic:
-        stretch = Stretch.of(self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points])
+        stretch = MoveBetweenStops.of(
+            self.flight, window.breaks(self.flight.breaks), self.wanted[:, window.points]
+        )
         seconds = longer(stretch, self.fleet, self.ctx)
         best = max(nearest.proven, done.reached)
         return too_near(self.mission, self.fleet, stretch, Tried(nearest, best, seconds))

@@ -48,7 +48,7 @@ JERK_SHARES = (0.25, 0.5, 0.75, 1.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Move:
+class CommonMove:
     """A common move.
 
     s : control points, shape (P + 3,), the first three 0 and the last three 1
@@ -128,7 +128,7 @@ class Ceilings:
         return (self.names[drone], "acceleration", "jerk")[k], drone
 
 
-def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> Move:
+def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> CommonMove:
     """Return the shortest move of an easing, every limit times ``pace`` kept by all drones.
 
     ways : g - x, shape (n, 3), metres
@@ -145,7 +145,7 @@ def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-
         if best is None or pieces * least[k] * WORTH_RATIO < best[0] * (len(best[1]) - 3):
             best = float(np.ceil(least[k] / TICK_S) * TICK_S), shapes[k]
     assert best is not None
-    return Move(best[1], best[0], *ceilings.binding(_steps(best[1][None])[0], best[0]))
+    return CommonMove(best[1], best[0], *ceilings.binding(_steps(best[1][None])[0], best[0]))
 
 
 def least_piece(pieces: int, ways: Array, limits: Limits) -> float:

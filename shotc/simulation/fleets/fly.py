@@ -30,7 +30,7 @@ class FleetConditions:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Flown:
+class FleetRun:
     """What came of it, every ``PERIOD_S``; times : (T,), the rest (n, T, 3).
 
     position, velocity : of the drones over ground; wanted : where they should be
@@ -55,8 +55,8 @@ class Flown:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Moment:
-    """One row of ``Flown``: the time, and (n, 3) each of the rest."""
+class FleetSample:
+    """One row of ``FleetRun``: the time, and (n, 3) each of the rest."""
 
     time: float
     position: Array
@@ -67,7 +67,7 @@ class Moment:
 
 def flying(
     breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None
-) -> Iterator[Moment]:
+) -> Iterator[FleetSample]:
     """Fly a fleet along splines (``geom.fleet_spline``) from rest at their start to their end.
 
     avoid : what may change the preferred velocities; None flies them as they are
@@ -80,17 +80,17 @@ def flying(
     for now in (np.arange(round((breaks[-1] - breaks[0]) / PERIOD_S) + 1) * PERIOD_S + breaks[0]).tolist():
         ask = preferred(reference, conditions.gains, now, state.position, state.over_ground)
         wanted = reference.together(np.array([now]))[:, 0]
-        yield Moment(now, state.position, state.over_ground, wanted, ask)
+        yield FleetSample(now, state.position, state.over_ground, wanted, ask)
         if avoid is not None:
             ask = avoid(state.position, state.over_ground, within(ask, conditions.vehicle.speed))
         state = moved(conditions.vehicle, state, ask, PERIOD_S)
         state = replace(state, gust=conditions.gusts.after(state.gust, PERIOD_S, rng))
 
 
-def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> Flown:
+def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> FleetRun:
     """Return all moments of ``flying`` together, which for a thousand drones is megabytes a second."""
     moments = list(flying(breaks, coef, conditions, avoid))
-    return Flown(
+    return FleetRun(
         np.array([each.time for each in moments]),
         np.stack([each.position for each in moments], axis=1),
         np.stack([each.velocity for each in moments], axis=1),

@@ -23,7 +23,7 @@ NARROWINGS = 30
 
 
 @dataclass(frozen=True, slots=True)
-class Near:
+class NearestPair:
     """The nearest that two drones came, metres of horizontal distance as in ``geom.separation``.
 
     first, second : their rows; time : when, s; below : how many pairs came nearer than was asked about
@@ -36,10 +36,10 @@ class Near:
     below: int
 
 
-def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Near:
+def nearest(times: Array, position: Array, apart: Distances, limit: float) -> NearestPair:
     """Return the nearest of all pairs; position : shape (n, T, 3), two drones or more, two times or more.
 
-    limit : metres of horizontal distance, for ``Near.below``
+    limit : metres of horizontal distance, for ``NearestPair.below``
     """
     search = Search(apart, limit)
     for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
@@ -50,14 +50,14 @@ def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Ne
 class Across:
     """The nearest of two drones of different fleets, whose places (n, 3) and (m, 3) come one after another.
 
-    limit : metres of horizontal distance, for ``Near.below``
+    limit : metres of horizontal distance, for ``NearestPair.below``
     """
 
     def __init__(self, apart: Distances, limit: float) -> None:
         self._height = np.array([1.0, 1.0, stretch(apart)])
         self._upright = apart.shape == "cylinder"
         self._limit = limit
-        self._best = Near(np.inf, 0, 0, 0.0, 0)
+        self._best = NearestPair(np.inf, 0, 0, 0.0, 0)
         self._low: set[tuple[int, int]] = set()
         self._last: tuple[float, Array, Array] | None = None
 
@@ -68,7 +68,7 @@ class Across:
             self._between(*self._last, (time, one, other))
         self._last = (time, one, other)
 
-    def found(self) -> Near:
+    def found(self) -> NearestPair:
         """Return the nearest so far; ``first`` is a row of the one fleet, ``second`` of the other."""
         return replace(self._best, below=len(self._low))
 
@@ -90,7 +90,7 @@ class Across:
         m = int(np.argmin(least))
         if least[m] < self._best.distance:
             when = float(before + share[m] * (after - before))
-            self._best = Near(float(least[m]), int(i[m]), int(j[m]), when, 0)
+            self._best = NearestPair(float(least[m]), int(i[m]), int(j[m]), when, 0)
 
 
 class Search:
@@ -100,7 +100,7 @@ class Search:
         self._height = np.array([1.0, 1.0, stretch(apart)])
         self._upright = apart.shape == "cylinder"
         self._limit = limit
-        self._best = Near(np.inf, 0, 0, 0.0, 0)
+        self._best = NearestPair(np.inf, 0, 0, 0.0, 0)
         self._low: set[tuple[int, int]] = set()
         self._last: tuple[float, Array] | None = None
 
@@ -116,7 +116,7 @@ class Search:
             self._between(*self._last, (time, seen), rows)
         self._last = (time, seen)
 
-    def found(self) -> Near:
+    def found(self) -> NearestPair:
         """Return the nearest so far."""
         return replace(self._best, below=len(self._low))
 
@@ -132,7 +132,7 @@ class Search:
         m = int(np.argmin(least))
         if least[m] < self._best.distance:
             when = float(before + share[m] * (after - before))
-            self._best = Near(float(least[m]), int(rows[one[m]]), int(rows[other[m]]), when, 0)
+            self._best = NearestPair(float(least[m]), int(rows[one[m]]), int(rows[other[m]]), when, 0)
 
 
 def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:

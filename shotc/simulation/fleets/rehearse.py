@@ -13,8 +13,8 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.show import Fleet
 from shotc.planning.on_pads import standing as standing_in
 from shotc.planning.take_off import bodies_of
-from shotc.simulation.fleets.fly import FleetConditions, Moment, flying
-from shotc.simulation.fleets.near import Near, Search
+from shotc.simulation.fleets.fly import FleetConditions, FleetSample, flying
+from shotc.simulation.fleets.near import NearestPair, Search
 from shotc.simulation.fleets.vehicle import Gusts, Vehicle
 
 HEADROOM = 2.0
@@ -37,8 +37,8 @@ class Rehearsal:
     farthest: float
     drone: int
     time: float
-    near: Near | None
-    beside: Near | None = None
+    near: NearestPair | None
+    beside: NearestPair | None = None
 
 
 class Watch:
@@ -53,7 +53,7 @@ class Watch:
         self._largest, self._when = np.zeros(count), np.zeros(count)
         self._squares, self._count = 0.0, 0
 
-    def add(self, moment: Moment) -> Array:
+    def add(self, moment: FleetSample) -> Array:
         """Take a moment, later than those before; return where the drones are, shape (n, 3).
 
         Of a fleet that takes off in layers, whoever stands on its pad stays there.
@@ -88,7 +88,7 @@ class Watch:
 
 def moments(
     fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tuple[int, ...]
-) -> Iterator[Moment]:
+) -> Iterator[FleetSample]:
     """Fly a fleet with lag and gusts; the same seed gives the same flight."""
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))

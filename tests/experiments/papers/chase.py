@@ -17,7 +17,7 @@ from shotc_casadi.clock.angles import rates
 from shotc_casadi.derivatives import differentiated
 from shotc_casadi.horizon import built
 from shotc_casadi.program import TOLERANCE
-from shotc_casadi.symbols import Stage
+from shotc_casadi.symbols import StageSymbols
 
 from shotc.geom.bernstein import Array
 
@@ -72,7 +72,7 @@ class Flight:
     seconds: float
 
 
-def _stage() -> Stage:
+def _stage() -> StageSymbols:
     z, p = ca.SX.sym("z", WIDTH), ca.SX.sym("p", 21)
     place, v, u = z[:3], z[3:6], z[6:]
     target, moves = p[:3], p[3:6]
@@ -84,7 +84,7 @@ def _stage() -> Stage:
     node = p[20] * (place[2] - height) ** 2 + end * ca.sumsqr(z[:6] - wanted)
     # On the state that follows, so that the first one, which is given, is not bound.
     clear = ca.sumsqr(following[:2] - zone) - square
-    return Stage(z, p, following, node, passing, ca.SX(0, 1), clear)
+    return StageSymbols(z, p, following, node, passing, ca.SX(0, 1), clear)
 
 
 @cache

@@ -19,7 +19,7 @@ from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, Flown, fly
+from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, FleetRun, fly
 from shotc.simulation.fleets.near import nearest
 from shotc.simulation.fleets.vehicle import Gusts, Vehicle
 from tests.experiments.papers import bodies
@@ -104,7 +104,7 @@ def row(n: int, case: Case) -> tuple[str, ...]:
     )
 
 
-def flight(breaks: Array, coef: Array, case: Case) -> Flown:
+def flight(breaks: Array, coef: Array, case: Case) -> FleetRun:
     """Fly a plan as the case says."""
     avoid = None
     if case.avoids:

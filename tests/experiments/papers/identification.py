@@ -15,7 +15,7 @@ import numpy as np
 from shotc.geom.camera import ScreenBox
 from shotc.identify.choice import as_printed
 from shotc.identify.cylinders import Upright, outside, printed
-from shotc.identify.find import Clustered, Found, Glance, find
+from shotc.identify.find import Clustered, Glance, SearchResult, find
 from shotc.identify.pictures import picture
 from shotc.identify.saliency import SALIENCY
 from shotc.identify.tasks import DOUBTFUL
@@ -120,7 +120,7 @@ def run(made: Sequence[Town], boxes: Boxes, *, paper: bool = False, surface: boo
     return Run(tuple(trials), tuple(seconds))
 
 
-def _ours(found: Found, number: int) -> tuple[Upright | None, float]:
+def _ours(found: SearchResult, number: int) -> tuple[Upright | None, float]:
     choice = found.choices[number]
     if choice is None:
         return None, 0.0

@@ -26,7 +26,7 @@ from shotc.ir.owners import Owner
 from shotc.ir.path import BODY_YAW, Pose
 from shotc.planning.free_space import FreeSpace, Obstacle
 from shotc.planning.obstacles import FreeSpaces
-from shotc.planning.path.legs import Flight, way_to
+from shotc.planning.path.legs import LegContext, way_to
 from shotc.planning.timing.estimate import leg_motion
 from tests.experiments.papers.report import Table
 from tests.support.front_passes import resolved
@@ -141,7 +141,7 @@ def ours(who: Drone, of: Instance, *, look_ahead: bool = True) -> tuple[Moved, f
     mast = Obstacle(owner, Cylinder((float(x), float(y)), radius, 0.0, 60.0), who.radius)
     space = FreeSpace((mast,), (), ())
     spaces = FreeSpaces(space, space)
-    flight = Flight(who, spaces, np.array(of.start[:3]), of.half_angle if look_ahead else None)
+    flight = LegContext(who, spaces, np.array(of.start[:3]), of.half_angle if look_ahead else None)
     legs = way_to(flight, of.start, of.goal, ())
     assert isinstance(legs, list)
     motions = [leg_motion(who, leg) for leg in legs]

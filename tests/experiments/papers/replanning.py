@@ -16,7 +16,7 @@ from shotc_casadi.replan.chase import Chase
 
 from shotc.geom.bernstein import Array
 from shotc.plugin_api.replanner import ChaseProblem, ChaseSituation, Plan
-from shotc.simulation.kalman import Motion, PositionFix
+from shotc.simulation.kalman import MotionModel, PositionFix
 from shotc.simulation.sensors import Gps
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.vehicle import Setpoint, State, Vehicle, moved
@@ -30,7 +30,7 @@ SECONDS, EVERY = 20.0, 0.5
 HORIZONS = {"0.5 s": 5, "2 s": 20, "4 s": 40, "8 s": 80}
 SEEDS = (1, 2, 3)
 VEHICLE = Vehicle()
-PERSON = Motion(agility=0.5)
+PERSON = MotionModel(agility=0.5)
 GUSTS = 0.3  # m/s
 STAMPS_S, PLACES_M = 0.01, 0.001
 GOALS = {"0.5 s": (0.8, 1.5), "2 s": (1.6, 2.5), "4 s": (2.9, 3.0), "8 s": (10.0, 4.0)}

@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.comparison import Options, compare_source, ordered
 from shotc.emit.palette import INK
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
 from shotc.emit.storyboard.content import passing
 from shotc.emit.storyboard.frame import Cell, draw_frame
 from shotc.emit.storyboard.side_by_side import draw_comparison
@@ -78,7 +78,7 @@ def _strips(found: Comparison) -> bytes:
             canvas.text(0.05, bottom + 0.7, each.refiner, Type(12, INK, bold=True))
             for j, time in enumerate(np.linspace(shot.start, shot.end, FRAMES)):
                 moment = passing(each.plan, pair, float(time), j + 1)
-                box = Box(LEFT + j * (WIDTH + GAP), bottom, WIDTH, WIDTH * 9 / 16)
+                box = PageRectangle(LEFT + j * (WIDTH + GAP), bottom, WIDTH, WIDTH * 9 / 16)
                 draw_frame(canvas, Cell(box, WIDTH), moment, found.mission, GRID)
         return canvas.png()
 

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.derivatives import differentiated, laid_out
-from shotc_casadi.symbols import Stage
+from shotc_casadi.symbols import StageSymbols
 
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder
@@ -92,7 +92,7 @@ def _programme(stages: int) -> Any:
     return ca.nlpsol("warm", "fatrop", nlp, options)
 
 
-def _stage() -> Stage:
+def _stage() -> StageSymbols:
     z, p = ca.SX.sym("z", WIDTH), ca.SX.sym("p", SIZE)
     place, v, u, slack = z[:3], z[3:6], z[6:9], z[9]
     target, moves, wanted = p[:3], p[3:6], p[6:12]
@@ -104,7 +104,7 @@ def _stage() -> Stage:
     node = tall * (place[2] - height) ** 2 + end * ca.sumsqr(z[:6] - wanted)
     cut = ca.sumsqr(following[3:6]) * DT**2 / (8 * (radius + margin))
     clear = ca.norm_2(following[:2] - centre) - radius - margin - cut + SLACK * slack
-    return Stage(z, p, following, node, passing, ca.SX(0, 1), clear)
+    return StageSymbols(z, p, following, node, passing, ca.SX(0, 1), clear)
 
 
 def _parameters(problem: ChaseProblem, situation: ChaseSituation) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.flight import Flown
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.judge import Run, judged
 from shotc.simulation.runs import flown
 from shotc.simulation.sensors import Gps
@@ -140,11 +140,11 @@ def _motion(place: Array, velocity: Array) -> tuple[float, float]:
     return float(way), float(np.linalg.norm(np.diff(velocity, axis=0), axis=1).mean() / STEP_S)
 
 
-def _velocity(of: Flown, run: int, times: Array) -> Array:
+def _velocity(of: DroneRuns, run: int, times: Array) -> Array:
     return at_times(of.velocity[:, run], of.times, times)
 
 
-def _seen(run: Run, of: Flown) -> tuple[float, float, float]:
+def _seen(run: Run, of: DroneRuns) -> tuple[float, float, float]:
     (picture,) = (each for each in run.pictures if each.drone == of.drone)
     assert picture.error is not None
     assert picture.worst is not None

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import pdist
 
 from shotc.collective import Return, collective_returns
-from shotc.collective.braking import Course
+from shotc.collective.braking import FlightSpline
 from shotc.collective.faults import no_return
 from shotc.collective.homing import Homing
 from shotc.geom.apart import stretch
@@ -140,7 +140,7 @@ def test_braking_keeps_to_the_way_and_to_all_limits(seed: int, share: float) -> 
     coef = coef + 3.0 * rng.normal(size=(5, 1, 3))
     limits = Limits(4.0, 3.0, 3.0, 3.0, 12.0, 1.0, 1.0)
     time = share * 20.0
-    rest = Course(breaks, coef).braked(time, 24.0, limits)
+    rest = FlightSpline(breaks, coef).braked(time, 24.0, limits)
     assert rest is not None
     assert rest.breaks[0] == time
     for order in (1, 2):

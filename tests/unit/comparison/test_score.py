@@ -9,12 +9,12 @@ import pytest
 
 from shotc.comparison.score import flown_shots, score, squared_jerk, total
 from shotc.geom.bernstein import Piecewise, quintic_hermite
-from shotc.ir.comparison import Motion, Trace
+from shotc.ir.comparison import MotionMeasures, Trace
 from shotc.ir.passes import PassContext
 from shotc.passes.verify import judge
 from tests.support.film_plans import orbit_plan
 
-STILL = Motion(0.0, 0.0, 0.0, 0.0, 1.0)
+STILL = MotionMeasures(0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def trace(error, margin=None, points=None, covered=None) -> Trace:
@@ -73,7 +73,7 @@ def test_both_shares_in_frame_are_counted_apart():
 
 
 def test_a_shot_that_frames_nothing_has_jerk_and_duration_only():
-    found = score([], Motion(36.0 * 5, 0.25 * 5, 6.0, 4.0, 5.0))
+    found = score([], MotionMeasures(36.0 * 5, 0.25 * 5, 6.0, 4.0, 5.0))
     assert found == (0, None, None, None, None, None, None, 6.0, 0.5, 1.5, 5.0)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from shotc.diag.registry import registry
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.items import Item
+from shotc.emit.mavlink.items import MissionItem
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.emit.waypoints.geo import tie
 from shotc.geom.bernstein import Piecewise, quintic_hermite
@@ -128,7 +128,7 @@ def test_text_waypoints_refuse_empty_parameters() -> None:
     assert origin is not None
     geo = tie(origin, (0.0, 0.0, 0.0))
     with pytest.raises(ValueError, match="no empty parameters"):
-        write_waypoints([Item(1000, 2, (0.0, 0.0, None, None, 12.0, 0.0, 0.0))], geo)
+        write_waypoints([MissionItem(1000, 2, (0.0, 0.0, None, None, 12.0, 0.0, 0.0))], geo)
     with pytest.raises(ValueError, match="not a waypoint file"):
         read_waypoints(b"QGC WPL 100\n")
 

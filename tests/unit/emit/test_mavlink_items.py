@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from shotc.emit.mavlink.dialect import ArduPilot, Px4
 from shotc.emit.mavlink.items import FRAME_MISSION, FRAME_RELATIVE, action, at, compass_deg, signed_deg
 from shotc.emit.mavlink.style import Command, Style
-from shotc.emit.waypoints.geo import Place, tie
+from shotc.emit.waypoints.geo import GeoPosition, tie
 from shotc.ir.mission import GeoOrigin
 
 ORIGIN = GeoOrigin(47.3769, 8.5417, 408.0)
@@ -35,8 +35,8 @@ def test_headings_never_reach_360_and_signed_angles_stay_in_range(yaw: float) ->
 def test_actions_use_the_mission_frame_and_places_the_relative_one() -> None:
     assert action(2500).frame == FRAME_MISSION
     assert len(action(2500).params) == 7
-    assert at(16, Place(1.0, 2.0, 3.0), 0.0, 0.0, 0.0, None).frame == FRAME_RELATIVE
-    assert at(16, Place(1.0, 2.0, 3.0), 0.0, 0.0, 0.0, None).params[4:] == (1.0, 2.0, 3.0)
+    assert at(16, GeoPosition(1.0, 2.0, 3.0), 0.0, 0.0, 0.0, None).frame == FRAME_RELATIVE
+    assert at(16, GeoPosition(1.0, 2.0, 3.0), 0.0, 0.0, 0.0, None).params[4:] == (1.0, 2.0, 3.0)
 
 
 def test_a_camera_left_of_the_body_has_a_negative_gimbal_yaw_on_ardupilot() -> None:

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink import EMITTER
-from shotc.emit.mavlink.items import Item
+from shotc.emit.mavlink.items import MissionItem
 from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.refly import refly
 from shotc.emit.mavlink.wpl import read_waypoints
 from shotc.emit.waypoints.compare import Error, compare
-from shotc.emit.waypoints.flown import Flown
+from shotc.emit.waypoints.flown import ReflownSamples
 from shotc.emit.waypoints.geo import Geo
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.film_plans import orbit_plan
@@ -25,7 +25,7 @@ def artifact(source: VerifiedIR, name: str) -> bytes:
     return next(a.data for a in EMITTER.emit(source).artifacts if a.name == name)
 
 
-def fly(source: VerifiedIR, items: list[Item], home: tuple[float, float, float]) -> Flown:
+def fly(source: VerifiedIR, items: list[MissionItem], home: tuple[float, float, float]) -> ReflownSamples:
     mission = source.trajectory.keyframes.mission
     assert mission.origin is not None
     return refly(items, Geo(mission.origin, *home), mission.drones[0])

@@ -13,8 +13,8 @@ from shotc.emit.mesh_shades import Faces, faces_of
 from shotc.emit.palette import STONE, SUBJECT
 from shotc.emit.rerun_log.layout import camera_view
 from shotc.emit.rerun_log.world import log_scene
-from shotc.emit.storyboard.camera_picture import Picture, picture
-from shotc.emit.storyboard.canvas import Box, Canvas, house_style
+from shotc.emit.storyboard.camera_picture import PictureRectangle, picture
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.map import draw_map
 from shotc.emit.storyboard.scene import draw_scene
@@ -31,7 +31,7 @@ from tests.support.scenes import fine
 
 pytestmark = pytest.mark.slow
 
-BOX = Box(0.0, 0.0, 3.2, 1.8)
+BOX = PageRectangle(0.0, 0.0, 3.2, 1.8)
 
 
 def standing(*boxes: np.ndarray) -> ObstacleMesh:
@@ -50,7 +50,7 @@ def mast(y: float) -> Target:
     return Target("mast", (0.0, y, 5.0), CylinderShape(2.0, 10.0), ("targets", "mast"))
 
 
-def shown() -> Picture:
+def shown() -> PictureRectangle:
     """A camera 5 m over the ground that looks North from 40 m south of the origin."""
     return picture(np.array([0.0, -40.0, 5.0, np.pi / 2, 0.0, 0.0, 1.2]), 16 / 9, BOX)
 
@@ -120,7 +120,7 @@ def test_maps_show_houses_from_above():
     plan = orbit_plan()
     world = replace(plan.trajectory.keyframes.mission, meshes=(standing(box_mesh((20, 8, 4), (10, 10, 8))),))
     board = shot_boards(plan)[0]
-    box = Box(0.0, 0.0, 4.0, 4.0)
+    box = PageRectangle(0.0, 0.0, 4.0, 4.0)
 
     def pixels(told: MissionIR) -> np.ndarray:
         with house_style():

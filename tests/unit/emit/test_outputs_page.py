@@ -20,13 +20,13 @@ from shotc.ir.phases import Reference
 from shotc.ir.records import field_names
 from shotc.ir.trajectory import Claim, DroneTrajectory
 from shotc.planfile.write import document
-from shotc.simulation.clearance import Nearest
+from shotc.simulation.clearance import ClosestApproach
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.document import FLIGHT, json_text
-from shotc.simulation.fleets.near import Near
+from shotc.simulation.fleets.near import NearestPair
 from shotc.simulation.fleets.rehearse import Rehearsal
 from shotc.simulation.guidance import Replans
-from shotc.simulation.judge import Course, Picture
+from shotc.simulation.judge import TargetFraming, TrackingError
 from shotc.simulation.rehearsal import rehearse
 from shotc.simulation.runs import simulated
 from shotc.simulation.sensors import Detector, Gps
@@ -72,8 +72,8 @@ def test_every_part_of_simulate_json_is_explained():
     ir, conditions = orbit_plan().trajectory, Conditions()
     done = rehearse(ir, conditions, simulated(ir, conditions, 1, 1), lambda _runs: None)
     run = json.loads(json_text(done))
-    of_fleets = (Near, Rehearsal, FleetCourse, FleetPair)
-    records = (Course, Picture, Verdict, Replans, *of_fleets, Wind, Gps, Detector, Truth)
+    of_fleets = (NearestPair, Rehearsal, FleetCourse, FleetPair)
+    records = (TrackingError, TargetFraming, Verdict, Replans, *of_fleets, Wind, Gps, Detector, Truth)
     named = [field.name for record in records for field in fields(record)]
-    parts = [*run, *run["conditions"], *run["asked"], *run["runs"][0], *Nearest._fields, *named]
+    parts = [*run, *run["conditions"], *run["asked"], *run["runs"][0], *ClosestApproach._fields, *named]
     assert [part for part in parts if part not in NAMED | BOLD] == []

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from shotc.emit.storyboard import EMITTER, frame, map, page
-from shotc.emit.storyboard.canvas import Box, Canvas, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
 from shotc.emit.storyboard.labels import MAP_SIDES, Label, nearest_room, write_labels
 from shotc.emit.storyboard.map import NUMBER
 from shotc.geom.bernstein import Piecewise
@@ -24,9 +24,9 @@ from tests.support.two_target_plans import pair_plan
 
 
 @contextmanager
-def bodies() -> Iterator[list[tuple[str, Box]]]:
+def bodies() -> Iterator[list[tuple[str, PageRectangle]]]:
     """Collect the targets that pictures and maps show, by name, with the rectangle each takes."""
-    found: list[tuple[str, Box]] = []
+    found: list[tuple[str, PageRectangle]] = []
     places, shape = frame.name_places, map._body
 
     def seen(shown, mission):
@@ -62,11 +62,11 @@ def overlaps(plan: VerifiedIR) -> list[str]:
     return found + [f"{a.text} over {b.text}" for a, b in pairs if inner(a).meets(inner(b))]
 
 
-def inner(text: Written) -> Box:
+def inner(text: Written) -> PageRectangle:
     """Return the rectangle of a text; that of a number is its disc's."""
     if text.text.isdigit() or text.text == "W":
         x, y = text.box.x + text.box.width / 2, text.box.y + text.box.height / 2
-        return Box(x - NUMBER + 0.001, y - NUMBER + 0.001, 2 * NUMBER - 0.002, 2 * NUMBER - 0.002)
+        return PageRectangle(x - NUMBER + 0.001, y - NUMBER + 0.001, 2 * NUMBER - 0.002, 2 * NUMBER - 0.002)
     return text.box
 
 
@@ -112,9 +112,9 @@ def test_no_label_lies_over_a_target_or_another_label(make: Callable[[], Verifie
 
 
 def test_a_label_without_room_beside_its_thing_stands_in_the_nearest_free_place() -> None:
-    page_box = Box(0.0, 0.0, 4.0, 3.0)
-    thing = Box(1.9, 1.4, 0.2, 0.2)
-    around = Box(1.0, 1.0, 2.0, 1.0)
+    page_box = PageRectangle(0.0, 0.0, 4.0, 3.0)
+    thing = PageRectangle(1.9, 1.4, 0.2, 0.2)
+    around = PageRectangle(1.0, 1.0, 2.0, 1.0)
     room = nearest_room((0.5, 0.1), page_box, thing, [around])
     assert room is not None
     assert not room.meets(around)
@@ -124,9 +124,9 @@ def test_a_label_without_room_beside_its_thing_stands_in_the_nearest_free_place(
 
 
 def test_a_label_without_any_room_is_handed_back() -> None:
-    label = Label("lost", (0.0, 0.0, 0.0), Box(1.0, 1.0, 0.2, 0.2), MAP_SIDES)
+    label = Label("lost", (0.0, 0.0, 0.0), PageRectangle(1.0, 1.0, 0.2, 0.2), MAP_SIDES)
     with house_style():
-        canvas, whole = Canvas(4.0, 3.0, 50.0), Box(0.0, 0.0, 4.0, 3.0)
+        canvas, whole = Canvas(4.0, 3.0, 50.0), PageRectangle(0.0, 0.0, 4.0, 3.0)
         assert write_labels(canvas, whole, [label], [whole]) == ["lost"]
         assert write_labels(canvas, whole, [label], []) == []
 

@@ -15,7 +15,7 @@ from shotc.emit.rerun_log.side_by_side import place_of, within
 from shotc.emit.screen import error_top
 from shotc.emit.storyboard.error_plot import runs, stretches
 from shotc.emit.storyboard.side_by_side import draw_comparison, worst_frame
-from shotc.ir.comparison import Comparison, Condition, FlownShot, Motion, Trace
+from shotc.ir.comparison import Comparison, Condition, FlownShot, MotionMeasures, Trace
 from tests.support.film_plans import orbit_plan
 
 TIMES = np.array([20.0, 21.0, 22.0, 23.0])
@@ -27,7 +27,7 @@ def shot(*pairs) -> FlownShot:
     traces = tuple(
         Trace("t", TIMES, share, np.array(e), np.array(m), np.ones(4), np.zeros(4)) for e, m in pairs
     )
-    motion = Motion(0.0, 0.0, 0.0, 0.0, 10.0)
+    motion = MotionMeasures(0.0, 0.0, 0.0, 0.0, 10.0)
     return FlownShot("s", "cam", 20.0, 30.0, traces, motion, score(traces, motion))
 
 

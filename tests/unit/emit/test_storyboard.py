@@ -8,7 +8,7 @@ import pytest
 
 from shotc.emit.screen import certified, guide_lines, percent, screen_tracks, summary
 from shotc.emit.storyboard import DPI, EMITTER, frame, page
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.frame import compass, metres
 from shotc.emit.storyboard.furniture import LOWER_FIRST, corner, round_length
@@ -146,11 +146,11 @@ def test_a_text_without_room_is_shortened_before_it_is_too_small_to_be_read(room
 
 
 def test_boxes() -> None:
-    box = Box(0.0, 0.0, 2.0, 1.0)
-    assert box.meets(Box(1.5, 0.5, 2.0, 2.0))
-    assert not box.meets(Box(2.0, 0.0, 1.0, 1.0))
-    assert box.holds(Box(0.5, 0.5, 1.0, 0.5))
-    assert not box.holds(Box(0.5, 0.5, 1.0, 0.6))
+    box = PageRectangle(0.0, 0.0, 2.0, 1.0)
+    assert box.meets(PageRectangle(1.5, 0.5, 2.0, 2.0))
+    assert not box.meets(PageRectangle(2.0, 0.0, 1.0, 1.0))
+    assert box.holds(PageRectangle(0.5, 0.5, 1.0, 0.5))
+    assert not box.holds(PageRectangle(0.5, 0.5, 1.0, 0.6))
 
 
 @pytest.mark.parametrize(
@@ -298,7 +298,7 @@ def test_only_the_user_s_own_angles_are_shown_as_his_framing(aim: tuple[float, .
     assert subject.is_moved == own
 
 
-SHEET = Box(1.0, 1.0, 4.0, 3.0)
+SHEET = PageRectangle(1.0, 1.0, 4.0, 3.0)
 
 
 def test_a_shot_that_travels_is_drawn_from_above_with_what_stands_about_it() -> None:
@@ -308,7 +308,7 @@ def test_a_shot_that_travels_is_drawn_from_above_with_what_stands_about_it() -> 
     sheet = sheet_of(SHEET, board, mission)
     assert sheet.is_plan
     for shape in (sheet.place(board.path), sheet.outline(mission.zones[0].solid)):
-        assert SHEET.holds(Box(*shape.min(axis=0), *np.ptp(shape, axis=0)))
+        assert SHEET.holds(PageRectangle(*shape.min(axis=0), *np.ptp(shape, axis=0)))
     np.testing.assert_allclose(
         sheet.place(np.array([[1.0, 0, 5], [0, 1, 5]])) - sheet.place(np.zeros(3)), np.eye(2) * sheet.inches
     )
@@ -333,25 +333,25 @@ def test_a_shot_that_rises_is_drawn_from_the_side() -> None:
 
 
 def test_names_go_where_there_is_room_or_nowhere() -> None:
-    label = Label("house", (0.0, 0.0, 0.0), Box(2.0, 2.0, 0.4, 0.4), ("under", "over", "right"))
-    size, under = (0.5, 0.1), Box(1.5, 1.8, 1.5, 0.2)
+    label = Label("house", (0.0, 0.0, 0.0), PageRectangle(2.0, 2.0, 0.4, 0.4), ("under", "over", "right"))
+    size, under = (0.5, 0.1), PageRectangle(1.5, 1.8, 1.5, 0.2)
     room = free_room(size, SHEET, label, ([], []))
     assert room is not None
     assert room.top < 2.0
     over = free_room(size, SHEET, label, ([under], []))
     assert over is not None
     assert over.y > 2.4
-    walls = [under, Box(1.0, 2.45, 4.0, 0.5)]
+    walls = [under, PageRectangle(1.0, 2.45, 4.0, 0.5)]
     right = free_room(size, SHEET, label, (walls, [under]))
     assert right is not None
     assert right.x > 2.4
-    assert free_room(size, SHEET, label, ([*walls, Box(2.5, 1.0, 1.0, 3.0)], [])) is None
+    assert free_room(size, SHEET, label, ([*walls, PageRectangle(2.5, 1.0, 1.0, 3.0)], [])) is None
     # What is only to be avoided gives way.
     assert free_room(size, SHEET, label, ([], [SHEET])) == room
 
 
 def test_furniture_stands_in_a_free_corner() -> None:
-    lower_left, lower_right = Box(1.0, 1.0, 0.5, 0.5), Box(4.0, 1.0, 1.0, 0.5)
+    lower_left, lower_right = PageRectangle(1.0, 1.0, 0.5, 0.5), PageRectangle(4.0, 1.0, 1.0, 0.5)
     size = (0.8, 0.3)
     assert corner(SHEET, size, LOWER_FIRST, []).x < 1.2
     assert corner(SHEET, size, LOWER_FIRST, [lower_left]).right > 4.8

@@ -12,7 +12,7 @@ import pytest
 
 from shotc.emit.storyboard import EMITTER, map, page
 from shotc.emit.storyboard.camera_picture import picture
-from shotc.emit.storyboard.canvas import Box, Canvas, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.map import MOST_SQUARES, draw_map
 from shotc.emit.storyboard.scene import draw_scene
@@ -74,7 +74,7 @@ def boards() -> dict[str, ShotBoard]:
 @pytest.mark.parametrize("grid", [1.0, 2.0, 20.0])
 def test_a_map_s_grid_is_as_wide_as_it_says(monkeypatch: pytest.MonkeyPatch, name: str, grid: float) -> None:
     board, mission = boards()[name], orbit_plan().trajectory.keyframes.mission
-    box = Box(0.1, 0.1, 3.9, 3.0)
+    box = PageRectangle(0.1, 0.1, 3.9, 3.0)
     with house_style():
         canvas = Canvas(5.0, 4.0, 40.0)
         steps, texts = drawn(monkeypatch, map, lambda: draw_map(canvas, box, board, mission, grid))
@@ -113,7 +113,7 @@ def test_the_ground_s_lines_in_a_picture_are_a_square_apart(monkeypatch: pytest.
     height, grid = 20.0, 5.0
     pose = np.array([3.0, -4.0, height, pi / 2, -pi / 2, pi / 2, HFOV])
     mission = orbit_plan().trajectory.keyframes.mission
-    box = Box(0.0, 0.0, 2.0, 2.0)
+    box = PageRectangle(0.0, 0.0, 2.0, 2.0)
     with house_style():
         draw_scene(Canvas(2.0, 2.0, 40.0), picture(pose, 1.0, box), mission, (), grid)
     # Looking straight down, North up: the picture is a plan of the ground.

@@ -7,7 +7,7 @@ import pytest
 
 from shotc.emit.palette import CAMERA, WHITE
 from shotc.emit.storyboard import EMITTER
-from shotc.emit.storyboard.canvas import Box, Canvas, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
 from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.frame import Cell, draw_frame
@@ -51,7 +51,7 @@ def marks(monkeypatch: pytest.MonkeyPatch, plan: VerifiedIR) -> tuple[list[Vec2]
     for name, spy in (("lines", lines), ("disc", disc), ("text", text)):
         monkeypatch.setattr(Canvas, name, spy)
     with house_style():
-        cell = Cell(Box(0.0, 0.0, *(float(c) for c in size)), 4.0)
+        cell = Cell(PageRectangle(0.0, 0.0, *(float(c) for c in size)), 4.0)
         draw_frame(Canvas(4.0, 3.0, 50.0), cell, board.moments[0], plan.trajectory.keyframes.mission, 10.0)
     return crosses, dots, texts
 

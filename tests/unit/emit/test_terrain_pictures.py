@@ -11,8 +11,8 @@ from PIL import Image
 
 from shotc.emit.hillshade import before, hillshade, shades
 from shotc.emit.storyboard import EMITTER, map, scene
-from shotc.emit.storyboard.camera_picture import Picture, picture
-from shotc.emit.storyboard.canvas import Box, Canvas, house_style
+from shotc.emit.storyboard.camera_picture import PictureRectangle, picture
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
 from shotc.emit.storyboard.content import ShotBoard, shot_boards
 from shotc.emit.storyboard.contours import contour, contour_heights, profile, relief_of
 from shotc.emit.storyboard.fan import Fan, FanPainter, draped, fan_of
@@ -29,7 +29,7 @@ from tests.support.film_plans import orbit_plan
 from tests.support.records import replace
 from tests.support.surfaces import grid
 
-BOX = Box(0.0, 0.0, 3.0, 3.0)
+BOX = PageRectangle(0.0, 0.0, 3.0, 3.0)
 STEP, SIDE = 10.0, 61
 
 
@@ -61,12 +61,12 @@ def mast(x: float, height: float = 10.0) -> Target:
     return Target("mast", (x, 0.0, height / 2), CylinderShape(2.0, height), ("targets", "mast"))
 
 
-def look(pitch: float = 0.0, z: float = 8.0, x: float = -100.0) -> Picture:
+def look(pitch: float = 0.0, z: float = 8.0, x: float = -100.0) -> PictureRectangle:
     """Towards the East."""
     return picture(np.array([x, 0.0, z, 0.0, pitch, 0.0, radians(60)]), 1.0, BOX)
 
 
-def blue(shown: Picture, told: MissionIR) -> int:
+def blue(shown: PictureRectangle, told: MissionIR) -> int:
     """How many pixels of a picture are a target."""
     with house_style():
         canvas = Canvas(3.0, 3.0, 60.0)
@@ -105,11 +105,11 @@ def test_ground_is_drawn_once_from_the_farthest_ring_to_the_nearest(monkeypatch:
     np.testing.assert_allclose(rows[:60], whole[::-1][:60], atol=1e-9)
 
 
-def _half(shown: Picture) -> tuple[float, float]:
+def _half(shown: PictureRectangle) -> tuple[float, float]:
     return float(shown.camera.half_width), float(shown.camera.half_height)
 
 
-def _seen(shown: Picture, fan: Fan) -> tuple[np.ndarray, np.ndarray]:
+def _seen(shown: PictureRectangle, fan: Fan) -> tuple[np.ndarray, np.ndarray]:
     p = fan.points
     right, down, forward = shown.camera.to_camera((p[..., 0], p[..., 1], p[..., 2]))
     return right / forward, -down / forward

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.emit.waypoints import paths
-from shotc.emit.waypoints.models import CURVED, ROUNDED, TURNINGS, Turning, fly, legs_of, times_of
+from shotc.emit.waypoints.models import CURVED, ROUNDED, TURNINGS, AngleRamps, fly, legs_of, times_of
 from shotc.emit.waypoints.route import Action, Route
 
 CORNER = np.array([[0.0, 0, 10], [10, 0, 10], [10, 10, 10]])
@@ -102,9 +102,9 @@ def test_a_change_of_speed_comes_behind_its_point():
 def test_angles_go_with_the_way_or_with_time():
     there = route([[0.0, 0, 0], [12, 0, 0]], speed=3.0)
     legs = legs_of(there, ROUNDED[1])
-    by_way = fly(there, legs, Turning(3.0, by_time=False))
+    by_way = fly(there, legs, AngleRamps(3.0, by_time=False))
     assert np.allclose(by_way.cam_yaw, by_way.position[:, 0] / 12)
-    by_time = fly(there, legs, Turning(1.5, by_time=True))
+    by_time = fly(there, legs, AngleRamps(1.5, by_time=True))
     assert np.allclose(by_time.cam_yaw, by_time.elapsed / by_time.elapsed[-1])
     assert by_time.cam_yaw[5] > by_way.cam_yaw[5]  # slow at first: the turn is ahead of the way
 

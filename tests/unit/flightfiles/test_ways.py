@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from shotc.emit.litchi.table import write_table
-from shotc.emit.waypoints.geo import Place
+from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.route import Action, Waypoint
 from shotc.flightfiles.verify import FlightsReport
-from shotc.importers.cameras.takes import Asked
+from shotc.importers.cameras.takes import ImportOptions
 from shotc.importers.mission import imported
 from shotc.ir.trajectory import Claim
 from tests.support.flight_files import (
@@ -165,13 +165,13 @@ def test_our_litchi_files_are_imported_as_they_are_written() -> None:
     """Every waypoint of ours comes back as a camera: its place, its heading and its pitch."""
     asked = [(10.0, 0.0, 20.0), (10.0, 30.0, 25.0), (-10.0, 45.0, 22.0)]
     points = [
-        Waypoint(Place(*globe(place)), heading, -12.5 - i, 4.0, stops=False)
+        Waypoint(GeoPosition(*globe(place)), heading, -12.5 - i, 4.0, stops=False)
         for i, (place, heading) in enumerate(zip(asked, (-90.0, 10.0, 170.0), strict=True))
     ]
     points[0] = replace(points[0], stops=True, actions=(Action("start"), Action("stay", 3.0)))
     points[2] = replace(points[2], stops=True, actions=(Action("stop"),))
     made = imported(
-        "litchi", write_table(points), "ours.csv", strict=False, asked=Asked(every=True, ground=408.0)
+        "litchi", write_table(points), "ours.csv", strict=False, asked=ImportOptions(every=True, ground=408.0)
     )
     assert made.text is not None
     assert (made.shots, made.keyframes) == (1, 3)

@@ -7,7 +7,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pytest
 
-from shotc.geom.enclosing import Block, Body, bodies_about
+from shotc.geom.enclosing import EnclosingShape, UprightPrism, bodies_about
 from shotc.geom.shapes import BoxShape, CylinderShape
 from shotc.geom.solids import signed_area
 
@@ -19,18 +19,18 @@ def turned(ring, angle, at=(0.0, 0.0)):
     return tuple((at[0] + x * c - y * s, at[1] + x * s + y * c) for x, y in ring)
 
 
-def gap(bodies: tuple[Body, ...], p) -> float:
+def gap(bodies: tuple[EnclosingShape, ...], p) -> float:
     """Return how far a place is outside of all bodies."""
     return min(b.shape.gap((p[0] - b.centre[0], p[1] - b.centre[1], p[2] - b.centre[2])) for b in bodies)
 
 
-def volume(body: Body) -> float:
+def volume(body: EnclosingShape) -> float:
     shape = body.shape
     base = shape.length * shape.width if isinstance(shape, BoxShape) else pi * shape.radius**2
     return base * shape.height
 
 
-def inner(block: Block, rng, count=200):
+def inner(block: UprightPrism, rng, count=200):
     """Return places in a block whose ring is star-shaped about its first three corners' middle, or any."""
     ring = np.array(block.ring)
     share = rng.uniform(0, 1, (count, 1))
@@ -41,7 +41,7 @@ def inner(block: Block, rng, count=200):
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, 1.2])
 def test_an_l_is_two_boxes_without_its_notch(angle):
-    bodies = bodies_about([Block(turned(L, angle, (40, -7)), 2.0, 10.0)], 8)
+    bodies = bodies_about([UprightPrism(turned(L, angle, (40, -7)), 2.0, 10.0)], 8)
     assert sorted(map(volume, bodies)) == pytest.approx([8 * 30, 8 * 54]) or sorted(
         map(volume, bodies)
     ) == pytest.approx([8 * 24, 8 * 60])
@@ -49,7 +49,7 @@ def test_an_l_is_two_boxes_without_its_notch(angle):
 
 
 def test_a_rectangle_is_one_box_that_lies_as_it_does():
-    (body,) = bodies_about([Block(turned(((0, 0), (10, 0), (10, 4), (0, 4)), 0.4), 0.0, 5.0)], 8)
+    (body,) = bodies_about([UprightPrism(turned(((0, 0), (10, 0), (10, 4), (0, 4)), 0.4), 0.0, 5.0)], 8)
     assert isinstance(body.shape, BoxShape)
     assert (body.shape.length, body.shape.width) == pytest.approx((10, 4))
     assert abs(body.shape.ahead[0] * cos(0.4) + body.shape.ahead[1] * sin(0.4)) == pytest.approx(1)
@@ -57,7 +57,7 @@ def test_a_rectangle_is_one_box_that_lies_as_it_does():
 
 def test_what_is_round_is_a_cylinder():
     ring = tuple((3 + 5 * cos(k * pi / 8), 5 * sin(k * pi / 8)) for k in range(16))
-    (body,) = bodies_about([Block(ring, 0.0, 20.0)], 8)
+    (body,) = bodies_about([UprightPrism(ring, 0.0, 20.0)], 8)
     assert isinstance(body.shape, CylinderShape)
     assert body.shape.radius == pytest.approx(5)
     assert body.centre == pytest.approx((3, 0, 10))
@@ -65,10 +65,10 @@ def test_what_is_round_is_a_cylinder():
 
 def test_a_tower_stays_apart_from_its_nave_and_halves_of_a_nave_do_not():
     nave = [
-        Block(((0, 0), (15, 0), (15, 10), (0, 10)), 0, 12, "w"),
-        Block(((15, 0), (30, 0), (30, 10), (15, 10)), 0, 12),
+        UprightPrism(((0, 0), (15, 0), (15, 10), (0, 10)), 0, 12, "w"),
+        UprightPrism(((15, 0), (30, 0), (30, 10), (15, 10)), 0, 12),
     ]
-    tower = Block(((30, 2), (36, 2), (36, 8), (30, 8)), 0, 40, "tower")
+    tower = UprightPrism(((30, 2), (36, 2), (36, 8), (30, 8)), 0, 40, "tower")
     bodies = bodies_about([*nave, tower], 8)
     assert [(b.shape.height, b.name) for b in bodies] == [(12, ""), (40, "tower")]
 
@@ -79,7 +79,7 @@ def test_many_parts_become_few_bodies_that_hold_them_all():
     for _ in range(40):
         x, y, side, top = *rng.uniform(0, 60, 2), rng.uniform(1, 9), rng.uniform(4, 50)
         ring = turned(((0, 0), (side, 0), (side, side), (0, side)), rng.uniform(0, 3), (x, y))
-        blocks.append(Block(ring, rng.uniform(0, 3), top))
+        blocks.append(UprightPrism(ring, rng.uniform(0, 3), top))
     bodies = bodies_about(blocks, 8)
     assert len(bodies) <= 8
     assert all(gap(bodies, p) < 1e-9 for block in blocks for p in inner(block, rng, 20))
@@ -95,7 +95,7 @@ def test_any_ring_is_held_and_cuts_take_away_what_is_beside_it():
             continue
         far = rng.uniform(2, 12, count)
         ring = tuple((float(r * cos(a)), float(r * sin(a))) for r, a in zip(far, turn, strict=True))
-        block = Block(ring, 0.0, 6.0)
+        block = UprightPrism(ring, 0.0, 6.0)
         bodies = bodies_about([block], 8)
         assert all(gap(bodies, p) < 1e-9 for p in inner(block, rng))
         circle = pi * max(hypot(*p) for p in ring) ** 2

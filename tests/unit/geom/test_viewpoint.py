@@ -16,7 +16,7 @@ from shotc.geom.framing import Cameras, frames
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.viewpoint import (
     Lens,
-    Room,
+    PlaceBounds,
     Since,
     Wanted,
     direction,
@@ -31,7 +31,7 @@ from shotc.geom.viewpoint import (
 )
 
 LENS = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
-ROOM = Room(2.7, 1.6)
+ROOM = PlaceBounds(2.7, 1.6)
 MAN = Wanted((0.0, 0.0, 20.0), CylinderShape(0.4, 1.8))
 
 angles = st.floats(-pi, pi)

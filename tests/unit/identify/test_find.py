@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 
 from shotc.geom.camera import ScreenBox, aim_at
-from shotc.identify.find import Found, Glance, Target, find, held
-from shotc.identify.views import FRAME, Camera
+from shotc.identify.find import Glance, SearchResult, Target, find, held
+from shotc.identify.views import FRAME, CameraPose
 from shotc.ir.mission import MissionIR
 from tests.support.cities import ASPECT, HFOV_RAD, block, box_of, mission_of, tube
 from tests.support.meshes import box_mesh
 from tests.support.scenes import quad
 
 
-def looking(eye: tuple[float, float, float], at: tuple[float, float, float]) -> Camera:
+def looking(eye: tuple[float, float, float], at: tuple[float, float, float]) -> CameraPose:
     offset = tuple(b - a for a, b in zip(eye, at, strict=True))
     aim = aim_at(offset, (0.1, -0.05), HFOV_RAD, ASPECT)
     assert aim is not None
-    return Camera(eye, aim[0], aim[1], HFOV_RAD, ASPECT)
+    return CameraPose(eye, aim[0], aim[1], HFOV_RAD, ASPECT)
 
 
 def glance(triangles: np.ndarray, eye: tuple[float, float, float]) -> Glance:
@@ -32,7 +32,7 @@ def glance(triangles: np.ndarray, eye: tuple[float, float, float]) -> Glance:
     return Glance(camera, box)
 
 
-def only(found: Found) -> Target:
+def only(found: SearchResult) -> Target:
     (target,) = found.targets
     return target
 

@@ -149,7 +149,7 @@ def test_a_broken_limit_is_told_in_the_table() -> None:
     assert lines[told.labels[0].span.line - 1].count(",") == 6
 
 
-def read_rows(data: bytes) -> tuple[reader.Rows, ...]:
+def read_rows(data: bytes) -> tuple[reader.DroneRows, ...]:
     found = read(data, "show.zip").found
     assert isinstance(found, tuple)
     assert all(np.isfinite(rows.place).all() for rows in found)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.surface.ground import ground_of
-from shotc.ir.framed import Course, course_of
+from shotc.ir.framed import StartedFraming, course_of
 from shotc.ir.hidden import hidden_by_surfaces, hides, lacks
 from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import Terrain
@@ -38,16 +38,16 @@ def square(subjects: str = ALONE) -> MissionIR:
     return clean(TEXT.replace("SUBJECTS", subjects)).mission
 
 
-def course(mission: MissionIR) -> Course:
+def course(mission: MissionIR) -> StartedFraming:
     return course_of(mission, mission.shots[0], 20.0)
 
 
-def bearing(of: Course) -> float:
+def bearing(of: StartedFraming) -> float:
     x, y, _ = of.poses[0][:3]
     return degrees(atan2(x, y)) % 360.0
 
 
-def seen_whole(mission: MissionIR, of: Course) -> bool:
+def seen_whole(mission: MissionIR, of: StartedFraming) -> bool:
     eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(of.times, of.poses, strict=True)]
     return not any(hidden_by_surfaces(mission, "statue", eyes))
 

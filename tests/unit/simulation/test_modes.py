@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array
-from shotc.simulation.kalman import Motion, PositionFix, predicted
+from shotc.simulation.kalman import MotionModel, PositionFix, predicted
 from shotc.simulation.modes import LASTS_S, begun, stepped, taken
 from shotc.simulation.seen import AGILITIES
 from shotc.simulation.tracker import Tracker
 
 RUNS, EVERY, NOISE, CORNER_S, END_S = 40, 0.2, 0.3, 12.0, 20.0
-CALM, AGILE = Motion(AGILITIES[0]), Motion(AGILITIES[1])
+CALM, AGILE = MotionModel(AGILITIES[0]), MotionModel(AGILITIES[1])
 
 
 def truth(time: float) -> tuple[Array, Array]:
@@ -22,7 +22,7 @@ def truth(time: float) -> tuple[Array, Array]:
     return place, np.array([0.0, 3.0, 0.0]) if after else np.array([3.0, 0.0, 0.0])
 
 
-def errors(*models: Motion) -> Array:
+def errors(*models: MotionModel) -> Array:
     """Errors of the velocity after each fix, (T, R), and their times by EVERY."""
     rng = np.random.default_rng(5)
     first, speed = truth(0.0)

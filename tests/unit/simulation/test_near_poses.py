@@ -8,7 +8,7 @@ import pytest
 from shotc.plugin_api.replanner import Plan, Traffic
 from shotc.simulation.film import film_of
 from shotc.simulation.kalman import Estimate
-from shotc.simulation.situations import STAGE_S, Moment, replanned
+from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from tests.support.compiled import compiled_text
 
 MISSION = """\
@@ -42,7 +42,7 @@ def test_a_pose_beside_a_target_goes_with_the_estimate_and_a_place_of_the_world_
         places, moves = (np.tile(each, (len(stages), 1)) for each in drone)
         # The runner is 3 m to the North of his way, and faster.
         mean = np.array([[16.0, 3.0, 0.9, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0]])
-        of = Moment(
+        of = ReplanInstant(
             known={"runner": Estimate(at, mean, np.eye(9)[None])},
             last=Plan(stages, places, moves, np.zeros((shot.stages, 3))),
             run=0,

@@ -18,7 +18,7 @@ from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
 from shotc.simulation.kalman import Estimate
 from shotc.simulation.sensors import Gps
-from shotc.simulation.situations import STAGE_S, Moment, replanned
+from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from shotc.simulation.truth import Truth
 from shotc.simulation.wind import Wind
 from shotc.simulation.world import World, at_times
@@ -141,7 +141,7 @@ def test_a_target_that_is_taken_to_be_in_the_ground_leads_no_drone_there():
     free = Traffic(np.empty((0, len(stages), 3)))
     places, moves = (np.tile(each, (len(stages), 1)) for each in drone)
     last = Plan(stages, places, moves, np.zeros((shot.stages, 3)))
-    of = Moment(known=known, last=last, run=0, turn=0.0, traffic=free)
+    of = ReplanInstant(known=known, last=last, run=0, turn=0.0, traffic=free)
     wanted = shot.situation(mission, film, stages, drone, of).wanted
     assert wanted[2] == mission.rules.over_ground(mission.drone("one").radius)
 

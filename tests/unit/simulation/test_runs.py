@@ -12,7 +12,7 @@ import pytest
 
 from shotc.simulation import runs
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.runs import Block, simulated
+from shotc.simulation.runs import RunBlock, simulated
 from shotc.simulation.unfinished import NAME, Unfinished
 from shotc.simulation.wind import Wind
 from tests.support.film_plans import orbit_plan
@@ -35,7 +35,7 @@ def ir():
 
 
 @pytest.fixture(scope="module")
-def first(ir) -> Block:
+def first(ir) -> RunBlock:
     return runs.fly_block(ir, WINDY, range(2))
 
 
@@ -65,7 +65,7 @@ def test_blocks_that_were_done_are_not_flown_again(monkeypatch, ir, first) -> No
 
     def fly_block(_ir, _conditions, block):
         flown.append(list(block))
-        return Block(tuple(replace(first.runs[0], number=n) for n in block), first.strays)
+        return RunBlock(tuple(replace(first.runs[0], number=n) for n in block), first.strays)
 
     monkeypatch.setattr(runs, "fly_block", fly_block)
     blocks = list(simulated(ir, WINDY, 5, 1, [first]))

@@ -3,7 +3,7 @@ import pytest
 
 from shotc.geom.bernstein import quintic_hermite
 from shotc.plugin_api.replanner import Plan
-from shotc.simulation.sent import Fading, Held, Sent
+from shotc.simulation.sent import Fading, Sent, SentPlans
 from shotc.simulation.vehicle import Setpoint
 
 
@@ -35,7 +35,7 @@ def plan(start=1.0, n=20, velocity=(1.0, 0.5, 0.0), acceleration=(0.2, -0.1, 0.0
 
 
 def test_a_plan_is_flown_between_its_stages_as_it_says():
-    held = Held((plan(), plan(velocity=(0.0, 1.0, 0.0))), 3.0)
+    held = SentPlans((plan(), plan(velocity=(0.0, 1.0, 0.0))), 3.0)
     now = held.setpoint(1.77)
     assert now.position[0] == pytest.approx([0.77 + 0.1 * 0.77**2, 0.385 - 0.05 * 0.77**2, 0.0])
     assert now.velocity[0] == pytest.approx([1 + 0.2 * 0.77, 0.5 - 0.1 * 0.77, 0.0])
@@ -43,7 +43,7 @@ def test_a_plan_is_flown_between_its_stages_as_it_says():
 
 
 def test_past_its_end_a_drone_brakes_at_the_limit_and_holds():
-    held = Held((plan(acceleration=(0, 0, 0), velocity=(3.0, 0.0, 0.0)),), 2.0)
+    held = SentPlans((plan(acceleration=(0, 0, 0), velocity=(3.0, 0.0, 0.0)),), 2.0)
     braking, stopped, later = (held.setpoint(3.0 + t) for t in (0.5, 1.5, 9.0))
     assert braking.acceleration[0] == pytest.approx([-2.0, 0.0, 0.0])
     assert braking.velocity[0] == pytest.approx([2.0, 0.0, 0.0])
@@ -56,7 +56,7 @@ def test_past_its_end_a_drone_brakes_at_the_limit_and_holds():
 
 def test_where_a_plan_fails_the_last_one_is_kept():
     first, new = plan(), plan(start=1.5)
-    assert Held((first, first), 3.0).replaced([None, new]).plans == (first, new)
+    assert SentPlans((first, first), 3.0).replaced([None, new]).plans == (first, new)
 
 
 def test_the_way_back_to_the_plan_leads_smoothly_from_one_to_the_other():

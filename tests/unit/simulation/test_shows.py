@@ -5,7 +5,7 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.flight import Flown
+from shotc.simulation.flight import DroneRuns
 from shotc.simulation.shows import fly_fleets
 from tests.support.film_plans import orbit_mission
 from tests.support.show_plans import PADS, display, fleet, mission, show
@@ -13,11 +13,11 @@ from tests.support.show_plans import PADS, display, fleet, mission, show
 ASIDE = tuple((x, -3.0, 0.0) for x, _, _ in PADS)
 
 
-def camera(position: Array) -> Flown:
+def camera(position: Array) -> DroneRuns:
     """Return a camera that stands at a place in the one run."""
     times = np.array([0.0, 100.0])
     still, angle = np.zeros((2, 1, 3)), np.zeros((2, 1))
-    return Flown("cam1", times, np.tile(position, (2, 1, 1)), still, angle, angle, angle, ())
+    return DroneRuns("cam1", times, np.tile(position, (2, 1, 1)), still, angle, angle, angle, ())
 
 
 def test_two_fleets_that_fly_alike_stay_as_far_apart_as_their_pads():

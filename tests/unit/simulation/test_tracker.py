@@ -4,14 +4,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.simulation.gimbal import axes_of
-from shotc.simulation.kalman import GATE, Motion, PictureFix, PositionFix, predicted, projection
+from shotc.simulation.kalman import GATE, MotionModel, PictureFix, PositionFix, predicted, projection
 from shotc.simulation.tracker import Tracker
 
 USED = np.array([True])
 
 
 def tracker(place=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0)):
-    return Tracker.beginning(0.0, np.array([place]), np.array([velocity]), Motion(1.0))
+    return Tracker.beginning(0.0, np.array([place]), np.array([velocity]), MotionModel(1.0))
 
 
 def fix(time, place, deviation=0.02, used=USED):
@@ -71,11 +71,11 @@ def test_what_is_older_than_all_that_is_kept_is_refused():
 
 
 def test_a_run_without_the_measurement_only_predicts():
-    under_test = Tracker.beginning(0.0, np.zeros((2, 3)), np.ones((2, 3)), Motion(1.0))
+    under_test = Tracker.beginning(0.0, np.zeros((2, 3)), np.ones((2, 3)), MotionModel(1.0))
     start = under_test.now(0.0)
     both = np.tile([5.0, 5.0, 5.0], (2, 1))
     under_test.take(PositionFix(1.0, both, 0.1, np.array([True, False])))
-    alone = predicted(start, 1.0, Motion(1.0))
+    alone = predicted(start, 1.0, MotionModel(1.0))
     found = under_test.now(1.0)
     assert found.mean[1] == pytest.approx(alone.mean[1])
     assert found.covariance[1] == pytest.approx(alone.covariance[1])
@@ -110,7 +110,7 @@ def test_a_detection_of_something_else_is_left_out():
 
 def test_a_detection_from_a_camera_that_has_its_target_behind_it_changes_nothing():
     under_test = tracker((-20.0, 0.0, 0.0))
-    expected = predicted(under_test.now(0.0), 1.0, Motion(1.0))
+    expected = predicted(under_test.now(0.0), 1.0, MotionModel(1.0))
     under_test.take(picture((0.1, 0.1)))
     assert under_test.now(1.0).mean == pytest.approx(expected.mean)
     assert np.isfinite(under_test.now(1.0).covariance).all()
@@ -132,7 +132,7 @@ def test_the_derivative_of_the_picture_is_its_slope(x, y, z, yaw, pitch):
 def test_pictures_find_what_a_receiver_is_off_and_are_not_taken_for_another_thing():
     """The case of a bias of 1.5 m: without a state of its own it makes the filter sure of a wrong place."""
     true, off = np.array([[20.0, 0.0, 0.0]]), np.array([[0.0, 1.5, -1.0]])
-    under_test = Tracker.beginning(0.0, true + off, np.zeros((1, 3)), Motion(1.0, 1.5))
+    under_test = Tracker.beginning(0.0, true + off, np.zeros((1, 3)), MotionModel(1.0, 1.5))
     axes, half = axes_of(np.array([0.0]), np.array([0.0])), np.array([[0.5, 0.4]])
     for k in range(1, 60):
         under_test.take(PositionFix(0.1 * k, true + off, 0.1, USED))

@@ -9,7 +9,7 @@ from shotc.ir.target import Target
 from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.gimbal import axes_of
-from shotc.simulation.kalman import Motion, PositionFix, projection
+from shotc.simulation.kalman import MotionModel, PositionFix, projection
 from shotc.simulation.seen import Watched
 from shotc.simulation.sensors import PLAIN, Detector, Gps
 from shotc.simulation.tracker import Tracker
@@ -75,7 +75,7 @@ def test_no_position_arrives_while_it_is_lost():
 def test_a_position_is_known_at_the_step_on_which_it_arrives():
     stamp = 0.2 + 0.1 - 0.1  # the sum with its delay is a little more than 0.3
     fix = PositionFix(stamp, np.ones((1, 3)), 0.02, np.ones(1, dtype=bool))
-    tracker = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), Motion(1.0))
+    tracker = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), MotionModel(1.0))
     seen = Watched("walker", np.zeros((1, 1, 3)), np.zeros(1), [fix], tracker, chances(1))
     heappush(seen.waiting, (stamp + 0.1, 0, fix))
     assert stamp + 0.1 > 0.3

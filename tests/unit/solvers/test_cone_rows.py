@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.solvers import cone_rows
-from shotc.solvers.cone_rows import Array, ConeRows, Near
+from shotc.solvers.cone_rows import Array, ConeRows, WarmStart
 from shotc.solvers.conic import Status
 
 TOLERANCE = 1e-9
@@ -34,7 +34,7 @@ def test_the_optimum_is_that_under_all_cones(seed: int, share: float) -> None:
     rows, wanted = through(np.random.default_rng(seed))
     whole, best = rows.solve(-wanted, TOLERANCE, np.ones(len(wanted)))
     some, found = rows.solve(
-        -wanted, TOLERANCE, np.ones(len(wanted)), near=Near(np.tile([2.0, 1.0], 40), share)
+        -wanted, TOLERANCE, np.ones(len(wanted)), near=WarmStart(np.tile([2.0, 1.0], 40), share)
     )
     assert whole is some is Status.SOLVED
     # The cost has a curvature of 1: two places that far apart differ by half its square.
@@ -52,7 +52,7 @@ def test_few_cones_are_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     each, one = np.arange(100), np.ones(100)
     rows.positive(one, [(each, -one)])
     wanted = np.where(each == 50, 3.0, 0.0)
-    status, x = rows.solve(-wanted, TOLERANCE, one, near=Near(np.zeros(100), 1.0))
+    status, x = rows.solve(-wanted, TOLERANCE, one, near=WarmStart(np.zeros(100), 1.0))
     assert status is Status.SOLVED
     assert np.abs(x - np.minimum(wanted, 1.0)).max() < 1e-6
     assert asked == [0, 2 * cone_rows.BESIDE + 1]
@@ -62,13 +62,13 @@ def test_what_no_place_keeps_is_infeasible_however_few_cones_are_asked() -> None
     rows, one = ConeRows(1), np.ones(1)
     rows.positive(-2.0 * one, [(np.array([0]), one)])
     rows.positive(one, [(np.array([0]), -one)])
-    status, _ = rows.solve(np.zeros(1), TOLERANCE, one, near=Near(np.zeros(1), 1.0))
+    status, _ = rows.solve(np.zeros(1), TOLERANCE, one, near=WarmStart(np.zeros(1), 1.0))
     assert status is Status.INFEASIBLE
 
 
 def test_a_cost_that_falls_for_ever_under_some_cones_is_solved_under_all() -> None:
     rows, one = ConeRows(1), np.ones(1)
     rows.positive(5.0 * one, [(np.array([0]), -one)])
-    status, x = rows.solve(-one, TOLERANCE, near=Near(np.zeros(1), 1.0))
+    status, x = rows.solve(-one, TOLERANCE, near=WarmStart(np.zeros(1), 1.0))
     assert status is Status.SOLVED
     assert x[0] == pytest.approx(5.0, abs=1e-6)

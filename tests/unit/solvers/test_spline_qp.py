@@ -9,7 +9,15 @@ import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
 
-from shotc.geom.bspline import Rows, control_rows, count, energy_rows, spline, subdivide, value_rows
+from shotc.geom.bspline import (
+    SplineFunctionals,
+    control_rows,
+    count,
+    energy_rows,
+    spline,
+    subdivide,
+    value_rows,
+)
 from shotc.solvers import spline_qp
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
@@ -36,7 +44,7 @@ def least_jerk(p, s, pieces=3, half_spaces=(), cones=()):
     breaks = subdivide(s, pieces)
     scale = s[-1] / (len(s) - 1)
     jerk = energy_rows(breaks, 3)
-    goal = Goal(Rows(jerk.piece, jerk.weight * scale**2.5), np.zeros((len(jerk.piece), 3)))
+    goal = Goal(SplineFunctionals(jerk.piece, jerk.weight * scale**2.5), np.zeros((len(jerk.piece), 3)))
     fixed = Equalities(value_rows(breaks, s), p)
     return breaks, SplineProblem(count(breaks), (goal,), fixed, tuple(half_spaces), tuple(cones))
 

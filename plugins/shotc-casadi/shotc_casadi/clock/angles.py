@@ -9,7 +9,7 @@ import casadi as ca
 BENEATH_M2 = 1e-2  # m^2 added to the squared distance over ground: straight above a target the yaw is none
 
 
-class Turning(NamedTuple):
+class RayDerivatives(NamedTuple):
     """Derivatives of a ray's yaw and pitch by time: rates rad/s, accelerations rad/s^2, jerks rad/s^3."""
 
     yaw_rate: Any
@@ -34,7 +34,7 @@ def rates(ray: Any, first: Any) -> tuple[Any, Any]:
     return yaw, pitch
 
 
-def turning(ray: Any, first: Any, second: Any, third: Any) -> Turning:
+def turning(ray: Any, first: Any, second: Any, third: Any) -> RayDerivatives:
     """Return how a ray turns.
 
     ray : from the camera to the target, W, metres; first, second, third : its derivatives by time
@@ -46,4 +46,4 @@ def turning(ray: Any, first: Any, second: Any, third: Any) -> Turning:
     jerk = ca.jtimes(acceleration, ca.vertcat(r, r1, r2), ca.vertcat(r1, r2, r3))
     whole = ca.Function("turning", [r, r1, r2, r3], [ca.vertcat(rate, acceleration, jerk)], {"cse": True})
     turn = whole(ray, first, second, third)
-    return Turning(*ca.vertsplit(turn))
+    return RayDerivatives(*ca.vertsplit(turn))

@@ -27,7 +27,7 @@ ENDLESS_M = 1e3  # metres of half a height that is that of something without an 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class MovingEllipsoid:
     """An ellipsoid that moves.
 
     scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
@@ -44,7 +44,7 @@ class Body:
         return np.asarray(np.linalg.norm((eyes - self.centres) @ self.scale.T, axis=1))
 
 
-def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
+def bodies_of(around: Surroundings, breaks: Array) -> tuple[MovingEllipsoid, ...]:
     """Return all that a shot is flown clear of, at the nodes: targets, other drones, obstacles.
 
     A drone that needs no distance is a point without clearance: there is nothing to be in.
@@ -57,7 +57,9 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[Body, ...]:
             continue
         longest = float(longer[:2].max() if longer[2] > ENDLESS_M else longer.max())
         scale = (axes / longer).T
-        bodies.append(Body(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest))
+        bodies.append(
+            MovingEllipsoid(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest)
+        )
     return tuple(bodies)
 
 
@@ -91,7 +93,7 @@ def inscribed(part: Solid) -> Ellipsoid:
     )
 
 
-def kept_from(bodies: Sequence[Body], references: ClockReferences, eyes: Array) -> ClockReferences:
+def kept_from(bodies: Sequence[MovingEllipsoid], references: ClockReferences, eyes: Array) -> ClockReferences:
     """Return the references with the ellipsoids that come near places ``eyes`` at the nodes, (N + 1, 3).
 
     Those that came near before stay.

@@ -26,7 +26,7 @@ ROUNDING_SHARE = 1e-9  # of a limit
 AIMS = 200  # at which a camera is compared with its aim
 
 
-class Gap(NamedTuple):
+class UnprovedMoment(NamedTuple):
     """Where a motion is not proved: mission time, what is lacking there, and by how much in ``unit``."""
 
     time: float
@@ -35,12 +35,12 @@ class Gap(NamedTuple):
     unit: str
 
 
-def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | None:
+def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> UnprovedMoment | None:
     """Return the worst of what the hulls of a motion do not prove, None where they prove all."""
     lack = around.lacking(position.ctrl)
     k = int(lack.argmax())
     if lack[k] > PROVED_M:
-        return Gap(float(position.breaks[k]), "the clearances", float(lack[k]), "m")
+        return UnprovedMoment(float(position.breaks[k]), "the clearances", float(lack[k]), "m")
     limits = drone.limits
     first, second, third = (position.derivative(order).ctrl for order in (1, 2, 3))
     norm = np.linalg.norm
@@ -51,13 +51,13 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> Gap | Non
         "acceleration": (norm(second, axis=2), limits.usable_acceleration, "m/s^2"),
         "jerk": (norm(third, axis=2), limits.jerk, "m/s^3"),
     }
-    worst: Gap | None = None
+    worst: UnprovedMoment | None = None
     for what, (points, limit, unit) in uses.items():
         most = points.max(axis=1)
         k = int(most.argmax())
         over = float(most[k]) - limit
         if over > ROUNDING_SHARE * limit and (worst is None or over > worst.lack):
-            worst = Gap(float(position.breaks[k]), f"the limit of {what}", over, unit)
+            worst = UnprovedMoment(float(position.breaks[k]), f"the limit of {what}", over, unit)
     return worst
 
 

@@ -29,7 +29,7 @@ from shotc.plugin_api.refiner import (
     worst_of_runs,
 )
 from shotc_casadi.clock.lens import zoomed
-from shotc_casadi.clock.proof import Gap
+from shotc_casadi.clock.proof import UnprovedMoment
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_occluders
@@ -209,11 +209,11 @@ def _state(subject: ClockSubject, refined: ClockRefined, name: str) -> SolverSta
     )
 
 
-def _worst(refined: ClockRefined) -> Gap:
+def _worst(refined: ClockRefined) -> UnprovedMoment:
     """Return the constraint that the solver broke most, if it broke any."""
     solution = refined.solution
     what = solution.constraint
-    return Gap(float(refined.breaks[solution.stage]), what, solution.residual, UNITS.get(what, ""))
+    return UnprovedMoment(float(refined.breaks[solution.stage]), what, solution.residual, UNITS.get(what, ""))
 
 
 def _stats(refined: ClockRefined) -> tuple[tuple[str, float | str], ...]:

@@ -19,13 +19,13 @@ from shotc.plugin_api.refiner import (
     restrict,
     surroundings,
 )
-from shotc_casadi.clock.bodies import Body, bodies_of, kept_from
+from shotc_casadi.clock.bodies import MovingEllipsoid, bodies_of, kept_from
 from shotc_casadi.clock.curve import curve_of, filmed
 from shotc_casadi.clock.guess import guess_past
 from shotc_casadi.clock.occluders import Occluder, with_occluders
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.program import cost, solve
-from shotc_casadi.clock.proof import Gap, astray, gap_in
+from shotc_casadi.clock.proof import UnprovedMoment, astray, gap_in
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.several import turned
 from shotc_casadi.clock.side import Pass, guess_to_side, held, passes
@@ -59,7 +59,7 @@ class ClockRefined:
     solution: Solution
     seconds: float
     first: Solution | None
-    gap: Gap | None
+    gap: UnprovedMoment | None
     costs: tuple[float, float] | None = None
 
 
@@ -83,7 +83,7 @@ class _Shot:
     occluders: tuple[Occluder, ...]
     breaks: Array
     around: Surroundings
-    bodies: tuple[Body, ...]
+    bodies: tuple[MovingEllipsoid, ...]
     shown: Mask
     unseen: bool
 
@@ -119,7 +119,7 @@ class _Round:
     seconds: float = 0.0
     last: Solution | None = None
     first: Solution | None = None
-    gap: Gap | None = None
+    gap: UnprovedMoment | None = None
     best: _Best | None = None
     ended: bool = False
 
@@ -190,7 +190,7 @@ def _unsolved(shot: _Shot, after: _Round) -> _Round:
     return replace(after, over=(), guess_aside=False, course=shot.guide, start=shot.guess(shot.guide))
 
 
-def _tightened(after: _Round, gap: Gap) -> _Round:
+def _tightened(after: _Round, gap: UnprovedMoment) -> _Round:
     """Return what follows a round that does not hold, from the same first guess."""
     if gap.unit == "m":
         return replace(
@@ -225,11 +225,11 @@ def _refined(shot: _Shot, now: _Round) -> ClockRefined:
 
 def _weighed(
     subject: ClockSubject, best: _Best
-) -> tuple[ClockLeg | None, tuple[float, float] | None, Gap | None]:
+) -> tuple[ClockLeg | None, tuple[float, float] | None, UnprovedMoment | None]:
     """Return the leg of the best round where it is no worse than the guide, the costs, and what is amiss."""
     leg, whole = subject.leg, _filmed(subject, best.position, best.solution)
     if whole is None:
-        return None, None, Gap(leg.start, "the camera's limits", float("nan"), "")
+        return None, None, UnprovedMoment(leg.start, "the camera's limits", float("nan"), "")
     if not subject.together:
         worse = astray(subject, whole) > max(ALLOWED_RAD, astray(subject, leg))
         return None if worse else whole, None, None

@@ -20,7 +20,7 @@ import casadi as ca
 from shotc_casadi.clock.angles import over_ground, turning
 from shotc_casadi.clock.picture import residuals, width
 from shotc_casadi.derivatives import Derived, differentiated
-from shotc_casadi.symbols import WIND, Stage, cut
+from shotc_casadi.symbols import WIND, StageSymbols, cut
 
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
 PLACED = 9  # states that are the camera's place and its derivatives
@@ -125,7 +125,7 @@ picture : weight of how several subjects appear; lens : tan of half the fields o
 """
 
 
-def stage(sizes: Sizes) -> Stage:
+def stage(sizes: Sizes) -> StageSymbols:
     """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
 
     held is horizontal speed through the air squared, acceleration squared, and the squared distance to the
@@ -160,7 +160,7 @@ def stage(sizes: Sizes) -> Stage:
         *(lacks["hidden"] - occlusion_at for occlusion_at in occlusions),
         *(q - 1.0 + lacks["touch"] for q in depths),
     )
-    return Stage(
+    return StageSymbols(
         z,
         p,
         ca.vertcat(moved, *aimed.moved),

@@ -15,8 +15,8 @@ import numpy as np
 
 from shotc.plugin_api.replanner import Array, ChaseProblem, ChaseSituation, Plan, Replan
 from shotc_casadi.clock.angles import rates
-from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
-from shotc_casadi.replan.flight import BOUNDS, Flight, fault, sent
+from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
+from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
 from shotc_casadi.replan.keeping import Kept, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, Until
 
@@ -34,7 +34,7 @@ class Chase:
         """Take memory; until : where a replan stops that continues a plan, for those who want a finer one."""
         self._weights, self._until = problem.weights, until
         made = partial(_horizon, stages=problem.horizon.stages)
-        self._flight = Flight(problem.keeping, problem.horizon, made, self._begin)
+        self._flight = ShotSolvers(problem.keeping, problem.horizon, made, self._begin)
 
     def replan(self, situation: ChaseSituation, last: Plan | None) -> Replan:
         """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
@@ -90,7 +90,7 @@ def _horizon(of: Kept, stages: int) -> Horizon:
         p[13] * ca.sqrt(end) * (y - g[5:11]),
     )
     free, (allowed, firm) = ca.SX.inf(3), within(u, most)
-    stage = Stage(
+    stage = StageExpressions(
         x,
         u,
         y,

@@ -15,10 +15,10 @@ import casadi as ca
 import numpy as np
 
 from shotc.plugin_api.replanner import Array
-from shotc_casadi.replan.layout import Index, Layout, Pattern, Places, layout
+from shotc_casadi.replan.layout import Index, Pattern, Places, ProgramMatrices, layout
 
 
-class Stage(NamedTuple):
+class StageExpressions(NamedTuple):
     """One stage in symbols.
 
     x, u, y : state, input, and the state they lead to; p : parameters of the stage; g : those of all stages
@@ -65,14 +65,14 @@ class Horizon:
 
     motion: Any
     step: Any
-    layout: Layout
+    layout: ProgramMatrices
     prices: Prices
     stages: int
     inputs: int
     states: int
 
 
-class Motion(NamedTuple):
+class Rollout(NamedTuple):
     """Inputs (N, U) that the vehicle takes, the states (N, X) that they lead to, and what these cost.
 
     merit : with all prices; worst : what the worst row of the first group lacks
@@ -84,7 +84,7 @@ class Motion(NamedTuple):
     worst: float
 
 
-def horizon(stage: Stage, stages: int, prices: Prices) -> Horizon:
+def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
     """Return the functions of so many stages."""
     s, n = stage, stages
     u, x0 = ca.MX.sym("u", s.u.numel(), n), ca.MX.sym("x0", s.x.numel())
@@ -124,7 +124,7 @@ class Evaluation:
     Whoever calls writes the measured state (X,) into ``start``, parameters into ``given`` (N, P) and
     ``common`` (G,) first. What ``step`` makes stands in ``programme`` until it is called again: the cost's
     matrix and its linear part, the motion's matrix, that of the rows with their lower bounds, and the lower
-    and upper bounds of the step; of matrices the values, as a ``Layout`` takes them.
+    and upper bounds of the step; of matrices the values, as a ``ProgramMatrices`` takes them.
     """
 
     def __init__(self, of: Horizon) -> None:
@@ -144,20 +144,20 @@ class Evaluation:
         """Whether all that was written is."""
         return isfinite(self.start.sum() + self.given.sum() + self.common.sum())
 
-    def motion(self, inputs: Array) -> Motion:
+    def motion(self, inputs: Array) -> Rollout:
         """Return the motion of inputs (N, U)."""
         return self._moved(self._motion, inputs)
 
-    def step(self, inputs: Array) -> Motion:
+    def step(self, inputs: Array) -> Rollout:
         """Return the same, and make the programme of a step from it."""
         return self._moved(self._step, inputs)
 
-    def _moved(self, call: _Call, inputs: Array) -> Motion:
+    def _moved(self, call: _Call, inputs: Array) -> Rollout:
         self._inputs[:] = inputs
         call()
         of, (u, x, merit, worst) = self.of, call.out[:4]
         shapes = (of.stages, of.inputs), (of.stages, of.states)
-        return Motion(
+        return Rollout(
             u.reshape(shapes[0]).copy(), x.reshape(shapes[1]).copy(), float(merit[0]), float(worst[0])
         )
 
@@ -178,7 +178,7 @@ class _Call:
         self._call()
 
 
-def _rolled(s: Stage, stages: int) -> Any:
+def _rolled(s: StageExpressions, stages: int) -> Any:
     """Return the function of inputs, measured state and common parameters to what is flown."""
     following = _function("following", [s.x, s.u, s.g], [s.following])
     nearest = _function("nearest", [s.u, s.g], [s.allowed])
@@ -191,7 +191,7 @@ def _rolled(s: Stage, stages: int) -> Any:
     return _function("rolled", [u, x, s.g], [inputs, ca.horzcat(*states)])
 
 
-def _judged(s: Stage, stages: int) -> Any:
+def _judged(s: StageExpressions, stages: int) -> Any:
     """Return the function of all stages to cost, lack and excess of each."""
     low, high = s.states
     outside = ca.sum1(ca.fmax(s.y - high, 0) + ca.fmax(low - s.y, 0))
@@ -201,7 +201,9 @@ def _judged(s: Stage, stages: int) -> Any:
     return one.map("all_judged", "serial", stages, [3], [], {})
 
 
-def _derived(s: Stage, stages: int, damping: float) -> tuple[Any, tuple[Places, Places, Places, Places]]:
+def _derived(
+    s: StageExpressions, stages: int, damping: float
+) -> tuple[Any, tuple[Places, Places, Places, Places]]:
     """Return the function of all stages to what a programme is made of, and where its values stand."""
     w = ca.vertcat(s.u, s.y)
     slope = ca.jacobian(s.residuals, w)
@@ -223,13 +225,13 @@ def _derived(s: Stage, stages: int, damping: float) -> tuple[Any, tuple[Places, 
     return one.map("all_derived", "serial", stages, [4], [], {}), places
 
 
-def _ended(s: Stage, end: Any, g: Any) -> tuple[Any, Any, Any, Places]:
+def _ended(s: StageExpressions, end: Any, g: Any) -> tuple[Any, Any, Any, Places]:
     slopes = ca.jacobian(s.ends, s.y)
     function = _function("ended", [s.y, s.g], [s.ends, _lack(s.ends), _values(slopes)])
     return *function(end, g), _places(slopes)
 
 
-def _with_slack(of: Any, s: Stage, slack: Any) -> Any:
+def _with_slack(of: Any, s: StageExpressions, slack: Any) -> Any:
     """Return rows of inputs and states with those of the slacks between them, stage by stage."""
     return ca.vec(ca.vertcat(of[: s.u.numel(), :], slack, of[s.u.numel() :, :]))
 

@@ -18,7 +18,7 @@ from shotc.plugin_api.replanner import (
 )
 from shotc.plugin_api.replanner import Horizon as Ahead
 from shotc_casadi.replan.evaluation import Horizon
-from shotc_casadi.replan.keeping import Kept, Standing, common, each, kept
+from shotc_casadi.replan.keeping import Kept, StaticObstacles, common, each, kept
 from shotc_casadi.replan.steps import Solver, Walk
 
 BEYOND = "the motion from here is beyond all numbers"
@@ -28,7 +28,7 @@ BOUNDS = 6
 """The first parameters of a stage: lower and upper bounds of the velocity."""
 
 
-class Flight:
+class ShotSolvers:
     """The solvers of one shot, one for each number of other drones and of what stands near.
 
     Parameters of a stage begin with the bounds of the velocity and end with those of ``keeping.each``;
@@ -48,7 +48,7 @@ class Flight:
         """
         limits, n = keeping.limits, ahead.stages
         self._keeping, self._step, self._made, self._begun = keeping, ahead.step, made, begun
-        self._standing = Standing(keeping)
+        self._standing = StaticObstacles(keeping)
         self._solvers: dict[Kept, Solver] = {}
         self.times = ahead.step * np.arange(n + 1)
         self._way = float(self.times[-1])  # at a metre a second

@@ -24,13 +24,13 @@ from shotc.plugin_api.replanner import (
     Plan,
     Replan,
 )
-from shotc_casadi.replan.evaluation import Horizon, Prices, Stage, horizon
-from shotc_casadi.replan.flight import BOUNDS, Flight, fault, sent
+from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
+from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
 from shotc_casadi.replan.keeping import Kept, ends, rows, within
 from shotc_casadi.replan.pictures import (
     COMMON,
     EACH,
-    Camera,
+    CameraSymbols,
     Symbols,
     clear,
     in_field,
@@ -62,7 +62,7 @@ class Framing:
     def __init__(self, problem: FramingProblem, until: Until = WARM) -> None:
         """Take memory; until : where a replan stops that continues a plan, for those who want a finer one."""
         self._problem, self._until = problem, until
-        self._flights: dict[Cast, Flight] = {}
+        self._flights: dict[Cast, ShotSolvers] = {}
 
     def replan(self, situation: FramingSituation, last: Plan | None) -> Replan:
         """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
@@ -81,11 +81,11 @@ class Framing:
             done = solver.walk(start, FIRST if last is None else self._until)
             return flight.told(solver, done, s.time, widened)
 
-    def _flight(self, cast: Cast) -> Flight:
+    def _flight(self, cast: Cast) -> ShotSolvers:
         if cast not in self._flights:
             problem = self._problem
             made = partial(_horizon, cast=cast, stages=problem.horizon.stages)
-            self._flights[cast] = Flight(problem.keeping, problem.horizon, made, self._begin)
+            self._flights[cast] = ShotSolvers(problem.keeping, problem.horizon, made, self._begin)
         return self._flights[cast]
 
     def _begin(self, solver: Solver) -> None:
@@ -146,7 +146,7 @@ def _horizon(of: Kept, cast: Cast, stages: int) -> Horizon:
     return horizon(stage(of, cast), stages, PRICES)
 
 
-def stage(of: Kept, cast: Cast) -> Stage:
+def stage(of: Kept, cast: Cast) -> StageExpressions:
     """Return one stage of the problem in symbols."""
     k = len(cast)
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
@@ -161,12 +161,12 @@ def stage(of: Kept, cast: Cast) -> Stage:
         )
         for i in range(k)
     ]
-    camera = Camera(y[:3], y[6], y[7], g[7:9])
+    camera = CameraSymbols(y[:3], y[6], y[7], g[7:9])
     a, rate = u[:3], u[3:]
     keep = [rows(of, (y[:3], y[3:6], -camera.ahead), p[own:], shared), *(clear(y[:3], b) for b in bodies)]
     allowed, firm = within(a, most)
     free, limit = ca.SX.inf(3), ca.vertcat(most, most, most, turn, tilt)
-    return Stage(
+    return StageExpressions(
         x,
         u,
         y,
@@ -188,7 +188,7 @@ def stage(of: Kept, cast: Cast) -> Stage:
     )
 
 
-def _residuals(camera: Camera, u: Any, bodies: list[Symbols], cast: Cast, g: Any) -> Any:
+def _residuals(camera: CameraSymbols, u: Any, bodies: list[Symbols], cast: Cast, g: Any) -> Any:
     place, size, view, _, field, effort, turning = ca.vertsplit(g[:7])
     found = [ca.sqrt(effort) * u[:3], ca.sqrt(turning) * u[3:]]
     for body, filmed in zip(bodies, cast, strict=True):
@@ -200,7 +200,7 @@ def _residuals(camera: Camera, u: Any, bodies: list[Symbols], cast: Cast, g: Any
     return ca.vertcat(*found)
 
 
-def _off_pose(camera: Camera, place: Any, drawn: Any) -> Any:
+def _off_pose(camera: CameraSymbols, place: Any, drawn: Any) -> Any:
     """Return how far a camera is off the pose that it stays near (Naegeli et al., Eq. 10)."""
     turned = ca.vertcat(2.0 * ca.sin(0.5 * (camera.yaw - drawn[0])), camera.pitch - drawn[1])
     return ca.vertcat(drawn[2] * (camera.place - place), drawn[3:] * turned)

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from shotc.plugin_api.replanner import Array, Keeping, Traffic
-from shotc_casadi.replan.solids import SHARP_M, TINY_M, Room, count, free_at, half_space, rooms
+from shotc_casadi.replan.solids import SHARP_M, TINY_M, SolidConstraint, count, free_at, half_space, rooms
 
 STANDING_MS = 1e-3
 """Added to speeds and accelerations, whose direction would not be known at 0, m/s and m/s^2."""
@@ -48,7 +48,7 @@ class Kept(NamedTuple):
         return 6 * (self.others + self.cones)
 
 
-class Standing:
+class StaticObstacles:
     """All that stands and is kept clear of, or stayed inside of."""
 
     def __init__(self, keeping: Keeping) -> None:
@@ -59,7 +59,7 @@ class Standing:
         self._rooms = found
         self._discs = np.array([room.disc for room in found]).reshape(-1, 3)
 
-    def near(self, place: Array, way: float) -> tuple[Room, ...]:
+    def near(self, place: Array, way: float) -> tuple[SolidConstraint, ...]:
         """Return what may be met on a way of so many metres, or all where it is not much."""
         if len(self._rooms) <= FEW:
             return tuple(self._rooms)
@@ -68,7 +68,7 @@ class Standing:
         return tuple(self._rooms[i] for i in np.flatnonzero(away < way + REACH_M))
 
 
-def kept(keeping: Keeping, near: tuple[Room, ...], traffic: Traffic) -> Kept:
+def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) -> Kept:
     """Return what rows there are in one replan."""
     low, high = keeping.pitch
     return Kept(
@@ -81,7 +81,7 @@ def kept(keeping: Keeping, near: tuple[Room, ...], traffic: Traffic) -> Kept:
     )
 
 
-def common(keeping: Keeping, near: tuple[Room, ...], step: float) -> list[float]:
+def common(keeping: Keeping, near: tuple[SolidConstraint, ...], step: float) -> list[float]:
     """Return the parameters that all stages share, but the half angles of cones, which come after them."""
     limits, given = keeping.limits, keeping
     numbers = [

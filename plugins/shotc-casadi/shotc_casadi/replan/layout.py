@@ -50,7 +50,7 @@ class Sparse:
         return csc_matrix((values, self.indices, self.starts), self.shape, copy=False)
 
 
-class Layout(NamedTuple):
+class ProgramMatrices(NamedTuple):
     """The matrices of a programme over a horizon.
 
     cost : of the stages' Hessians; motion : of their ``driven``, then -1 for every state, then ``onward`` but
@@ -62,7 +62,7 @@ class Layout(NamedTuple):
     bound: Sparse
 
 
-def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> Layout:
+def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> ProgramMatrices:
     """Return the matrices of so many stages."""
     p, n, slacks = pattern, stages, len(pattern.rows)
     width = inputs + slacks + states
@@ -85,7 +85,7 @@ def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> Layout:
         [first + place[p.kept[1]], first[-1] + after[p.ends[1]], slack],
         (n * many + p.last, size),
     )
-    return Layout(cost, motion, bound)
+    return ProgramMatrices(cost, motion, bound)
 
 
 def _sparse(rows: list[Index], columns: list[Index], shape: tuple[int, int]) -> Sparse:

@@ -39,7 +39,7 @@ class Symbols(NamedTuple):
         return cls(p[:3], p[3:6], p[6:9], g[:2], g[2], g[3], g[4:7], g[7], g[8], g[9])
 
 
-class Camera(NamedTuple):
+class CameraSymbols(NamedTuple):
     """Place, yaw, pitch and tan of half its fields of view (2,)."""
 
     place: Any
@@ -61,7 +61,7 @@ class Camera(NamedTuple):
         return ca.vertcat(level * ca.cos(self.yaw), level * ca.sin(self.yaw), ca.sin(self.pitch))
 
 
-def off_place(camera: Camera, subject: Symbols) -> Any:
+def off_place(camera: CameraSymbols, subject: Symbols) -> Any:
     """Return the difference of unit rays, in half frames near the middle (Eq. 7), as a column."""
     ray, half = subject.point - camera.place, camera.half
     wanted = ca.vertcat(subject.uv[0] * half[0], subject.uv[1] * half[1], 1)
@@ -69,13 +69,13 @@ def off_place(camera: Camera, subject: Symbols) -> Any:
     return subject.placed * apart / ca.vertcat(half[0], half[1], half[0])
 
 
-def off_size(camera: Camera, subject: Symbols) -> Any:
+def off_size(camera: CameraSymbols, subject: Symbols) -> Any:
     """Return the logarithm of the wanted size over the size (Eq. 8)."""
     away = length(subject.point - camera.place)
     return subject.sized * ca.log(2 * camera.half[1] * away * subject.size / subject.diameter)
 
 
-def off_view(camera: Camera, subject: Symbols) -> Any:
+def off_view(camera: CameraSymbols, subject: Symbols) -> Any:
     """Return the difference of unit vectors from the subject to the camera (Eq. 9), as a column."""
     ray = camera.place - subject.point
     return subject.viewed * (ray / length(ray) - subject.view)

@@ -30,7 +30,7 @@ HALF_SPACE, PILLAR, SHAFT = 0, 1, 2
 """Shapes with a fixed number of parameters; a prism is named by how many corners it has."""
 
 
-class Room(NamedTuple):
+class SolidConstraint(NamedTuple):
     """A part of what a drone keeps clear of, or stays inside of.
 
     shape : HALF_SPACE (normal, offset), PILLAR, an upright cylinder, (x, y, radius, bottom, top), SHAFT, the
@@ -65,12 +65,12 @@ def count(shape: int) -> int:
     return 2 + {HALF_SPACE: 4, PILLAR: 5, SHAFT: 3}.get(shape, 2 + 2 * shape)
 
 
-def half_space(normal: Sequence[float], offset: float) -> Room:
+def half_space(normal: Sequence[float], offset: float) -> SolidConstraint:
     """Return the room in normal . p >= offset; normal : a unit vector."""
-    return Room(HALF_SPACE, (*normal, offset), 0.0, np.inf)
+    return SolidConstraint(HALF_SPACE, (*normal, offset), 0.0, np.inf)
 
 
-def rooms(zone: Clearance, margin: float) -> Iterator[Room]:
+def rooms(zone: Clearance, margin: float) -> Iterator[SolidConstraint]:
     """Yield what is kept of one clearance."""
     metres = zone.metres + margin
     if not zone.inside:
@@ -82,7 +82,7 @@ def rooms(zone: Clearance, margin: float) -> Iterator[Room]:
     if np.isfinite(solid.top):
         yield half_space((0.0, 0.0, -1.0), metres - solid.top)
     if isinstance(solid, Cylinder):
-        yield Room(SHAFT, (*solid.centre, solid.radius), metres, np.inf)
+        yield SolidConstraint(SHAFT, (*solid.centre, solid.radius), metres, np.inf)
         return
     hull, pockets = hull_and_pockets(solid)
     for a, b in edges(hull.points):
@@ -93,7 +93,7 @@ def rooms(zone: Clearance, margin: float) -> Iterator[Room]:
 
 
 def free_at(shape: int, p: Any, sizes: Any) -> Any:
-    """Return the room at a place in symbols; sizes : the parameters of a ``Room``."""
+    """Return the room at a place in symbols; sizes : the parameters of a ``SolidConstraint``."""
     metres, s = sizes[0], sizes[2:]
     if shape == HALF_SPACE:
         return ca.dot(s[:3], p) - s[3] - metres
@@ -104,14 +104,14 @@ def free_at(shape: int, p: Any, sizes: Any) -> Any:
     return _upright(_polygon(p, ca.reshape(s[2:], 2, shape)), p, s[0], s[1]) - metres
 
 
-def _outside(part: Solid, metres: float) -> Room:
+def _outside(part: Solid, metres: float) -> SolidConstraint:
     low, high = max(part.bottom, -FAR_M), min(part.top, FAR_M)
     if isinstance(part, Cylinder):
         sizes = (*part.centre, part.radius, low, high)
-        return Room(PILLAR, sizes, metres, max(part.radius + metres, SHARP_M))
+        return SolidConstraint(PILLAR, sizes, metres, max(part.radius + metres, SHARP_M))
     assert isinstance(part, Prism)
     corners = [c for point in part.points for c in point]
-    return Room(len(part.points), (low, high, *corners), metres, max(metres, SHARP_M))
+    return SolidConstraint(len(part.points), (low, high, *corners), metres, max(metres, SHARP_M))
 
 
 def _polygon(p: Any, corners: Any) -> Any:

@@ -12,7 +12,7 @@ import numpy as np
 import piqp
 
 from shotc.plugin_api.replanner import Array
-from shotc_casadi.replan.evaluation import Evaluation, Horizon, Motion
+from shotc_casadi.replan.evaluation import Evaluation, Horizon, Rollout
 
 SHORTER = 0.4
 TRIES = 5
@@ -36,7 +36,7 @@ class Walk(NamedTuple):
     opened : whether a programme had no solution until its bounds were widened to the states of its iterate
     """
 
-    motion: Motion
+    motion: Rollout
     steps: int
     stalled: bool
     opened: bool
@@ -88,7 +88,7 @@ class Solver:
             return None
         return np.asarray(self._solver.result.x).reshape(self._shape)[:, : self._inputs]
 
-    def _better(self, point: Motion, step: Array) -> Motion | None:
+    def _better(self, point: Rollout, step: Array) -> Rollout | None:
         share = 1.0
         for _ in range(TRIES):
             found = self.evaluation.motion(point.inputs + share * step)

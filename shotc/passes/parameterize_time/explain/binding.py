@@ -20,7 +20,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.flown import usages
 from shotc.planning.timing.limits import Ceiling, ceiling_of
-from shotc.planning.timing.move import Move, axes_of
+from shotc.planning.timing.move import TimedMove, axes_of
 from shotc.rounding import up
 from shotc.source.file import Span
 
@@ -60,7 +60,7 @@ _SHOWN = {
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class KeyframeInterval:
     """The flight time between two neighbouring keyframes, seconds, and how long each limit binds there.
 
     where : which two, as a phrase
@@ -79,11 +79,11 @@ class Holdup:
     names : of the limits that bind, the longest first
     """
 
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[KeyframeInterval, ...]
     names: tuple[str, ...]
 
 
-def binding(leg: PathLeg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
+def binding(leg: PathLeg, moves: tuple[TimedMove, ...], ceiling: Ceiling) -> Holdup:
     """Return the limits that bind the moves of a leg."""
     pieces = [_held(move, ceiling) for move in moves]
     marks = sorted(leg.marks, key=lambda m: (m.s, m.index))
@@ -96,7 +96,9 @@ def binding(leg: PathLeg, moves: tuple[Move, ...], ceiling: Ceiling) -> Holdup:
             seconds += float(each.seconds[inside].sum())
             for name, where in each.held.items():
                 held[name] = held.get(name, 0.0) + float(each.seconds[inside & where].sum())
-        stretches.append(Stretch(_where(marks, a, b), seconds, {n: t for n, t in held.items() if t > 0}))
+        stretches.append(
+            KeyframeInterval(_where(marks, a, b), seconds, {n: t for n, t in held.items() if t > 0})
+        )
     total: dict[str, float] = {}
     for stretch in stretches:
         for name, time in stretch.held.items():
@@ -123,7 +125,7 @@ class _Pieces(NamedTuple):
     held: dict[str, Mask]
 
 
-def _held(move: Move, ceiling: Ceiling) -> _Pieces:
+def _held(move: TimedMove, ceiling: Ceiling) -> _Pieces:
     profile = move.profile
     limits = axes_of(move.path, (float(profile.s[0]), float(profile.s[-1])), ceiling)
     held: dict[str, Mask] = {}

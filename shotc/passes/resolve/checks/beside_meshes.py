@@ -36,7 +36,7 @@ LIFTS_M = tuple(float(k) for k in range(1, 61))  # by which a path is raised to 
 LARGE_M = 1_000.0  # of a scene that may be in another unit
 
 
-class Near(NamedTuple):
+class MeshClearance(NamedTuple):
     """How a place stands to the mesh that leaves it the least room.
 
     away : metres from the nearest triangle, negative inside of what is closed
@@ -121,7 +121,7 @@ def _blocked(
     yield path[:-1], Diagnostic("G029", message, labels, notes, help_)
 
 
-def _words(near: Near) -> str:
+def _words(near: MeshClearance) -> str:
     return mesh_owner(near.mesh)._replace(name=near.name).words
 
 
@@ -138,27 +138,32 @@ def _needed(mesh: ObstacleMesh, radius: float, clearance: float) -> str:
     return " and ".join([*parts, f"the body radius of {radius:.2f} m"])
 
 
-def _nearest(mission: MissionIR, p: Array, drone: Drone) -> list[Near]:
+def _nearest(mission: MissionIR, p: Array, drone: Drone) -> list[MeshClearance]:
     """Return how places (K, 3) stand to the meshes."""
-    worst: list[Near] = []
+    worst: list[MeshClearance] = []
     for mesh in mission.meshes:
         needed = mission.rules.beside_obstacle(drone.radius) + mesh.spacing
         held = mesh.holds(p)
         found = nearest(mesh.surface, p, np.where(held, np.inf, needed))
         names = [mesh.name_at(int(mesh.surface.source[t])) if t >= 0 else "" for t in found.triangle]
         away = np.where(held, -found.distance, found.distance)
-        near = [Near(mesh, float(a), needed - float(a), name) for a, name in zip(away, names, strict=True)]
+        near = [
+            MeshClearance(mesh, float(a), needed - float(a), name)
+            for a, name in zip(away, names, strict=True)
+        ]
         worst = [max(pair, key=lambda n: n.lack) for pair in zip(worst or near, near, strict=True)]
     return worst
 
 
-def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> Near | None:
+def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> MeshClearance | None:
     """Return how something stands to the way straight up from a home, where it is in the way."""
     home, body = np.array([drone.home]), drone.radius + mesh.spacing
     if mesh.holds(home)[0]:
         found = nearest(mesh.surface, home)
         deep = float(found.distance[0])
-        return Near(mesh, -deep, body + deep, mesh.name_at(int(mesh.surface.source[found.triangle[0]])))
+        return MeshClearance(
+            mesh, -deep, body + deep, mesh.name_at(int(mesh.surface.source[found.triangle[0]]))
+        )
     x, y, z = drone.home
     low = z + PAD * drone.radius + mesh.spacing
     a, b = np.array([[x, y, low]]), np.array([[x, y, max(low, mission.lowest(drone.home, drone.radius))]])
@@ -172,7 +177,7 @@ def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> Near | No
     k = int(away.argmin())
     least = float(away[k])
     name = mesh.name_at(int(mesh.surface.source[pairs.triangle[k]]))
-    return Near(mesh, least, body - least, name) if least < body - ROUNDING_M else None
+    return MeshClearance(mesh, least, body - least, name) if least < body - ROUNDING_M else None
 
 
 def _other_home(mission: MissionIR, drone: Drone) -> str:

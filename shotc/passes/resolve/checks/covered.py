@@ -18,7 +18,7 @@ from shotc.ir.target import Target
 HALVES = 40  # of a stretch of a track, to where it meets a zone
 
 
-class Moment(NamedTuple):
+class TargetPosition(NamedTuple):
     """Where a target is at a mission time, metres and seconds."""
 
     time: float
@@ -42,7 +42,7 @@ def covered(mission: MissionIR) -> Iterator[Diagnostic]:
                 yield _told(mission, target, zone, met)
 
 
-def first_within(way: Sequence[Moment], solid: Solid) -> Moment | None:
+def first_within(way: Sequence[TargetPosition], solid: Solid) -> TargetPosition | None:
     """Return when and where something is within a solid first that goes straight from moment to moment."""
     for a, b in pairwise(way):
         if crosses(solid, a.at, b.at):
@@ -50,7 +50,7 @@ def first_within(way: Sequence[Moment], solid: Solid) -> Moment | None:
     return None
 
 
-def _entry(solid: Solid, a: Moment, b: Moment) -> Moment:
+def _entry(solid: Solid, a: TargetPosition, b: TargetPosition) -> TargetPosition:
     """Return where the straight way from one moment to the next meets a solid first."""
     low, high = 0.0, 1.0
     if crosses(solid, a.at, a.at):
@@ -61,15 +61,15 @@ def _entry(solid: Solid, a: Moment, b: Moment) -> Moment:
     return _between(a, b, high)
 
 
-def _between(a: Moment, b: Moment, share: float) -> Moment:
+def _between(a: TargetPosition, b: TargetPosition, share: float) -> TargetPosition:
     x, y, z = (p + share * (q - p) for p, q in zip(a.at, b.at, strict=True))
-    return Moment(a.time + share * (b.time - a.time), (x, y, z))
+    return TargetPosition(a.time + share * (b.time - a.time), (x, y, z))
 
 
-def _way(target: Target, end: float) -> Iterator[Moment]:
+def _way(target: Target, end: float) -> Iterator[TargetPosition]:
     """Yield where a target's centre is at the start of the mission, at corners of its way, and at the end."""
     rows = () if target.track is None else target.track.times
-    yield from (Moment(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < end), end))
+    yield from (TargetPosition(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < end), end))
 
 
 def _filmed(mission: MissionIR, shot: Shot) -> set[str]:
@@ -79,7 +79,7 @@ def _filmed(mission: MissionIR, shot: Shot) -> set[str]:
     return {part for name in names if name in known for part in mission.parts_of(str(name))}
 
 
-def _told(mission: MissionIR, target: Target, zone: Zone, met: Moment) -> Diagnostic:
+def _told(mission: MissionIR, target: Target, zone: Zone, met: TargetPosition) -> Diagnostic:
     place = "({:.2f}, {:.2f}, {:.2f}) m".format(*met.at)
     comes = met.time > 0.0
     state = "comes into" if comes else "stands in" if target.track is None else "begins in"

@@ -11,7 +11,7 @@ from shotc.diag.registry import has_errors
 from shotc.geom.vec import wrapped
 from shotc.geom.viewpoint import Pose, Seen, Wanted, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
-from shotc.ir.framed import Course, course_of
+from shotc.ir.framed import StartedFraming, course_of
 from shotc.ir.framed_scene import lens_of, wanted_at
 from shotc.ir.hidden import lacks
 from shotc.ir.keyed import near_at
@@ -40,7 +40,7 @@ OUT = 0.02  # half frames that a whole subject may reach out of the frame
 ROUNDING = 1e-6
 
 
-def check_course(mission: MissionIR, course: Course, *, advise: bool = True) -> Iterator[Diagnostic]:
+def check_course(mission: MissionIR, course: StartedFraming, *, advise: bool = True) -> Iterator[Diagnostic]:
     """Yield what is wrong with a framing; the first fault of a subject is enough.
 
     advise : whether to try what would help; a remedy is tried without
@@ -126,7 +126,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
     )
 
 
-def _blocked(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
+def _blocked(mission: MissionIR, course: StartedFraming, advise: bool) -> Diagnostic | None:
     """Tell a view that is underground, out of the gimbal's range, or in something all along."""
     alone = len(course.shot.subjects) == 1
     fault = (_too_low(mission, course, advise) or _beyond_reach(mission, course)) if alone else None
@@ -135,7 +135,7 @@ def _blocked(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | N
     return _without_room(mission, course, advise)
 
 
-def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | None:
+def _too_low(mission: MissionIR, course: StartedFraming, advise: bool) -> Diagnostic | None:
     need = mission.rules.over_ground(mission.drone(course.shot.drone).radius)
     heights = [pose[2] - mission.ground(pose[0], pose[1]) for pose in course.poses]
     z = min(heights)
@@ -161,7 +161,7 @@ def _too_low(mission: MissionIR, course: Course, advise: bool) -> Diagnostic | N
     )
 
 
-def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
+def _beyond_reach(mission: MissionIR, course: StartedFraming) -> Diagnostic | None:
     drone = mission.drone(course.shot.drone)
     pitches = [pose[4] for pose in course.poses]
     beyond = [p for p in (min(pitches), max(pitches)) if not drone.gimbal.reaches(p)]
@@ -173,7 +173,7 @@ def _beyond_reach(mission: MissionIR, course: Course) -> Diagnostic | None:
     return beyond_gimbal(mission, drone, known, beyond[0])
 
 
-def _alone_at(course: Course, i: int) -> tuple[Shot, Subject]:
+def _alone_at(course: StartedFraming, i: int) -> tuple[Shot, Subject]:
     """Return a framing of one subject as it is asked at a knot, where the nearest setpoint has it."""
     subject, time = course.shot.subjects[0], course.times[i] - course.times[0]
     if not subject.setpoints:
@@ -182,7 +182,7 @@ def _alone_at(course: Course, i: int) -> tuple[Shot, Subject]:
     return as_at(course.shot, subject, nearest, lambda s: None if s.view is None else s.view[1])
 
 
-def _without_room(mission: MissionIR, course: Course, advise: bool) -> Diagnostic:
+def _without_room(mission: MissionIR, course: StartedFraming, advise: bool) -> Diagnostic:
     shot, drone = course.shot, mission.drone(course.shot.drone)
     subject = shot.subjects[0]
     asked = next((s for s in shot.subjects if s.view is not None), subject)
@@ -212,7 +212,7 @@ def _without_room(mission: MissionIR, course: Course, advise: bool) -> Diagnosti
     )
 
 
-def _enough(course: Course, need: float) -> float:
+def _enough(course: StartedFraming, need: float) -> float:
     """Return which elevation would do if the distance stayed the same, degrees; 90 where none would."""
     x, y, z = course.shot.ideal.points[0][1] if course.shot.ideal is not None else (0.0, 0.0, 0.0)
     away = (x * x + y * y + z * z) ** 0.5
@@ -236,7 +236,7 @@ def shot_key(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> KeyP
     return subject.path
 
 
-class Worst(NamedTuple):
+class WorstFraming(NamedTuple):
     """The worst of one subject over a framing: against its place, size and view, and when."""
 
     screen: tuple[float, float]
@@ -245,7 +245,7 @@ class Worst(NamedTuple):
     out: tuple[float, float]
 
 
-def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
+def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic]:
     """Tell what several subjects cannot have at once."""
     shot, lens = course.shot, lens_of(mission.drone(course.shot.drone))
     notes: list[str] = []
@@ -287,7 +287,7 @@ def _together(mission: MissionIR, course: Course) -> Iterator[Diagnostic]:
         )
 
 
-def _far_from_place(mission: MissionIR, course: Course) -> str | None:
+def _far_from_place(mission: MissionIR, course: StartedFraming) -> str | None:
     """Say how far the camera is from the place that it is to stay near, where that is worth telling."""
     near = None if course.shot.ideal is None else course.shot.ideal.near
     if near is None:
@@ -316,7 +316,7 @@ def _known(mission: MissionIR, shot: Shot) -> bool:
 
 
 def _apart(
-    mission: MissionIR, course: Course, subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]
+    mission: MissionIR, course: StartedFraming, subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]
 ) -> Diagnostic | None:
     """Tell a subject that is out of the picture, or far too small for others to be in it."""
     shot = course.shot

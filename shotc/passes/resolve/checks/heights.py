@@ -22,14 +22,14 @@ STANDS_M = 0.1  # a target whose foot is nearer to z = 0 stands there
 LEGAL_M = 120.0  # above ground, the limit of the open category in Europe; 400 ft in the United States
 
 
-class Moment(NamedTuple):
+class CameraHeight(NamedTuple):
     """Where a camera is, metres of W, and the z of the foot of its shot's target then, if it has one."""
 
     at: Vec3
     foot: float | None
 
 
-Way = tuple[Moment, ...]
+Way = tuple[CameraHeight, ...]
 """Where a shot's camera is to be, from its first frame to its last."""
 
 
@@ -47,11 +47,11 @@ def way_of(mission: MissionIR, shot: Shot) -> Way:
     duration = shot.timing.duration
     if shot.ideal is None or duration is None:
         foot = None if target is None else target.foot[2]
-        return tuple(Moment(k.at, foot) for k in shot.keyframes)
+        return tuple(CameraHeight(k.at, foot) for k in shot.keyframes)
     start, pieces = first_start(mission, shot), max(1, min(MOMENTS, ceil(duration / STEP_S)))
     times = [start + duration * i / pieces for i in range(pieces + 1)]
     return tuple(
-        Moment(ideal_place(mission, shot, start, t), None if target is None else target.foot_at(t)[2])
+        CameraHeight(ideal_place(mission, shot, start, t), None if target is None else target.foot_at(t)[2])
         for t in times
     )
 

@@ -31,7 +31,7 @@ BESIDE = 0.1  # metres that a pad is told to lie beyond the reach of what passes
 RINGS = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # times that reach, at which another pad is looked for
 
 
-class Stretch(NamedTuple):
+class UniformMotion(NamedTuple):
     """An even motion of a target between two mission times, seconds; the last one of a track has no end."""
 
     begin: float
@@ -152,22 +152,22 @@ def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:
         yield open_
 
 
-def _stretches(drone: Drone, track: Track) -> Iterator[Stretch]:
+def _stretches(drone: Drone, track: Track) -> Iterator[UniformMotion]:
     """Yield the stretches of a track from mission time 0 on, the last one until it is far from a pad."""
     if track.times[0] > 0.0:
-        yield Stretch(0.0, track.times[0])
+        yield UniformMotion(0.0, track.times[0])
     for a, b in pairwise(track.times):
         if b > 0.0:
-            yield Stretch(max(a, 0.0), b)
+            yield UniformMotion(max(a, 0.0), b)
     begin = max(0.0, track.times[-1])
     speed = hypot(*track.after)
     if speed < ROUNDING:
-        yield Stretch(begin, inf)
+        yield UniformMotion(begin, inf)
         return
-    yield Stretch(begin, begin + (dist(track.at(begin), drone.home) + FAR) / speed)
+    yield UniformMotion(begin, begin + (dist(track.at(begin), drone.home) + FAR) / speed)
 
 
-def _touch(drone: Drone, target: Target, stretch: Stretch) -> Touch | None:
+def _touch(drone: Drone, target: Target, stretch: UniformMotion) -> Touch | None:
     """Return when a target touches a drone on its pad on one stretch: once, for their distance is convex."""
     begin, end = stretch
     if end == inf:

@@ -21,7 +21,7 @@ BUILDINGS = ("world", "buildings", "file")
 _NAMED = 3  # buildings that a diagnostic names
 
 
-class Standing(NamedTuple):
+class GroundedBuilding(NamedTuple):
     """A building on its ground; z : of the lowest ground under it, None beyond the terrain."""
 
     house: House

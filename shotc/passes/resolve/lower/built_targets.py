@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.enclosing import Block, Body, bodies_about
+from shotc.geom.enclosing import EnclosingShape, UprightPrism, bodies_about
 from shotc.ir.origin import OriginMap
 from shotc.passes.resolve.lower.obstacles import Obstacles
 from shotc.spec.mission import MissionSpec
@@ -31,12 +31,12 @@ class _Named(NamedTuple):
     own: frozenset[int]
     mesh: ObstacleMesh | None = None
 
-    def blocks(self, standing: Obstacles) -> tuple[Block, ...]:
+    def blocks(self, standing: Obstacles) -> tuple[UprightPrism, ...]:
         """Return its prisms in W, without those that stand beyond the terrain."""
         if self.mesh is not None:
             return tuple(self.mesh.block(part) for part in self.own)
         its = [standing.standing[i] for i in sorted(self.own)]
-        return tuple(Block(h.ring, z + h.bottom, z + h.top, h.name) for h, z in its if z is not None)
+        return tuple(UprightPrism(h.ring, z + h.bottom, z + h.top, h.name) for h, z in its if z is not None)
 
     def described(self, wanted: str, standing: Obstacles) -> str:
         """Return what it is else called, and where it stands."""
@@ -49,7 +49,7 @@ class _Named(NamedTuple):
 
 def bodies_of_building(
     spec: MissionSpec, name: str, standing: Obstacles, origins: OriginMap
-) -> tuple[Body, ...] | Diagnostic | None:
+) -> tuple[EnclosingShape, ...] | Diagnostic | None:
     """Return the bodies of the target ``name``, which is a building, or what is wrong with that.
 
     None where the files that have it cannot be used, which is told of them.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.ir.begins import first_start
-from shotc.ir.framed import Course, course_of
+from shotc.ir.framed import StartedFraming, course_of
 from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import MissionIR
 
@@ -17,7 +17,7 @@ def with_times(mission: MissionIR) -> MissionIR:
     return mission._replace(shots=tuple(shots))
 
 
-def with_framings(mission: MissionIR) -> tuple[MissionIR, tuple[Course, ...]]:
+def with_framings(mission: MissionIR) -> tuple[MissionIR, tuple[StartedFraming, ...]]:
     """Return the mission with every framing's ideal and places on screen, and the courses of the framings."""
     courses = []
     for i, shot in enumerate(mission.shots):

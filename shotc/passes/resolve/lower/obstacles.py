@@ -12,7 +12,7 @@ from shotc.ir.limits import Vec3
 from shotc.kinds.base import Place, bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.models.endings import ENDINGS, METRES, ending_of
-from shotc.passes.resolve.lower.buildings import BUILDINGS, Standing, read_buildings
+from shotc.passes.resolve.lower.buildings import BUILDINGS, GroundedBuilding, read_buildings
 from shotc.passes.resolve.lower.files import Files
 from shotc.requirements import remedy
 from shotc.spec.mission import MissionSpec
@@ -33,7 +33,7 @@ class Obstacles(NamedTuple):
 
     meshes: tuple[ObstacleMesh, ...] = ()
     faults: tuple[Diagnostic, ...] = ()
-    standing: tuple[Standing, ...] = ()
+    standing: tuple[GroundedBuilding, ...] = ()
     unread: bool = False
 
 
@@ -81,7 +81,7 @@ def _buildings(written: BuildingsSpec, terrain: Terrain | None, files: Files) ->
         return Obstacles(faults=tuple(faults))
     if find_spec("numpy") is None:
         told = not_judged("buildings", written.file, BUILDINGS, files)
-        return Obstacles((), (*faults, told), tuple(Standing(house, 0.0) for house in houses))
+        return Obstacles((), (*faults, told), tuple(GroundedBuilding(house, 0.0) for house in houses))
     from shotc.passes.resolve.lower.prisms import buildings_mesh
 
     made = buildings_mesh(houses, written.file, terrain, files)

@@ -15,7 +15,7 @@ from shotc.ir.terrain import Terrain
 from shotc.kinds.base import bad_file
 from shotc.kinds.files import FileFault
 from shotc.kinds.footprints.houses import House
-from shotc.passes.resolve.lower.buildings import BUILDINGS, Standing
+from shotc.passes.resolve.lower.buildings import BUILDINGS, GroundedBuilding
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.obstacles import Obstacles
 
@@ -30,7 +30,9 @@ def buildings_mesh(houses: Sequence[House], name: str, terrain: Terrain | None, 
         wrong = FileFault(message, None, "cut it to where the mission is flown")
         return Obstacles(faults=(bad_file(files.origins, BUILDINGS, name, wrong),))
     ground = _ground(terrain, houses).tolist()
-    stand = tuple(Standing(h, z if isfinite(z) else None) for h, z in zip(houses, ground, strict=True))
+    stand = tuple(
+        GroundedBuilding(h, z if isfinite(z) else None) for h, z in zip(houses, ground, strict=True)
+    )
     standing = [(house, z) for house, z in stand if z is not None]
     faults: tuple[Diagnostic, ...] = ()
     if len(standing) < len(houses):

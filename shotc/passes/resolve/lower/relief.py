@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.terrain.posts import Posts, TerrainFault
-from shotc.geom.terrain.relief import Box, Relief, relief_of
+from shotc.geom.terrain.relief import PlanRectangle, Relief, relief_of
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.terrain import Terrain
@@ -34,7 +34,7 @@ def relief(
     if not isinstance(posts, Posts):
         return fault(posts)
     every, beyond = list(about[0]) or [(0.0, 0.0, 0.0)], about[1]  # a mission of fleets alone has no place
-    box = Box(
+    box = PlanRectangle(
         (min(p[0] for p in every) - beyond, min(p[1] for p in every) - beyond),
         (max(p[0] for p in every) + beyond, max(p[1] for p in every) + beyond),
     )

@@ -10,7 +10,7 @@ from math import cos, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.enclosing import Body
+from shotc.geom.enclosing import EnclosingShape
 from shotc.geom.shapes import BodyShape, BoxShape, CylinderShape, GroupShape, Part
 from shotc.geom.vec import Vec3, minus
 from shotc.ir.origin import OriginMap
@@ -74,7 +74,7 @@ def targets(
 
 
 def _with_building(
-    made: Targets, name: str, found: tuple[Body, ...] | Diagnostic | None, spec: MissionSpec
+    made: Targets, name: str, found: tuple[EnclosingShape, ...] | Diagnostic | None, spec: MissionSpec
 ) -> Targets:
     """Return targets with a building; one of several bodies is a group of them."""
     if found is None or isinstance(found, Diagnostic):
@@ -90,7 +90,7 @@ def _with_building(
     return made._replace(found={**made.found, name: _group(name, boxes)}, boxes=(*made.boxes, *boxes))
 
 
-def _box_names(name: str, found: tuple[Body, ...], spec: MissionSpec) -> Iterator[str]:
+def _box_names(name: str, found: tuple[EnclosingShape, ...], spec: MissionSpec) -> Iterator[str]:
     """Yield names for the bodies of a building: those of its parts where they can be used, else numbers."""
     parts = Counter(body.name for body in found)
     numbers = (own for own in (f"{name}.{i}" for i in count(1)) if own not in spec.targets)

@@ -18,7 +18,7 @@ MOST = 1000.0  # m/s that the language reads as a speed
 STOOD = 0.1  # metres: what has moved by less in a gap is taken to have stood, as recorders that pause do
 
 
-class Course(NamedTuple):
+class CheckedTrack(NamedTuple):
     """A track and what to say of it.
 
     name : of the target; path : of its track in the mission; top_speed : m/s
@@ -33,7 +33,7 @@ class Course(NamedTuple):
     lines: tuple[int, ...] = ()
 
 
-def check_jump(course: Course, origins: OriginMap) -> Diagnostic | None:
+def check_jump(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     """Return the first two rows between which the target would have to be faster than it can be."""
     track, top = course.track, course.top_speed * (1 + ROUNDING)
     jumps = [i for i, ((s, t), (p, q)) in enumerate(_stretches(track)) if dist(p, q) > top * (t - s)]
@@ -57,7 +57,9 @@ def check_jump(course: Course, origins: OriginMap) -> Diagnostic | None:
     )
 
 
-def check_velocity(course: Course, speed: float, origins: OriginMap, *key: str | int) -> Diagnostic | None:
+def check_velocity(
+    course: CheckedTrack, speed: float, origins: OriginMap, *key: str | int
+) -> Diagnostic | None:
     """Return the fault of a speed, written at ``key`` below the track, that is above the target's own."""
     if speed <= course.top_speed * (1 + ROUNDING):
         return None
@@ -71,7 +73,7 @@ def check_velocity(course: Course, speed: float, origins: OriginMap, *key: str |
     )
 
 
-def check_gap(course: Course, origins: OriginMap) -> Diagnostic | None:
+def check_gap(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     """Return a warning of the longest gap of a recorded track in which its target moves, if it has one."""
     times, points = course.track.times, course.track.points
     spaces = [t - s for s, t in pairwise(times)]
@@ -96,17 +98,17 @@ def check_gap(course: Course, origins: OriginMap) -> Diagnostic | None:
     )
 
 
-def _rows(course: Course, i: int) -> str:
+def _rows(course: CheckedTrack, i: int) -> str:
     if course.file:
         return f"{course.file}, line {course.lines[i + 1]}, after line {course.lines[i]}"
     return f"point {i + 2}, after point {i + 1}"
 
 
-def _place(course: Course, i: int) -> KeyPath:
+def _place(course: CheckedTrack, i: int) -> KeyPath:
     return (*course.path, "file") if course.file else (*course.path, "times", i + 1)
 
 
-def _remedy(course: Course, i: int) -> str:
+def _remedy(course: CheckedTrack, i: int) -> str:
     """Say which row to mend: the one without which the target would move at a speed that it has."""
     times, points = course.track.times, course.track.points
     for k in (i + 1, i):
@@ -124,7 +126,9 @@ def _stretches(track: Track) -> Iterator[tuple[tuple[float, float], tuple[Vec3, 
     return zip(pairwise(track.times), pairwise(track.points), strict=True)
 
 
-def _labels(course: Course, origins: OriginMap, path: KeyPath, speed: float) -> tuple[tuple[Label, ...], str]:
+def _labels(
+    course: CheckedTrack, origins: OriginMap, path: KeyPath, speed: float
+) -> tuple[tuple[Label, ...], str]:
     """Return the place of a fault beside the top speed, where one is written, and what to do with it."""
     written = (*course.path[:-1], "top_speed")
     key = f"`top_speed: {at_least(speed, 1)} m/s`" if speed < MOST else "a `top_speed`"

@@ -15,7 +15,7 @@ from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.base import stands
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.recordings import Recording, read_recording
-from shotc.passes.resolve.lower.track_jumps import Course, check_gap, check_jump, check_velocity
+from shotc.passes.resolve.lower.track_jumps import CheckedTrack, check_gap, check_jump, check_velocity
 from shotc.passes.resolve.lower.world import Put
 from shotc.spec.heights import STANDING, AboveGround
 from shotc.spec.mission import MissionSpec
@@ -26,7 +26,7 @@ SAME = 1e-6  # metres within which two points are one
 FEW = 12  # times that are written out in a help
 
 
-class Tracks(NamedTuple):
+class TargetTracks(NamedTuple):
     """The tracks that can be used, by target, and what is wrong with the others.
 
     level : the targets whose tracks keep to the ground: of files without heights, or lifted over it
@@ -37,7 +37,7 @@ class Tracks(NamedTuple):
     level: frozenset[str]
 
 
-def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
+def read_tracks(spec: MissionSpec, put: Put, files: Files) -> TargetTracks:
     """Return the motion of every target that moves."""
     tracks: dict[str, Track] = {}
     faults: list[Diagnostic] = []
@@ -50,7 +50,7 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
         if isinstance(track, Diagnostic):
             faults.append(track)
             continue
-        course = Course(name, path, track.track, target.top_speed or TOP_SPEED)
+        course = CheckedTrack(name, path, track.track, target.top_speed or TOP_SPEED)
         if target.track.file is not None:
             course = course._replace(file=target.track.file, lines=track.lines)
         wrong = [fault for fault in _too_fast(target.track, course, files.origins) if fault is not None]
@@ -60,7 +60,7 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> Tracks:
             level |= {name} if track.level or isinstance(target.track.lift, AboveGround) else set()
             gap = check_gap(course, files.origins) if course.file else None
             faults += [] if gap is None else [gap]
-    return Tracks(tracks, tuple(faults), frozenset(level))
+    return TargetTracks(tracks, tuple(faults), frozenset(level))
 
 
 def _standing(target: TargetSpec, put: Put) -> Put:
@@ -94,7 +94,7 @@ def _finished(target: TargetSpec, recording: Recording, put: Put) -> Track:
     return track._replace(points=tuple(centre(p) for p in track.points))
 
 
-def _too_fast(spec: TrackSpec, course: Course, origins: OriginMap) -> Iterator[Diagnostic | None]:
+def _too_fast(spec: TrackSpec, course: CheckedTrack, origins: OriginMap) -> Iterator[Diagnostic | None]:
     if spec.velocity is not None:
         yield check_velocity(course, hypot(*spec.velocity), origins, "velocity")
     elif spec.speed is not None:

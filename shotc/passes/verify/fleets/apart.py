@@ -25,7 +25,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.show import Apart, Fleet, drone_names, stricter
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Limit, Worst, gap, held
+from shotc.passes.verify.claims import Limit, WorstValue, gap, held
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 from shotc.passes.verify.fleets.space import nearest
 from shotc.planning.take_off import bodies_of, take_off_of
@@ -106,7 +106,7 @@ def _claim(
     """
     (one, others), (apart, nearest) = of, found
     limit = Limit(name, apart.across, "m", _path(mission, one), upper=False)
-    worst = Worst(nearest.proven, nearest.time, "bounded", nearest.position)
+    worst = WorstValue(nearest.proven, nearest.time, "bounded", nearest.position)
     return held(one.name, limit, worst, (drone_names(one)[nearest.first], others[nearest.second]))
 
 

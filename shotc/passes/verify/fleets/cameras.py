@@ -12,7 +12,7 @@ from shotc.ir.fleet import Shown
 from shotc.ir.light_colors import lit_drones
 from shotc.ir.show import Display, kept_from_cameras
 from shotc.ir.trajectory import Claim, DroneTrajectory
-from shotc.passes.verify.claims import Limit, Worst, held
+from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
 
@@ -28,7 +28,7 @@ def from_cameras(flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajecto
         drone = int(norm(flight.at(bound.at) - at).argmin())
         place = (float(at[0]), float(at[1]), float(at[2]))
         limit = Limit(f"separation from {camera.drone}", least, "m", ("rules", "separation"), upper=False)
-        worst = Worst(bound.proven, bound.at, "bounded", place)
+        worst = WorstValue(bound.proven, bound.at, "bounded", place)
         yield held(flight.fleet.name, limit, worst, (flight.names[drone], camera.drone))
 
 
@@ -44,4 +44,4 @@ def named_pictures(flight: FleetFlight, display: Display, shown: Sequence[Shown]
         out = max((target.shape.gap((float(x), float(y), float(z))) for x, y, z in away), default=0.0)
         path = (*display.pictures[stand.picture].path, "name")
         limit = Limit(f"lights outside {name}", 0.0, "m", path, shot=display.id)
-        yield held(flight.fleet.name, limit, Worst(out, stand.start, "exact"))
+        yield held(flight.fleet.name, limit, WorstValue(out, stand.start, "exact"))

@@ -19,7 +19,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.show import Display
 from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import TOLERANCE, Limit, Worst, gap, held
+from shotc.passes.verify.claims import TOLERANCE, Limit, WorstValue, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 
@@ -36,7 +36,7 @@ def displays(flight: FleetFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             continue
         flown = [p for p in flight.track.phases if p.shot == display.id]
         once = Limit("times flown", 1.0, "", display.path, upper=len(flown) > 0, shot=display.id)
-        yield held(flight.fleet.name, once, Worst(float(len(flown)), None, "exact"))
+        yield held(flight.fleet.name, once, WorstValue(float(len(flown)), None, "exact"))
         if len(flown) == 1:
             shown = [s for s in flight.track.shown if s.display == display.id]
             yield from _timing(flight, display, flown[0], ends)
@@ -57,7 +57,7 @@ def _timing(flight: FleetFlight, display: Display, phase: Phase, ends: dict[str,
     for name, key, off, time in asked:
         if off is not None:
             limit = Limit(name, ON_TIME_S, "s", (*path, key), shot=display.id)
-            yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
+            yield held(flight.fleet.name, limit, WorstValue(off, time, "exact"))
 
 
 def _off(asked: float | None, flown: float) -> float | None:
@@ -77,9 +77,9 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
     times = [phase.start, *(t for s in shown for t in (s.start, s.end)), phase.end]
     astray += sum(b < a - TOLERANCE for a, b in pairwise(times))
     limit = Limit("pictures left out", 0.0, "", (*display.path, "frames"), shot=display.id)
-    yield held(name, limit, Worst(float(missing), None, "exact"))
+    yield held(name, limit, WorstValue(float(missing), None, "exact"))
     limit = Limit("pictures out of order", 0.0, "", (*display.path, "frames"), shot=display.id)
-    yield held(name, limit, Worst(float(astray), None, "exact"))
+    yield held(name, limit, WorstValue(float(astray), None, "exact"))
     yield from _moments(flight, display, shown)
     last = {s.picture: s for s in shown}
     short = [(display.pictures[k].hold - (s.end - s.start), s) for k, s in last.items() if k in wanted]
@@ -87,7 +87,7 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
     if at is not None:
         path = (*display.pictures[at.picture].path, "hold")
         limit = Limit("lack of hold", ON_TIME_S, "s", path, shot=display.id)
-        yield held(name, limit, Worst(max(lack, 0.0), at.start, "exact"))
+        yield held(name, limit, WorstValue(max(lack, 0.0), at.start, "exact"))
 
 
 def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
@@ -98,7 +98,7 @@ def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> I
     if off:
         error, time, path = max(off)
         limit = Limit("error of moment", ON_TIME_S, "s", (*path, "at"), shot=display.id)
-        yield held(flight.fleet.name, limit, Worst(error, time, "exact"))
+        yield held(flight.fleet.name, limit, WorstValue(error, time, "exact"))
 
 
 def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
@@ -113,7 +113,7 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) 
     if transitions:
         off, time, path = max(transitions, key=lambda item: item[0])
         limit = Limit("error of transition", ON_TIME_S, "s", path, shot=display.id)
-        yield held(flight.fleet.name, limit, Worst(off, time, "exact"))
+        yield held(flight.fleet.name, limit, WorstValue(off, time, "exact"))
 
 
 def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
@@ -123,7 +123,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Ite
     no claim if any drone moves less than ``LEAST_WAY_M``.
     """
     breaks, coef = flight.track.breaks, flight.track.coef
-    found: list[tuple[float, Limit, Worst]] = []
+    found: list[tuple[float, Limit, WorstValue]] = []
     first = {s.picture: s for s in reversed(shown)}
     for k, picture in enumerate(display.pictures):
         if picture.wave is None or k not in first:
@@ -143,7 +143,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Ite
         off = abs(float(np.ptp(departs)) - picture.wave.time)
         most = 2.0 * float(np.diff(breaks)[on_way].max())
         limit = Limit("error of wave", most, "s", (*picture.path, "transition", "wave"), shot=display.id)
-        found.append((off - most, limit, Worst(off, float(departs.max()), "exact")))
+        found.append((off - most, limit, WorstValue(off, float(departs.max()), "exact")))
     if found:
         _, limit, worst = max(found, key=lambda item: item[0])
         yield held(flight.fleet.name, limit, worst)

@@ -11,14 +11,14 @@ from scipy.spatial import cKDTree
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.fleet_spline import pieces, places
-from shotc.geom.proof import Bound
+from shotc.geom.proof import ProvedExtreme
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.show import Fleet, drone_names
 from shotc.ir.trajectory import Claim, Method
-from shotc.passes.verify.claims import Limit, Worst, held
+from shotc.passes.verify.claims import Limit, WorstValue, held
 
 Span = tuple[float, float]
 
@@ -82,12 +82,12 @@ def of_drone(
     """Return the claim of one drone's worst value and its time against a limit."""
     value, time = found
     x, y, z = (float(c) for c in flight.at(time)[drone])
-    worst = Worst(value, time, method, (x, y, z))
+    worst = WorstValue(value, time, method, (x, y, z))
     return held(flight.fleet.name, limit, worst, (flight.names[drone],))
 
 
 def bounded(
-    flight: FleetFlight, limit: Limit, bound: Bound, value: Callable[[Array], Array], order: int = 0
+    flight: FleetFlight, limit: Limit, bound: ProvedExtreme, value: Callable[[Array], Array], order: int = 0
 ) -> Claim:
     """Return the claim of a bound over all drones against a limit.
 

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import held_until, restrict
 from shotc.geom.pieces import Pieces
-from shotc.geom.proof import Bound, box_gap, inf_distance, norm
+from shotc.geom.proof import ProvedExtreme, box_gap, inf_distance, norm
 from shotc.geom.solids import point
 from shotc.passes.verify.claims import gap
 
@@ -18,7 +18,9 @@ BLOCK = 200
 """Drones that are processed together."""
 
 
-def nearest(one: Piecewise, breaks: Array, ctrl: Array, span: tuple[float, float], least: float) -> Bound:
+def nearest(
+    one: Piecewise, breaks: Array, ctrl: Array, span: tuple[float, float], least: float
+) -> ProvedExtreme:
     """Return a bound on the distance of a curve from the nearest of several, in blocks of near pieces.
 
     one : three channels, metres; a drone stands after its end
@@ -31,7 +33,7 @@ def nearest(one: Piecewise, breaks: Array, ctrl: Array, span: tuple[float, float
     every = np.union1d(own.breaks, breaks)
     cuts = np.concatenate([[start], every[(every > start) & (every < end)], [end]])
     eye = restrict(own, cuts).ctrl
-    best = Bound(inf, inf, start)
+    best = ProvedExtreme(inf, inf, start)
     for first in range(0, len(ctrl), BLOCK):
         # All drones of the block are channels of one curve, which is restricted to the common breaks.
         n, q, k, _ = ctrl[first : first + BLOCK].shape

@@ -11,11 +11,11 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import cut
-from shotc.geom.proof import Bound
+from shotc.geom.proof import ProvedExtreme
 from shotc.ir.parked import bodies, parked_fleets
 from shotc.ir.show import Display, PyroCue, rows_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import Limit, Worst, held
+from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
 
@@ -50,11 +50,11 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
     outside = max(low - cue.ignition, cue.end - high, 0.0)
     path = (*cue.path, "at")
     limit = Limit(f"{burns.name} outside the flight", 0.0, "s", path, shot=burns.display.id)
-    yield held(flight.fleet.name, limit, Worst(outside, cue.ignition, "exact"))
+    yield held(flight.fleet.name, limit, WorstValue(outside, cue.ignition, "exact"))
     span = (max(cue.ignition, low), min(cue.end, high))
     if span[0] >= span[1]:
         return
-    worst: dict[str, tuple[Bound, str]] = {}
+    worst: dict[str, tuple[ProvedExtreme, str]] = {}
     for row in rows_of(flight.fleet, cue):
         for what, bound in _distances(ir, flights, burns, row, span):
             if what not in worst or bound.proven < worst[what][0].proven:
@@ -62,7 +62,7 @@ def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> I
     for what, (bound, drone) in worst.items():
         name, key = f"{burns.name} from {what}", (*cue.path, "clear")
         limit = Limit(name, cue.clear, "m", key, upper=False, shot=burns.display.id)
-        yield held(flight.fleet.name, limit, Worst(bound.proven, bound.at, "bounded"), (drone,))
+        yield held(flight.fleet.name, limit, WorstValue(bound.proven, bound.at, "bounded"), (drone,))
 
 
 def _distances(
@@ -71,7 +71,7 @@ def _distances(
     burns: _Burning,
     drone: int,
     span: tuple[float, float],
-) -> Iterator[tuple[str, Bound]]:
+) -> Iterator[tuple[str, ProvedExtreme]]:
     """Yield the least distances of all others from one drone while its product burns."""
     flight, least = burns.flight, burns.cue.clear
     breaks = flight.track.breaks
@@ -85,7 +85,10 @@ def _distances(
     burning = cut(own, *span)
     heights = burning.ctrl[:, :, 2].min(axis=1)
     lowest = int(heights.argmin())
-    yield "the ground", Bound(float(heights[lowest]), float(heights[lowest]), float(burning.low[lowest]))
+    yield (
+        "the ground",
+        ProvedExtreme(float(heights[lowest]), float(heights[lowest]), float(burning.low[lowest])),
+    )
 
 
 def _others(

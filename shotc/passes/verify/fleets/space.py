@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.pieces import Pieces, cut, join
-from shotc.geom.proof import Bound, box_gap, inf_channel, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.proof import ProvedExtreme, box_gap, inf_channel, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solid_arrays.points import separation, signed_distance
 from shotc.geom.solids import Solid, convex_parts
 from shotc.geom.track_array import places
@@ -100,7 +100,7 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
     radius = flight.fleet.radius
     near = np.minimum(radius, np.min([separation(s, pads)[0] for s in convex_parts(solid)], axis=0))
     clear = near >= radius
-    worst = Bound(inf, inf, 0.0)
+    worst = ProvedExtreme(inf, inf, 0.0)
     if clear.any():
         some = FleetPieces(upright.low, upright.high, upright.ctrl[clear])
         worst = less(nearest(some.bag(), solid, gap(radius)), radius)
@@ -110,7 +110,7 @@ def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetP
     return bounded(flight, limit, worst, lambda p: signed_distance(solid, p) - near)
 
 
-def nearest(pieces: Pieces, solid: Solid, gap: Gap) -> Bound:
+def nearest(pieces: Pieces, solid: Solid, gap: Gap) -> ProvedExtreme:
     """Return a bound on the distance of many pieces from a solid, as ``inf_distance`` does."""
     if len(pieces) > SEED_PIECES:
         apart = box_gap(pieces.ctrl, solid)
@@ -150,7 +150,7 @@ def _from_moving(flight: FleetFlight, limit: Limit, of: tuple[Target, list[Span]
     """
     target, spans = of
     apart = _boxes_apart(flight.flown.between(spans), target) - near
-    worst, nearest = Bound(inf, inf, 0.0), 0
+    worst, nearest = ProvedExtreme(inf, inf, 0.0), 0
     for drone in np.argsort(apart, kind="stable"):
         if apart[drone] > worst.attained:
             break
@@ -181,14 +181,14 @@ def _boxes_apart(flown: FleetPieces, target: Target) -> Array:
 
 def _keep_in(flight: FleetFlight, zone: Zone, free: FleetPieces, upright: list[FleetPieces]) -> Claim:
     radius = flight.fleet.radius
-    worst, floor = Bound(-inf, -inf, 0.0), True
+    worst, floor = ProvedExtreme(-inf, -inf, 0.0), True
     for parts, with_floor in ((free, True), *((part, False) for part in upright)):
         for pieces in _batches(parts.bag()):
             bound = sup_outside(pieces, zone.solid, gap(-radius), floor=with_floor)
             if bound.proven > worst.proven:
                 worst, floor = bound, with_floor
     solid = zone.solid if floor else zone.solid._replace(bottom=-inf)
-    margin = Bound(-worst.proven, -worst.attained, worst.at)
+    margin = ProvedExtreme(-worst.proven, -worst.attained, worst.at)
     limit = _clear(f"zone {zone.name}", 0.0, zone.path)
     return bounded(flight, limit, less(margin, radius), lambda p: -signed_distance(solid, p))
 

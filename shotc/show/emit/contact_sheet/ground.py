@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.emit.audience import Audience
 from shotc.emit.palette import CAMERA, FLIGHT, GROUND_FAR, INK, KEEP_IN, KEEP_OUT, QUIET, WHITE, Rgb, shade
-from shotc.emit.storyboard.canvas import Box, Canvas
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle
 from shotc.emit.storyboard.furniture import north_arrow, round_length, scale_bar
 from shotc.emit.storyboard.labels import Label, write_labels
 from shotc.emit.storyboard.map import reach_of, zones
@@ -27,7 +27,7 @@ PAD = 0.02
 """Half the width of a pad, inches."""
 
 
-def draw_ground(canvas: Canvas, box: Box, board: Board, mission: MissionIR, seen: Audience) -> None:
+def draw_ground(canvas: Canvas, box: PageRectangle, board: Board, mission: MissionIR, seen: Audience) -> None:
     """Draw the map of one display into ``box``."""
     pads = np.array(mission.fleet(board.display.fleet).pads)
     eye = np.array([seen.eye])
@@ -65,7 +65,7 @@ def _reach(board: Board, seen: Audience) -> tuple[Array, Array]:
     return cloud.min(axis=0), cloud.max(axis=0)
 
 
-def _sheet(box: Box, board: Board, seen: Audience) -> Sheet:
+def _sheet(box: PageRectangle, board: Board, seen: Audience) -> Sheet:
     low, high = _reach(board, seen)
     span = np.maximum(high - low, 10.0)
     inches = float(min((box.width - 2 * BORDER) / span[0], (box.height - 2 * BORDER) / span[1]))
@@ -90,7 +90,9 @@ def _eye(canvas: Canvas, at: Array) -> None:
     canvas.disc((float(at[0]), float(at[1])), 0.045, INK, WHITE, 0.6)
 
 
-def _names(canvas: Canvas, sheet: Sheet, mission: MissionIR, others: tuple[list[Box], list[Box]]) -> None:
+def _names(
+    canvas: Canvas, sheet: Sheet, mission: MissionIR, others: tuple[list[PageRectangle], list[PageRectangle]]
+) -> None:
     content, taken = others
     pads, _, eye = content
     labels = [
@@ -105,15 +107,15 @@ def _names(canvas: Canvas, sheet: Sheet, mission: MissionIR, others: tuple[list[
             color: Rgb = shade(KEEP_OUT if zone.keep == "out" else KEEP_IN, 0.8)
             labels.append(Label(zone.name, color, seen, inside=zone.keep == "out"))
     box = sheet.box
-    inner = Box(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
+    inner = PageRectangle(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
     write_labels(canvas, inner, labels, [*taken, *content])
 
 
-def _square(at: Array, half: float) -> Box:
-    return Box(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
+def _square(at: Array, half: float) -> PageRectangle:
+    return PageRectangle(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
 
 
-def _around(points: Array, border: float) -> Box:
+def _around(points: Array, border: float) -> PageRectangle:
     flat = np.atleast_2d(points)
     low, high = flat.min(axis=0) - border, flat.max(axis=0) + border
-    return Box(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))
+    return PageRectangle(float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1]))

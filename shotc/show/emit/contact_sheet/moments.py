@@ -23,7 +23,7 @@ BETWEEN = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class SheetFrame:
     """A frame of the sheet.
 
     name : of the picture; time : when it is drawn; start, end : when it stands, seconds
@@ -47,7 +47,7 @@ class Board:
 
     display: Display
     flight: FleetTrajectory
-    moments: tuple[Moment, ...]
+    moments: tuple[SheetFrame, ...]
     total: int
     beside: tuple[FleetTrajectory, ...] = ()
 
@@ -70,7 +70,7 @@ def boards(plan: VerifiedIR) -> tuple[Board, ...]:
     return tuple(found)
 
 
-def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> tuple[Moment, ...]:
+def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> tuple[SheetFrame, ...]:
     counts = [sum(s.picture == i for s in shown) for i in range(len(display.pictures))]
     chosen = [
         frames[i]
@@ -88,7 +88,7 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> t
         part = (one.index + 1, many) if many > 1 else None
         name = picture_name(display.pictures[one.picture])
         middle = (one.start + one.end) / 2.0
-        moments.append(Moment(name, middle, one.start, one.end, tuple(float(t) for t in way), part))
+        moments.append(SheetFrame(name, middle, one.start, one.end, tuple(float(t) for t in way), part))
         since = one.end
     return tuple(moments)
 

@@ -8,14 +8,14 @@ import numpy as np
 
 from shotc.emit.audience import ASPECT, Audience, audience
 from shotc.emit.palette import FAINT, INK, QUIET, WHITE
-from shotc.emit.storyboard.canvas import Box, Canvas, Type, house_style
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_style
 from shotc.emit.storyboard.furniture import round_length
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.trajectory import VerifiedIR
 from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
-from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, Moment, boards, lights
+from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, SheetFrame, boards, lights
 from shotc.show.emit.contact_sheet.night import night
 from shotc.show.emit.contact_sheet.stands import NUMBER_IN, number
 
@@ -90,7 +90,7 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     _band(canvas, top, board, seen)
     start, tall = top - BAND, _height(board) - BAND - 0.22 - 0.17
     tall = min(tall, max(LEAST_MAP, map_height(board, MAP, seen)))
-    draw_ground(canvas, Box(MARGIN, start - tall, MAP, tall), board, mission, seen)
+    draw_ground(canvas, PageRectangle(MARGIN, start - tall, MAP, tall), board, mission, seen)
     left = MARGIN + MAP + 0.35
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, COLUMNS)
@@ -130,7 +130,7 @@ def _middle(flight: FleetTrajectory, time: float) -> tuple[float, float, float]:
 def _cell(
     canvas: Canvas,
     at: tuple[float, float],
-    what: tuple[Board, Moment],
+    what: tuple[Board, SheetFrame],
     how: tuple[tuple[Audience, Audience], float],
 ) -> None:
     """Draw a picture with the way to it on its left, and say what and when it is.
@@ -140,10 +140,10 @@ def _cell(
     (x, y), (board, moment), (seen, wide) = at, what, how[0]
     width = SMALL * ASPECT
     for i, time in enumerate(moment.way):
-        box = Box(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
+        box = PageRectangle(x, y + HEIGHT - SMALL - i * (SMALL + SLIT_IN), width, SMALL)
         _sky(canvas, box, (board, time), (wide, how[1]))
         canvas.text(box.x + 0.05, box.y + 0.05, as_minutes(time), Type(7.5, WHITE))
-    box = Box(x + width + SLIT_IN, y, BIG, HEIGHT)
+    box = PageRectangle(x + width + SLIT_IN, y, BIG, HEIGHT)
     _sky(canvas, box, (board, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
     if board.flight.lights.looks:  # its lights change while it stands
@@ -162,21 +162,21 @@ def _cell(
         canvas.text(x, y - 0.19, "on the way", Type(8.5, QUIET))
 
 
-def _sky(canvas: Canvas, box: Box, what: tuple[Board, float], how: tuple[Audience, float]) -> None:
+def _sky(canvas: Canvas, box: PageRectangle, what: tuple[Board, float], how: tuple[Audience, float]) -> None:
     board, time = what
     seen, dpi = how
     size = (round(box.width * dpi), round(box.height * dpi))
     canvas.image(night((board.flight, *board.beside), time, seen, size), box)
 
 
-def _depth(board: Board, moment: Moment, seen: Audience) -> float:
+def _depth(board: Board, moment: SheetFrame, seen: Audience) -> float:
     """Return the width of the audience's frame at the middle of a picture, metres."""
     middle = np.array(_middle(board.flight, moment.time)) - np.array(seen.eye)
     view = seen.view(ASPECT)
     return float(2.0 * view.half_width * max(view.to_camera((middle[0], middle[1], middle[2]))[2], 1.0))
 
 
-def _scale(canvas: Canvas, box: Box, metres: float) -> None:
+def _scale(canvas: Canvas, box: PageRectangle, metres: float) -> None:
     """Draw a length as it looks at the picture's distance."""
     length = round_length(0.22 * metres)
     width = length / metres * box.width

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.emit.palette import PICTURES, WHITE, Rgb
-from shotc.emit.storyboard.canvas import Box, Canvas, Type
+from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 from shotc.emit.storyboard.labels import leader, nearest_room
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.bernstein import Array
@@ -63,7 +63,9 @@ def outlines(board: Board, sheet: Sheet) -> list[Array]:
     return shapes
 
 
-def draw_stands(canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Sequence[Box]) -> list[Box]:
+def draw_stands(
+    canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Sequence[PageRectangle]
+) -> list[PageRectangle]:
     """Draw outlines and their numbers beside them; return the room that numbers and their lines take.
 
     taken : where no number may stand; it stands outside all outlines where there is room
@@ -76,8 +78,8 @@ def draw_stands(canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Se
         canvas.lines([closed[k]], color_of(k), 1.3, sheet.box)
     rims = _squares([_fine(shape) for shape in shapes], FINE_IN)
     inside = _squares([_inside(shape) for shape in shapes], CELL_IN)
-    box, rooms = sheet.box, list[Box]()
-    inner = Box(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
+    box, rooms = sheet.box, list[PageRectangle]()
+    inner = PageRectangle(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
     size = (2 * NUMBER_IN, 2 * NUMBER_IN)
     for k, anchor in enumerate(anchors(shapes)):
         thing = _square(anchor, 0.0)
@@ -127,11 +129,11 @@ def _inside(shape: Array) -> Array:
     return at[in_convex(shape, at)]
 
 
-def _squares(points: Sequence[Array], width: float) -> list[Box]:
+def _squares(points: Sequence[Array], width: float) -> list[PageRectangle]:
     """Return the squares of a grid on the page in which points are, each once."""
     cells = np.unique(np.round(np.concatenate(points) / width), axis=0)
     return [_square(at * width, width / 2) for at in cells]
 
 
-def _square(at: Array, half: float) -> Box:
-    return Box(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)
+def _square(at: Array, half: float) -> PageRectangle:
+    return PageRectangle(float(at[0]) - half, float(at[1]) - half, 2 * half, 2 * half)

@@ -9,11 +9,11 @@ from shotc.geom import geodetic
 from shotc.geom.surface.ground import height_at
 from shotc.geom.terrain import relief
 from shotc.geom.terrain.posts import Posts, TerrainFault, posts_of
-from shotc.geom.terrain.relief import Box, Relief, relief_of
+from shotc.geom.terrain.relief import PlanRectangle, Relief, relief_of
 from shotc.geom.terrain.systems import utm_of_degrees
 
 ORIGIN = (46.68, 7.68, 560.0)
-BOX = Box((-400.0, -300.0), (500.0, 600.0))
+BOX = PlanRectangle((-400.0, -300.0), (500.0, 600.0))
 
 
 def posts(heights: np.ndarray, x: np.ndarray, y: np.ndarray, system: int | None = None) -> Posts:
@@ -22,13 +22,13 @@ def posts(heights: np.ndarray, x: np.ndarray, y: np.ndarray, system: int | None 
     return found
 
 
-def made(of: Posts, box: Box = BOX, offset: float = 0.0) -> Relief:
+def made(of: Posts, box: PlanRectangle = BOX, offset: float = 0.0) -> Relief:
     found = relief_of(of, box, ORIGIN, offset)
     assert isinstance(found, Relief)
     return found
 
 
-def fault(of: Posts, box: Box = BOX) -> TerrainFault:
+def fault(of: Posts, box: PlanRectangle = BOX) -> TerrainFault:
     found = relief_of(of, box, ORIGIN)
     assert isinstance(found, TerrainFault)
     return found
@@ -44,7 +44,8 @@ def degrees(height: float = 600.0) -> Posts:
 
 def test_posts_of_the_world_are_where_they_are():
     found = made(
-        posts(np.array([[0.0, 1], [2, 5]]), np.array([0.0, 10]), np.array([0.0, 10])), Box((0, 0), (9, 9))
+        posts(np.array([[0.0, 1], [2, 5]]), np.array([0.0, 10]), np.array([0.0, 10])),
+        PlanRectangle((0, 0), (9, 9)),
     )
     at = height_at(found.ground, np.array([[0, 0], [10, 0], [0, 10], [10, 10], [7.5, 2.5], [2.5, 7.5]]))
     # From the south-west to the north-east post: 0 and 5; the middle of the cell is on that side.
@@ -81,7 +82,7 @@ def test_the_offset_is_added():
 
 
 def test_far_away_level_posts_sink_below_the_plane():
-    far = Box((9900.0, -100.0), (10_100.0, 100.0))
+    far = PlanRectangle((9900.0, -100.0), (10_100.0, 100.0))
     wide = level(4326, np.linspace(7.5, 8.0, 1001), np.linspace(46.6, 46.8, 401), 560.0)
     found = height_at(made(wide, far).ground, np.array([[10_000.0, 0.0]]))
     assert found == pytest.approx(-(10_000.0**2) / (2 * 6.39e6), abs=0.05)
@@ -91,7 +92,7 @@ def test_a_post_without_a_height_leaves_a_hole():
     heights = np.full((5, 5), 3.0)
     heights[2, 2] = np.nan
     of = posts(heights, np.arange(5.0), np.arange(5.0))
-    found = made(of, Box((0, 0), (4, 4)))
+    found = made(of, PlanRectangle((0, 0), (4, 4)))
     assert (found.shape, found.holes) == ((5, 5), 1)
     inside = height_at(found.ground, np.array([[0.5, 0.5], [1.9, 2.2], [2.1, 2.1], [1.2, 2.9]]))
     assert inside[0] == 3.0

@@ -13,7 +13,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.kinds.models import mesh_file
 from shotc.passes.assign_drones.choice import LEAST_WAY, choose
-from shotc.passes.assign_drones.tasks import Task
+from shotc.passes.assign_drones.tasks import ShotTask
 from tests.support.front_passes import clean
 from tests.support.meshes import box_mesh, ply
 from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE, TAIL
@@ -21,11 +21,13 @@ from tests.unit.planning.clock.test_several_drones import HEAD, PASS, SIDE, TAIL
 DRONES = {d.name: d for d in clean(HEAD + SIDE + PASS + TAIL).mission.drones}
 
 
-def task(number: int, start: float | None, lasts: float, x: float, y: float, by: str | None = None) -> Task:
-    return Task(number, f"s{number}", start, lasts, (x, y, 10.0), (x, y, 10.0), by, DRONES)
+def task(
+    number: int, start: float | None, lasts: float, x: float, y: float, by: str | None = None
+) -> ShotTask:
+    return ShotTask(number, f"s{number}", start, lasts, (x, y, 10.0), (x, y, 10.0), by, DRONES)
 
 
-def cost(tasks: list[Task], names: tuple[str, ...]) -> float | None:
+def cost(tasks: list[ShotTask], names: tuple[str, ...]) -> float | None:
     """Return what one choice costs, None where it cannot be flown; written anew from the rules."""
     for i, a in enumerate(tasks):
         if a.flown_by not in {None, names[i]}:

@@ -12,7 +12,7 @@ from shotc.geom.solids import Cylinder, Solid
 from shotc.ir.owners import GROUND, zone_owner
 from shotc.passes.solve_path_qp.explain.path import failure
 from shotc.planning.obstacles import flight_space
-from shotc.planning.path.position import Solved, Stretch, solve_stretch
+from shotc.planning.path.position import PolylineTask, Solved, solve_stretch
 from shotc.planning.path.shots import Stuck
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_relax import Relaxation
@@ -28,7 +28,7 @@ def told(made, corners):
     steps = np.linalg.norm(np.diff(corners, axis=0), axis=1)
     s = np.concatenate([[0.0], np.cumsum(steps)])
     ends = tuple(range(len(corners)))
-    stretch = Stretch(corners, s, ends, np.zeros((0, 3)), np.zeros(0), 0.75)
+    stretch = PolylineTask(corners, s, ends, np.zeros((0, 3)), np.zeros(0), 0.75)
     drone = made.drones[0]
     space = flight_space(made, drone)
     found = solve_stretch(space, stretch, drone.limits)

@@ -12,7 +12,7 @@ from shotc import api
 from shotc.geom.solids import Cylinder
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.path import PathDeviation
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.explained import (
     NEAR_M,
     Way,
@@ -31,11 +31,11 @@ from tests.support.scenes import house
 EAST = Way(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
 
 
-def flight(*zones: Zone, **rules: object) -> Flight:
+def flight(*zones: Zone, **rules: object) -> JudgedFlight:
     plan = orbit_plan().trajectory
     mission: MissionIR = plan.keyframes.mission
     mission = replace(mission, zones=zones, targets=(), rules=replace(mission.rules, **rules))
-    return Flight(mission, mission.drones[0], plan.drones[0])
+    return JudgedFlight(mission, mission.drones[0], plan.drones[0])
 
 
 def mast(y: float, keep: str = "out", radius: float = 3.0) -> Zone:
@@ -86,7 +86,7 @@ def test_pictures_move_a_placed_camera_only_for_other_drones() -> None:
 def test_limits_explain_the_way_to_stop_and_what_is_too_fast() -> None:
     one = flight()
     limits = replace(one.drone.limits, speed=4.0, climb=inf, acceleration=2.0, jerk=8.0)
-    slow = Flight(one.mission, replace(one.drone, limits=limits), one.track)
+    slow = JudgedFlight(one.mission, replace(one.drone, limits=limits), one.track)
     held_back = 1.0 * 20.0 + 4.0**2 / 4.0 + 4.0 * 2.0 / 8.0
     assert for_its_limits(slow, EAST, 0.5) == pytest.approx(held_back)
     assert for_its_limits(slow, EAST, 1.5) == pytest.approx(held_back + 4.0 * 1.0)

@@ -18,7 +18,7 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.phases import Reference
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.passes.verify.claims import Flight
+from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.close import errors_close, margins_close, rates
 from shotc.passes.verify.sight import Sight, infimum
 from tests.support.records import replace
@@ -47,7 +47,7 @@ def swayed(moves: dict[int, float]) -> Piecewise:
     return through([0.0, 0.5, 1.0, LENGTH], [EYE, there, EYE, EYE])
 
 
-def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> Flight:
+def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> JudgedFlight:
     """A camera that films a post at one sample a second; what is wanted of it moves aside and back."""
     post = Target("post", POST, CylinderShape(1.0, 2.0), ("targets", "post"), track)
     of: MissionIR = replace(mission(rate=1.0), targets=(post,))
@@ -57,7 +57,7 @@ def flight(curve: Piecewise, track: Track | None = None, aside: float = 0.0) -> 
     flown = film("eye", curve)
     framed = (Reference("eyes", "post", 0.0, LENGTH, reference),)
     track_ = DroneTrajectory("eye", flown.curve, flown.phases, (), framed)
-    return Flight(of, of.drone("eye"), track_)
+    return JudgedFlight(of, of.drone("eye"), track_)
 
 
 def nodding(rate: float, channel: int = CAM_PITCH) -> Piecewise:

@@ -33,7 +33,7 @@ from shotc.planning.clock.sweeps import with_sweeps
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import FreeSpaces, free_spaces_of
-from shotc.planning.path.legs import Flight, Pose, way_to
+from shotc.planning.path.legs import LegContext, Pose, way_to
 from shotc.planning.timing.estimate import leg_time
 from shotc.planning.timing.straight import Bounds
 from tests.support.few import few
@@ -281,7 +281,7 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
     """A drone hovers half way: the straight way is in time, the one over it is not."""
     mission = pair()
     drone = mission.drones[0]
-    flight = Flight(drone, FreeSpaces(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]), None)
+    flight = LegContext(drone, FreeSpaces(EMPTY, EMPTY), np.array([0.0, 0.0, 5.0]), None)
     here, high, above, there = (
         (x, 0.0, z, 0.0, 0.0, 0.0, 1.2) for x, z in ((0.0, 5.0), (0.0, 12.0), (40.0, 12.0), (40.0, 5.0))
     )

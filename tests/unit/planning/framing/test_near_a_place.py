@@ -9,7 +9,16 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from shotc.geom.shapes import CylinderShape
-from shotc.geom.viewpoint import NEAR_WEIGHT, Drawn, Lens, Room, Wanted, distance_for, first_pose, viewpoint
+from shotc.geom.viewpoint import (
+    NEAR_WEIGHT,
+    Lens,
+    PlaceBounds,
+    PreferredPose,
+    Wanted,
+    distance_for,
+    first_pose,
+    viewpoint,
+)
 from shotc.ir.path import CAM_YAW
 from shotc.ir.sampling import seen
 from tests.support.compiled import compiled_text
@@ -38,7 +47,7 @@ def test_a_size_and_a_place_meet_where_the_sum_of_their_squares_is_least() -> No
     lens = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
     man = Wanted((0.0, 0.0, 20.0), CylinderShape(0.01, 1.8), (0.0, 0.0), 0.3)
     asked, away = distance_for(man, lens, (0.0, -1.0, 0.0), 0.3), 12.0
-    room = Room(2.0, 0.5, Drawn((0.0, -away, 20.0)))
+    room = PlaceBounds(2.0, 0.5, PreferredPose((0.0, -away, 20.0)))
     pose, _ = viewpoint((man,), lens, room, first_pose((man,), lens, room, pi))
 
     def cost(distance: float) -> float:  # a thin target is as large as it is near
@@ -55,8 +64,8 @@ def test_angles_and_a_place_on_screen_meet_where_the_sum_of_their_squares_is_lea
     lens = Lens(radians(70), 16 / 9, (-pi / 2, radians(30)))
     man = Wanted((0.0, 0.0, 20.0), CylinderShape(0.01, 1.8), (0.0, 0.0), 0.05)
     away, aside = distance_for(man, lens, (0.0, -1.0, 0.0), 0.05), radians(25)
-    near = Drawn((0.0, -away, 20.0), pi / 2 + aside)
-    room = Room(2.0, 0.5, near)
+    near = PreferredPose((0.0, -away, 20.0), pi / 2 + aside)
+    room = PlaceBounds(2.0, 0.5, near)
     pose, cost = viewpoint((man,), lens, room, first_pose((man,), lens, room, pi))
     turned = pose[3] - pi / 2
     assert 0.0 < turned < aside

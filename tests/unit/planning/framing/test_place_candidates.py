@@ -14,7 +14,7 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.planning.framing.candidates import (
     TOUCH_M,
-    Line,
+    ScreenLine,
     Setting,
     nearest_candidate,
     nearest_on_verticals,
@@ -81,7 +81,7 @@ def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Se
 @example(TWO_STRETCHES, (-1.0, 1.0))
 def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Setting, asked: Vec2) -> None:
     chosen = nearest_candidate(setting, LINES, asked)
-    lines = [*(Line(c, True) for c in LINES.u_lines), *(Line(c, False) for c in LINES.v_lines)]
+    lines = [*(ScreenLine(c, True) for c in LINES.u_lines), *(ScreenLine(c, False) for c in LINES.v_lines)]
     sampled = [line.point(-1 + i / 100) for line in lines for i in range(201)]
     good = [p for p in sampled if setting.slack(p) >= 0]
     if chosen is None:
@@ -122,9 +122,9 @@ def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance() ->
     setting = Setting((20.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 1.0, (-pi / 2, pi / 2))
     # On u = 1 the direction (1, v, 1) is nearest to (0, 1, 1) / sqrt 2 where v = (1 + 1) / (0 + 1) * 1 / 1,
     # past the frame's edge: the angle pulls it beyond the pixel foot v = 1.
-    assert Line(1.0, True).foot(setting, (0.0, 1.0)) == 1.0
-    assert Line(1.0, True).foot(setting, (0.0, 0.4)) == pytest.approx(0.8)
-    assert Line(0.5, False).foot(setting, (0.4, 0.0)) == pytest.approx(0.4 * (1 + 0.25))
+    assert ScreenLine(1.0, True).foot(setting, (0.0, 1.0)) == 1.0
+    assert ScreenLine(1.0, True).foot(setting, (0.0, 0.4)) == pytest.approx(0.8)
+    assert ScreenLine(0.5, False).foot(setting, (0.4, 0.0)) == pytest.approx(0.4 * (1 + 0.25))
 
 
 def test_a_stretch_that_just_fits_is_found_between_the_samples() -> None:

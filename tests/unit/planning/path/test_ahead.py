@@ -17,7 +17,7 @@ from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.planning.free_space import FreeSpace, Obstacle
 from shotc.planning.obstacles import FreeSpaces
 from shotc.planning.path import legs
-from shotc.planning.path.ahead import Course, course_of
+from shotc.planning.path.ahead import CourseBounds, course_of
 from shotc.planning.path.bends import as_clear, bent_ends, bent_starts, over_cone
 from tests.support.few import few
 
@@ -182,7 +182,7 @@ def test_a_way_so_steep_that_the_drone_is_slow_over_ground_has_no_course() -> No
     assert (who.limits.climb, who.limits.descent) == (3.0, 1.5)
     x = np.linspace(0.0, 20.0, 6)
 
-    def course(level: float, rise: float) -> Course | None:
+    def course(level: float, rise: float) -> CourseBounds | None:
         way = np.column_stack([level * x, 0 * x, 30.0 + rise * x])[None]
         return course_of(who, Piecewise(np.array([0.0, 20.0]), way), radians(30.0))
 

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.planning.path.unwrapping import LONGEST_KEYFRAMES, Known, Turning, turned
+from shotc.planning.path.unwrapping import LONGEST_KEYFRAMES, Known, TurnRules, turned
 from shotc.solvers.headings import METHODS
 
-HOW = Turning("winding", 6.0, 1.0, 1.5)
+HOW = TurnRules("winding", 6.0, 1.0, 1.5)
 
 
 def known(yaws, *, groups=None, turns=None, rests=()) -> list[Known]:

@@ -11,7 +11,7 @@ from shotc.geom.surface.distance import inf_distance
 from shotc.ir.mission import Zone
 from shotc.ir.owners import zone_owner
 from shotc.planning.free_space import Obstacle, blocked
-from shotc.planning.path.lines import Line, NoWay, straight_line
+from shotc.planning.path.lines import NoWay, Polyline, straight_line
 from shotc.planning.path.route import find_route, length
 from shotc.planning.path.transit import smooth
 from tests.support.few import few
@@ -29,7 +29,7 @@ def test_ways_through_villages_are_flown_clear_of_every_triangle(seed):
     scene = some_scene(np.random.default_rng(seed))
     space = space_of(scene.triangles)
     line = straight_line(space, scene.start, scene.end)
-    assert isinstance(line, Line)
+    assert isinstance(line, Polyline)
     assert length(line.corners) < 1.4 * np.linalg.norm(scene.end - scene.start)
     curve = smooth(space, mission().drones[0], line)
     bound = inf_distance(pieces(curve), space.meshes[0].mesh.surface, lambda _: 1e-6)
@@ -56,7 +56,7 @@ def test_nothing_leads_out_of_a_closed_yard():
     lid = quad((-9, -9, 9), (9, -9, 9), (9, 9, 9), (-9, 9, 9))
     yard = np.array([0.0, 0.0, 4.0])
     assert isinstance(straight_line(space_of(*walls, lid), yard, B + 20.0), NoWay)
-    assert isinstance(straight_line(space_of(*walls), yard, B + 20.0), Line)
+    assert isinstance(straight_line(space_of(*walls), yard, B + 20.0), Polyline)
 
 
 def _ring(half):
@@ -76,5 +76,5 @@ def test_a_way_keeps_clear_of_zones_beside_meshes():
 def test_a_place_inside_of_a_large_building_is_not_free():
     hall = house(60.0, 60.0, 30.0, 35.0)
     found = straight_line(space_of(hall), np.array([0.0, 0.0, 15.0]), np.array([60.0, 0.0, 15.0]))
-    assert not isinstance(found, Line | NoWay)
+    assert not isinstance(found, Polyline | NoWay)
     assert found.breach.lack > CLEARANCE

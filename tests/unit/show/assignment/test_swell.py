@@ -23,7 +23,7 @@ from shotc.show.assignment import AssignGoals
 from shotc.show.assignment.swell import Heights, led
 from shotc.show.geom.arcs import Gaps
 from shotc.show.goals import PlaceGoals
-from shotc.show.goals.room import Room
+from shotc.show.goals.room import DisplaySurroundings
 from shotc.show.separation import KeepApart
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from tests.support.display_missions import LIMITS, display, fleet, show
@@ -72,7 +72,7 @@ def test_it_is_lifted_over_the_ground_or_kept_below_a_height(seed: int, low: boo
     ends = ends_of(seed)
     bottom, top = (f(getattr(e[:, 2], g)() for e in ends) for f, g in ((min, "min"), (max, "max")))
     heights = Heights(bottom, inf) if low else Heights(-inf, top)
-    move, lack = led(ends, heights, Room((), -inf), about(ends))
+    move, lack = led(ends, heights, DisplaySurroundings((), -inf), about(ends))
     z = sampled(ends, move)[..., 2]
     assert lack.metres <= 1e-6
     assert z.min() >= heights.low - 1e-6
@@ -91,7 +91,7 @@ def test_between_low_pads_and_a_high_picture_the_swell_is_lifted_until_it_is_cle
     ball = np.array([60.0, 30.0, 40.0]) + radius * ball / np.linalg.norm(ball, axis=1)[:, None]
     ends, gaps = ((ball, pads), Gaps(1.2, 0.8)) if home else ((pads, ball), Gaps(0.8, 1.2))
     for low in (2.25, 5.0, 7.5):
-        move, lack = led(ends, Heights(low, inf), Room((), -inf), about(ends, gaps))
+        move, lack = led(ends, Heights(low, inf), DisplaySurroundings((), -inf), about(ends, gaps))
         assert lack.metres <= 1e-6
         assert sampled(ends, move)[..., 2].min() >= low - 1e-6
 

@@ -10,7 +10,7 @@ from PIL import Image
 
 from shotc.emit.audience import ASPECT, audience
 from shotc.emit.palette import QUIET
-from shotc.emit.storyboard.canvas import Box
+from shotc.emit.storyboard.canvas import PageRectangle
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Shown
@@ -69,7 +69,7 @@ def test_the_map_has_a_number_for_each_picture_and_none_is_over_another(count: i
 
 def test_a_number_leads_to_its_own_outline() -> None:
     (board,) = boards(crowded(5, 40.0))
-    sheet = Sheet(Box(0.0, 0.0, 4.0, 6.0), np.eye(3)[:2], np.zeros(2), 0.02)
+    sheet = Sheet(PageRectangle(0.0, 0.0, 4.0, 6.0), np.eye(3)[:2], np.zeros(2), 0.02)
     shapes = outlines(board, sheet)
     for shape, anchor in zip(shapes, anchors(shapes), strict=True):
         ends = np.roll(shape, -1, axis=0)

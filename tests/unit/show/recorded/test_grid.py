@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.fleet_spline import places
 from shotc.show.recorded.grid import between, bound, points_of, sources, step_of
-from shotc.show.recorded.tracks import Track
+from shotc.show.recorded.tracks import RecordedTrack
 
 RNG = np.random.default_rng
 
@@ -24,7 +24,7 @@ def polyline(rng: np.random.Generator, count: int = 30) -> Piecewise:
     return Piecewise(breaks, at[:-1, None] + share * np.diff(at, axis=0)[:, None])
 
 
-def deviation(track: Track, times: Array, breaks: Array, coef: Array) -> float:
+def deviation(track: RecordedTrack, times: Array, breaks: Array, coef: Array) -> float:
     """The largest distance at 20,000 times, the clock being the spline of the times themselves."""
     at = np.linspace(breaks[0], breaks[-1], 20_000)
     clock = places(breaks, np.repeat(times[None, :, None], 3, axis=2), at)[0, :, 0]
@@ -35,7 +35,7 @@ def deviation(track: Track, times: Array, breaks: Array, coef: Array) -> float:
 @given(st.integers(0, 10_000), st.booleans(), st.booleans())
 def test_the_bound_holds_and_is_near(seed: int, stretched: bool, rests: bool) -> None:
     rng = RNG(seed)
-    track = Track("a", "a.csv", polyline(rng), None)
+    track = RecordedTrack("a", "a.csv", polyline(rng), None)
     times = sources(0.3 if not rests else 0.0, track.curve.end, 0.25, (rests, rests))
     widths = np.full(len(times) - 3, 0.25)
     if stretched:
@@ -61,7 +61,7 @@ def test_even_pieces_leave_a_bend_by_a_sixth_of_its_square() -> None:
         ctrl[:, k, 0] = start**2 + start * b[1] + 0.25 * (b[0] if k == 3 else (0, 0, 1 / 3, 1)[k])
     curve = Piecewise(breaks, ctrl)
     assert curve(np.array([3.3]))[0, 0] == pytest.approx(3.3**2)
-    track = Track("a", "a", curve, None)
+    track = RecordedTrack("a", "a", curve, None)
     times = sources(0.0, 10.0, 0.25, (False, False))
     inner = times[3:-3]
     even = 0.25 * np.arange(len(times) - 2)

@@ -18,7 +18,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.assignment import AssignGoals, order
 from shotc.show.separation import KeepApart
 from shotc.show.separation.faults import Tried, too_near
-from shotc.show.separation.longer import Stretch
+from shotc.show.separation.longer import MoveBetweenStops
 from shotc.show.solvers.qcqp import Bounds, overdraft
 from shotc.show.splines import BoundSplines
 from tests.support.fleet_scenes import LIMITS, animation, display, fleet, goals, morph, picture
@@ -123,7 +123,7 @@ def test_pads_too_near_for_any_way_are_to_be_laid_out_wider() -> None:
         (flight.phases[-2].start, flight.phases[-2].end),
     ):
         a, b = (int(np.abs(flight.breaks - t).argmin()) for t in (start, end))
-        stretch = Stretch.of(flight, flight.breaks[a : b + 1], flight.coef[:, a : b + 3])
+        stretch = MoveBetweenStops.of(flight, flight.breaks[a : b + 1], flight.coef[:, a : b + 3])
         found = too_near(mission, mission.fleets[0], stretch, Tried(near, 0.4, None))
         assert found.help == "put the pads 1.42 m or more apart"
         assert stretch.key == "transition"
@@ -135,7 +135,7 @@ def test_what_nothing_helps_is_to_be_larger() -> None:
     assert show is not None
     flight, mission = show.fleets[0], show.goals.keyframes.mission
     a, b = (int(np.abs(flight.breaks - flight.shown[k].start).argmin()) for k in (0, -1))
-    stretch = Stretch.of(flight, flight.breaks[a : b + 1], flight.coef[:, a : b + 3])
+    stretch = MoveBetweenStops.of(flight, flight.breaks[a : b + 1], flight.coef[:, a : b + 3])
     assert (stretch.key, stretch.pieces) == ("period", 1)
     assert stretch.lasting(0.5) == pytest.approx(stretch.breaks, abs=1e-9)
     near = Nearest(0.4, 0.5, 1, 2, 12.0, (0.0, 0.0, 20.0))

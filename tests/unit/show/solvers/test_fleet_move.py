@@ -14,7 +14,7 @@ from shotc.show.solvers.move import (
     LIMIT_SHARE,
     PIECES,
     WORTH_RATIO,
-    Move,
+    CommonMove,
     fastest,
     least_piece,
     least_pieces,
@@ -42,7 +42,7 @@ def test_a_move_takes_hardly_longer_than_any_shape_of_any_number_of_pieces(far: 
     assert move.duration >= far / (LIMIT_SHARE * LIMITS.speed)
 
 
-def speeds(move: Move) -> Array:
+def speeds(move: CommonMove) -> Array:
     """Control points of s' over the time of the move: what is between them lies in their hull."""
     return np.asarray(np.diff(move.s) * move.pieces)
 
