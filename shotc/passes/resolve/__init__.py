@@ -1,8 +1,8 @@
 """resolve: LoadedMission to MissionIR.
 
-Takes a mission whose shape is right. Gives every name, preset, unit, place and kind resolved, and
-reports all that can be told without a solver. A fault silences only what depends on it: geometry and
-timing are judged once all names and places stand.
+It takes a mission of valid form. It resolves every name, preset, unit, place and kind, and reports all faults
+that need no solver. A fault suppresses only the checks that depend on it: geometry and timing are checked
+when all names and places are resolved.
 """
 
 from collections.abc import Collection, Mapping
@@ -20,8 +20,8 @@ from shotc.spec.load import LoadedMission
 class Resolve:
     """The pass.
 
-    kinds : every shot kind that is installed, by name
-    emitters : names of the emitters that are installed, or None where that is not known
+    kinds : every installed shot kind, by name
+    emitters : names of the installed emitters, or None where these are not known
     """
 
     name: ClassVar[str] = "resolve"

@@ -1,4 +1,4 @@
-"""What can be told of a resolved mission without a solver. A fault silences only what depends on it."""
+"""Checks of a resolved mission without a solver. A fault suppresses only the checks that depend on it."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -32,10 +32,10 @@ from shotc.spec.load import LoadedMission
 
 
 def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
-    """Return the faults of a mission as written and as it is resolved, those of its words first."""
+    """Return the faults of a mission as written and as resolved, those of its names first."""
     mission = what.mission
     if what.astray and not has_errors(what.faults):
-        return list(what.faults)  # nothing is known here of the ground, so nothing of what stands on it
+        return list(what.faults)  # the ground is not known, so nothing on it can be checked
     faults = [*what.faults, *(d for course in what.courses for d in check_course(mission, course))]
     if not what.astray:
         faults += _judged(ir, what, order=not has_errors(faults))
@@ -45,7 +45,7 @@ def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
 
 
 def _judged(ir: LoadedMission, what: Lowered, *, order: bool) -> list[Diagnostic]:
-    """Return what can be told from numbers alone; ``order`` is whether names and waits all stand."""
+    """Return the faults of numbers; ``order`` is whether all names and dependencies are valid."""
     mission = what.mission
     if unknown := list(check_counted(mission, ir.spec, what.level)):
         return unknown
@@ -61,10 +61,10 @@ def _judged(ir: LoadedMission, what: Lowered, *, order: bool) -> list[Diagnostic
 
 
 def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Diagnostic]:
-    """Return what is wrong with places and times.
+    """Return the faults of places and times.
 
-    What a keyframe sees is judged where its place stands, a shot's time where all its places do, and
-    the order of the shots where all shots and homes do.
+    The framing of a keyframe is checked where its place is valid, a shot's time where all its places are, and
+    the order of the shots where all shots and homes are.
     """
     filmed = [(shot, way_of(mission, shot)) for shot in mission.shots]
     if beyond := list(check_covered(mission, filmed)):
@@ -89,7 +89,7 @@ def _static_faults(mission: MissionIR, *, timing: bool, order: bool) -> list[Dia
 
 
 class _Beside(NamedTuple):
-    """What is too near to scenes and buildings: homes, and places of shots with their lines."""
+    """Faults beside scenes and buildings: of homes, and of places of shots with their key paths."""
 
     homes: tuple[Diagnostic, ...] = ()
     places: tuple[tuple[Shot, KeyPath, Diagnostic], ...] = ()
@@ -106,5 +106,5 @@ def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _B
 
 
 def _places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
-    """Yield what is wrong with the places of a shot's keyframes, with their lines."""
+    """Yield the faults of the places of a shot's keyframes, with their key paths."""
     yield from check_carried(mission, shot) if is_keyed(shot) else check_places(mission, shot)

@@ -1,7 +1,8 @@
-"""Homes and cameras beside scenes and buildings: out of what is closed, and far enough from every triangle.
+"""Homes and cameras beside scenes and buildings: outside of closed parts, and far enough from every triangle.
 
-As with zones, what the user placed binds, and a path that a kind generates is an ideal that a plan may leave.
-Targets may touch a scene, and stand in it: their models are often a part of it. It needs numpy, as meshes do.
+As with zones, what the user placed binds, and a generated path is an ideal that a plan may leave. Targets may
+touch a scene or stand in it, because their models are often a part of it. This module needs numpy, as meshes
+do.
 """
 
 from __future__ import annotations
@@ -29,19 +30,21 @@ from shotc.passes.resolve.checks.places import by_line
 from shotc.planning.clearances import ROUNDING_M, clearances_of, move, outward
 
 PAD = 1.5
-"""Times the body's radius over its home from which nothing may come into it: below is what it stands on."""
-TURNS = 24  # ways in the plan in which a free place is looked for
-REACHES_M = tuple(0.25 * 1.12**k for k in range(52))  # and how far on each of them: up to 81 m
-LIFTS_M = tuple(float(k) for k in range(1, 61))  # by which a path is raised to be free
-LARGE_M = 1_000.0  # of a scene that may be in another unit
+"""Height above the home, over the body's radius, from which on nothing may be too near; below is its
+support.
+"""
+TURNS = 24  # horizontal directions in which a free place is searched
+REACHES_M = tuple(0.25 * 1.12**k for k in range(52))  # distances in each of them, up to 81 m
+LIFTS_M = tuple(float(k) for k in range(1, 61))  # metres by which a path is raised
+LARGE_M = 1_000.0  # metres of a scene that may be in another unit
 
 
 class MeshClearance(NamedTuple):
-    """How a place stands to the mesh that leaves it the least room.
+    """The relation of a place to the mesh that leaves it the least clearance.
 
-    away : metres from the nearest triangle, negative inside of what is closed
-    lack : metres of room that are missing; 0 or less where there is enough
-    name : of what is near
+    away : metres from the nearest triangle, negative inside of closed parts
+    lack : missing distance, metres; 0 or less where there is enough
+    name : of the nearest part
     """
 
     mesh: ObstacleMesh
@@ -51,7 +54,7 @@ class MeshClearance(NamedTuple):
 
 
 def check_homes_beside(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield the homes that are inside of something, or from which a drone takes off into something."""
+    """Yield the homes inside of something, or below something that blocks the take-off."""
     for drone in mission.drones:
         near = next(
             (n for mesh in mission.meshes if (n := _over_pad(mission, drone, mesh)) is not None), None
@@ -74,7 +77,7 @@ def check_homes_beside(mission: MissionIR) -> Iterator[Diagnostic]:
 
 
 def check_shot_beside(mission: MissionIR, shot: Shot, way: Way) -> Iterator[tuple[KeyPath, Diagnostic]]:
-    """Yield where a shot's camera is too near to a mesh, with the line that says so."""
+    """Yield where a shot's camera is too near to a mesh, with the key path."""
     if shot.ideal is None or is_keyed(shot):
         for path, keyframes in by_line(shot).items():
             fixed = [k.at for k in keyframes if k.beside is None or shot.ideal is None]
@@ -87,7 +90,7 @@ def check_shot_beside(mission: MissionIR, shot: Shot, way: Way) -> Iterator[tupl
 def _blocked(
     mission: MissionIR, shot: Shot, path: KeyPath, places: Sequence[Vec3], *, bound: bool
 ) -> Iterator[tuple[KeyPath, Diagnostic]]:
-    """Yield the fault of places that one line says; bound : whether a plan has to bring the camera there."""
+    """Yield the fault of places from one line of the mission; bound : whether the camera has to be there."""
     if not places:
         return
     drone = mission.drone(shot.drone)
@@ -126,7 +129,7 @@ def _words(near: MeshClearance) -> str:
 
 
 def _large(mesh: ObstacleMesh) -> Iterator[str]:
-    """Yield how large a scene is that may be in another unit than is written."""
+    """Yield the size of a scene that may be in another unit than is written."""
     size = float(np.ptp(mesh.surface.triangles.reshape(-1, 3), axis=0).max())
     if mesh.kind == "scene" and size > LARGE_M:
         yield f"the scene measures {size:.0f} m: in millimetres (`units: mm`) it is {size / 1000:.2g} m large"
@@ -139,7 +142,7 @@ def _needed(mesh: ObstacleMesh, radius: float, clearance: float) -> str:
 
 
 def _nearest(mission: MissionIR, p: Array, drone: Drone) -> list[MeshClearance]:
-    """Return how places (K, 3) stand to the meshes."""
+    """Return the relation of places (K, 3) to the meshes."""
     worst: list[MeshClearance] = []
     for mesh in mission.meshes:
         needed = mission.rules.beside_obstacle(drone.radius) + mesh.spacing
@@ -156,7 +159,7 @@ def _nearest(mission: MissionIR, p: Array, drone: Drone) -> list[MeshClearance]:
 
 
 def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> MeshClearance | None:
-    """Return how something stands to the way straight up from a home, where it is in the way."""
+    """Return the obstacle on the vertical above a home, if there is one."""
     home, body = np.array([drone.home]), drone.radius + mesh.spacing
     if mesh.holds(home)[0]:
         found = nearest(mesh.surface, home)
@@ -181,7 +184,7 @@ def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> MeshClear
 
 
 def _other_home(mission: MissionIR, drone: Drone) -> str:
-    """Propose the nearest home from which the drone can take off."""
+    """Return the move to the nearest home with a free take-off, in words."""
     over = drone.home[2] - mission.ground(*drone.home[:2])
 
     def free(q: Vec3) -> bool:
@@ -197,7 +200,7 @@ def _other_home(mission: MissionIR, drone: Drone) -> str:
 
 
 def _other_place(mission: MissionIR, drone: Drone, p: Vec3) -> str:
-    """Propose the nearest place that is free of everything."""
+    """Return the move to the nearest place that is clear of everything, in words."""
     around = clearances_of(mission, drone)
 
     def free(q: Vec3) -> bool:
@@ -212,7 +215,7 @@ def _other_place(mission: MissionIR, drone: Drone, p: Vec3) -> str:
 
 
 def _around(p: Vec3, *, steep: bool) -> Iterator[Vec3]:
-    """Yield places about one: level with it, and if steep, up and down from it and between."""
+    """Yield places around one: at its height, and if steep, also above, below and between."""
     x, y, z = p
     for reach in REACHES_M:
         for k in range(TURNS):
@@ -226,7 +229,7 @@ def _around(p: Vec3, *, steep: bool) -> Iterator[Vec3]:
 
 
 def _first(p: Vec3, places: list[Vec3], free: Callable[[Vec3], bool]) -> Vec3 | None:
-    """Return the nearest place, rounded away from ``p``, that is free."""
+    """Return the nearest free place, rounded away from ``p``."""
     for q in sorted(places, key=lambda q: dist(p, q)):
         rounded = outward(p, q)
         if free(rounded):
@@ -235,7 +238,7 @@ def _first(p: Vec3, places: list[Vec3], free: Callable[[Vec3], bool]) -> Vec3 | 
 
 
 def _higher(mission: MissionIR, shot: Shot, places: Sequence[Vec3]) -> str:
-    """Say how the path is written that is raised over everything; empty where it has no altitude."""
+    """Return how to write the path raised above everything; empty where it has no altitude."""
     if (*shot.path, "altitude") not in mission.origins.values:
         return ""
     drone, p = mission.drone(shot.drone), np.array(places)

@@ -1,4 +1,4 @@
-"""The parameter of a generated path, and its value, with which no obstacle stands in the path."""
+"""Values of a generated path's parameters with which no obstacle is in its way."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from shotc.passes.resolve.checks.heights import as_counted
 from shotc.planning.clearances import ROUNDING_M, clearances_of
 from shotc.planning.framing.placing import place_shot
 
-STEP = 1.0  # metres between the values that are tried
-MOST = 40.0  # metres by which a value is changed at most
-PAIRS = 1000  # of places and obstacles, above which the search takes longer than a check may
+STEP = 1.0  # metres between candidate values
+MOST = 40.0  # largest change of a value, metres
+PAIRS = 1000  # pairs of places and obstacles, above which the search is too slow for a check
 
 Moved = Callable[[Keyframe, float], Keyframe]
 
 
 class Change(NamedTuple):
-    """A parameter and what to write there."""
+    """A parameter and the value to write."""
 
     key: str
     value: str
@@ -29,10 +29,10 @@ class Change(NamedTuple):
 
 
 def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
-    """Return the least changes of distance and of altitude, each by itself, that free a path of everything.
+    """Return the least changes of distance and of altitude, each by itself, that clear a path of everything.
 
-    None for a kind without these parameters. A path is as free as its keyframes are, and still shows its
-    target whole; one farther away, or higher, is preferred.
+    Empty for a kind without these parameters. A path is clear if all its keyframes are, and it has to show
+    its target whole. A larger distance or altitude is preferred.
     """
     if shot.kind not in DISTANCES or shot.subject is None or not shot.keyframes:
         return []
@@ -61,7 +61,7 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
 
 
 def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator[float]:
-    """Yield the least change up, and the least one down to ``least``, that free a path, metres."""
+    """Yield the least increase, and the least decrease down to ``least``, that clear a path, metres."""
     drone = mission.drone(shot.drone)
     around = clearances_of(mission, drone)
 
@@ -73,7 +73,8 @@ def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator
             around.insert(0, around.pop(met))
         return met is not None
 
-    # What was blocked last is likely to be so after a small change; a ring comes by its places again.
+    # The keyframe that was blocked last comes first, as it is likely blocked again; repeated places of a ring
+    # are checked once.
     order = list({tuple(round(c, 6) for c in k.at): k for k in shot.keyframes}.values())
     if len(order) * len(around) > PAIRS:
         return
@@ -92,5 +93,5 @@ def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator
 
 
 def _shown(mission: MissionIR, shot: Shot, keyframes: Sequence[Keyframe]) -> bool:
-    """Tell whether the target is on its composition set in every keyframe."""
+    """Return whether the target is on its composition set at every keyframe."""
     return not place_shot(mission, shot._replace(keyframes=tuple(keyframes)))[1]

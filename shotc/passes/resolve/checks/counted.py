@@ -1,4 +1,4 @@
-"""Heights that count from the ground where the terrain of a mission has none."""
+"""Heights above ground where the terrain of a mission has no ground."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from shotc.spec.world import TargetSpec
 if TYPE_CHECKING:  # missions on flat ground need no numpy
     from shotc.ir.terrain import Terrain
 
-ROUND = 16  # places on a rim that are looked at
-SIDE = 8  # places on a side that are looked at
+ROUND = 16  # samples of a rim
+SIDE = 8  # samples of a side
 
 
 class _Counted(NamedTuple):
-    """Something whose height counts from the ground: what it is, where that is written, and where it lies."""
+    """An element with a height above ground: its name, its key path, and its places."""
 
     words: str
     path: KeyPath
@@ -33,9 +33,9 @@ class _Counted(NamedTuple):
 
 
 def check_counted(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[Diagnostic]:
-    """Yield the targets, tracks and zones that count from ground that there is not.
+    """Yield the targets, tracks and zones with heights above ground that is missing.
 
-    level : names of targets whose tracks keep to the ground, whatever their places
+    level : names of targets whose tracks follow the ground, whatever their places
     """
     terrain = mission.terrain
     if terrain is None:
@@ -74,7 +74,7 @@ def _targets(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> It
 
 
 def _written(target: TargetSpec) -> Iterator[tuple[KeyPath, Place]]:
-    """Yield the places that a target is given, with their keys below it."""
+    """Yield the places of a target, with their keys below it."""
     if target.at is not None:
         yield ("at",), target.at
     if target.track is None:

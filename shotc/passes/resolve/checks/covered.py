@@ -1,4 +1,4 @@
-"""Targets within keep-out zones, which are solid: no camera outside sees them there."""
+"""Targets inside keep-out zones, which are solid: no camera outside sees them there."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from shotc.ir.begins import film_end
 from shotc.ir.mission import MissionIR, Shot, Zone
 from shotc.ir.target import Target
 
-HALVES = 40  # of a stretch of a track, to where it meets a zone
+HALVES = 40  # bisection steps for where a track enters a zone
 
 
 class TargetPosition(NamedTuple):
-    """Where a target is at a mission time, metres and seconds."""
+    """The position of a target at a mission time, metres and seconds."""
 
     time: float
     at: Vec3
 
 
 def covered(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield every target whose centre stands in a keep-out zone, or comes into it while the mission may fly.
+    """Yield every target whose centre is in a keep-out zone, or enters one while the mission may fly.
 
-    A target is not told of where every shot that films it says that it may be hidden.
+    A target is skipped if every shot that films it allows it to be hidden.
     """
     end = film_end(mission)
     for target in mission.targets:
@@ -43,7 +43,7 @@ def covered(mission: MissionIR) -> Iterator[Diagnostic]:
 
 
 def first_within(way: Sequence[TargetPosition], solid: Solid) -> TargetPosition | None:
-    """Return when and where something is within a solid first that goes straight from moment to moment."""
+    """Return the first position inside a solid, for straight motion between positions; None if none is."""
     for a, b in pairwise(way):
         if crosses(solid, a.at, b.at):
             return _entry(solid, a, b)
@@ -51,7 +51,7 @@ def first_within(way: Sequence[TargetPosition], solid: Solid) -> TargetPosition 
 
 
 def _entry(solid: Solid, a: TargetPosition, b: TargetPosition) -> TargetPosition:
-    """Return where the straight way from one moment to the next meets a solid first."""
+    """Return where the straight motion between two positions enters a solid."""
     low, high = 0.0, 1.0
     if crosses(solid, a.at, a.at):
         return a
@@ -67,7 +67,9 @@ def _between(a: TargetPosition, b: TargetPosition, share: float) -> TargetPositi
 
 
 def _way(target: Target, end: float) -> Iterator[TargetPosition]:
-    """Yield where a target's centre is at the start of the mission, at corners of its way, and at the end."""
+    """Yield the positions of a target's centre: at the mission's start, the rows of its track, and
+    the end.
+    """
     rows = () if target.track is None else target.track.times
     yield from (TargetPosition(t, target.at(t)) for t in (0.0, *(t for t in rows if 0.0 < t < end), end))
 

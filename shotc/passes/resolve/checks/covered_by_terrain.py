@@ -16,7 +16,7 @@ if TYPE_CHECKING:  # missions on flat ground need no numpy
 
 
 def check_covered(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> Iterator[Diagnostic]:
-    """Yield the homes, and the shots, that leave the terrain: no height above ground is known there."""
+    """Yield the homes and shots outside of the terrain, where no height above ground is known."""
     terrain = mission.terrain
     if terrain is None:
         return

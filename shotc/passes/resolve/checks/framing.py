@@ -1,4 +1,4 @@
-"""Framing that the user wrote down and that no camera can have: told before anything is composed."""
+"""Framings of the user that no camera can have; checked before composition."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from shotc.planning.framing.moments import is_sure, moments
 from shotc.planning.framing.placing import explicit_aim, setting_of
 from shotc.rounding import at_least, at_most
 
-SAME = 1e-3  # metres within which a camera looks at its own place
+SAME = 1e-3  # metres within which a point is the camera's own place
 
 
 def check_framing(mission: MissionIR, misplaced: Collection[KeyPath] = ()) -> list[Diagnostic]:
-    """Return the faults of every keyframe that says where the camera looks; one a keyframe.
+    """Return the faults of every keyframe with camera angles, one per keyframe.
 
-    misplaced : lines whose keyframes cannot stand where they are, and are not judged
+    misplaced : key paths of keyframes with an invalid place, which are skipped
     """
     faults: list[Diagnostic] = []
     reported: set[tuple[object, ...]] = set()
     for shot in mission.shots:
         for keyframe, then in _moments(mission, shot):
             fault = None if keyframe.path in misplaced else _fault(then, shot, keyframe)
-            # The keyframes of a file or of a generated path share a line, and one report will do.
+            # The keyframes of a file or of a generated path share a line, which gets one report.
             if fault is not None and (keyframe.path, fault.code) not in reported:
                 reported.add((keyframe.path, fault.code))
                 faults.append(fault)
@@ -40,7 +40,7 @@ def check_framing(mission: MissionIR, misplaced: Collection[KeyPath] = ()) -> li
 
 
 def _moments(mission: MissionIR, shot: Shot) -> Iterator[tuple[Keyframe, MissionIR]]:
-    """Yield the keyframes of a shot whose picture is sure, with the mission as it is at their moment."""
+    """Yield the keyframes of a shot with a known picture, and the mission at their time."""
     if not is_keyed(shot):
         yield from ((keyframe, mission) for keyframe in shot.keyframes)
         return
@@ -66,7 +66,7 @@ def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | N
 
 
 def beyond_gimbal(mission: MissionIR, drone: Drone, path: KeyPath, pitch: float) -> Diagnostic:
-    """Return the fault of a pitch that the gimbal does not reach; ``path`` is where it is written."""
+    """Return the fault of a pitch out of the gimbal's range; ``path`` is its key path."""
     low, high = (degrees(p) for p in drone.gimbal.pitch)
     asked = degrees(pitch)
     labels = (
@@ -83,7 +83,7 @@ def beyond_gimbal(mission: MissionIR, drone: Drone, path: KeyPath, pitch: float)
 
 
 def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> Diagnostic | None:
-    """Tell a target that the user's framing does not show at all."""
+    """Return the fault of a target that the user's framing does not show at all, or None."""
     setting = setting_of(mission, drone, keyframe, aim[0])
     off = degrees(_angle_off(setting, aim))
     if off < 90.0 and setting.shows(aim):
@@ -105,7 +105,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
 
 
 def _less_drift(setting: Setting, keyframe: Keyframe) -> str:
-    """Say how far a camera that looks straight down drifts, and from how high, with its target in view."""
+    """Return how far a camera that looks straight down may drift, and from what height, as a remedy."""
     below, aside = -setting.offset[2], hypot(*setting.offset[:2])
     half = tan(setting.hfov / 2) / setting.aspect
     if below <= 0:

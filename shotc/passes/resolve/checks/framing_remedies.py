@@ -1,4 +1,4 @@
-"""What would let a framing be had: sizes, lenses, views and places, each tried before it is told."""
+"""Remedies for infeasible framings: sizes, lenses, views and places. Each is tried before it is proposed."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from shotc.ir.setpoints import Setpoint
 from shotc.rounding import away, down
 
 Fits = Callable[[MissionIR, Shot], bool]
-"""Whether a framing can be had in a mission."""
+"""Whether a framing is feasible in a mission."""
 
 SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
-"""Of a size, a field of view or a place on screen: what is tried, the nearest to what was asked first."""
-TURNS = tuple(sign * d for d in range(10, 181, 10) for sign in (1, -1))  # degrees from the bearing asked
+"""Shares of a size, a field of view or a place on screen that are tried, the nearest first."""
+TURNS = tuple(sign * d for d in range(10, 181, 10) for sign in (1, -1))  # degrees from the written azimuth
 RISES = tuple(range(5, 86, 5))  # degrees of elevation
 WHOLE = 1.0
 """The largest size that a mission writes as a number; only a name asks for a cropped target."""
 
 
 def for_size(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float) -> Iterator[str]:
-    """Yield the largest size that can be had, at most ``most``."""
+    """Yield the largest feasible size, at most ``most``."""
     for share in SHARES:
         size = down(share * min(most, WHOLE), 2)
         if size > 0 and fits(mission, _with(shot, subject, subject._replace(size=size))):
@@ -35,7 +35,7 @@ def for_size(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most:
 def for_size_and_elevation(
     fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float
 ) -> Iterator[str]:
-    """Yield the largest size that can be had where the elevation is left out, if it is written."""
+    """Yield the largest feasible size without the elevation, if an elevation is written."""
     azimuth, asked = subject.view or (None, None)
     if asked is None:
         return
@@ -45,7 +45,7 @@ def for_size_and_elevation(
 
 
 def for_lens(fits: Fits, mission: MissionIR, shot: Shot, wanted: Wanted, nearest: Vec3) -> Iterator[str]:
-    """Yield the widest lens with which a subject has its size from no nearer than its clearance.
+    """Yield the widest lens with which a subject has its size at its clearance or beyond.
 
     nearest : the camera's offset from the subject at its clearance, metres
     """
@@ -67,7 +67,7 @@ def for_lens(fits: Fits, mission: MissionIR, shot: Shot, wanted: Wanted, nearest
 
 
 def for_place(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
-    """Yield the place on screen nearest to the one asked, towards the middle, that can be had."""
+    """Yield the feasible place on screen nearest to the written one, towards the middle."""
     u, v = subject.composition.points[0]
     for share in (*SHARES[1:], 0.0):
         place = (round(share * u, 2) + 0.0, round(share * v, 2) + 0.0)
@@ -80,7 +80,7 @@ def for_place(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> I
 def for_elevation(
     fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, least: float = 0.0
 ) -> Iterator[str]:
-    """Yield the lowest elevation of at least so many degrees that can be had."""
+    """Yield the lowest feasible elevation of at least ``least`` degrees."""
     azimuth, asked = subject.view or (None, None)
     written = (*subject.path[:-1], "view") in mission.origins.values
     lowest = round(max(least, -90.0 if asked is None else degrees(asked) + 1.0))
@@ -93,7 +93,7 @@ def for_elevation(
 
 
 def for_free_elevation(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
-    """Yield the elevation left out, where it is written and does without."""
+    """Yield the remedy to remove the elevation, if one is written and this is feasible."""
     azimuth, asked = subject.view or (None, None)
     view = None if azimuth is None else (azimuth, None)
     if asked is not None and fits(mission, _with(shot, subject, subject._replace(view=view))):
@@ -101,7 +101,7 @@ def for_free_elevation(fits: Fits, mission: MissionIR, shot: Shot, subject: Subj
 
 
 def for_azimuth(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) -> Iterator[str]:
-    """Yield the nearest other bearing that can be had, and none at all where that can be, too."""
+    """Yield the nearest feasible azimuth, and the remedy to remove it if that is feasible as well."""
     azimuth, elevation = subject.view or (None, None)
     if azimuth is None:
         return
@@ -118,10 +118,10 @@ def for_azimuth(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject) ->
 def as_at(
     shot: Shot, subject: Subject, time: float, writes: Callable[[Setpoint], object]
 ) -> tuple[Shot, Subject]:
-    """Return a shot in which a subject appears all along as it does at one time, and that subject.
+    """Return a shot in which a subject appears throughout as it does at one time, and that subject.
 
-    writes : what of a setpoint is looked for, None where it does not write that; the path of the subject is
-        that of the last setpoint up to the time that does, or its own
+    writes : returns the relevant part of a setpoint, None where it has none; the key path of the subject is
+        that of the last setpoint with this part up to the time, or its own
     """
     asked, composition = subject.asked(time), subject.composition
     if asked.place is not None:

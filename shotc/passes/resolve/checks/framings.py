@@ -1,4 +1,4 @@
-"""Framings that no camera can have, and what would help: tried before it is said."""
+"""Framings that no camera can have, and remedies, which are tried before they are proposed."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from shotc.passes.resolve.checks.framing_remedies import (
 from shotc.rounding import up
 
 OFF_PLACE = 0.05  # half frames
-OFF_PLACE_M = 0.5  # metres from a place that a camera stays near
-OFF_PLACE_RAD = 0.05  # rad off the angles that it stays near
-OFF_SIZE = 0.1  # share of the size asked
+OFF_PLACE_M = 0.5  # metres from the place given by `near`
+OFF_PLACE_RAD = 0.05  # rad from its angles
+OFF_SIZE = 0.1  # relative error of a size
 OFF_VIEW = 0.09  # rad
-APART = 2.0  # times smaller than asked that a subject may be, for others to be in the picture with it
-OUT = 0.02  # half frames that a whole subject may reach out of the frame
+APART = 2.0  # factor by which a subject may be smaller, to have others in the picture
+OUT = 0.02  # half frames by which a whole subject may reach out of the frame
 ROUNDING = 1e-6
 
 
 def check_course(mission: MissionIR, course: StartedFraming, *, advise: bool = True) -> Iterator[Diagnostic]:
-    """Yield what is wrong with a framing; the first fault of a subject is enough.
+    """Yield the faults of a framing; only the first fault of a subject is reported.
 
-    advise : whether to try what would help; a remedy is tried without
+    advise : whether to try remedies; a remedy itself is tried without
     """
     shot = course.shot
     near = [fault for s in shot.subjects if (fault := _never_so_large(mission, shot, s, advise)) is not None]
@@ -59,7 +59,7 @@ def check_course(mission: MissionIR, course: StartedFraming, *, advise: bool = T
 
 
 def _fits(mission: MissionIR, shot: Shot) -> bool:
-    """Tell whether a framing can be had as it is asked for."""
+    """Return whether a framing is feasible as written."""
     course = course_of(mission, shot, first_start(mission, shot))
     return not has_errors(check_course(mission, course, advise=False))
 
@@ -69,7 +69,7 @@ def _either(*remedies: Iterator[str], otherwise: str) -> str:
 
 
 def _never_so_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
-    """Tell the first size of a subject, at the start or at a setpoint, that it cannot have."""
+    """Return the fault of the first infeasible size of a subject, at the start or at a setpoint, or None."""
     led = (as_at(shot, subject, s.time, lambda setpoint: setpoint.size) for s in subject.setpoints)
     shots = ((shot, subject), *led)
     found = (_too_large(mission, then, one, advise) for then, one in shots)
@@ -77,7 +77,7 @@ def _never_so_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bo
 
 
 def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -> Diagnostic | None:
-    """Tell a size that the subject has not even from as near as its clearance allows."""
+    """Return the fault of a size that is infeasible even at the clearance of the subject, or None."""
     if subject.size is None:
         return None
     drone = mission.drone(shot.drone)
@@ -127,7 +127,7 @@ def _too_large(mission: MissionIR, shot: Shot, subject: Subject, advise: bool) -
 
 
 def _blocked(mission: MissionIR, course: StartedFraming, advise: bool) -> Diagnostic | None:
-    """Tell a view that is underground, out of the gimbal's range, or in something all along."""
+    """Return the fault of a view that is underground, beyond the gimbal, or blocked throughout, or None."""
     alone = len(course.shot.subjects) == 1
     fault = (_too_low(mission, course, advise) or _beyond_reach(mission, course)) if alone else None
     if fault is not None or course.blocked < 1.0 or not _known(mission, course.shot):
@@ -174,7 +174,7 @@ def _beyond_reach(mission: MissionIR, course: StartedFraming) -> Diagnostic | No
 
 
 def _alone_at(course: StartedFraming, i: int) -> tuple[Shot, Subject]:
-    """Return a framing of one subject as it is asked at a knot, where the nearest setpoint has it."""
+    """Return a framing of one subject as it is at a knot, by the nearest setpoint."""
     subject, time = course.shot.subjects[0], course.times[i] - course.times[0]
     if not subject.setpoints:
         return course.shot, subject
@@ -213,7 +213,7 @@ def _without_room(mission: MissionIR, course: StartedFraming, advise: bool) -> D
 
 
 def _enough(course: StartedFraming, need: float) -> float:
-    """Return which elevation would do if the distance stayed the same, degrees; 90 where none would."""
+    """Return the elevation that would be sufficient at the same distance, degrees; 90 where none is."""
     x, y, z = course.shot.ideal.points[0][1] if course.shot.ideal is not None else (0.0, 0.0, 0.0)
     away = (x * x + y * y + z * z) ** 0.5
     rise = (z + need - min(p[2] for p in course.poses)) / max(away, 1e-9)
@@ -229,7 +229,7 @@ def _view_label(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> L
 
 
 def shot_key(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> KeyPath:
-    """Return where a key of a subject is written: in it, or in its shot, or the subject where it is not."""
+    """Return the key path of a subject's key: in it, in its shot, or the subject where it is not written."""
     for path in ((*subject.path[:-1], key), (*shot.path, key)):
         if path in mission.origins.values:
             return path
@@ -237,7 +237,7 @@ def shot_key(mission: MissionIR, shot: Shot, subject: Subject, key: str) -> KeyP
 
 
 class WorstFraming(NamedTuple):
-    """The worst of one subject over a framing: against its place, size and view, and when."""
+    """The largest errors of one subject over a framing in place, size and view, with their times."""
 
     screen: tuple[float, float]
     size: tuple[float, float, float]
@@ -246,7 +246,7 @@ class WorstFraming(NamedTuple):
 
 
 def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic]:
-    """Tell what several subjects cannot have at once."""
+    """Yield what several subjects cannot have at once."""
     shot, lens = course.shot, lens_of(mission.drone(course.shot.drone))
     notes: list[str] = []
     labels: list[Label] = []
@@ -288,7 +288,7 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
 
 
 def _far_from_place(mission: MissionIR, course: StartedFraming) -> str | None:
-    """Say how far the camera is from the place that it is to stay near, where that is worth telling."""
+    """Return a note on how far the camera is from the place given by `near`, if that is notable."""
     near = None if course.shot.ideal is None else course.shot.ideal.near
     if near is None:
         return None
@@ -304,13 +304,13 @@ def _far_from_place(mission: MissionIR, course: StartedFraming) -> str | None:
 
 
 def _turned(near: Near, pose: Pose) -> float:
-    """Return how far a camera's angles are off those that it stays near, rad."""
+    """Return the error of a camera's angles from those given by `near`, rad."""
     yaw = 0.0 if near.yaw is None else wrapped(pose[3] - near.yaw)
     return hypot(yaw, 0.0 if near.pitch is None else pose[4] - near.pitch)
 
 
 def _known(mission: MissionIR, shot: Shot) -> bool:
-    """Tell whether a framing is the same whenever the shot begins, or when it does is written."""
+    """Return whether a framing is independent of the shot's start, or the start is written."""
     moves = any(mission.target(s.target).track is not None for s in shot.subjects)
     return shot.timing.start is not None or not moves
 
@@ -318,7 +318,9 @@ def _known(mission: MissionIR, shot: Shot) -> bool:
 def _apart(
     mission: MissionIR, course: StartedFraming, subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]
 ) -> Diagnostic | None:
-    """Tell a subject that is out of the picture, or far too small for others to be in it."""
+    """Return the fault of a subject that is out of the picture, or much too small because of others,
+    or None.
+    """
     shot = course.shot
     others = ", ".join(f"`{s.target}`" for s in shot.subjects if s is not subject) or "its camera near there"
     label = mission.origins.value(subject.path)
@@ -355,7 +357,7 @@ def _apart(
 
 
 def _compromise(subject: Subject, seen: Sequence[tuple[float, Seen, Wanted]]) -> list[str]:
-    """Say how far one subject is from what was asked of it, where that is worth telling."""
+    """Return notes on how far one subject is from what was asked of it, where that is notable."""
     notes = []
     t, worst, wanted = max(seen, key=lambda found: found[1].screen)
     if worst.screen > OFF_PLACE and wanted.uv is not None:

@@ -1,4 +1,4 @@
-"""How high cameras are: over the foot of what they film, and over the ground."""
+"""Heights of cameras above the foot of their target and above the ground."""
 
 from __future__ import annotations
 
@@ -16,34 +16,34 @@ from shotc.passes.resolve.lower.world import BURIED
 from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import at_least, up
 
-STEP_S = 0.5  # between the moments of a shot on its own clock that are looked at
-MOMENTS = 400  # of one shot, at most
-STANDS_M = 0.1  # a target whose foot is nearer to z = 0 stands there
+STEP_S = 0.5  # seconds between samples of a shot on its own clock
+MOMENTS = 400  # most samples of one shot
+STANDS_M = 0.1  # metres from z = 0 within which a target's foot is at z = 0
 LEGAL_M = 120.0  # above ground, the limit of the open category in Europe; 400 ft in the United States
 
 
 class CameraHeight(NamedTuple):
-    """Where a camera is, metres of W, and the z of the foot of its shot's target then, if it has one."""
+    """The place of a camera, metres of W, and the z of its target's foot at that time, if it has one."""
 
     at: Vec3
     foot: float | None
 
 
 Way = tuple[CameraHeight, ...]
-"""Where a shot's camera is to be, from its first frame to its last."""
+"""The ideal places of a shot's camera, from its first frame to its last."""
 
 
 def check_heights(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Yield the faults of a camera that is too low beside its target, or too high over the ground."""
+    """Yield the faults of a camera too low beside its target, or too high above the ground."""
     yield from _below_foot(mission, shot, way)
     yield from _too_high(mission, shot, way)
 
 
 def way_of(mission: MissionIR, shot: Shot) -> Way:
-    """Return where a shot's camera is to be: at keyframes, or along the ideal of one on its own clock."""
+    """Return the ideal places of a shot's camera: its keyframes, or samples for a shot on its own clock."""
     target = next(
         (t for t in mission.every_target if t.name == shot.subject), None
-    )  # None of a name that is told
+    )  # None for an unknown name, which is reported
     duration = shot.timing.duration
     if shot.ideal is None or duration is None:
         foot = None if target is None else target.foot[2]
@@ -57,12 +57,12 @@ def way_of(mission: MissionIR, shot: Shot) -> Way:
 
 
 def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Tell a height that counts from a target's foot, where version 0.1 counted it from z = 0."""
+    """Yield the fault of a height above a target's foot, which in version 0.1 was above z = 0."""
     key = (*shot.path, "altitude")
     feet = [moment.foot for moment in way if moment.foot is not None]
     if shot.above != "target" or (*key, "above") in mission.origins.values or not feet:
         return
-    buried = min(feet) < -BURIED * mission.target(shot.subject or "").height  # which is told by itself
+    buried = min(feet) < -BURIED * mission.target(shot.subject or "").height  # which has a report of its own
     if buried or max(map(abs, feet)) < STANDS_M:
         return
     now = [moment.at[2] for moment in way]
@@ -79,7 +79,7 @@ def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagno
 
 
 def _below_foot(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Warn of a camera below the foot of its target, though its height counts from target or ground."""
+    """Yield the warning of a camera below its target's foot, though its height is above target or ground."""
     key = (*shot.path, "altitude")
     if shot.above in (None, "origin") or key not in mission.origins.values:
         return
@@ -97,7 +97,7 @@ def _below_foot(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic
 
 
 def _too_high(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Tell a camera above the rule of the mission; where that is silent, above what most countries allow."""
+    """Yield the fault of a camera above the mission's limit, or without one above the usual legal limit."""
     rule = mission.rules.max_height
     most = LEGAL_M if rule is None else rule
     high = max((m.at[2] - mission.ground(*m.at[:2]) for m in way), default=-inf)
@@ -118,7 +118,7 @@ def _too_high(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
 
 
 def raised(mission: MissionIR, shot: Shot, way: Way, metres: float) -> str:
-    """Say how a shot is written that is so much higher, metres."""
+    """Return how to write a shot that is higher by so many metres."""
     above = shot.above
     if above is None or (*shot.path, "altitude") not in mission.origins.values:
         return f"raise it by {at_least(metres)} m"
@@ -128,19 +128,19 @@ def raised(mission: MissionIR, shot: Shot, way: Way, metres: float) -> str:
 
 
 def as_counted(mission: MissionIR, shot: Shot, altitude: str) -> str:
-    """Write an altitude with what it counts from, where the shot says that."""
+    """Return an altitude as it is written, with its reference where the shot has one."""
     if (*shot.path, "altitude", "above") not in mission.origins.values:
         return altitude
     return f"{{above: {shot.above}, height: {altitude}}}"
 
 
 def _span(values: list[float]) -> str:
-    """Write metres, or from where to where they go."""
+    """Return metres, or their range, as text."""
     low, high = f"{min(values) + 0.0:.2f}", f"{max(values) + 0.0:.2f}"
     return f"{low} m" if low == high else f"{low} to {high} m"
 
 
 def _written(heights: list[float]) -> str:
-    """Write the heights of a shot as `altitude` has them."""
+    """Return the heights of a shot as `altitude` has them."""
     first, last = (f"{round(heights[i], 2) + 0.0:g}" for i in (0, -1))
     return first if first == last else f"[{first}, {last}]"

@@ -1,4 +1,4 @@
-"""Homes: on the ground, clear of zones and targets, with a way straight up."""
+"""Checks of homes: on the ground, clear of zones and targets, with a free vertical above."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from shotc.planning.clearances import NUDGE_M, ROUNDING_M, Clearance, clearances
 from shotc.rounding import at_least
 
 ROUND = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
-"""Degrees from straight on in which a place round another home is looked for, nearest first."""
+"""Degrees from straight on at which a place around another home is searched, nearest first."""
 
 
 def check_homes(mission: MissionIR) -> list[Diagnostic]:
-    """Return what is wrong with each drone's home.
+    """Return the faults of each drone's home.
 
-    Take-off and landing are vertical there, up to the height from which clearances hold; only the
-    clearances and the floors of keep-in zones do not apply on the way.
+    Take-off and landing are vertical there, up to the height from which clearances hold. Only the clearances
+    and the floors of keep-in zones do not apply below it.
     """
     faults: list[Diagnostic] = []
     for drone in mission.drones:
@@ -47,9 +47,9 @@ def check_homes(mission: MissionIR) -> list[Diagnostic]:
 
 
 def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield the pairs of drones, of which one films something, whose homes are nearer than the separation.
+    """Yield the pairs of drones, at least one of which films, whose homes are nearer than the separation.
 
-    The other one is in the way on its pad, too, whether or not it ever leaves it.
+    The other one is an obstacle on its pad as well, whether or not it ever flies.
     """
     filming = {shot.drone for shot in mission.shots}
     least = mission.rules.separation
@@ -68,9 +68,9 @@ def _too_near(mission: MissionIR) -> Iterator[Diagnostic]:
 
 
 def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
-    """Propose the nearest home at the separation from another one that is free of everything.
+    """Return the move to the nearest free home at the separation from another one, in words.
 
-    Tried are the way straight on from the other home, and others round it.
+    The direction from the other home is tried first, then others around it.
     """
     least, (x, y, z) = mission.rules.separation, standing.home
     straight = atan2(moved.home[1] - y, moved.home[0] - x)
@@ -85,14 +85,16 @@ def _apart(mission: MissionIR, moved: Drone, standing: Drone) -> str:
 
 
 def stands_free(mission: MissionIR, drone: Drone) -> bool:
-    """Tell whether a home is clear of what stands, on it and above it, and apart from the other homes."""
+    """Return whether a home, and the vertical above it, is clear of obstacles and apart from the
+    other homes.
+    """
     others = (other.home for other in mission.drones if other.name != drone.name)
     apart = all(dist(drone.home, home) >= mission.rules.separation - ROUNDING_M for home in others)
     return apart and all(_obstructed(mission, drone, o) is None for o in clearances_of(mission, drone))
 
 
 def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[str, str] | None:
-    """Return what stands against a home, and the numbers; None where nothing does."""
+    """Return the obstacle at a home, and the numbers, as two texts; None where there is none."""
     top = max(drone.home[2], mission.lowest(drone.home, drone.radius))
     room = take_off_room(drone.home, top, obstacle)
     if room >= drone.radius - ROUNDING_M:
@@ -110,9 +112,9 @@ def _obstructed(mission: MissionIR, drone: Drone, obstacle: Clearance) -> tuple[
 
 
 def take_off_room(home: Vec3, top: float, obstacle: Clearance) -> float:
-    """Return the free metres about the way straight up from a pad to z = ``top``; negative in an obstacle.
+    """Return the free distance around the vertical from a pad to z = ``top``, metres; negative if blocked.
 
-    The floors of keep-in zones do not apply on it.
+    The floors of keep-in zones do not apply.
     """
     if obstacle.inside:
         walls = obstacle.solid._replace(bottom=-inf)
@@ -121,7 +123,9 @@ def take_off_room(home: Vec3, top: float, obstacle: Clearance) -> float:
 
 
 def _remedy(mission: MissionIR, drone: Drone, obstacle: Clearance) -> str:
-    """Propose the nearest level place from which the drone can take off, if there is one close by."""
+    """Return the move to the nearest place at the same height with a free take-off, if there is one
+    nearby.
+    """
     home = drone.home
     ways = obstacle._replace(metres=drone.radius).ways_out(home)
     places = [outward(home, (x, y, home[2])) for x, y, _ in ways if (x, y) != home[:2]]
@@ -133,8 +137,8 @@ def _remedy(mission: MissionIR, drone: Drone, obstacle: Clearance) -> str:
 
 
 def _nearest_level(home: Vec3, top: float, obstacle: Clearance) -> Vec3:
-    """Return the place of the vertical take-off that is closest to an obstacle, or deepest in it."""
+    """Return the place of the vertical take-off that is nearest to an obstacle, or deepest in it."""
     low, high = max(home[2], obstacle.solid.bottom), min(top, obstacle.solid.top)
-    if low > high:  # it is all above the take-off, or all below
+    if low > high:  # it is wholly above the take-off, or wholly below
         return (home[0], home[1], top if obstacle.solid.bottom > top else home[2])
     return (home[0], home[1], (low + high) / 2)

@@ -1,6 +1,6 @@
-"""Shots of moving targets, judged by their ideal: is the target known, can a drone keep up, is it too low.
+"""Checks of shots on their own clock by their ideal: the track's times, the drone's speed, the height.
 
-The ideal is where the camera would be; a plan may leave it, but not for the whole of a shot.
+The ideal is the position of the camera without limits. A plan may leave it, but not for the whole shot.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from shotc.rounding import down, up
 
 
 def check_ideal(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Yield what is wrong with a shot on its own clock; one without a start from when it can begin."""
+    """Yield the faults of a shot on its own clock; one without a start is checked from its earliest
+    start on.
+    """
     if shot.ideal is None or shot.timing.duration is None:
         return
     if is_keyed(shot) and not in_order(shot):
@@ -36,9 +38,10 @@ def check_ideal(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic
 
 
 def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell targets whose track ends before the shot does, or begins after it.
+    """Yield the faults of targets whose track ends before the shot does, or begins after it.
 
-    A shot without a start may begin at any time from the earliest on, so only what ends too early is sure.
+    A shot without a start may begin at any time from the earliest on, so only a track that ends too early is
+    a fault.
     """
     duration, start, known = shot.timing.duration or 0.0, shot.timing.start, known_start(mission, shot)
     for name in carriers(shot):
@@ -62,7 +65,7 @@ def _outside(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _within(track: Track, duration: float) -> str:
-    """Say when a shot of a track can be filmed."""
+    """Return when a shot of a track can be filmed, as a remedy."""
     first = max(0.0, up(track.since))
     if track.until == inf:
         return f"start it at {first:.2f} s or later, or let the track begin earlier"
@@ -77,7 +80,7 @@ def _within(track: Track, duration: float) -> str:
 
 
 def _low(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Tell an altitude that is a number of the user's, and under the ground clearance."""
+    """Yield the fault of an altitude that the user wrote, below the ground clearance."""
     ideal = shot.ideal
     if ideal is None or ideal.frame in ("about", "keyframes"):
         return
@@ -96,7 +99,7 @@ def _low(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
 
 
 def _tilted(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell a pitch that a camera is to keep, and that its gimbal does not reach."""
+    """Yield the fault of a fixed pitch out of the gimbal's range."""
     if shot.ideal is None or shot.ideal.aim is None:
         return
     drone, pitch = mission.drone(shot.drone), shot.ideal.aim[1]

@@ -1,8 +1,8 @@
-"""Whether a drone keeps up with the place that a shot gives it, and what of the shot would let it.
+"""Whether a drone keeps up with the ideal of a shot, and remedies in the shot.
 
-A shot whose `start` is not written is judged where the end of what it comes after is known, or where it does
-not matter when it begins; any other one is left to planning. A remedy is tried before it is told: the place
-is looked at again with the number that is proposed.
+A shot without a written `start` is checked if the end of the shot before it is known, or if its start does
+not matter; otherwise planning checks it. A remedy is tried before it is proposed: the ideal is evaluated
+again with the new number.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import MissionIR, Shot
 from shotc.rounding import down, up
 
-WINDOW = 2.0  # seconds over which a drone that is too slow falls behind for good
-STEPS = 200  # places at which an ideal is looked at
-HALVES = 7  # of the span between the nearest place and the one asked, to a hundredth of it
-LATE = (0.0, 6.0, 12.0, 18.0, 24.0, 30.0)  # seconds after the earliest, in which a drone comes to its shot
-MORE = (1.0, 1.05, 1.2, 1.5, 2.0)  # times the duration that would do if its target stood
-ROUNDING = 1e-6  # of a speed
+WINDOW = 2.0  # seconds over which the mean speed is measured
+STEPS = 200  # samples of an ideal
+HALVES = 7  # bisection steps between the nearest distance and the written one
+LATE = (0.0, 6.0, 12.0, 18.0, 24.0, 30.0)  # seconds of candidate starts after the earliest one
+MORE = (1.0, 1.05, 1.2, 1.5, 2.0)  # factors of the duration that is sufficient beside a standing target
+ROUNDING = 1e-6  # relative tolerance of a speed
 
 LEVEL = ("distance", "radius", "offset")
-"""Keys of a shot that say how far from its target it is on the map: the last, how far to its side alone."""
+"""Keys of a shot for its horizontal distance from the target; the last is the sideways distance alone."""
 
 
 def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell an ideal that is faster than the drone, on average over a window, whenever the shot begins."""
+    """Yield the fault of an ideal that is faster than the drone over a window, for every possible start."""
     drone, starts = mission.drone(shot.drone), _begins(mission, shot)
     limit = drone.limits.speed
     if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + ROUNDING) for t in starts):
@@ -73,8 +73,8 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 def _faster(mission: MissionIR, shot: Shot, speed: float, start: float) -> str:
     """Return limits with which the drone keeps up, as they are written.
 
-    An acceleration belongs to them where the place changes its velocity faster than the drone can. With a
-    target that never stops, a drone that is only as fast never comes to its place.
+    They include an acceleration where the ideal changes its velocity faster than the drone can. If the target
+    never stops, a drone of equal speed never reaches its place, so the speed is higher.
     """
     if _goes_on(mission, shot):
         speed *= TO_CATCH_UP
@@ -86,7 +86,7 @@ def _faster(mission: MissionIR, shot: Shot, speed: float, start: float) -> str:
 
 
 def _goes_on(mission: MissionIR, shot: Shot) -> bool:
-    """Tell whether the place goes with a target that moves on for ever."""
+    """Return whether the ideal moves with a target that never stops."""
     own = shot.ideal.target if shot.ideal is not None else None
     names = carriers(shot) if is_keyed(shot) else (own,) if own is not None else ()
     tracks = [mission.target(name).track for name in names]
@@ -94,9 +94,9 @@ def _goes_on(mission: MissionIR, shot: Shot) -> bool:
 
 
 def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:
-    """Return the highest change of the mean velocity from one window to the next, m/s^2.
+    """Return the largest change of the mean velocity from one window to the next, m/s^2.
 
-    A drone that is in its place at the ends of both windows changes its velocity as much within them.
+    A drone that is at its place at the ends of both windows has to change its velocity as much.
     """
     if is_keyed(shot):
         shot = settled(mission, shot, start)
@@ -111,18 +111,18 @@ def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:
 
 
 def _begins(mission: MissionIR, shot: Shot) -> tuple[float, ...]:
-    """Return times at which a shot may begin, seconds, the earliest first; none where that is unknown."""
+    """Return possible starts of a shot, seconds, the earliest first; empty where they are unknown."""
     known, ideal = known_start(mission, shot), shot.ideal
     first = first_start(mission, shot)
     if shot.timing.start is not None or (known is not None and ideal is not None and ideal.framed):
-        return (first,)  # the places of a framing are those of its earliest beginning
+        return (first,)  # the ideal of a framing is that of its earliest start
     if known is not None:
         return tuple(first + late for late in LATE)
     return (first,) if _is_even(mission, shot) else ()
 
 
 def _is_even(mission: MissionIR, shot: Shot) -> bool:
-    """Tell whether the place moves alike whenever the shot begins: in the world, or by an even target."""
+    """Return whether the ideal's motion is independent of the start: fixed in W, or with a uniform target."""
     if shot.ideal is None or shot.ideal.framed:
         return shot.ideal is not None and not _tracks(mission, shot)
     if is_keyed(shot):
@@ -134,9 +134,9 @@ def _is_even(mission: MissionIR, shot: Shot) -> bool:
 
 
 def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float]:
-    """Return the highest mean speed over a window, m/s, and when it is, if the shot begins at ``start``.
+    """Return the largest mean speed over a window, m/s, and its time, for a shot that begins at ``start``.
 
-    It is that through the air, where the wind is known.
+    It is the airspeed where the wind is known.
     """
     wind = mission.drone(shot.drone).limits.wind
     if is_keyed(shot):
@@ -157,7 +157,7 @@ def _keeps_up(mission: MissionIR, shot: Shot, limit: float) -> bool:
 
 
 def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
-    """Yield the greatest distance at which the drone keeps up, where that is clear of the target."""
+    """Yield the largest distance at which the drone keeps up, if that is clear of the target."""
     ideal, limit = shot.ideal, drone.limits.speed
     key = next((key for key in LEVEL if (*shot.path, key) in mission.origins.values), None)
     if key is None or ideal is None or ideal.target is None:
@@ -180,15 +180,15 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
         low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
     told = max(up(least, 1), down(low, 1))
     if _keeps_up(mission, at(told), limit):
-        if end != 1.0:  # from one to another
+        if end != 1.0:  # from one value to another
             yield f"give it `{key}: [{told:.1f} m, {up(told * end, 1):.1f} m]` or nearer"
             return
-        # An offset to the right is written as a negative number.
+        # An offset to the right has a negative sign.
         yield f"give it `{key}: {-told if key == 'offset' and first[1] < 0 else told:.1f} m` or nearer"
 
 
 def _other_side(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
-    """Yield the other side, where the drone flies a bend on the inside there."""
+    """Yield the other side, if the drone is on the inside of a bend there."""
     if (*shot.path, "side") not in mission.origins.values or shot.ideal is None:
         return
     other = "right" if shot.ideal.points[0][1][1] > 0 else "left"
@@ -197,7 +197,7 @@ def _other_side(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
 
 
 def _longer(mission: MissionIR, shot: Shot, share: float) -> Iterator[str]:
-    """Yield a longer duration, where the shot moves about its target or along a path of its own."""
+    """Yield a longer duration, where the shot moves around its target or along its own path."""
     if shot.ideal is None or len({p for _, p in shot.ideal.points}) < 2:
         return
     if any(k.time is not None for k in shot.keyframes[1:]) or any(s.setpoints for s in shot.subjects):
@@ -238,7 +238,7 @@ def _tracks(mission: MissionIR, shot: Shot) -> list[Track]:
 
 
 def _stretched(shot: Shot, times: float) -> Shot:
-    """Return a framing that takes that many times as long, its setpoints that much later."""
+    """Return a framing with its duration and its setpoints' times multiplied by ``times``."""
     subjects = tuple(
         s._replace(setpoints=tuple(p._replace(time=up(p.time * times, 1)) for p in s.setpoints))
         for s in shot.subjects
@@ -248,7 +248,7 @@ def _stretched(shot: Shot, times: float) -> Shot:
 
 
 def _straight(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
-    """Yield keyframes that do not turn with their target, where that is what makes the place fast."""
+    """Yield the remedy that keyframes do not turn with their target, if the turns make the ideal too fast."""
     if not any(k.beside is not None and k.beside.turns for k in shot.keyframes):
         return
     along = tuple(
@@ -259,7 +259,7 @@ def _straight(mission: MissionIR, shot: Shot, limit: float) -> Iterator[str]:
 
 
 def _slower(mission: MissionIR, shot: Shot) -> Iterator[str]:
-    """Yield the target, where the mission itself says how fast that goes."""
+    """Yield the remedy to slow the target down, where the mission gives its speed."""
     ideal = shot.ideal
     if ideal is None or ideal.target is None:
         return

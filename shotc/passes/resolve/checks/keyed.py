@@ -1,7 +1,7 @@
-"""Shots on their own clock told by keyframes: their times, their places, and what is sure before planning.
+"""Checks of shots on their own clock with keyframes: times, places, and what is known before planning.
 
-Such a shot may begin whenever its drone is there, and its target moves on meanwhile. What depends on when is
-judged here where the mission says when the shot begins, and in planning where it does not.
+Such a shot may begin whenever its drone arrives, and its target moves meanwhile. What depends on the start is
+checked here if the mission gives the start; otherwise planning checks it.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from shotc.planning.framing.moments import moments
 from shotc.rounding import at_least
 
 ROOM = 1.0 - 1.0 / MOST_PARTS - 1e-5
-"""Share of its rate that a lens has on average in a zoom at most: it speeds up and slows down."""
+"""Largest mean rate of a zoom over the lens's rate, because the zoom accelerates and decelerates."""
 
 
 def check_carried(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
-    """Yield the faults of where keyframes are, with their lines; each as it is when the camera is there."""
+    """Yield the faults of the places of keyframes, with their key paths, each at the time of the keyframe."""
     if not in_order(shot):
         return
     yield from _zooms(mission, shot)
@@ -81,7 +81,7 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
 
 
 def _level(target: Target) -> bool:
-    """Tell whether a target stays at one height, so that what is over the ground beside it is always so."""
+    """Return whether a target stays at one height, so that the height beside it is constant."""
     track = target.track
     return track is None or (len({p[2] for p in track.points}) == 1 and track.after[2] == 0.0)
 
@@ -91,7 +91,7 @@ def _moves(mission: MissionIR, path: KeyPath) -> bool:
 
 
 def _by_offset(mission: MissionIR, keyframe: Keyframe, place: Vec3, t: float) -> str:
-    """Say how to move a keyframe beside a target to another place, in the numbers that it is written in."""
+    """Return how to move a keyframe beside a target to another place, in its own numbers."""
     assert keyframe.beside is not None
     track, offset = mission.target(keyframe.beside.target).track, keyframe.beside.offset
     x, y, z = (b - a for a, b in zip(keyframe.at, place, strict=True))

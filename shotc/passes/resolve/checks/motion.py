@@ -1,4 +1,4 @@
-"""Lower bounds on flying time: what no drone within its limits can beat, whatever the solver does."""
+"""Lower bounds on flight time, which hold for any drone within its limits."""
 
 from __future__ import annotations
 
@@ -11,11 +11,13 @@ from shotc.ir.mission import Keyframe
 
 
 def least_travel(points: Sequence[Vec3], limits: Limits, *, rests: bool = True) -> float:
-    """Return the least seconds along points joined by straight lines.
+    """Return the least time along points joined by straight lines, seconds.
 
-    rests : whether the drone starts and ends at rest. Horizontal and vertical motion are bounded
-    apart, each with its own speed and the full acceleration, and the slower one counts. In wind the mean
-    velocity over a line is one that the drone can fly, whatever its way.
+    Horizontal and vertical motion are bounded separately, each with its own speed and the full acceleration,
+    and the slower one counts. In wind the mean velocity over a line is bounded by the ground speed in its
+    direction, whatever the flown path.
+
+    rests : whether the drone starts and ends at rest
     """
     chords = [tuple(b - a for a, b in zip(p, q, strict=True)) for p, q in pairwise(points)]
     across = sum(hypot(c[0], c[1]) for c in chords)
@@ -33,7 +35,10 @@ def least_travel(points: Sequence[Vec3], limits: Limits, *, rests: bool = True) 
 
 
 def least_shot(keyframes: Sequence[Keyframe], limits: Limits) -> float:
-    """Return the least seconds of a shot: its holds, and travel at rest at both ends and at each hold."""
+    """Return the least duration of a shot, seconds: its holds, and travel between rests.
+
+    The drone rests at both ends and at each hold.
+    """
     total = sum(k.hold for k in keyframes)
     stretch: list[Vec3] = []
     for index, keyframe in enumerate(keyframes):
@@ -45,7 +50,7 @@ def least_shot(keyframes: Sequence[Keyframe], limits: Limits) -> float:
 
 
 def length(keyframes: Sequence[Keyframe]) -> float:
-    """Return the straight-line length from keyframe to keyframe, metres."""
+    """Return the length of the polyline through keyframes, metres."""
     return sum(hypot(*(b - a for a, b in zip(p.at, q.at, strict=True))) for p, q in pairwise(keyframes))
 
 

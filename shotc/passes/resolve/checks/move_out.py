@@ -1,4 +1,6 @@
-"""Where a keyframe in an obstacle may go: to a place free of everything that shows its target whole."""
+"""Moves of a keyframe out of an obstacle, to a place that is clear of everything and shows its target
+whole.
+"""
 
 from __future__ import annotations
 
@@ -10,16 +12,16 @@ from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, free_place, move, outward
 from shotc.planning.framing.placing import place_shot
 
-STEP = 1.1  # times the distance to the target, from one place that is tried to the next
-TRIES = 40  # of them on each way
-WAYS = 6  # out of an obstacle, the nearest ones
+STEP = 1.1  # ratio of distances to the target between consecutive candidates
+TRIES = 40  # candidates in each direction
+WAYS = 6  # directions out of an obstacle, the nearest ones
 
 
 def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clearance) -> str:
-    """Return in words the move to the nearest place that will do; to a free one where none shows the target.
+    """Return the move to the nearest suitable place, in words; to a clear one where none shows the target.
 
-    Tried are the ways out of the obstacle, and on from there straight away from the target. A camera that
-    is told where to look does not turn to its target: what it shows from elsewhere is not asked.
+    Candidates are the places just outside of the obstacle, and others behind them as seen from the target. A
+    camera with given angles does not turn to its target, so its picture is not checked.
     """
     p, drone = keyframe.at, mission.drone(shot.drone)
     free = free_place(mission, drone, p, obstacle)
@@ -45,7 +47,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
 
 
 def _farther(centre: Vec3, place: Vec3) -> Iterator[Vec3]:
-    """Yield a place and others behind it, seen from a target, at its height and straight back."""
+    """Yield a place and others behind it as seen from a target, at its height and straight back."""
     for i in range(TRIES):
         x, y, z = (c + (p - c) * STEP**i for c, p in zip(centre, place, strict=True))
         yield (x, y, place[2])
@@ -53,5 +55,5 @@ def _farther(centre: Vec3, place: Vec3) -> Iterator[Vec3]:
 
 
 def _shown(mission: MissionIR, shot: Shot, keyframe: Keyframe, at: Vec3) -> bool:
-    """Tell whether the target is on its composition set from a place."""
+    """Return whether the target is on its composition set from a place."""
     return not place_shot(mission, shot._replace(keyframes=(keyframe._replace(at=at),)))[1]

@@ -1,4 +1,4 @@
-"""Keyframes that are nearer to a drone on its pad than any two drones may be."""
+"""Keyframes that are nearer to a parked drone than the separation."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from shotc.spec.mission import MissionSpec
 
 
 def check_parked(spec: MissionSpec, mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield the placed keyframes that are too near to a drone which films nothing, and so stands on its pad.
+    """Yield the placed keyframes that are too near to a drone without shots, which stands on its pad.
 
-    Where it is open who films a shot, nobody is known to stand.
+    If any shot leaves its drone open, no drone is known to be parked.
     """
     filming = {shot.drone for shot in spec.shots}
     if AUTO in filming:

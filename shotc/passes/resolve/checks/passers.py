@@ -1,8 +1,8 @@
-"""Targets that come over a pad while its drone has to stand there: told by arithmetic, not by a plan.
+"""Targets that pass over a pad while its drone has to be there; found by arithmetic, without a plan.
 
-A drone may leave its pad as soon as the mission begins and wait in the air. So what passes later finds the
-pad empty, and only what comes sooner than any take-off could be over, or comes to stand there for good while
-the drone still films, is a fault of the mission.
+A drone may take off at the start of the mission and wait in the air, so a target that passes later finds the
+pad empty. Two cases are faults: the target comes before any take-off could be over, or it comes to stand
+there while the drone still films.
 """
 
 from collections.abc import Iterator
@@ -24,29 +24,29 @@ from shotc.planning.clearances import move, outward
 from shotc.rounding import at_least
 
 ROUNDING = 1e-6  # metres or seconds
-HALVES = 40  # of a stretch of a track, to find where a pad is touched first and last
-LOOKS = 50  # moments at which a take-off is held against what comes over it
+HALVES = 40  # bisection steps for the first and last contact
+LOOKS = 50  # samples of a take-off
 FAR = 1e3  # metres beyond a pad
-BESIDE = 0.1  # metres that a pad is told to lie beyond the reach of what passes
-RINGS = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # times that reach, at which another pad is looked for
+BESIDE = 0.1  # metres kept beyond the reach of what passes, in a remedy
+RINGS = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # factors of that reach, at which another pad is searched
 
 
 class UniformMotion(NamedTuple):
-    """An even motion of a target between two mission times, seconds; the last one of a track has no end."""
+    """Uniform motion of a target between two mission times, seconds; the last one of a track has no end."""
 
     begin: float
     end: float
 
 
 class Touch(NamedTuple):
-    """When a target touches the body of a drone on its pad, seconds."""
+    """The time in which a target touches the body of a drone on its pad, seconds."""
 
     first: float
     last: float
 
 
 def passers_of(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield what comes over a pad where the drone stands whatever is planned."""
+    """Yield the targets that pass over a pad while the drone is there in any plan."""
     for drone in mission.drones:
         for target in mission.targets:
             if target.track is None:
@@ -91,7 +91,7 @@ def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: s
 
 
 def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
-    """Return in words the move of a home to a near place over which nothing comes, not ``target`` either."""
+    """Return the move of a home to a near place over which no target passes, in words."""
     wide = mission.rules.beside_target(drone.radius)
     reach = target.radius + wide + BESIDE
     x, y, z = drone.home
@@ -107,12 +107,12 @@ def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
 
 
 def _met(drone: Drone, target: Target) -> bool:
-    """Tell whether a target ever comes over a pad."""
+    """Return whether a target ever passes over a pad."""
     return target.track is not None and any(_touches(drone, target, target.track))
 
 
 def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
-    """Return when a target touches a drone that takes off as soon and as fast as it can; None where never."""
+    """Return when a target touches a drone that takes off at once and as fast as it can; None if never."""
     if touch.first == 0.0:
         return 0.0
     last = min(touch.last, touch.first + 10.0)
@@ -125,18 +125,20 @@ def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
 
 
 def _risen(drone: Drone, t: float) -> float:
-    """Return the most metres that a drone can have risen by a mission time, not coming to rest there."""
+    """Return the largest height that a drone can have gained by a mission time, metres; it need not stop."""
     limits = drone.limits
     return min(limits.climb * t, 0.5 * limits.acceleration * t**2, limits.jerk * t**3 / 6.0)
 
 
 def _room(drone: Drone, target: Target, place: Vec3, t: float) -> float:
-    """Return the metres between a drone's body at a place and a target's; negative where they touch."""
+    """Return the distance between a drone's body at a place and a target's, metres; negative if they
+    touch.
+    """
     return distance(target.kept_clear_at(t), place) - drone.radius
 
 
 def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:
-    """Yield when a target touches a drone on its pad, joined over the stretches of its track."""
+    """Yield the times in which a target touches a drone on its pad, merged over the parts of its track."""
     open_: Touch | None = None
     for stretch in _stretches(drone, track):
         touch = _touch(drone, target, stretch)
@@ -153,7 +155,7 @@ def _touches(drone: Drone, target: Target, track: Track) -> Iterator[Touch]:
 
 
 def _stretches(drone: Drone, track: Track) -> Iterator[UniformMotion]:
-    """Yield the stretches of a track from mission time 0 on, the last one until it is far from a pad."""
+    """Yield the uniform parts of a track from mission time 0 on, the last one until it is far from a pad."""
     if track.times[0] > 0.0:
         yield UniformMotion(0.0, track.times[0])
     for a, b in pairwise(track.times):
@@ -168,7 +170,7 @@ def _stretches(drone: Drone, track: Track) -> Iterator[UniformMotion]:
 
 
 def _touch(drone: Drone, target: Target, stretch: UniformMotion) -> Touch | None:
-    """Return when a target touches a drone on its pad on one stretch: once, for their distance is convex."""
+    """Return when a target touches a drone on its pad in one part; once, as the distance is convex."""
     begin, end = stretch
     if end == inf:
         return Touch(begin, inf) if _room(drone, target, drone.home, begin) < -ROUNDING else None
@@ -186,7 +188,7 @@ def _touch(drone: Drone, target: Target, stretch: UniformMotion) -> Touch | None
 
 
 def _edge(drone: Drone, target: Target, inside: float, outside: float) -> float:
-    """Return the end, towards ``outside``, of the time for which a target touches a drone on its pad."""
+    """Return the end, towards ``outside``, of the time in which a target touches a drone on its pad."""
     if _room(drone, target, drone.home, outside) < -ROUNDING:
         return outside
     for _ in range(HALVES):

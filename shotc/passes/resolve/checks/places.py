@@ -1,8 +1,8 @@
-"""Where keyframes and homes stand: over the ground, out of zones and targets, inside the keep-in zones.
+"""Checks of keyframes: above the ground, outside of keep-out zones and targets, inside keep-in zones.
 
-What the user placed binds, so each fault there is an error. A path that a kind generates is an ideal
-that the plan may leave: a part of it in an obstacle is a warning, all of it is an error; its altitude
-is the user's number, so the ground binds it too.
+Keyframes that the user placed bind, so a fault is an error. A generated path is an ideal that the plan may
+leave: a part of it in an obstacle is a warning, all of it is an error. Its altitude is the user's number, so
+the ground binds it as well.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from shotc.rounding import at_least
 
 
 def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:
-    """Yield the faults of a shot's keyframes, one for each keyframe line and obstacle, with that line."""
+    """Yield the faults of a shot's keyframes, one per key path and obstacle, with the key path."""
     drone = mission.drone(shot.drone)
     clear = cache(partial(clear_path, mission, shot))
     for path, keyframes in by_line(shot).items():
@@ -35,7 +35,7 @@ def check_places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diag
 
 
 def by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
-    """Group keyframes by the line they come from: generated ones and those of a file share one."""
+    """Return keyframes grouped by key path; generated ones and those of a file share one."""
     groups: dict[KeyPath, list[Keyframe]] = defaultdict(list)
     for keyframe in shot.keyframes:
         groups[keyframe.path].append(keyframe)
@@ -43,7 +43,7 @@ def by_line(shot: Shot) -> dict[KeyPath, list[Keyframe]]:
 
 
 def _raised(keyframe: Keyframe, floor: float) -> Keyframe:
-    """Return a keyframe that is too low as it is once that is mended, so that one fault is told once."""
+    """Return a keyframe raised to the floor, so that each fault is reported once."""
     x, y, z = keyframe.at
     return keyframe if z >= floor else keyframe._replace(at=(x, y, floor))
 
@@ -51,7 +51,7 @@ def _raised(keyframe: Keyframe, floor: float) -> Keyframe:
 def too_low(
     mission: MissionIR, shot: Shot, drone: Drone, path: KeyPath, keyframes: list[Keyframe]
 ) -> Iterator[Diagnostic]:
-    """Yield the fault of a line with a keyframe that is too near to the ground."""
+    """Yield the fault of the keyframe that is nearest to the ground, if it is too near."""
     lowest = min(keyframes, key=lambda k: k.at[2] - mission.ground(k.at[0], k.at[1]))
     floor, need = mission.lowest(lowest.at, drone.radius), mission.rules.over_ground(drone.radius)
     z = lowest.at[2] - floor + need
@@ -73,7 +73,7 @@ def too_low(
 
 
 def _over_ground(mission: MissionIR, keyframe: Keyframe, floor: float) -> tuple[str, ...]:
-    """Note a file's elevation that would do if it was meant to count from the ground."""
+    """Return a note if a file's elevation would be valid as a height above ground."""
     alt, z = _altitude(mission), keyframe.at[2]
     if keyframe.path[-1] != "file" or z >= 0 or z + alt < floor:
         return ()
@@ -84,7 +84,7 @@ def _over_ground(mission: MissionIR, keyframe: Keyframe, floor: float) -> tuple[
 
 
 def _from_sea(mission: MissionIR, z: float, obstacle: Clearance) -> tuple[str, ...]:
-    """Note a height that would do if it was meant to count from sea level."""
+    """Return a note if a height would be valid as one above sea level."""
     alt = _altitude(mission)
     if not obstacle.inside or z <= obstacle.solid.top or z - alt < obstacle.solid.bottom:
         return ()
@@ -106,7 +106,7 @@ def blocked(
     obstacle: Clearance,
     clear: Callable[[], list[Change]],
 ) -> Iterator[Diagnostic]:
-    """Yield the fault of a line whose keyframes an obstacle blocks; ``clear`` finds what frees a path."""
+    """Yield the fault of keyframes that an obstacle blocks; ``clear`` finds changes that clear a path."""
     drone = mission.drone(shot.drone)
     lacking = [k for k in keyframes if obstacle.lack(k.at) > ROUNDING_M]
     if not lacking:

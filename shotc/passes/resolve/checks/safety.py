@@ -1,4 +1,4 @@
-"""Ways home that no plan proves: a return when the link is lost, and the places it may lead to."""
+"""Ways home that no plan proves: the return after a lost link, and the rally points."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shotc.ir.mission import MissionIR
 
 
 def check_safety(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield what stands in the way of drones that return, or at their rally points."""
+    """Yield the faults of returns that are too low, and of rally points beside or outside zones."""
     for drone in mission.drones:
         if drone.safety is not None:
             yield from _low(mission, drone, drone.safety)
@@ -20,7 +20,7 @@ def check_safety(mission: MissionIR) -> Iterator[Diagnostic]:
 
 
 def _low(mission: MissionIR, drone: Drone, safety: Safety) -> Iterator[Diagnostic]:
-    """Yield the highest thing that a return would not pass over: nobody knows which way it leads."""
+    """Yield the fault of the highest obstacle above the return height; the path of a return is not known."""
     if safety.return_height is None:
         return
     tops = [(z.solid.top, f"zone `{z.name}`", z.path) for z in mission.zones if z.keep == "out"]
@@ -51,7 +51,7 @@ def _low(mission: MissionIR, drone: Drone, safety: Safety) -> Iterator[Diagnosti
 def _rally(mission: MissionIR, drone: Drone, safety: Safety) -> Iterator[Diagnostic]:
     for i, place in enumerate(safety.rally):
         for zone in mission.zones:
-            # It is come to from above, so heights do not count.
+            # It is approached from above, so its height is not checked.
             level = min(max(place[2], zone.solid.bottom + drone.radius), zone.solid.top - drone.radius)
             apart = signed_distance(zone.solid, (place[0], place[1], level))
             if (apart < drone.radius) if zone.keep == "out" else (apart > -drone.radius):

@@ -15,15 +15,16 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.resolve.checks.heights import Way
 
-COURSE_S = 1.0  # standard deviation of the weights of what is taken for the course of a target
-MOST_SHARE = 0.01  # of half a frame's width, rms, that nobody sees: ten pixels of 1920
-OFFERED_S = (2.0, 4.0, 8.0)  # of `smooth`
+COURSE_S = 1.0  # seconds, standard deviation of the smoothing that defines a target's course
+MOST_SHARE = 0.01  # share of half a frame's width, rms, that is not visible: ten pixels of 1920
+OFFERED_S = (2.0, 4.0, 8.0)  # seconds of `smooth` that are proposed
 
 
 class _Shake(NamedTuple):
-    """How a target strays from its course, across the lines of sight.
+    """The deviation of a target from its course, across the lines of sight.
 
-    metres, share : rms, in metres and of half a frame's width; worst_metres, worst_time : where it is most
+    metres, share : rms, in metres and relative to half a frame's width
+    worst_metres, worst_time : largest deviation and its time
     away_metres : mean distance of the camera
     """
 
@@ -35,7 +36,7 @@ class _Shake(NamedTuple):
 
 
 def check_shake(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic]:
-    """Warn of recorded subjects of a shot on its own clock that shake more than is not seen."""
+    """Yield warnings for recorded subjects of a shot on its own clock that shake visibly."""
     if shot.ideal is None or shot.timing.duration is None:
         return
     for name in dict.fromkeys(s.target for s in shot.subjects):
@@ -60,7 +61,7 @@ def check_shake(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagnostic
 
 
 def _remedy(mission: MissionIR, shot: Shot, way: Way, track: Track) -> str:
-    """Return the least smoothing on offer after which nobody sees it."""
+    """Return the least smoothing that makes the shake invisible, as a remedy."""
     for seconds in OFFERED_S:
         found = _shake(mission, shot, way, smoothed(track, seconds))
         if found is not None and found.share <= MOST_SHARE:
@@ -69,7 +70,7 @@ def _remedy(mission: MissionIR, shot: Shot, way: Way, track: Track) -> str:
 
 
 def _shake(mission: MissionIR, shot: Shot, way: Way, track: Track) -> _Shake | None:
-    """Return how the rows that a shot films stray, as its ideal sees them; None without rows."""
+    """Return the deviation of a shot's rows as its ideal sees them; None without rows."""
     start, lasts = first_start(mission, shot), shot.timing.duration or 0.0
     rows = scatter(track, COURSE_S, start, start + lasts)
     if not rows:
@@ -90,7 +91,7 @@ def _shake(mission: MissionIR, shot: Shot, way: Way, track: Track) -> _Shake | N
 
 
 def _across(off: Vec3, sight: Vec3) -> float:
-    """Return the length of what of an offset is across a line of sight, metres."""
+    """Return the length of an offset's component across a line of sight, metres."""
     length = sqrt(_dot(sight, sight))
     along = _dot(off, sight) / length if length > 0.0 else 0.0
     return sqrt(max(0.0, _dot(off, off) - along**2))

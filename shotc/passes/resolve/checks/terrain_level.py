@@ -1,4 +1,4 @@
-"""Whether terrain and the origin agree on how high the place lies: feet for metres, or another height."""
+"""Whether terrain and origin agree on the altitude of the place: feet for metres, or another datum."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from shotc.ir.mission import MissionIR
 from shotc.spec.world import WorldSpec
 
 OFF_M = 150.0
-"""Metres that a height counted from the ellipsoid, and one on a slope, may be off together."""
+"""Metres of difference that the ellipsoid's height and a slope can explain together."""
 FAR_OFF_M = 500.0
 FOOT_M = 0.3048
-ALIKE = 0.04  # share by which a height in feet may be off
+ALIKE = 0.04  # relative tolerance of a height in feet
 ALT = ("world", "origin", "alt")
 
 
 def check_level(mission: MissionIR, world: WorldSpec) -> Iterator[Diagnostic]:
-    """Yield the fault of terrain whose ground at the origin lies far off the altitude that is written there.
+    """Yield the fault of terrain whose ground at the origin is far from the altitude written there.
 
-    Terrain that is moved to where the mission is (`datum`) says nothing of it.
+    Terrain that is moved to the mission's height (`datum`) has no fault of this kind.
     """
     origin, terrain = mission.origin, mission.terrain
     if origin is None or terrain is None or ALT not in mission.origins.values:

@@ -1,6 +1,6 @@
-"""Timings that no drone can meet, told without a solver: from lower bounds on flying time.
+"""Deadlines that are infeasible for any drone, from lower bounds on flight time without a solver.
 
-Straight lines at full limits say what no drone can do, not what one can: that number is ``plan``'s.
+Straight lines at full limits show what is infeasible, not what is feasible; ``plan`` finds that.
 """
 
 from collections.abc import Iterable, Iterator
@@ -24,9 +24,9 @@ EARLIEST = "`shotc plan` finds the earliest possible"
 
 
 def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -> list[Diagnostic]:
-    """Return every fault of the own timings of ``shots``; where there is none, of the order of all.
+    """Return all faults of the own timings of ``shots``; if there is none, those of the order of all shots.
 
-    schedule : whether to judge the order at all; it needs shots whose names, waits and places stand
+    schedule : whether to check the order at all; it needs shots with valid names, dependencies and places
     """
     faults: list[Diagnostic] = []
     for shot in shots:
@@ -38,7 +38,7 @@ def check_timing(mission: MissionIR, shots: Iterable[Shot], *, schedule: bool) -
 
 
 def _keyed_times(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the times of keyframes, or with how long the shot lasts."""
+    """Yield the faults of the times of keyframes, or of the shot's duration."""
     duration, drone = shot.timing.duration or 0.0, mission.drone(shot.drone)
     if duration > drone.endurance:
         yield too_long(mission, shot, drone, duration)
@@ -58,7 +58,7 @@ def _keyed_times(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _keyed_order(mission: MissionIR, shot: Shot, duration: float) -> Iterator[Diagnostic]:
-    """Yield keyframes whose time is not after the one before, with its holds, or is after the end."""
+    """Yield keyframes whose time is not after the one before with its holds, or is after the end."""
     known = [(0, 0.0), *((i, k.time) for i, k in enumerate(shot.keyframes) if k.time is not None)]
     for (i, start), (j, end) in pairwise(known):
         a, b = shot.keyframes[i], shot.keyframes[j]
@@ -89,14 +89,14 @@ def _keyed_order(mission: MissionIR, shot: Shot, duration: float) -> Iterator[Di
 
 
 def _own_times(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
-    """Check that keyframe times rise, stay within the duration and leave time to fly."""
+    """Return the faults of keyframe times: order, duration of the shot, and flight time between them."""
     timed = [i for i, k in enumerate(shot.keyframes) if k.time is not None or i == 0]
     pairs = (_pair(mission, shot, i, j) for i, j in pairwise(timed))
     return [*(fault for fault in pairs if fault is not None), *_past_end(mission, shot)]
 
 
 def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
-    """Check two keyframes with a time, and none with one between them; the first one's is 0 if silent."""
+    """Return the fault of two consecutive keyframes with a time, or None; the first one's default is 0."""
     a, b = shot.keyframes[i], shot.keyframes[j]
     start, end = a.time or 0.0, b.time or 0.0
     label = mission.origins.value((*b.path, "time"))
@@ -116,7 +116,7 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
 
 
 def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Yield keyframes that come, or are held, after the end of a shot with a duration."""
+    """Yield keyframes that are reached, or held, after the end of a shot with a duration."""
     duration = shot.timing.duration
     limits = mission.drone(shot.drone).limits
     for i, keyframe in enumerate(shot.keyframes):
@@ -138,9 +138,10 @@ def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
-    """Check a given duration against holds, straight-line flight and endurance.
+    """Return the fault of a given duration against holds, straight-line flight and endurance.
 
-    A duration that is too short is told before the endurance, which is seldom what was got wrong then.
+    A duration that is too short is reported before the endurance, because the endurance is rarely the mistake
+    then.
     """
     drone = mission.drone(shot.drone)
     least = least_shot(shot.keyframes, drone.limits)
@@ -165,7 +166,7 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
 
 
 def _in_time(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
-    """Propose what lets a shot be flown in the time that it is given: less wind, or more time."""
+    """Return what makes a shot feasible in its duration: less wind, or more time."""
     calmer = less_wind(mission, shot, drone, shot.timing.duration or 0.0)
     if least <= drone.endurance:
         return _either(*calmer, *_more(least)) + ("" if calmer else f"; {SHORTEST}")
@@ -199,7 +200,7 @@ def _pace(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> str:
 
 
 def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diagnostic:
-    """Say that a shot lasts longer than the endurance: as it is written, or as it has to."""
+    """Return the fault of a shot that lasts longer than the endurance, as written or at least."""
     asked, calmer = shot.timing.duration, list[str]()
     seconds = f"lasts {asked:.1f} s" if asked is not None else f"takes at least {at_least(least, 1)} s"
     notes = [f"the shot {seconds}, the endurance is {drone.lasts}"]
@@ -217,7 +218,7 @@ def too_long(mission: MissionIR, shot: Shot, drone: Drone, least: float) -> Diag
 
 
 class _Moment(NamedTuple):
-    """Where and when a drone is free: after ``shot``, or on its pad; take_off is the latest possible."""
+    """Where and when a drone is free: after ``shot``, or on its pad; take_off : latest possible one."""
 
     time: float
     at: Vec3 | None
@@ -226,13 +227,13 @@ class _Moment(NamedTuple):
 
 
 def _schedule(mission: MissionIR) -> list[Diagnostic]:
-    """Fold over the shots in flown order with the earliest time at which each can begin and end."""
+    """Return the faults of the order of shots, from the earliest start and end of each."""
     faults: list[Diagnostic] = []
     free = {d.name: _Moment(0.0, d.home, None, 0.0) for d in mission.drones}
     ends: dict[str, float] = {}
     for shot in flown_order(mission.shots):
         drone, before = mission.drone(shot.drone), free[shot.drone]
-        # A shot of a moving target may leave its ideal, so no way to it or from it is sure.
+        # A shot of a moving target may leave its ideal, so its transfers have no bound.
         first, last = (
             (k.at for k in (shot.keyframes[0], shot.keyframes[-1])) if shot.ideal is None else (None, None)
         )
@@ -252,7 +253,7 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
 
 
 def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: float) -> list[Diagnostic]:
-    """Say why a shot cannot begin at its ``start``."""
+    """Return why a shot cannot begin at its ``start``, or nothing."""
     start = shot.timing.start
     if start is None or start >= max(there, waits) - SLACK:
         return []
@@ -272,9 +273,10 @@ def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: 
 
 
 def waits_longer(mission: MissionIR, shot: Shot, waits: float, there: float = 0.0) -> Diagnostic:
-    """Say that a shot starts before what it waits for has ended.
+    """Return the fault of a shot that starts before the shot that it waits for has ended.
 
-    waits : s, when that has ended at the earliest; there : when its drone can be in place at the earliest
+    waits : earliest end of that shot, seconds
+    there : earliest arrival of its drone
     """
     note = f"`{shot.timing.after}` ends at {waits:.1f} s at the earliest"
     message = (
@@ -308,7 +310,7 @@ def _endurance(mission: MissionIR, drone: Drone, last: _Moment) -> list[Diagnost
 
 
 def _duration_label(mission: MissionIR, shot: Shot) -> Label:
-    """Return a label on the seconds that a shot is given, or as ``timing_label`` where none are."""
+    """Return a label on a shot's duration, or as ``timing_label`` where it has none."""
     path = (*shot.path, "timing", "duration")
     return mission.origins.value(path) if path in mission.origins.values else timing_label(mission, shot)
 

@@ -1,4 +1,4 @@
-"""Targets a good part of which is under the ground: where they stand, or anywhere along their tracks."""
+"""Targets with a considerable part below the ground, at their place or along their tracks."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from shotc.spec.world import TrackSpec
 
 
 class _Deepest(NamedTuple):
-    """Where the foot of a target that moves is deepest: when, and how high it is over the ground, metres."""
+    """The deepest point of a moving target's foot: its time, and its height above the ground, metres."""
 
     time: float
     over: float
 
 
 def check_underground(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) -> Iterator[Diagnostic]:
-    """Warn of every target that is deeper in the ground than its place may be rounded.
+    """Yield warnings for targets that are deeper in the ground than rounding explains.
 
-    level : names of targets whose tracks keep to the ground, whatever their places
+    level : names of targets whose tracks follow the ground, whatever their places
     """
     for target in mission.targets:
         written = spec.targets[str(target.path[1])].track
@@ -77,9 +77,10 @@ def _moving(mission: MissionIR, target: Target, written: TrackSpec, *, level: bo
 
 
 def _higher(target: Target, written: TrackSpec, by: float, *, on_ground: bool) -> str:
-    """Say how a track leaves the ground.
+    """Return a remedy that raises a track out of the ground.
 
-    by : metres that it is to be raised; on_ground : whether its places have no height
+    by : metres
+    on_ground : whether its places have no height
     """
     half, closer = target.height / 2, "or give rows nearer to each other there"
     if isinstance(written.lift, AboveGround):
@@ -94,7 +95,7 @@ def _higher(target: Target, written: TrackSpec, by: float, *, on_ground: bool) -
 
 
 def _deepest(mission: MissionIR, target: Target, track: Track) -> _Deepest | None:
-    """Return where a target is deepest in the ground, of all its way; None where there is no ground."""
+    """Return where a target is deepest in the ground along its track; None where there is no ground."""
     end = max(film_end(mission), track.times[-1])
     times = (*track.times, *([end] if any(track.after) and end > track.times[-1] else []))
     feet: list[Vec3] = [target.foot_at(t) for t in times]
@@ -107,6 +108,6 @@ def _deepest(mission: MissionIR, target: Target, track: Track) -> _Deepest | Non
 
 
 def _without_heights(written: TrackSpec) -> bool:
-    """Tell whether no place of a track in the mission has a height."""
+    """Return whether no place of a track in the mission has a height."""
     places = (written.start,) if written.points is None else written.points
     return all(place is not None and stands(place) for place in places)

@@ -1,4 +1,4 @@
-"""The wind as the cause of a time that is too short: how much less of it would do."""
+"""Wind as the cause of an infeasible duration: how much less of it would be feasible."""
 
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Limits
@@ -6,13 +6,13 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.motion import least_shot
 from shotc.rounding import at_least, down
 
-FASTEST = 100.0  # m/s, beyond which speed is not what is lacking
+FASTEST = 100.0  # m/s, above which speed is not the cause
 
 
 def less_wind(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> list[str]:
-    """Propose less wind and more speed, with which a shot takes no longer than ``seconds``.
+    """Return remedies with less wind and with more speed, for which a shot takes at most ``seconds``.
 
-    Empty where the wind takes no more than half of the drone's speed, or where no speed would do.
+    Empty where the wind is at most half of the drone's speed, or where no speed is sufficient.
     """
     limits, wind, taken = drone.limits, mission.wind, mission.wind_taken
     if wind <= (limits.speed + taken) / 2:
@@ -26,7 +26,7 @@ def less_wind(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> l
 
 
 def _calmer(shot: Shot, limits: Limits, seconds: float) -> float:
-    """Bisect for the largest share of the wind in which a shot may take ``seconds``, 0 if in none."""
+    """Return the largest share of the wind in which a shot may take ``seconds``, by bisection; 0 if none."""
 
     def takes(share: float) -> float:
         wind = (share * limits.wind[0], share * limits.wind[1])
@@ -40,7 +40,9 @@ def _calmer(shot: Shot, limits: Limits, seconds: float) -> float:
 
 
 def _needed(shot: Shot, limits: Limits, seconds: float) -> float | None:
-    """Bisect for the least speed across with which a shot may take ``seconds``, m/s."""
+    """Return the least horizontal speed with which a shot may take ``seconds``, m/s, by bisection, or
+    None.
+    """
 
     def takes(speed: float) -> float:
         return least_shot(shot.keyframes, limits._replace(speed=speed))

@@ -1,6 +1,6 @@
-"""Film grammar: what an audience stumbles over, told from a mission whose names and places stand.
+"""Film grammar: what irritates an audience, found in a mission with valid names and places.
 
-Every finding is a warning, for a filmmaker may break any of these rules; `allow` names the rules that are
+Every finding is a warning, because a filmmaker may break any of these rules; `allow` names the rules that are
 broken on purpose.
 """
 
@@ -17,14 +17,14 @@ from shotc.spec.mission import MissionSpec
 
 
 def allowed(spec: MissionSpec) -> Mapping[KeyPath, frozenset[str]]:
-    """Return the rules that may be broken: in each shot by its path, and under () in every one."""
+    """Return the rules that may be broken: in each shot by its key path, and under () in all shots."""
     codes: dict[KeyPath, frozenset[str]] = {(): frozenset(spec.rules.allow)}
     codes |= {("shots", i): frozenset(shot.allow) for i, shot in enumerate(spec.shots) if shot.allow}
     return codes
 
 
 def check_grammar(mission: MissionIR, allow: Mapping[KeyPath, frozenset[str]]) -> list[Diagnostic]:
-    """Return the warnings about how the shots of a mission will look, each on its own and in their order."""
+    """Return the warnings about the looks of a mission's shots: first those of cuts, then of each shot."""
     everywhere, none = allow.get((), frozenset()), frozenset[str]()
 
     def judged(slug: str, shot: Shot) -> bool:

@@ -1,4 +1,4 @@
-"""A shot by itself, whose time is known: is it long enough to be read, does its camera turn too fast."""
+"""Checks of a single shot with a known duration: its length, and the rate of its turns."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SHORTEST = 2.0  # seconds
 
 
 def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
-    """Yield what is wrong with a shot whose time is known, whatever stands beside it in the film."""
+    """Yield the faults of a shot with a known duration, independent of other shots."""
     if judged("short-shot", shot):
         yield from check_length(mission, shot)
     if judged("walks-out-of-frame", shot):
@@ -24,7 +24,7 @@ def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bo
 
 
 def check_length(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell a shot that is over before it is read."""
+    """Yield the warning of a shot that is too short to be read."""
     duration = shot.timing.duration
     if duration is None or duration >= SHORTEST:
         return

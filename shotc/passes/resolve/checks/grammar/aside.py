@@ -1,4 +1,4 @@
-"""How far to the side a shot has to begin for the cut to it to look meant."""
+"""The place at which a shot has to begin for the cut to it to look intended."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _KEYS = ("azimuth", "start_azimuth")
 
 
 def to_the_side(mission: MissionIR, after: Shot, left: Sight, right: Sight, apart: float) -> str:
-    """Propose where a shot begins at least ``apart`` rad from the view before, at its height and distance.
+    """Return a remedy with a start at least ``apart`` rad from the view before the cut.
 
-    Empty where the heights leave no such place, for from high above all sides look alike, and where no key of
-    the shot's kind says an azimuth.
+    The camera keeps its height and distance. Empty where these heights allow no such place, because from high
+    above all sides look alike, and where the shot's kind has no key for an azimuth.
     """
     found = _azimuth(left.offset, right.offset, apart)
     if found is None:
@@ -31,7 +31,7 @@ def to_the_side(mission: MissionIR, after: Shot, left: Sight, right: Sight, apar
 
 
 def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
-    """Return the azimuth of the nearer of the two sides, in whole degrees a little beyond ``apart``.
+    """Return the azimuth of the nearer of the two sides, in whole degrees slightly beyond ``apart``.
 
     Two views at elevations e and f, with azimuths d apart, are acos(cos e cos f cos d + sin e sin f) apart.
     """
@@ -42,7 +42,7 @@ def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
     if not -1.0 <= turn <= 1.0:
         return None
     middle, now = (degrees(atan2(x, y)) for x, y, _ in (left, right))
-    aside = degrees(acos(turn)) + 0.5  # a place rounded to centimetres is still beyond it
+    aside = degrees(acos(turn)) + 0.5  # so that a place rounded to centimetres is still beyond it
     ways = (ceil(middle + aside), -ceil(aside - middle))
     return min(ways, key=lambda way: abs(wrapped(radians(way - now))))
 

@@ -1,7 +1,7 @@
-"""Cuts: from each shot to the next one of the film.
+"""Cuts from each shot to the next one of the film.
 
-The film is cut in the order in which its shots are flown, those of all drones together: as written, unless
-`start` or `after` says otherwise.
+The film has the order in which its shots are flown, those of all drones together: as written, unless `start`
+or `after` changes it.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from shotc.passes.resolve.checks.grammar.line import check_line
 from shotc.passes.resolve.checks.grammar.sight import Sight, sight
 from shotc.rounding import at_least, at_most
 
-APART = radians(30.0)  # between two views of one subject, for a cut to look meant: the 30-degree rule
-ALIKE = 1.5  # one subject over the other on screen, below which their size is about the same
-SAME_PLACE = 0.02  # share of the distance by which a camera may have moved and still carry on
+APART = radians(30.0)  # least angle between two views of one subject: the 30-degree rule
+ALIKE = 1.5  # ratio of sizes on screen, below which they are about the same
+SAME_PLACE = 0.02  # share of the distance that a camera may move between shots that continue
 SAME_LENS = 1.05
-SAME_TIME = 1.0  # seconds between two shots of a moving subject that are one
+SAME_TIME = 1.0  # seconds between two shots of a moving subject that continue
 
 
 def check_cuts(mission: MissionIR, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the cuts; each is told of the shot that it leads to."""
+    """Yield the faults of cuts; each is reported for the shot after the cut."""
     for before, after in pairwise(film_order(mission.shots)):
         line, jump = (judged(slug, after) for slug in ("crossing-the-line", "jump-cut"))
         left = sight(mission, before, 1.0) if line or jump else None
@@ -49,7 +49,7 @@ def film_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
 
 
 def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
-    """Return the warning about a cut between two pictures of one subject that are too much alike."""
+    """Return the warning about a cut between two pictures of one subject that are too similar, or None."""
     if left.names[0] != right.names[0] or carries_on(left, right):
         return None
     angle, ratio = between(left, right), right.scale / left.scale
@@ -74,9 +74,9 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
 
 
 def _as_far(mission: MissionIR, after: Shot, right: Sight, ratio: float) -> list[str]:
-    """Say the distances at which the size of the subject changes enough, of a shot that is told its own.
+    """Return the distances at which the subject's size changes enough, for a shot with a distance.
 
-    ratio : how many times as large it is after the cut
+    ratio : size after the cut over that before
     """
     path = (*after.path, "distance")
     if path not in mission.origins.values or (*path, 0) in mission.origins.values:
@@ -100,7 +100,9 @@ def between(left: Sight, right: Sight) -> float:
 
 
 def carries_on(left: Sight, right: Sight) -> bool:
-    """Tell whether a shot begins with the picture that the last one ends with, so that no cut is seen."""
+    """Return whether a shot begins with the picture with which the last one ends, so that no cut is
+    visible.
+    """
     if dist(left.eye, right.eye) > SAME_PLACE * hypot(*left.offset):
         return False
     if not 1 / SAME_LENS < left.half / right.half < SAME_LENS:

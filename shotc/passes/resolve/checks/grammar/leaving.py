@@ -1,4 +1,4 @@
-"""Subjects that leave the picture of a camera that keeps its place and its aim."""
+"""Subjects that leave the picture of a camera with a fixed place and fixed angles."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from shotc.passes.resolve.checks.grammar.labels import framing
 from shotc.passes.resolve.checks.grammar.sight import start_of
 from shotc.planning.framing.candidates import Setting
 
-EMPTY = 0.5  # seconds without its subject that a shot may have
-STEPS = 200  # places at which a shot is looked at
+EMPTY = 0.5  # seconds that a shot may be without its subject
+STEPS = 200  # samples of a shot
 
 
 def check_leaving(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Tell a subject that is out of the picture for a part of a shot."""
+    """Yield the warning of a subject that is out of the picture for a part of a shot."""
     start, duration = start_of(mission, shot), shot.timing.duration
     if shot.ideal is None or shot.ideal.aim is None or start is None or duration is None:
         return
@@ -53,7 +53,7 @@ def check_leaving(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _seen(mission: MissionIR, shot: Shot, name: str, start: float, t: float) -> bool:
-    """Tell whether any part of a target is in the picture at a mission time."""
+    """Return whether any part of a target is in the picture at a mission time."""
     assert shot.ideal is not None
     assert shot.ideal.aim is not None
     drone, target = mission.drone(shot.drone), mission.target(name)

@@ -1,8 +1,8 @@
-"""The line of action: from one shot to the next the camera stays on one side of it, or is seen to cross it.
+"""The line of action: the camera stays on one side of it from shot to shot, or crosses it visibly.
 
-The line is the way that a subject moves or, of two that are filmed together, the line between them. On its
-other side what went to the left goes to the right. A camera on the line, ahead, behind or overhead, is on
-neither side, and a cut to it or from it is none across.
+The line is the course of a subject or, for two that are filmed together, the line between them. On its other
+side left and right are exchanged on screen. A camera on the line (ahead, behind or overhead) is on neither
+side, and a cut to or from it is not a crossing.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.sight import Sight, sight
 
-NEUTRAL = sin(radians(15.0))  # sine of the angle off the line within which a camera is on no side of it
-STEPS = 24  # places at which a shot is looked at for going over the line
+NEUTRAL = sin(radians(15.0))  # sine of the angle from the line within which a camera is on no side
+STEPS = 24  # samples of a shot for a visible crossing
 
 
 def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
-    """Return the warning about a cut across the line, from a shot's last frame to the next one's first."""
+    """Return the warning about a cut across the line, from a last frame to the next first one, or None."""
     pair = len(left.names) > 1 and set(left.names[:2]) == set(right.names[:2])
     if not pair and left.names[0] != right.names[0]:
         return None
@@ -47,7 +47,7 @@ def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
 
 
 def side(seen: Sight, *, pair: bool) -> float | None:
-    """Return on which side of the line a camera is: the sine of its angle off it, positive to the left.
+    """Return the side of the line on which a camera is: the sine of its angle from it, positive to the left.
 
     None where there is no line. A camera overhead is as near to the line as one on it.
     """
@@ -67,7 +67,7 @@ def side(seen: Sight, *, pair: bool) -> float | None:
 
 
 def goes_over(mission: MissionIR, shot: Shot, *, pair: bool) -> bool:
-    """Tell whether the camera is on both sides of the line in the course of a shot."""
+    """Return whether the camera is on both sides of the line during a shot."""
     if shot.ideal is None:
         return False
     seen = (sight(mission, shot, i / STEPS) for i in range(STEPS + 1))

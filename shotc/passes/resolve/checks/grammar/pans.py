@@ -1,4 +1,4 @@
-"""Pans: how fast the surroundings go through the picture as the camera turns, by the rule of ``geom.pan``."""
+"""Pans: speed of the surroundings through the picture while the camera turns, by the rule of ``geom.pan``."""
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
@@ -17,16 +17,19 @@ from shotc.planning.framing.placing import explicit_aim
 from shotc.planning.framing.whole_turns import ROUNDING
 from shotc.rounding import at_least
 
-STEPS = 120  # pieces of such a shot at most
+STEPS = 120  # most pieces of such a shot
 
 
 class Pan(NamedTuple):
-    """A stretch of a shot with its turn.
+    """An interval of a shot with its turn.
 
-    widths : frame widths that go through the picture; seconds : that it takes; held : of rest in it
+    widths : frame widths that pass through the picture
+    seconds : its duration
+    held : rest within it, seconds
     followed : the subject that the camera follows, or None
-    when : mission time at which it begins, of a shot on its own clock
-    start : seconds into the shot at which one between keyframes begins; last : the last of these keyframes
+    when : mission time of its start, for a shot on its own clock
+    start : seconds into the shot, for an interval between keyframes
+    last : the last of these keyframes
     """
 
     widths: float
@@ -39,12 +42,12 @@ class Pan(NamedTuple):
 
     @property
     def least(self) -> float:
-        """Return the seconds that the turn has to take at least."""
+        """The least time that the turn has to take, seconds."""
         return self.widths * slowest(self.followed)
 
 
 def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
-    """Yield the worst of the pans of a shot that are too fast; those whose time is not known are not told."""
+    """Yield the worst of a shot's pans that are too fast; those with unknown times are skipped."""
     pans = list(_on_clock(mission, shot) if shot.ideal is not None else _between_keyframes(mission, shot))
     fast = [pan for pan in pans if pan.seconds > 0 and pan.seconds < pan.least - SLACK]
     if not fast:
@@ -67,7 +70,7 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
 
 
 def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
-    """Return the time or duration that ends a pan between keyframes, and what to write there."""
+    """Return a label on the time or duration that ends a pan between keyframes, and the value to write."""
     last, end = shot.keyframes[pan.last], pan.start + pan.held + pan.least
     if last.time is None:
         return lasting(mission, shot), f"write `duration: {at_least(end + last.hold, 1)} s` or more"
@@ -102,7 +105,7 @@ def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
 
 
 def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
-    """Yield the stretches of a shot between keyframes whose time is known, each with its mean rate."""
+    """Yield the intervals of a shot between keyframes with known times, each with its mean rate."""
     keyframes, duration = shot.keyframes, shot.timing.duration
     times: dict[int, float] = {0: 0.0}
     if duration is not None:
@@ -117,7 +120,7 @@ def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
 
 
 def _looks(mission: MissionIR, keyframes: Sequence[Keyframe]) -> list[Vec2]:
-    """Return yaw and pitch of the camera at every keyframe, before composition turns it a little."""
+    """Return yaw and pitch of the camera at every keyframe, before composition changes them slightly."""
     looks: list[Vec2] = []
     for keyframe in keyframes:
         aim: Vec2 | Vec3 | None = keyframe.aim
@@ -141,7 +144,7 @@ def _turned(keyframes: Sequence[Keyframe], looks: Sequence[Vec2], i: int) -> flo
 
 
 def _followed(stretch: Sequence[Keyframe]) -> str | None:
-    """Return whom the camera follows throughout a stretch."""
+    """Return the subject that the camera follows throughout an interval, or None."""
     first = stretch[0].target
     if any(k.target != first or k.composition.watches for k in stretch):
         return None

@@ -1,4 +1,4 @@
-"""What a shot shows at its first and its last frame: whom, from where, and which way they go."""
+"""What a shot shows in its first and last frame: the subjects, the camera's place, and their course."""
 
 from math import hypot, tan
 from typing import NamedTuple
@@ -14,11 +14,13 @@ from shotc.ir.mission import MissionIR, Shot
 class Sight(NamedTuple):
     """One frame of a shot.
 
-    eye : place of the camera, W, m; names, centres : of those in the picture, the first one foremost
-    course : unit direction in which the first one moves over ground, or None where it stands
-    half : tangent of half the vertical field of view; height : of the first one, m
+    eye : place of the camera, W, metres
+    names, centres : of the subjects in the picture, the most important first
+    course : unit direction of the first one's horizontal motion, or None where it stands
+    half : tangent of half the vertical field of view
+    height : of the first one, metres
     moving : whether the first one has a track
-    t : mission time, s, or None where it is not known and does not matter
+    t : mission time, seconds; None where it is not known and does not matter
     """
 
     eye: Vec3
@@ -32,19 +34,19 @@ class Sight(NamedTuple):
 
     @property
     def offset(self) -> Vec3:
-        """Return the camera's place as seen from the first one."""
+        """The camera's place relative to the first subject."""
         return minus(self.eye, self.centres[0])
 
     @property
     def scale(self) -> float:
-        """Return the height of the first one over that of the frame, were it seen upright."""
+        """The height of the first subject over that of the frame, as seen horizontally."""
         return self.height / (2 * hypot(*self.offset) * self.half)
 
 
 def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
     """Return what a shot shows at its start (0), its end (1) or between; None without a target or a time.
 
-    Of a shot of keyframes only start and end are told.
+    For a shot with standing keyframes only start and end are known.
     """
     drone = mission.drone(shot.drone)
     if shot.ideal is not None:
@@ -60,10 +62,10 @@ def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
 
 
 def start_of(mission: MissionIR, shot: Shot) -> float | None:
-    """Return the mission time of a shot's first frame, or None where its picture depends on it unknown.
+    """Return the mission time of a shot's first frame; None where its picture depends on an unknown time.
 
-    Without a `start` it is not known. That does not matter where the camera goes along with a target whose
-    way is straight; any time on that way will do then.
+    Without a `start` the time is not known. That does not matter if the camera moves along with a target on a
+    straight track; then any time on it is used.
     """
     ideal = shot.ideal
     if shot.timing.start is not None or ideal is None or (ideal.target is None and not is_keyed(shot)):
@@ -83,7 +85,7 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
     t = start + share * duration
     names = [subject.target for subject in shot.subjects]
     if is_keyed(shot):
-        # Of several targets that keyframes hand over, one is in the picture.
+        # Where keyframes have several targets, one of them is in the picture.
         after = [
             k.target
             for k, reached in zip(shot.keyframes, arrivals(shot), strict=True)
@@ -107,5 +109,5 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
 
 
 def _sound(seen: Sight) -> Sight | None:
-    """Return what is seen, unless the camera is where the target is."""
+    """Return the frame, or None if the camera is at the target's place."""
     return seen if hypot(*seen.offset) > 1e-6 else None

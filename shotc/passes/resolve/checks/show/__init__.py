@@ -1,4 +1,4 @@
-"""All that numbers tell of a show before it is planned."""
+"""Checks of a show before it is planned, from numbers alone."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from shotc.passes.resolve.checks.show.pyro import check_pyro
 from shotc.spec.fleets import in_no_group
 from shotc.spec.mission import MissionSpec
 
-SHOWN = 4  # groups of a fleet that a help names
+SHOWN = 4  # groups of a fleet that a help lists
 
 
 def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Diagnostic]:
-    """Return what is wrong with pads, pictures and times.
+    """Return the faults of pads, pictures and times.
 
-    order : whether to judge the times; they need displays whose names and waits all stand
+    order : whether to check the times; this needs displays with valid names and dependencies
     """
     fleets = {fleet.name: fleet for fleet in mission.fleets}
     faults = [*_idle(mission, spec), *_nobody_left(mission, spec), *check_pads(mission)]
@@ -37,7 +37,7 @@ def _idle(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
     shown = [shot for shot in spec.shots if hasattr(shot, "fleet")]
     used = {group_name(shot.fleet, getattr(shot, "group", None)) for shot in shown}
     known = {group_name(name, group) for name, f in spec.fleets.items() for group in (None, *f.groups)}
-    if not used <= known:  # a name is unknown, which is told, and may be meant for any of them
+    if not used <= known:  # an unknown name, which is reported, may stand for any of them
         return
     for fleet in mission.fleets:
         if fleet.name not in used:
@@ -61,7 +61,7 @@ def _shows_nothing(mission: MissionIR, fleet: Fleet) -> Diagnostic:
 
 
 def _nobody_left(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
-    """Yield displays of all drones of a fleet that are in no group, where every one is in a group."""
+    """Yield displays of the drones that are in no group, in fleets where every drone is in a group."""
     for display in mission.displays:
         fleet = spec.fleets.get(display.fleet)
         if fleet is not None and not in_no_group(fleet):

@@ -1,4 +1,4 @@
-"""When displays can be shown: in an order that ends, in time, within the endurance. Lower bounds only."""
+"""Times of displays by lower bounds: an order without cycles, deadlines, and endurance."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SLACK = 1e-6  # seconds of rounding
 
 
 def check_clock(mission: MissionIR) -> list[Diagnostic]:
-    """Return the transitions, orders and starts that no drone can meet, or else flights that are too long."""
+    """Return infeasible transitions, orders and starts; if there are none, flights beyond the endurance."""
     fleets = {fleet.name: fleet for fleet in mission.fleets}
     shown = [d for d in mission.displays if d.fleet in fleets]
     faults = [fault for d in shown for fault in _transitions(mission, d, fleets[d.fleet])]
@@ -40,7 +40,7 @@ def check_clock(mission: MissionIR) -> list[Diagnostic]:
 
 
 def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
-    """Yield transitions shorter than the way from one picture's box to the next one's."""
+    """Yield transitions shorter than the transfer from one picture's box to the next one's."""
     for before, after in pairwise(display.pictures):
         least = _between(before, after, fleet.limits)
         if after.transition is None or after.transition >= least - SLACK:
@@ -64,7 +64,7 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
 
 
 def _way(before: Picture, after: Picture) -> Vec3:
-    """Return the components of the shortest way from one picture's box to the next one's; 0 if unknown."""
+    """Return the components of the shortest transfer from one picture's box to the next; 0 if unknown."""
     one, other = bounds(before.source), bounds(after.source)
     if one is None or other is None:
         return (0.0, 0.0, 0.0)
@@ -83,17 +83,17 @@ def _between(before: Picture, after: Picture, limits: Limits) -> float:
 
 
 def _last(picture: Picture) -> float:
-    """Return how long after the first drone the last one sets out, seconds."""
+    """Return how long after the first drone the last one departs, seconds."""
     return 0.0 if picture.wave is None else picture.wave.time
 
 
 def _change(before: Picture, after: Picture, limits: Limits) -> float:
-    """Return the least seconds from the end of one picture to the beginning of the next."""
+    """Return the least time from the end of one picture to the start of the next, seconds."""
     return max(after.transition or 0.0, _between(before, after, limits))
 
 
 class _Late(NamedTuple):
-    """A picture that is to stand before it can; earliest : s, at least."""
+    """A picture whose time is before its earliest one; earliest : seconds."""
 
     picture: Picture
     before: Picture
@@ -101,7 +101,7 @@ class _Late(NamedTuple):
 
 
 def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[_Late]]:
-    """Return when a display that begins at a time ends at the earliest, and its pictures that are late."""
+    """Return the earliest end of a display that begins at a time, and its pictures that are late."""
     clock, late = begin, []
     for before, after in pairwise(display.pictures):
         clock += _stand(before) + _change(before, after, limits)
@@ -112,13 +112,13 @@ def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[
 
 
 def least_display(display: Display, limits: Limits) -> float:
-    """Return the least seconds from a display's first picture, standing, to the end of its last."""
+    """Return the least time from a display's first picture, standing, to the end of its last, seconds."""
     begin = _begin(display, limits) or 0.0
     return _shown(display, begin, limits)[0] - begin
 
 
 def _begin(display: Display, limits: Limits) -> float | None:
-    """Return when a display begins, at the latest where only a later picture has a time; None without any."""
+    """Return when a display begins; the latest time if only a later picture has a time; None without any."""
     if display.start is not None:
         return display.start
     before = 0.0
@@ -130,7 +130,7 @@ def _begin(display: Display, limits: Limits) -> float | None:
 
 
 def _stand(picture: Picture) -> float:
-    """Return how long a picture stands at least: its animation, and its hold, seconds."""
+    """Return how long a picture stands at least, seconds: its animation and its hold."""
     source = picture.source
     if isinstance(source, Model) and source.period is not None:
         return picture.hold + (len(source.files) - 1) * source.period
@@ -138,7 +138,7 @@ def _stand(picture: Picture) -> float:
 
 
 def _before(displays: Sequence[Display]) -> dict[str, Display | None]:
-    """Return the display that the fleet of each shows before it, by id."""
+    """Return the previous display of each display's fleet, by id."""
     last: dict[str, Display] = {}
     earlier: dict[str, Display | None] = {}
     for display in displays:
@@ -148,7 +148,7 @@ def _before(displays: Sequence[Display]) -> dict[str, Display | None]:
 
 
 def _in_order(displays: Sequence[Display]) -> list[Display]:
-    """Return the displays so that each comes after all that it waits for; some may never come."""
+    """Return the displays in an order of their dependencies; those in a cycle are left out."""
     before = _before(displays)
     known = {d.id for d in displays}
     done: dict[str, Display] = {}
@@ -182,14 +182,14 @@ def _after_camera(mission: MissionIR, display: Display) -> Diagnostic:
 
 
 class _Free(NamedTuple):
-    """When a fleet is free, and what it shows then; None on its pads."""
+    """When a fleet is free, and its picture at that time; None on its pads."""
 
     time: float
     picture: Picture | None
 
 
 def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Fleet]) -> list[Diagnostic]:
-    """Fold over the displays with the earliest times at which each can begin and end."""
+    """Return the faults of starts, from the earliest start and end of each display."""
     faults: list[Diagnostic] = []
     free = {name: _Free(_rise_time(fleet), None) for name, fleet in fleets.items()}
     ends: dict[str, float] = {}
@@ -245,7 +245,7 @@ def _late(mission: MissionIR, late: _Late) -> Diagnostic:
 
 
 def _endurance(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
-    """Yield a fleet whose displays alone last longer than it can stay in the air."""
+    """Yield the fault of a fleet whose displays alone last longer than its endurance."""
     shown = [d for d in mission.displays if d.fleet == fleet.name]
     if not shown:
         return

@@ -1,4 +1,4 @@
-"""Pads: apart from each other and from other fleets', on the ground, with a free way straight up."""
+"""Checks of pads: apart from each other and from other fleets', on the ground, with a free vertical above."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from shotc.planning.take_off import MOST_LAYERS, bodies_of, take_off_of
 from shotc.rounding import at_least, up
 from shotc.show.labels import wider
 
-UNEVEN = 0.1  # metres under z = 0 that are none: of a lawn, and of the earth's curve within a kilometre
-FARTHEST, MANY = 60, 400  # metres up to which a free place is looked for, and drones above which none is
+UNEVEN = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
+FARTHEST, MANY = 60, 400  # largest distance of the search for a free place, metres, and most drones for it
 
 
 def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
-    """Yield what is wrong with the pads of each fleet, and between those of different ones."""
+    """Yield the faults of each fleet's pads, and of those between different fleets."""
     groups, mission = mission.fleets, mission._replace(fleets=whole_fleets(mission.fleets))
     spaced: list[Fleet] = []
     for fleet in mission.fleets:
@@ -43,7 +43,7 @@ def check_pads(mission: MissionIR) -> Iterator[Diagnostic]:
 
 
 def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
-    """Say which two pads of a fleet are nearest, and what spacing would do."""
+    """Return the fault of the two nearest pads of a fleet, with a sufficient spacing, or None."""
     if nearest_pair(fleet.pads, fleet.apart) is None:
         return None
     bodies, level = bodies_of(fleet), [(x, y, 0.0) for x, y, _ in fleet.pads]
@@ -68,7 +68,7 @@ def _crowded(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
 def _mixed(mission: MissionIR, fleet: Fleet, groups: Sequence[Fleet]) -> Iterator[Diagnostic]:
     """Yield the first two groups of a fleet whose pads are nearer to each other than the separation.
 
-    Each group takes off in layers of its own, and for its own pictures: others have to stand clear of it.
+    Each group takes off in its own layers, for its own pictures, so others have to keep clear of it.
     """
     reach = fleet.apart.across
     for one, other in combinations(groups, 2):
@@ -94,7 +94,7 @@ def _mixed(mission: MissionIR, fleet: Fleet, groups: Sequence[Fleet]) -> Iterato
 
 
 def _many_layers(mission: MissionIR, fleet: Fleet) -> Diagnostic | None:
-    """Say where so many pads are within one separation that the fleet would rise in too many layers."""
+    """Return the fault of so many pads within one separation that there are too many layers, or None."""
     across = fleet.apart.across
     layers = fewest_colours([(x, y) for x, y, _ in fleet.pads], across)
     if layers <= MOST_LAYERS:
@@ -114,7 +114,7 @@ def _asked(apart: Apart) -> str:
 
 
 def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
-    """Return a label on the number, or the file, that says how near to each other the pads are."""
+    """Return a label on the number, or the file, that determines the distance of pads."""
     path = (*fleet.path, "layout")
     ways = (("grid", "spacing"), ("circle", "radius"), ("file",))
     written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
@@ -122,7 +122,7 @@ def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
 
 
 def _place(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
-    """Return a label on what says where the pads are."""
+    """Return a label on what determines the position of the pads."""
     path = (*fleet.path, "layout")
     ways = (("grid", "origin"), ("circle", "center"), ("file",))
     written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
@@ -130,9 +130,9 @@ def _place(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
 
 
 def _too_near(mission: MissionIR, one: Fleet, other: Fleet, *, advise: bool = True) -> Diagnostic | None:
-    """Say which pads of two fleets are nearer than the wider separation of the two.
+    """Return the fault of pads of two fleets that are nearer than the wider separation of the two, or None.
 
-    advise : whether to look for another place
+    advise : whether to search for another place
     """
     apart = max((one.apart, other.apart), key=lambda a: a.across)
     near = first_nearer(one.pads, other.pads, apart.across)
@@ -151,7 +151,9 @@ def _moved(mission: MissionIR, one: Fleet, other: Fleet) -> str:
 
 
 def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
-    """Propose the shortest way along a grid axis to where a fleet is clear of all; empty if none is."""
+    """Return the shortest shift along a grid axis that clears a fleet of all others, in words; empty
+    if none.
+    """
     reach = max(standing.apart.across, moved.apart.across)
     ways: list[tuple[float, int, str]] = []
     for axis, (back, on) in enumerate((("west", "east"), ("south", "north"))):
@@ -170,7 +172,7 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
 
 
 def _anchored(mission: MissionIR, fleet: Fleet, there: Fleet) -> str:
-    """Say what to write for a layout that is moved; nothing for one from a file."""
+    """Return what to write for a layout that is moved; empty for one from a file."""
     path = (*fleet.path, "layout")
     if (*path, "grid") in mission.origins.keys:
         return f", to `origin: [{', '.join(f'{c + 0.0:.2f}' for c in there.pads[0])}]`"
@@ -181,7 +183,7 @@ def _anchored(mission: MissionIR, fleet: Fleet, there: Fleet) -> str:
 
 
 def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
-    """Yield what is wrong with where the pads are: underground, in the way of something, too low a rise."""
+    """Yield the faults of the position of pads: underground, below obstacles, or with too low a rise."""
     label = _place(mission, fleet)
     low = min(range(len(fleet.pads)), key=lambda i: fleet.pads[i][2])
     z = fleet.pads[low][2]
@@ -201,7 +203,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
 
 
 def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnostic | None:
-    """Say how many pads have an obstacle in or over them, and which has least room."""
+    """Return the fault of pads with an obstacle in or above them: how many, and the worst, or None."""
     tops = take_off_of(fleet)
     rooms = [take_off_room(pad, pad[2] + tops.top(i), obstacle) for i, pad in enumerate(fleet.pads)]
     lacking = [i for i, room in enumerate(rooms) if room < fleet.radius - ROUNDING_M]
@@ -219,7 +221,9 @@ def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnosti
 
 
 def _cleared(mission: MissionIR, fleet: Fleet) -> str:
-    """Propose the shortest way along a grid axis to where all drones of a fleet can rise."""
+    """Return the shortest shift along a grid axis after which all drones of a fleet can take off, in
+    words.
+    """
     others = [other for other in mission.fleets if other.name != fleet.name]
 
     def free(there: Fleet) -> bool:
@@ -238,7 +242,7 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
 
 
 def _rises(mission: MissionIR, fleet: Fleet) -> bool:
-    """Tell whether all drones of a fleet can rise from their pads."""
+    """Return whether all drones of a fleet can take off from their pads."""
     least = fleet.radius - ROUNDING_M
     around, tops = clearances_of(mission, fleet), take_off_of(fleet)
     pads = [(pad, pad[2] + tops.top(i)) for i, pad in enumerate(fleet.pads)]
@@ -251,7 +255,7 @@ def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
 
 
 def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> str:
-    """Give the numbers of the pad that has least room."""
+    """Return the numbers of the pad with the least distance, as a note."""
     (x, y, _), top = fleet.pads[worst], take_off_of(fleet).top(worst)
     if obstacle.inside:
         where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
@@ -264,7 +268,7 @@ def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> s
 
 
 def _high_layers(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
-    """Yield where a fleet rises in so many layers that the highest is above what the mission allows."""
+    """Yield the fault of a fleet whose highest layer of take-off is above the mission's height limit."""
     most, take_off = mission.rules.max_height, take_off_of(fleet)
     if most is None or not take_off.layered:
         return
@@ -286,7 +290,7 @@ def _high_layers(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
 def _low_rise(
     mission: MissionIR, fleet: Fleet, obstacles: Sequence[Clearance], lowest: float
 ) -> Iterator[Diagnostic]:
-    """Yield where the drones have risen to a height at which they may not fly yet."""
+    """Yield the fault of a rise that ends at a height at which the drones may not fly yet."""
     floors: list[tuple[float, str, KeyPath]] = [
         (mission.rules.ground_clearance, "the ground clearance", ("rules", "ground_clearance"))
     ]

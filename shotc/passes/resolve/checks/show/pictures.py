@@ -1,4 +1,4 @@
-"""Where pictures stand: over the ground, inside the keep-in zones, clear of all else; and their audience."""
+"""Checks of pictures: above the ground, inside keep-in zones, clear of all else; and of their audience."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from shotc.show.labels import centre_label, key_of, word_of
 FARTHEST, MANY = (
     60,
     2000,
-)  # metres up to which a free place is looked for; balls and obstacles above which none is
+)  # largest distance of the search, metres; most pairs of balls and obstacles for it
 WAYS: tuple[tuple[Vec3, str], ...] = (
     ((1.0, 0.0, 0.0), "east"),
     ((-1.0, 0.0, 0.0), "west"),
@@ -32,7 +32,7 @@ WAYS: tuple[tuple[Vec3, str], ...] = (
 
 
 def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diagnostic]:
-    """Yield what is wrong with each picture of a display, as far as its shape is known without a solver."""
+    """Yield the faults of each picture of a display, as far as its shape is known without a solver."""
     obstacles = clearances_of(mission, fleet)
     for picture in display.pictures:
         yield from _viewed(mission, display, fleet, picture)
@@ -45,7 +45,7 @@ def check_pictures(mission: MissionIR, display: Display, fleet: Fleet) -> Iterat
 
 
 def _viewed(mission: MissionIR, display: Display, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
-    """Refuse an audience in the middle of the picture."""
+    """Yield the fault of a viewpoint inside a picture."""
     if display.viewpoint is None:
         return
     deep = depth_in(picture, display.viewpoint, fleet.apart.across)
@@ -63,10 +63,10 @@ def _viewed(mission: MissionIR, display: Display, fleet: Fleet, picture: Picture
 
 
 def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Diagnostic]:
-    """Refuse a shape that cannot hold the fleet at its spacing, however the drones are put into it."""
+    """Yield the fault of a shape that cannot hold the fleet at its spacing in any arrangement."""
     most, count = most_drones(picture, fleet.apart), len(fleet.pads)
     if (1.0 - MOST_DARK_SHARE) * count <= most + ROUNDING_M:
-        return  # those for which there is no room stay dark; planning tells how many
+        return  # drones without a place stay dark; planning reports how many
     where = "on" if picture.fill == "surface" else "in"
     word = word_of(picture)
     notes = (
@@ -88,7 +88,7 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
 
 
 def _counted(mission: MissionIR, fleet: Fleet) -> Label:
-    """Return a label on what says how many drones there are."""
+    """Return a label on the number of drones."""
     if fleet.key != fleet.path:
         return mission.origins.value(fleet.key, "the group")
     return mission.origins.value((*fleet.path, "count"), "the fleet")
@@ -115,7 +115,7 @@ def _too_low(
 def _against(
     mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], obstacle: Clearance
 ) -> Iterator[Diagnostic]:
-    """Yield how a shape stands to one zone or target."""
+    """Yield the faults of a shape against one zone or target."""
     if obstacle.inside:
         yield from _inside(mission, fleet, picture, shape, obstacle)
         return
@@ -140,10 +140,10 @@ def _against(
 def _inside(
     mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...], zone: Clearance
 ) -> Iterator[Diagnostic]:
-    """Hold a shape to a zone that it has to be in: to its heights, and to its walls as far as is known."""
+    """Yield the faults of a shape against a keep-in zone: its heights, and its sides as far as known."""
     labels = (centre_label(mission, picture), mission.origins.key(zone.owner.path, "the zone"))
     word = word_of(picture)
-    # Below the ground clearance it is too low anyway, which is told once.
+    # Below the ground clearance it is too low anyway, which is reported once.
     low = max(lowest(shape), mission.rules.over_ground(fleet.radius))
     high = highest(shape)
     bottom, top = zone.solid.bottom + fleet.radius, zone.solid.top - fleet.radius
@@ -173,7 +173,7 @@ def _inside(
 
 
 def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]) -> str:
-    """Propose the shortest way to where a picture is clear of everything; empty where none is found."""
+    """Return the shortest shift that clears a picture of everything, in words; empty where none is found."""
     centre, around = picture.source.centre, clearances_of(mission, fleet)
     floor_ = mission.rules.over_ground(fleet.radius)
     if centre is None or len(shape) * len(around) > MANY:
@@ -189,7 +189,7 @@ def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ba
 
 
 def _is_clear(shape: tuple[Ball, ...], obstacle: Clearance, radius: float) -> bool:
-    """Tell whether a shape is all out of a zone or target, or within a keep-in zone."""
+    """Return whether a shape is wholly outside of a zone or target, or wholly within a keep-in zone."""
     gaps = (signed_distance(obstacle.solid, ball.centre) for ball in shape)
     if obstacle.inside:
         return all(-gap - ball.radius >= radius - ROUNDING_M for gap, ball in zip(gaps, shape, strict=True))
@@ -203,7 +203,7 @@ def _plus(p: Vec3, by: Vec3) -> Vec3:
 
 
 def _fitted(picture: Picture, reach: tuple[float, float], room: tuple[float, float]) -> str:
-    """Say how a shape that reaches from one height to another comes between two others, metres."""
+    """Return how to fit a shape that reaches from one height to another between two others, metres."""
     (low, high), (bottom, top) = reach, room
     if high - low > top - bottom:
         factor = (top - bottom) / (high - low)
@@ -221,6 +221,8 @@ def _fitted(picture: Picture, reach: tuple[float, float], room: tuple[float, flo
 
 
 def _to(picture: Picture, by: float) -> str:
-    """Say the height of a picture's centre once it is moved up, metres; nothing where it has none."""
+    """Return the height of a picture's centre after a move upwards, metres, as text; empty where it
+    has none.
+    """
     centre = picture.source.centre
     return "" if centre is None else f", to z = {round(centre[2] + by, 2):.2f}"

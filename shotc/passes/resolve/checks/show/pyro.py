@@ -1,4 +1,4 @@
-"""Pyro cues: drones that are there, and no drone that fires two at once."""
+"""Checks of pyro cues: drones that exist, and no drone that fires two at once."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shotc.rounding import at_least
 
 
 def check_pyro(mission: MissionIR) -> list[Diagnostic]:
-    """Return what is wrong with the pyro cues of a mission's displays."""
+    """Return the faults of the pyro cues of a mission's displays."""
     fleets = {fleet.name: fleet for fleet in mission.fleets}
     return [
         fault
@@ -39,7 +39,7 @@ def _absent(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator[Diag
 
 
 def _twice(mission: MissionIR, display: Display) -> Iterator[Diagnostic]:
-    """Yield a cue that has one drone fire its product twice."""
+    """Yield a cue in which one drone fires its product twice."""
     for cue in display.pyro:
         first = {drone: i for i, drone in reversed(list(enumerate(cue.drones)))}
         again = next((i for i, drone in enumerate(cue.drones) if first[drone] < i), None)
@@ -54,7 +54,7 @@ def _twice(mission: MissionIR, display: Display) -> Iterator[Diagnostic]:
 
 
 def _together(mission: MissionIR, fleet: str) -> Iterator[Diagnostic]:
-    """Yield two cues, of any displays of a fleet, that one drone fires while the other burns."""
+    """Yield two cues of any displays of a fleet where one drone fires one while the other burns."""
     cues = [cue for display in mission.displays if display.fleet == fleet for cue in display.pyro]
     for one, other in combinations(sorted(cues, key=lambda cue: cue.ignition), 2):
         both = sorted(set(one.drones) & set(other.drones))
