@@ -1,4 +1,4 @@
-"""A loaded mission made a MissionIR: names, presets, units, places, files and kinds resolved."""
+"""Lowering: from a loaded mission to a MissionIR with all names, units, places, files and kinds resolved."""
 
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
@@ -41,12 +41,12 @@ ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
 
 
 class Lowered(NamedTuple):
-    """A mission as far as it can be resolved, and what is wrong with its words.
+    """A mission as far as it can be resolved, and the faults of its text.
 
     courses : of its framings, in the order of the shots
-    astray : whether its places on earth lie too far from each other, or its ground is not known
-    sound : whether every drone can fly as it is written
-    level : targets whose tracks are of files without heights
+    astray : whether its places on earth are too far from each other, or its ground is not known
+    sound : whether every drone can fly as written
+    level : targets whose tracks are from files without heights
     """
 
     mission: MissionIR
@@ -63,7 +63,7 @@ def lowered(
     emitters: Collection[str] | None,
     progress: Callable[[str], None],
 ) -> Lowered:
-    """Resolve a mission; kinds, emitters : as ``Resolve`` has them."""
+    """Resolve a mission; kinds, emitters : as in ``Resolve``."""
     world = _world(ir)
     progress("expanding the shots")
     heard = music_of(ir, world.files)
@@ -77,13 +77,15 @@ def lowered(
 
 
 class _World(NamedTuple):
-    """All but the shots.
+    """All data of a mission except its shots.
 
-    put : puts a place into W; read : who reads the files, and has those that were read
-    astray : whether its places on earth lie too far from each other, or its ground is not known
-    sound : whether every drone can fly as it is written
-    level : targets whose tracks are of files without heights
-    heights : z of the ground at x and y; terrain : of which it is, None where it is flat
+    put : converts a place into W
+    read : reader of the files, with those that were read
+    astray : whether its places on earth are too far from each other, or its ground is not known
+    sound : whether every drone can fly as written
+    level : targets whose tracks are from files without heights
+    heights : z of the ground at x and y
+    terrain : of that ground, None where it is flat
     standing : the scene and the buildings
     """
 

@@ -1,4 +1,4 @@
-"""Footprints of buildings, read and judged. Plain Python: prisms are made of them where there is numpy."""
+"""Footprints of buildings, read and checked. Plain Python; numpy makes prisms of them elsewhere."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NAMED = 3  # buildings that a diagnostic names
 
 
 class GroundedBuilding(NamedTuple):
-    """A building on its ground; z : of the lowest ground under it, None beyond the terrain."""
+    """A building on its ground; z : of the lowest ground below it, None outside of the terrain."""
 
     house: House
     z: float | None
@@ -31,7 +31,7 @@ class GroundedBuilding(NamedTuple):
 def read_buildings(
     written: BuildingsSpec, data: bytes, files: Files
 ) -> tuple[tuple[House, ...], list[Diagnostic]]:
-    """Return the buildings of a file, and what is wrong with them; no building where an error is among it."""
+    """Return the buildings of a file, and its faults; no buildings if there is an error among these."""
     label = (files.origins.value(BUILDINGS),)
     origin = files.origin
     if origin is None:

@@ -1,4 +1,4 @@
-"""Targets that are buildings: found by a name or an id, and held by few boxes and cylinders. Plain Python."""
+"""Targets that are buildings: found by a name or an id, enclosed by few boxes and cylinders. Plain Python."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ if TYPE_CHECKING:  # a mission without any loads no numpy
     from shotc.ir.obstacle_mesh import ObstacleMesh
 
 MOST_BODIES = 8
-"""Of one target, as a group has parts at most."""
-_LISTED = 5  # names that a diagnostic lists
+"""Most bodies of one target, which is the limit of a group's parts."""
+_LISTED = 5  # names in a diagnostic
 
 
 class _Named(NamedTuple):
-    """What a target can be: a building, a part of one, or a part of a scene.
+    """A candidate of a target: a building, a part of one, or a part of a scene.
 
-    called : its name and its ids; own : the numbers of its prisms, or of the part of its mesh
+    called : its name and its ids
+    own : numbers of its prisms, or of the part of its mesh
     mesh : the scene that it is a part of
     """
 
@@ -32,14 +33,14 @@ class _Named(NamedTuple):
     mesh: ObstacleMesh | None = None
 
     def blocks(self, standing: Obstacles) -> tuple[UprightPrism, ...]:
-        """Return its prisms in W, without those that stand beyond the terrain."""
+        """Return its prisms in W, without those outside of the terrain."""
         if self.mesh is not None:
             return tuple(self.mesh.block(part) for part in self.own)
         its = [standing.standing[i] for i in sorted(self.own)]
         return tuple(UprightPrism(h.ring, z + h.bottom, z + h.top, h.name) for h, z in its if z is not None)
 
     def described(self, wanted: str, standing: Obstacles) -> str:
-        """Return what it is else called, and where it stands."""
+        """Return its other names and its position, as a note."""
         sort = "a building" if self.mesh is None else "a part of the scene"
         blocks = self.blocks(standing)
         x, y = blocks[0].ring[0] if blocks else (0.0, 0.0)
@@ -50,9 +51,9 @@ class _Named(NamedTuple):
 def bodies_of_building(
     spec: MissionSpec, name: str, standing: Obstacles, origins: OriginMap
 ) -> tuple[EnclosingShape, ...] | Diagnostic | None:
-    """Return the bodies of the target ``name``, which is a building, or what is wrong with that.
+    """Return the bodies of the target ``name``, which is a building, or its fault.
 
-    None where the files that have it cannot be used, which is told of them.
+    None where the files that contain it cannot be used, which is reported for these.
     """
     wanted = (spec.targets[name].building or "").strip()
     label = (origins.value(("targets", name, "building")),)
@@ -78,7 +79,7 @@ _COVER = "take an elevation model that covers it"
 
 
 def _meant(wanted: str, standing: Obstacles) -> list[_Named]:
-    """Return what is called so; of a building and a part of it, both called so, the building alone."""
+    """Return the candidates with a name; if a building and a part of it have it, only the building."""
     found = [named for named in _all(standing) if wanted in named.called]
     largest: list[_Named] = []
     for named in sorted(found, key=lambda n: -len(n.own)):
@@ -88,7 +89,7 @@ def _meant(wanted: str, standing: Obstacles) -> list[_Named]:
 
 
 def _all(standing: Obstacles) -> Iterator[_Named]:
-    """Yield all that can be a target."""
+    """Yield all candidates."""
     called: dict[int, tuple[str, ...]] = {}
     own: dict[int, list[int]] = {}
     for i, (house, _) in enumerate(standing.standing):
@@ -122,5 +123,5 @@ def _unknown(spec: MissionSpec, wanted: str, standing: Obstacles) -> Diagnostic:
 
 
 def _words_first(name: str) -> tuple[bool, str]:
-    """Sort names before ids, which have figures."""
+    """Return a sort key that puts names before ids, which contain digits."""
     return any(c.isdigit() for c in name), name

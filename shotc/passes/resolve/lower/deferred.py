@@ -1,4 +1,4 @@
-"""What a mission uses that is checked but that this version cannot plan."""
+"""Features of a mission that are checked, but that this version cannot plan."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from shotc.spec.mission import MissionSpec
 
 
 def deferred_features(spec: MissionSpec, shots: tuple[Deferred, ...]) -> tuple[Deferred, ...]:
-    """Return each such feature once, at its first place; ``shots`` is what the kinds found."""
+    """Return each such feature once, at its first place; ``shots`` are those that the kinds found."""
     first: dict[str, Deferred] = {}
     for deferred in (*_of_mission(spec), *shots):
         first.setdefault(deferred.feature, deferred)

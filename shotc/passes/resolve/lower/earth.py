@@ -1,4 +1,4 @@
-"""Positions in latitude and longitude: there is an origin that ties W to the earth, and they are near it."""
+"""Positions in latitude and longitude: an origin ties W to the earth, and they have to be near it."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from shotc.spec.mission import MissionSpec
 
 
 def geo_origin(spec: MissionSpec) -> GeoOrigin | None:
-    """Return where W is on the earth, if the mission says so."""
+    """Return the origin of W on the earth, if the mission has one."""
     origin = spec.world.origin
     return None if origin is None else GeoOrigin(origin.lat, origin.lon, origin.alt)
 
 
 def check_earth(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
-    """Return one fault for all geodetic positions that have no place in W, at the first of them."""
+    """Return one fault for all geodetic positions without a place in W, at the first of them."""
     if not any(path[-1:] == ("lat",) and path[:2] != ("world", "origin") for path in origins.values):
         return []
     places = sorted(_geodetic(spec, ()), key=lambda found: origins.value(found[0]).span)

@@ -1,4 +1,4 @@
-"""Reading the files that a mission names, and nothing outside the mission's folder."""
+"""Reading the files that a mission names, all of them within the mission's folder."""
 
 import re
 from collections.abc import Callable
@@ -24,9 +24,10 @@ NO_FOLDER = "a mission read from standard input has no folder; save it to a file
 
 
 class Reader:
-    """Reads the files that a mission names, and keeps what a plan holds of them.
+    """Reads the files that a mission names, and keeps what a plan needs of them.
 
-    tables : name and bytes of what is small; linked : name and SHA-256, hexadecimal, of what a plan links to
+    tables : name and bytes of small files
+    linked : name and SHA-256, hexadecimal, of files to which a plan links
     """
 
     def __init__(self, folder: Path | KeptFiles | None, origins: OriginMap) -> None:
@@ -36,16 +37,16 @@ class Reader:
         self.linked: dict[str, str] = {}
 
     def __call__(self, name: str, path: KeyPath) -> bytes | Diagnostic:
-        """Return the bytes of the file that the mission names at ``path``, or what is wrong with it."""
+        """Return the bytes of the file that the mission names at ``path``, or its fault."""
         data = read_file(self._folder, self._origins, name, path)
         if isinstance(data, bytes):
             self.tables[name] = data
         return data
 
     def large(self, name: str, path: KeyPath, *, linked: bool) -> bytes | Diagnostic:
-        """Return the bytes of a file that may be larger than a table, or what is wrong with it.
+        """Return the bytes of a file that may be larger than a table, or its fault.
 
-        linked : whether a plan links to it, whatever its size; else a plan holds it if it is a table's size
+        linked : whether a plan always links to it; otherwise a plan contains it if it is small enough
         """
         kept = self._folder
         if isinstance(kept, KeptFiles) and name in kept.linked:
@@ -62,9 +63,10 @@ class Reader:
 
 
 class Files(NamedTuple):
-    """What the files of a mission are read with.
+    """The data with which a mission's files are read.
 
-    origin : of W on the earth, if the mission gives one; read : the files of the mission
+    origin : of W on the earth, if the mission has one
+    read : reader of the files
     """
 
     origin: GeoOrigin | None
@@ -79,10 +81,10 @@ def read_file(
     path: KeyPath,
     most: int = MAX_TABLE_BYTES,
 ) -> bytes | Diagnostic:
-    """Return the bytes of the file that the mission names at ``path``, or what is wrong with it.
+    """Return the bytes of the file that the mission names at ``path``, or its fault.
 
-    Links are followed as far as they stay inside the folder. A file of more than ``most`` bytes is not
-    read, and no more than one byte beyond that of what has no size, so that neither costs anything.
+    Links are followed inside the folder only. A file of more than ``most`` bytes is not read, and of a file
+    without a size at most one byte more is read, so that neither costs much.
     """
     label = (origins.value(path),)
     if folder is None:
@@ -115,7 +117,7 @@ def read_file(
 
 
 def _read_linked(kept: KeptFiles, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
-    """Return a file that a plan links to, from the first folder that has it unchanged, or what is wrong."""
+    """Return a file to which a plan links, from the first folder that has it unchanged, or its fault."""
     label, other = (origins.value(path),), None
     for folder in kept.folders:
         data = read_file(folder, origins, name, path, MAX_LINKED_BYTES)
@@ -138,10 +140,11 @@ def _read_linked(kept: KeptFiles, origins: OriginMap, name: str, path: KeyPath) 
 def match_files(
     folder: Path | KeptFiles | None, origins: OriginMap, pattern: str, path: KeyPath
 ) -> tuple[str, ...] | Diagnostic:
-    """Return the names of the files that a pattern at ``path`` stands for, or what is wrong with it.
+    """Return the names of the files that a pattern at ``path`` matches, or its fault.
 
-    `*` and `?` stand for letters of the file's name, not of its folders. Numbers in names are sorted by
-    their size, so that frame-2 comes before frame-10. A name without either is itself, there or not.
+    `*` and `?` match characters of the file's name, not of its folders. Numbers in names are sorted by value,
+    so that frame-2 comes before frame-10. A name without either is returned as it is, whether it exists or
+    not.
     """
     where, slash, last = pattern.rpartition("/")
     if not set(_WILD) & set(pattern):
@@ -170,14 +173,16 @@ def _fitting(pattern: str) -> re.Pattern[str]:
 
 
 def _kept(files: KeptFiles, where: str, pattern: str) -> list[str]:
-    """Return the names in a folder that fit a pattern, of the files that were there when they were listed."""
+    """Return the names in a folder that match a pattern, among the files that existed when they were
+    listed.
+    """
     fits = _fitting(pattern)
     apart = (name.rpartition("/") for name in dict(files.drawn))
     return [last for folder, _, last in apart if folder == where and fits.match(last)]
 
 
 def _listed(folder: Path, where: str, pattern: str) -> list[str] | str:
-    """Return the names in a folder that fit a pattern, or why they cannot be listed."""
+    """Return the names in a folder that match a pattern, or why they cannot be listed."""
     fits = _fitting(pattern)
     try:
         root = folder.resolve()
@@ -191,13 +196,13 @@ def _listed(folder: Path, where: str, pattern: str) -> list[str] | str:
 
 
 def _in_order(name: str) -> tuple[list[str | int], str]:
-    """Return what sorts names as people count: text and numbers by turns."""
+    """Return a sort key with numbers by value: text and numbers in turn."""
     parts = re.split(r"([0-9]+)", name)
     return [int(part) if i % 2 else part for i, part in enumerate(parts)], name
 
 
 def _neighbours(place: Path) -> str:
-    """Propose the files of the same sort that lie where the missing one was looked for."""
+    """Return files of the same type in the folder of the missing one, as a remedy."""
     if not place.parent.is_dir():
         return "check the path; it counts from the folder of the mission"
     names = sorted(p.name for p in place.parent.iterdir() if p.suffix.lower() == place.suffix.lower())

@@ -1,4 +1,4 @@
-"""Fleets resolved: presets filled in, layouts made pads."""
+"""Fleets lowered: presets filled in, and layouts as pads."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ROWS = (("x", "y", "z"), ("lat", "lon", "height"))
 
 
 def fleets_of(spec: MissionSpec, put: Put, files: Files) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
-    """Return the fleets whose layouts can be read, and what is wrong with the others."""
+    """Return the fleets with readable layouts, and the faults of the others."""
     fleets: list[Fleet] = []
     faults: list[Diagnostic] = []
     for name, written in spec.fleets.items():
@@ -41,7 +41,7 @@ def fleets_of(spec: MissionSpec, put: Put, files: Files) -> tuple[tuple[Fleet, .
 
 
 def _grouped(fleet: Fleet, written: FleetSpec) -> list[Fleet]:
-    """Return the fleet, or, where it has groups, the drones that are in none, and each group by itself."""
+    """Return the fleet; or, if it has groups, the drones in no group, and each group by itself."""
     if not written.groups:
         return [fleet]
     rest = in_no_group(written)
@@ -58,7 +58,7 @@ def _part(fleet: Fleet, name: str, numbers: tuple[int, ...]) -> Fleet:
 
 
 def _not_grouped(written: FleetSpec, path: KeyPath, files: Files) -> list[Diagnostic]:
-    """Return the groups that name drones which the fleet does not have, or which are in another group."""
+    """Return the groups that name drones that do not exist, or that are in another group."""
     faults: list[Diagnostic] = []
     group_of: dict[int, str] = {}
     for name, numbers in written.groups.items():
@@ -82,7 +82,7 @@ def _not_grouped(written: FleetSpec, path: KeyPath, files: Files) -> list[Diagno
 
 
 def _instead(numbers: list[int]) -> str:
-    """Say what a group may be; numbers : of its drones that may be in it."""
+    """Return what to write for a group; numbers : of drones that may be in it."""
     return f"write `[{spans(numbers)}]`" if numbers else "remove the group"
 
 
@@ -103,7 +103,7 @@ def _fleet(name: str, written: FleetSpec, spec: MissionSpec, pads: tuple[Vec3, .
 
 
 def apart_of(written: FleetSpec, separation: float) -> Apart:
-    """Return how far the drones stay apart: as the fleet says, or else as the mission's rules do."""
+    """Return the separation of drones: the fleet's own, or else that of the mission's rules."""
     own = written.separation
     if own is None:
         return Apart("ellipsoid", separation, separation, 0.0)
@@ -111,7 +111,7 @@ def apart_of(written: FleetSpec, separation: float) -> Apart:
 
 
 def _touching(fleet: Fleet, files: Files) -> list[Diagnostic]:
-    """Refuse a separation at which the bodies of two drones may touch."""
+    """Return the fault of a separation at which the bodies of two drones may touch."""
     least = min(fleet.apart.horizontal, fleet.apart.vertical)
     bodies = 2 * fleet.radius
     if least >= bodies:
@@ -136,14 +136,14 @@ def _pads(written: FleetSpec, put: Put, files: Files, path: KeyPath) -> tuple[Ve
 
 
 def _grid(grid: GridSpec, count: int, put: Put) -> tuple[Vec3, ...]:
-    """Return the pads of a square grid: rows from west to east, one after the other to the north."""
+    """Return the pads of a square grid: rows from west to east, each further north."""
     x, y, z = put(grid.origin)
     columns = ceil(sqrt(count))
     return tuple((x + i % columns * grid.spacing, y + i // columns * grid.spacing, z) for i in range(count))
 
 
 def _circle(circle: CircleSpec, count: int, put: Put) -> tuple[Vec3, ...]:
-    """Return the pads of a circle: evenly, clockwise from its north."""
+    """Return the pads of a circle: evenly spaced, clockwise from its north."""
     x, y, z = put(circle.center)
     turns = (2 * pi * i / count for i in range(count))
     return tuple((x + circle.radius * sin(a), y + circle.radius * cos(a), z) for a in turns)

@@ -1,4 +1,4 @@
-"""Shot kinds of other packages: what they raise, or answer wrongly, is told as theirs."""
+"""Shot kinds of other packages: what they raise or return wrongly is reported as their fault."""
 
 from collections.abc import Iterator
 from math import isfinite
@@ -12,7 +12,7 @@ from shotc.spec.shot import ShotBase
 
 
 def expanded(kind: Kind, shot: ShotBase, scene: Scene) -> Expansion:
-    """Return what a kind of another package makes of a shot, or P008 on the line that names the kind."""
+    """Return the expansion of a shot by a kind of another package, or P008 on the line of the kind."""
     try:
         made: Any = kind.expand(shot, scene)
         wrong = _wrong(made)
@@ -27,7 +27,7 @@ def _refused(kind: Kind, scene: Scene, fault: Exception | str) -> Expansion:
 
 
 def _wrong(made: Any) -> str:
-    """Return what is wrong with the shape of an expansion, an empty text where nothing is."""
+    """Return what is wrong with the form of an expansion; an empty text if nothing is."""
     if not isinstance(made, Expansion):
         return f"returned a {type(made).__name__}, not an Expansion"
     parts: Any = ((made.keyframes, Keyframe), (made.subjects, Subject), (made.diagnostics, Diagnostic))

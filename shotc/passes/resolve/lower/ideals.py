@@ -1,4 +1,4 @@
-"""The ideals of shots on their own clock, as they are if each shot begins as early as it may."""
+"""The ideals of shots on their own clock, for the earliest start of each shot."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from shotc.ir.mission import MissionIR
 
 
 def with_times(mission: MissionIR) -> MissionIR:
-    """Return the mission with the keyframes of such shots where they are when the camera is there."""
+    """Return the mission with the keyframes of such shots at their places when the camera is there."""
     shots = (
         settled(mission, shot, first_start(mission, shot)) if is_keyed(shot) else shot
         for shot in mission.shots
@@ -18,7 +18,7 @@ def with_times(mission: MissionIR) -> MissionIR:
 
 
 def with_framings(mission: MissionIR) -> tuple[MissionIR, tuple[StartedFraming, ...]]:
-    """Return the mission with every framing's ideal and places on screen, and the courses of the framings."""
+    """Return the mission with every framing's ideal and references, and the courses of the framings."""
     courses = []
     for i, shot in enumerate(mission.shots):
         if shot.ideal is None or not shot.ideal.framed:

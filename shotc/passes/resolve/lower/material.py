@@ -1,4 +1,4 @@
-"""The files that displays draw: meshes, drawings, fonts."""
+"""Files that displays draw: meshes, drawings, fonts."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from shotc.show.labels import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
 
 LARGEST_MESH = 64_000_000  # bytes of one mesh or font
-LARGEST_FLIGHT = 200_000_000  # bytes of one recorded flight, as `importers.flights` reads them
-MOST = 256_000_000  # bytes of all that one mission draws
+LARGEST_FLIGHT = 200_000_000  # bytes of one recorded flight, as in `importers.flights`
+MOST = 256_000_000  # bytes of all files that one mission draws
 
 Material = tuple[tuple[str, bytes], ...]
 
@@ -31,9 +31,9 @@ Material = tuple[tuple[str, bytes], ...]
 def read_material(
     displays: Iterable[Display], folder: Path | None, origins: OriginMap
 ) -> tuple[Material, list[Diagnostic]]:
-    """Return (name, bytes) of every file that displays draw, each once, and what is wrong with others.
+    """Return (name, bytes) of every file that displays draw, each once, and the faults of others.
 
-    Of the files of one pattern, the first that cannot be used is told.
+    Of the files of one pattern, only the first fault is reported.
     """
     files: dict[str, bytes] = {}
     faults: dict[KeyPath, Diagnostic] = {}
@@ -59,7 +59,7 @@ def digests(files: Material) -> tuple[tuple[str, str], ...]:
 
 
 def not_kept(displays: Iterable[Display], kept: KeptFiles, origins: OriginMap) -> list[Diagnostic]:
-    """Return a fault for every file that displays draw and a plan does not know."""
+    """Return a fault for every file that displays draw and a plan does not contain."""
     known = dict(kept.drawn)
     named = (found for display in displays for found in _named(display))
     return [
@@ -70,7 +70,7 @@ def not_kept(displays: Iterable[Display], kept: KeptFiles, origins: OriginMap) -
 
 
 def _named(display: Display) -> Iterator[tuple[str, KeyPath]]:
-    """Yield the files of a display, in its order, with where the mission names them."""
+    """Yield the files of a display, in its order, with their key paths."""
     for picture in display.pictures:
         yield from ((name, _where(picture)) for name in files_of(picture))
     for effect in display.every_effect:
@@ -79,7 +79,7 @@ def _named(display: Display) -> Iterator[tuple[str, KeyPath]]:
 
 
 def files_of(picture: Picture) -> tuple[str, ...]:
-    """Return the names of the files that a picture is drawn from; a font of the system's is none."""
+    """Return the names of the files of a picture; a font of the system is none."""
     source = picture.source
     if isinstance(source, Model):
         return source.files
@@ -119,7 +119,9 @@ def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -
 
 
 def _no_archive(data: bytes) -> FileFault | None:
-    """Return why bytes are no whole ZIP archive, as far as their first and last ones tell (APPNOTE 4.3)."""
+    """Return why bytes are not a complete ZIP archive, by their first and last ones (APPNOTE 4.3), or
+    None.
+    """
     if not data.startswith(b"PK"):
         return FileFault("it is no ZIP archive", None, "export the show again, as `.skyc` or zipped CSV")
     if b"PK\5\6" not in data[-65_557:]:

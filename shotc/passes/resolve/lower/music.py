@@ -20,7 +20,7 @@ PATH: KeyPath = ("music",)
 
 
 class Heard(NamedTuple):
-    """The music, what is wrong with it, and the song as (name, bytes); None where there is none."""
+    """The music, its faults, and the song as (name, bytes); None where there is none."""
 
     music: Music | None = None
     faults: tuple[Diagnostic, ...] = ()
@@ -55,7 +55,7 @@ def music_of(ir: LoadedMission, files: Files) -> Heard:
 
 
 def _unused(origins: OriginMap) -> Diagnostic:
-    """Return what is wrong with the music of a mission without fleets."""
+    """Return the fault of music in a mission without fleets."""
     note, help_ = "cameras take no notice of it", "remove it, or add a `display`"
     return Diagnostic("D128", "no fleet flies to this music", (origins.key(PATH),), (note,), help_)
 
@@ -76,7 +76,7 @@ def _song(spec: MusicSpec, ir: LoadedMission, origins: OriginMap) -> tuple[str, 
 
 
 def _times(spec: MusicSpec, files: Files) -> tuple[float, ...] | Diagnostic:
-    """Return the times of the beats that are listed, seconds in the song, or what is wrong with them."""
+    """Return the times of the listed beats, seconds in the song, or their fault."""
     if spec.beats_file is None:
         return _rising(spec, files.origins)
     path = (*PATH, "beats_file")
@@ -104,9 +104,9 @@ def _rising(spec: MusicSpec, origins: OriginMap) -> tuple[float, ...] | Diagnost
 
 
 def read_beats(data: bytes) -> tuple[float, ...] | FileFault:
-    """Return the times of beats, one a line, s: the first number of each; labels may follow it.
+    """Return the times of beats, one per line, seconds: the first number of each; a label may follow it.
 
-    Lines that are empty or begin with # are passed over. Audacity separates the columns of labels by tabs.
+    Empty lines and those that begin with # are skipped. Audacity separates the columns of labels by tabs.
     """
     text = utf8_text(data)
     if isinstance(text, FileFault):

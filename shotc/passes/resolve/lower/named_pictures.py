@@ -1,4 +1,4 @@
-"""Pictures of fleets that shots of cameras film by their names: targets that stand in nobody's way."""
+"""Pictures of fleets that cameras film by their names: targets that are no obstacles."""
 
 from collections.abc import Iterable, Mapping
 from math import cos, sin
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def named_pictures(
     spec: MissionSpec, displays: "Iterable[Display]", cast: "Cast"
 ) -> tuple[Mapping[str, Target | None], list[Diagnostic]]:
-    """Return the named pictures as targets, None for one whose size is not known, and what is wrong."""
+    """Return the named pictures as targets, None for one of unknown size, and their faults."""
     found: dict[str, Target | None] = {}
     faults: list[Diagnostic] = []
     for display in displays:
@@ -42,23 +42,23 @@ def named_pictures(
 
 
 def unread_names(spec: MissionSpec, displays: "Iterable[Display]") -> Mapping[str, None]:
-    """Return the names of pictures of displays that are wrong otherwise: a shot that films one is not."""
+    """Return the picture names of invalid displays, so that a shot that films one is no fault."""
     read = {display.id for display in displays}
     wrong = (shot for shot in spec.shots if shot.drone == NO_DRONE and shot.id not in read)
-    # Frames are of the kind's own model; those of an animation alone have no names.
+    # Frames are of the kind's own model; frames of an animation alone have no names.
     frames = (frame for shot in wrong for frame in getattr(shot, "frames", ()))
     names = (getattr(frame, "name", None) for frame in frames)
     return {name: None for name in names if name is not None}
 
 
 def _room(spec: MissionSpec, display: "Display") -> float:
-    """Return how far lights may stand outside what they show, m: half of what they are apart at least."""
+    """Return how far lights may lie outside of the picture, metres: half of their least distance."""
     fleet, least = spec.fleets.get(fleet_name(display.fleet)), spec.rules.separation
     return 0.5 * (least if fleet is None else apart_of(fleet, least).across)
 
 
 def _body(picture: Picture, room: float) -> "tuple[Vec3, BodyShape] | None":
-    """Return the centre and the shape of the body that holds a picture, or None where nobody says its size.
+    """Return the centre and the shape of the body that contains a picture, or None where its size is unknown.
 
     room : metres beyond the picture, on each side
     """

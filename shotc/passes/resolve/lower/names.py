@@ -1,4 +1,4 @@
-"""Names that shots use: do they exist, are they unique, do they run in circles."""
+"""Names that shots use: their existence, uniqueness, and cycles of dependencies."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from shotc.spec.words import nearest
 
 AUTO = "auto"
 _UNKNOWN = ("N001", "N002", "N003")
-_SHOWN = 4  # places of one unknown name that are shown
+_SHOWN = 4  # labels of one unknown name
 
 
 def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
-    """Return the emitters that a mission asks for, or, where it is silent, those that suit what it flies."""
+    """Return the emitters that a mission asks for, or by default those that suit its drones."""
     if spec.output.emit is not None:
         return spec.output.emit
     displays = [shot for shot in spec.shots if shot.kind == "display"]
@@ -41,9 +41,9 @@ def _film_emitters(spec: MissionSpec) -> tuple[str, ...]:
 
 
 def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str] | None) -> list[Diagnostic]:
-    """Return every fault of the names of drones, shots and emitters; kinds check their targets.
+    """Return all faults of the names of drones, shots and emitters; kinds check their targets.
 
-    emitters : the names that can be used, or None where that is not known
+    emitters : names of usable emitters, or None where these are not known
     """
     faults = [*nobody(spec, origins), *_drones(spec, origins), *_ids(spec, origins), *_waits(spec, origins)]
     for i, name in enumerate(emitters_of(spec)):
@@ -54,7 +54,7 @@ def check_names(spec: MissionSpec, origins: OriginMap, emitters: Collection[str]
 
 
 def once(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Report a name that is unknown in several places once, with the first few of them."""
+    """Return diagnostics with an unknown name that occurs in several places reported once."""
     groups: dict[tuple[str, str], list[Diagnostic]] = {}
     for i, diagnostic in enumerate(dict.fromkeys(diagnostics)):
         key = diagnostic.message if diagnostic.code in _UNKNOWN else str(i)
@@ -72,7 +72,7 @@ def _merged(group: list[Diagnostic]) -> Diagnostic:
 
 
 def nobody(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
-    """Return that there is no drone to choose from, where there is none and a shot leaves it open."""
+    """Return the fault of a mission without drones in which a shot leaves its drone open."""
     if spec.drones:
         return []
     first = [("shots", i, "drone") for i, shot in enumerate(spec.shots) if shot.drone == AUTO][:1]
@@ -107,7 +107,7 @@ def _ids(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
 
 
 def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
-    """Return waits for shots that do not exist, and each circle of waits once."""
+    """Return dependencies on shots that do not exist, and each cycle of dependencies once."""
     index = {shot.id: i for i, shot in reversed(list(enumerate(spec.shots)))}
     waits = {shot.id: shot.timing.after for shot in spec.shots}
     faults: list[Diagnostic] = []
@@ -121,7 +121,7 @@ def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
             others = {name: None for name in index if name != shot.id}
             faults.append(_unknown("N004", "shot", after, others, origins, path))
             continue
-        # Two shots of one name can close a circle that is none; the name is the fault then.
+        # Two shots of one name can make a false cycle; then the name is the fault.
         circle = _circle(shot.id, waits) if len(waits) == len(spec.shots) else []
         if circle and reported.isdisjoint(circle):
             reported.update(circle)
@@ -135,7 +135,7 @@ def _waits(spec: MissionSpec, origins: OriginMap) -> list[Diagnostic]:
 
 
 def _circle(start: str, waits: dict[str, str | None]) -> list[str]:
-    """Return the circle of waits that ``start`` is part of, or nothing."""
+    """Return the cycle of dependencies that ``start`` is part of, or nothing."""
     chain = [start]
     while (following := waits.get(chain[-1])) is not None and following not in chain:
         chain.append(following)

@@ -1,4 +1,4 @@
-"""The scene and the buildings of a mission, which files give. Plain Python, until a mission names one."""
+"""The scene and the buildings of a mission, from files. Plain Python unless a mission names one."""
 
 from __future__ import annotations
 
@@ -26,9 +26,10 @@ SCENE = ("world", "scene", "file")
 
 
 class Obstacles(NamedTuple):
-    """The scene and the buildings of a mission, and what is wrong with them.
+    """The scene and the buildings of a mission, and their faults.
 
-    standing : the buildings, one by one; unread : whether a file cannot be used, or not by this installation
+    standing : the buildings, one by one
+    unread : whether a file cannot be used, at all or by this installation
     """
 
     meshes: tuple[ObstacleMesh, ...] = ()
@@ -40,7 +41,11 @@ class Obstacles(NamedTuple):
 def read_obstacles(
     spec: MissionSpec, put: Callable[[Place], Vec3], terrain: Terrain | None, files: Files
 ) -> Obstacles:
-    """Return what a mission names; put : places into W; files : who reads files, and the origin."""
+    """Return the scene and the buildings that a mission names.
+
+    put : converts places into W
+    files : reader of files, and the origin
+    """
     world = spec.world
     scene = Obstacles() if world.scene is None else _scene(world.scene, put, terrain, files)
     buildings = Obstacles() if world.buildings is None else _buildings(world.buildings, terrain, files)
@@ -89,7 +94,7 @@ def _buildings(written: BuildingsSpec, terrain: Terrain | None, files: Files) ->
 
 
 def not_judged(what: str, name: str, path: tuple[str, ...], files: Files) -> Diagnostic:
-    """Return what is told of a file on an installation that cannot read it: what stays unknown."""
+    """Return the diagnostic of a file that this installation cannot read: what is not checked."""
     unknown = {
         "terrain": "homes, keyframes, altitudes and framing are not judged: all of them depend on the ground",
         "scene": "homes, keyframes and paths are not held to it",

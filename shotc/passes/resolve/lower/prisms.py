@@ -1,4 +1,4 @@
-"""Buildings made triangles of W. It needs numpy, so it loads where a mission has buildings."""
+"""Buildings as triangles in W. This module needs numpy, so it is imported where a mission has buildings."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ MOST_TRIANGLES = 4_000_000
 
 
 def buildings_mesh(houses: Sequence[House], name: str, terrain: Terrain | None, files: Files) -> Obstacles:
-    """Return prisms on the ground, with flat lids; of buildings beyond the terrain none, which is told."""
+    """Return prisms on the ground, with flat lids; those outside of the terrain are left out with a
+    warning.
+    """
     count = sum(2 * len(h.ring) + 2 * len(h.lid) for h in houses)
     if count > MOST_TRIANGLES:
         message = f"its buildings have {count} triangles; {MOST_TRIANGLES} are the most"
@@ -46,14 +48,16 @@ def buildings_mesh(houses: Sequence[House], name: str, terrain: Terrain | None, 
 
 
 def _ground(terrain: Terrain | None, houses: Sequence[House]) -> Array:
-    """Return z of the lowest ground under each building, NaN where there is none; shape (K,)."""
+    """Return z of the lowest ground below each building, NaN where there is none; shape (K,)."""
     if terrain is None:
         return np.zeros(len(houses))
     return lowest_under(terrain.ground, [np.array(house.ring) for house in houses])
 
 
 def _prisms(name: str, standing: Sequence[tuple[House, float]]) -> ObstacleMesh:
-    """Return the triangles of walls, lids and floors, facing outward; standing : (house, z of its ground)."""
+    """Return the triangles of walls, lids and floors, facing outwards; standing : (house, z of its
+    ground).
+    """
     houses = [house for house, _ in standing]
     low = np.array([z + house.bottom for house, z in standing])
     high = np.array([z + house.top for house, z in standing])

@@ -1,4 +1,4 @@
-"""Tracks that were recorded: rows of a CSV or GPX file made the motion of a target."""
+"""Recorded tracks: rows of a CSV or GPX file as the motion of a target."""
 
 from itertools import pairwise
 from math import radians
@@ -23,7 +23,8 @@ HEIGHTS = {"z", "height", "ele"}
 class Recording(NamedTuple):
     """A recorded track.
 
-    lines : of the file, one a row; level : whether its rows have no heights, so that all of them are at z = 0
+    lines : line in the file of each row
+    level : whether its rows have no heights, so that all of them are at z = 0
     """
 
     track: Track
@@ -32,7 +33,7 @@ class Recording(NamedTuple):
 
 
 def read_recording(file: str, files: Files, path: KeyPath) -> Recording | Diagnostic:
-    """Return the motion that a file tells, which the mission names at ``path``.
+    """Return the motion in a file that the mission names at ``path``, or its fault.
 
     The times of a CSV file count from the start of the mission, those of a GPX file from its first point.
     """
@@ -66,7 +67,7 @@ def _column(table: Table, name: str) -> tuple[float, ...]:
 
 
 def _fault(table: Table) -> FileFault | None:
-    """Tell too few rows, and the first that comes no later than the one before it."""
+    """Return the fault of too few rows, or of the first row not later than the one before, or None."""
     if len(table.rows) < 2:
         line = table.lines[0] if table.lines else None
         count = "one row" if table.rows else "no rows"

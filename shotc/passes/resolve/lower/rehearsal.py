@@ -1,4 +1,4 @@
-"""Wind and rehearsals as the mission writes them."""
+"""Wind and rehearsals of a mission."""
 
 from math import pi
 
@@ -8,12 +8,12 @@ from shotc.spec.rehearse import RehearseSpec, WindSpec
 
 
 def toward(wind: WindSpec) -> float | None:
-    """Return the yaw in which the wind blows, rad: away from where it comes from."""
+    """Return the yaw towards which the wind blows, rad, opposite to where it comes from."""
     return None if wind.from_ is None else yaw_of(wind.from_ + pi)
 
 
 def rehearsal(written: RehearseSpec | None) -> Rehearsal | None:
-    """Return what rehearsals are asked, or None where the mission says nothing of them."""
+    """Return the rehearsal that a mission asks for, or None."""
     if written is None:
         return None
     asked = written.require

@@ -1,4 +1,4 @@
-"""An elevation model made the ground about a mission. It needs numpy, so it loads where one is named."""
+"""Terrain from an elevation model. This module needs numpy, so it is imported where a mission names one."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ from shotc.spec.world import TerrainSpec
 def relief(
     written: TerrainSpec, data: bytes, about: tuple[Iterable[Vec3], float], files: Files
 ) -> Terrain | Diagnostic:
-    """Return the ground that an elevation model makes, or what is wrong with it.
+    """Return the ground of an elevation model, or its fault.
 
-    about : places of the mission, W, the first drone's home first, and how far beyond them it is read, metres
+    about : places of the mission in W, the first drone's home first, and how far around them it is read,
+        metres
     files : for the origin, and the lines of faults
     """
     name, path = written.file, ("world", "terrain", "file")
@@ -54,9 +55,9 @@ def relief(
 
 
 def _offset(written: TerrainSpec, posts: Posts, origin: GeoOrigin | None) -> float:
-    """Return what is added to heights so that they count as the origin's altitude does, metres.
+    """Return the offset that makes heights count like the origin's altitude, metres.
 
-    Posts of W count from its origin; on the earth a height over the plane z = 0 is one over the origin.
+    Posts in W count from its origin; on the earth a height above the plane z = 0 is one above the origin.
     """
     on_earth = posts.system is not None and origin is not None
     return origin.alt if on_earth and origin is not None and written.datum == "origin" else 0.0

@@ -1,4 +1,6 @@
-"""A mesh or a point cloud made obstacles of W. It needs numpy, so it loads where one is named."""
+"""A mesh or a point cloud as obstacles in W. This module needs numpy, so it is imported where one is
+named.
+"""
 
 from __future__ import annotations
 
@@ -32,28 +34,32 @@ from shotc.spec.world import SceneSpec
 
 MOST_TRIANGLES = 4_000_000
 LARGEST_COORDINATE = 1e9
-"""In the file's unit: beyond it a file is broken whatever its unit."""
+"""In the file's unit; beyond it a file is invalid in any unit."""
 EXACT_M = 1e4
-"""Metres from a file's origin up to which 32-bit numbers are exact to half a millimetre."""
+"""Metres from a file's origin up to which 32-bit numbers are accurate to half a millimetre."""
 SINGLE = frozenset({"glb", "stl"})
-"""Formats whose coordinates are 32-bit numbers; of .ply the header says it."""
+"""Formats with 32-bit coordinates; in .ply the header states the type."""
 LEAST_M, LARGE_M = 0.5, 3_000.0
-"""Longest side of a scene: below the first it is smaller than a drone, above the second a slip is likely."""
+"""Longest side of a scene: below the first it is smaller than a drone, above the second probably a
+mistake.
+"""
 USUAL_M = (3.0, 1_000.0)
-"""Longest sides of scenes, of which a unit that fits makes one."""
+"""Usual longest sides of scenes, for the choice of a unit that is proposed."""
 _LIKELY = ("m", "mm", "ft", "cm", "in", "km")
 BELOW_M = 0.5
-"""How deep in the ground a corner is that is no rounding of where the scene stands."""
+"""Depth in the ground of a corner that rounding of the scene's position does not explain."""
 UNDER = 0.4
-"""Share of corners so deep: of a house whose side is taken for its top, half of them are."""
-_LOOKED_AT = 10_000  # corners, of all, that are held against the ground
+"""Share of corners at that depth, above which there is a warning; half of them if a house lies on its
+side.
+"""
+_LOOKED_AT = 10_000  # most corners that are compared with the ground
 
 
 _DOUBLES = re.compile(rb"^property\s+(double|float64)\s+x\s*$", re.MULTILINE)
 
 
 class Placed(NamedTuple):
-    """How a file is read: its format, metres of its unit, and the axis that points up."""
+    """How a file is read: its format, its unit in metres, and the axis that points up."""
 
     kind: str
     metres: float
@@ -63,9 +69,9 @@ class Placed(NamedTuple):
 def scene_mesh(
     written: SceneSpec, data: bytes, where: tuple[Placed, Vec3], terrain: Terrain | None, files: Files
 ) -> Obstacles:
-    """Return what a file's triangles and points are in W, or what is wrong with them.
+    """Return a file's triangles and points in W, or their faults.
 
-    where : how the file is read, and where its origin is, metres of W
+    where : how the file is read, and the position of its origin in W, metres
     """
     placed, at = where
     parts = read_model(placed.kind, data)
@@ -91,7 +97,7 @@ def _unusable(written: SceneSpec, fault: ModelFault, files: Files) -> Diagnostic
 
 
 class _Scene(NamedTuple):
-    """A scene as it is written, and where."""
+    """A scene as written, and its position."""
 
     written: SceneSpec
     placed: Placed
@@ -99,7 +105,7 @@ class _Scene(NamedTuple):
     files: Files
 
     def inexact(self, data: bytes, parts: list[Part]) -> Iterator[Diagnostic]:
-        """Yield the fault of 32-bit coordinates so large that they are rounded."""
+        """Yield the fault of 32-bit coordinates that are so large that rounding is notable."""
         single = self.placed.kind in SINGLE or (
             self.placed.kind == "ply" and not _DOUBLES.search(data[:2000])
         )
@@ -118,7 +124,7 @@ class _Scene(NamedTuple):
         yield Diagnostic("G033", message, self._label, tuple(notes), help_)
 
     def of_no_size(self, parts: list[Part]) -> Iterator[Diagnostic]:
-        """Yield the fault of a scene that is smaller than a drone, or larger than what can be flown about."""
+        """Yield the fault of a scene that is smaller than a drone, or larger than the range of a mission."""
         low, high = _box(parts)
         size = float((high - low).max()) * self.placed.metres
         if not LEAST_M <= size <= FARTHEST:
@@ -126,7 +132,7 @@ class _Scene(NamedTuple):
             yield Diagnostic("G031", message, self._label, (self._says(low, high),), self._fitting(size))
 
     def away(self, parts: list[Part]) -> Iterator[Diagnostic]:
-        """Yield the fault of a scene that lies where no drone of the mission flies."""
+        """Yield the fault of a scene that is out of the mission's range."""
         low, high = _box(parts)
         middle = self._world(0.5 * (low + high)[None])[0]
         away = float(np.linalg.norm(middle[:2]) - 0.5 * self.placed.metres * np.linalg.norm(high - low))
@@ -150,7 +156,7 @@ class _Scene(NamedTuple):
         half = max((0.5 * median_spacing(c.surface) + c.moved for c in clouds), default=0.0)
         lengths = [len(piece) for piece in pieces]
         whole = np.concatenate(pieces)
-        made = bodies(whole[: sum(lengths[: len(solid)])])  # points enclose nothing, and there are many
+        made = bodies(whole[: sum(lengths[: len(solid)])])  # points enclose no volume, and there are many
         points = np.full(sum(lengths[len(solid) :]), len(made.closed))
         return ObstacleMesh(
             kind="scene",
@@ -164,7 +170,7 @@ class _Scene(NamedTuple):
         )
 
     def doubts(self, corners: Array, terrain: Terrain | None) -> Iterator[Diagnostic]:
-        """Warn of a scene whose size, or place over the ground, looks like a slip."""
+        """Yield warnings for a scene whose size, or height above ground, looks like a mistake."""
         size = float(np.ptp(corners, axis=0).max())
         if size > LARGE_M:
             message = f"the scene `{self.written.file}` measures {_length(size)}"
@@ -193,7 +199,7 @@ class _Scene(NamedTuple):
             )
 
     def _world(self, corners: Array) -> Array:
-        """Return places of the file as places of W; its north leads along the heading."""
+        """Return positions of the file as positions in W; its north points along the heading."""
         x, y, z = (self.placed.metres * corners).T
         if self.placed.up == "y":
             y, z = -z, y
@@ -215,7 +221,7 @@ class _Scene(NamedTuple):
         return f"its coordinates go from {_rounded(low)} to {_rounded(high)} {self._unit}"
 
     def _fitting(self, size: float) -> str:
-        """Say which unit makes a scene of a usual size."""
+        """Return which unit gives the scene a usual size, as a remedy."""
         bare = size / self.placed.metres
         least, most = USUAL_M
         fits = [unit for unit in _LIKELY if least <= bare * METRES[unit] <= most]

@@ -27,9 +27,10 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 
 class Cast(NamedTuple):
-    """What the shots of a mission are made with: everything a scene shows, without the shot.
+    """The data that all shots of a mission share: a scene without the shot.
 
-    drones : by name; targets : by name, None where a track cannot be used
+    drones : by name
+    targets : by name, None where a track cannot be used
     """
 
     kinds: Mapping[str, Kind]
@@ -45,7 +46,7 @@ class Cast(NamedTuple):
 
 
 class Shots(NamedTuple):
-    """Shots that have keyframes, those of fleets, and what stands against the others.
+    """Shots with keyframes, displays of fleets, and the diagnostics of the others.
 
     pictures : of fleets, those that have names, as targets
     """
@@ -58,7 +59,7 @@ class Shots(NamedTuple):
 
 
 def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> Shots:
-    """Expand every shot; one without a drone of its own is checked with what ``spare`` makes and left out."""
+    """Expand every shot; one without a valid drone is checked with the drone of ``spare`` and left out."""
     diagnostics: list[Diagnostic] = []
     deferred: list[Deferred] = []
     displays: list[Display] = []
@@ -114,7 +115,7 @@ def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: K
 
 
 def _moves(keyframes: tuple[Keyframe, ...], targets: Mapping[str, Target | None]) -> bool:
-    """Tell whether a keyframe films, or counts its place from, what moves."""
+    """Return whether a keyframe films a moving target, or has its place beside one."""
     names = {k.target for k in keyframes} | {k.beside.target for k in keyframes if k.beside is not None}
     found = (targets.get(name) for name in names if name is not None)
     return any(target is not None and target.track is not None for target in found)
@@ -145,7 +146,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
 
 
 def _focus(spec: MissionSpec, shot: ShotBase, cast: Cast, path: KeyPath) -> list[Diagnostic]:
-    """Return what is wrong with what a lens is to be focused on: it is not there, or there is no aperture."""
+    """Return the faults of a shot's focus: an unknown target, or no aperture."""
     where = (*path, "focus")
     if shot.focus is None:
         return []
@@ -166,7 +167,7 @@ def _focus(spec: MissionSpec, shot: ShotBase, cast: Cast, path: KeyPath) -> list
 
 
 def _above(shot: ShotBase) -> Above | None:
-    """Return what the altitude of a shot's camera counts from, where its kind has one."""
+    """Return the reference of a camera's altitude, where the shot's kind has one."""
     altitude = getattr(shot, "altitude", None)
     return (altitude.above or "target") if isinstance(altitude, Altitude) else None
 

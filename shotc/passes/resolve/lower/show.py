@@ -1,4 +1,4 @@
-"""Fleets and displays, lowered: layouts made pads, and the files that displays draw read."""
+"""Fleets and displays lowered: layouts as pads, and the files that displays draw."""
 
 from typing import NamedTuple
 
@@ -13,9 +13,10 @@ from shotc.spec.load import LoadedMission
 
 
 class Show(NamedTuple):
-    """Fleets whose layouts can be read, the files that displays draw, and what is wrong with the others.
+    """Fleets with readable layouts, the files that displays draw, and the faults of the others.
 
-    files : (name, bytes), the song among them; drawn : (name, SHA-256) of what is drawn
+    files : (name, bytes), the song among them
+    drawn : (name, SHA-256) of the drawn files
     """
 
     fleets: tuple[Fleet, ...] = ()
@@ -31,7 +32,7 @@ def shown(
     displays: tuple[Display, ...],
     song: tuple[str, bytes] | None = None,
 ) -> Show:
-    """Resolve the fleets, and read what their displays draw; song : what they fly to, (name, bytes)."""
+    """Resolve the fleets, and read the files of their displays; song : (name, bytes)."""
     if not ir.spec.fleets:
         return Show()
     fleets, wrong = fleets_of(ir.spec, put, files)

@@ -1,4 +1,4 @@
-"""Metres that look like degrees: latitudes and longitudes near the origin's, written as [x, y, z]."""
+"""Positions in metres that look like degrees: numbers near the origin's latitude and longitude."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from shotc.spec.heights import AboveGround
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import PlaceType
 
-LEAST_DEG = 1.0  # from where latitude and longitude are both 0: nearer to it degrees look like any metres
-TENTHS = 10.0  # a degree has them: nobody pastes a place that is good to 11 km only
-TOLD = 10  # places of one mission
+LEAST_DEG = 1.0  # degrees from latitude and longitude 0, within which degrees look like any metres
+TENTHS = 10.0  # a position in degrees has more than one decimal, which is accurate to 11 km only
+TOLD = 10  # most warnings of one mission
 
 
 class _Written(NamedTuple):
-    """A position in metres, as its field reads it, and where it is written."""
+    """A position in metres, as its field reads it, and its key path."""
 
     path: KeyPath
     place: tuple[Any, ...]
 
 
 def check_slips(spec: MissionSpec, origin: GeoOrigin | None, origins: OriginMap) -> list[Diagnostic]:
-    """Return a warning for each place in metres that would be near the origin in degrees."""
+    """Return a warning for each position in metres that would be near the origin in degrees."""
     if origin is None or hypot(origin.lat_deg, origin.lon_deg) < LEAST_DEG:
         return []
     found: list[Diagnostic] = []
@@ -79,7 +79,7 @@ def _key(path: KeyPath) -> str:
 
 
 def _height(place: tuple[Any, ...]) -> str:
-    """Return the height of a position as the language writes it; empty where it has none."""
+    """Return the height of a position as it is written; empty where it has none."""
     if len(place) < 3:
         return ""
     height = place[2]
@@ -89,7 +89,7 @@ def _height(place: tuple[Any, ...]) -> str:
 
 
 def _in_metres(value: Any, path: KeyPath, *, place: bool = False) -> Iterator[_Written]:
-    """Yield the positions in metres below a value; place : whether its field reads positions."""
+    """Yield the positions in metres within a value; place : whether its field contains positions."""
     if isinstance(value, BaseModel):
         for name, field in type(value).model_fields.items():
             yield from _in_metres(getattr(value, name), (*path, field.alias or name), place=_places(field))
@@ -105,7 +105,7 @@ def _in_metres(value: Any, path: KeyPath, *, place: bool = False) -> Iterator[_W
 
 
 def _places(field: FieldInfo) -> bool:
-    """Tell whether a field reads positions, or a list of them."""
+    """Return whether a field contains positions, or lists of them."""
     annotation: Any = field.annotation
     return any(isinstance(part, PlaceType) for part in field.metadata) or _reads_places(annotation)
 
@@ -116,5 +116,5 @@ def _reads_places(annotation: Any) -> bool:
 
 
 def _parts(annotation: Any) -> tuple[Any, ...]:
-    """Return what an annotation is made of: its arguments, and what annotates it."""
+    """Return the parts of an annotation: its arguments and its metadata."""
     return (*get_args(annotation), *getattr(annotation, "__metadata__", ()))

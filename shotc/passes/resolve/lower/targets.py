@@ -1,4 +1,4 @@
-"""Targets: bodies with their shapes put into W, and groups of those that make one picture."""
+"""Targets: bodies with their shapes in W, and groups of bodies."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 
 class Targets(NamedTuple):
-    """The targets, and what is wrong with them.
+    """The targets, and their faults.
 
     found : by name, None for one whose track, parts or building cannot be used
-    boxes : bodies of buildings that are several, which have no names of their own in the mission
+    boxes : bodies of buildings with several bodies; they have no names of their own in the mission
     """
 
     found: Mapping[str, Target | None]
@@ -44,14 +44,14 @@ class Targets(NamedTuple):
 
     @property
     def groups(self) -> tuple[Target, ...]:
-        """Those that are several bodies."""
+        """Those with several bodies."""
         return tuple(t for t in self.found.values() if t is not None and t.parts)
 
 
 def targets(
     spec: MissionSpec, put: Put, tracks: Mapping[str, Track], standing: Obstacles, origins: OriginMap
 ) -> Targets:
-    """Return the bodies, then the groups; standing : the buildings and the scene."""
+    """Return the bodies and groups; standing : the buildings and the scene."""
     made = Targets(dict.fromkeys(spec.targets), (), ())
     for name, target in spec.targets.items():
         if target.building is not None:
@@ -76,7 +76,7 @@ def targets(
 def _with_building(
     made: Targets, name: str, found: tuple[EnclosingShape, ...] | Diagnostic | None, spec: MissionSpec
 ) -> Targets:
-    """Return targets with a building; one of several bodies is a group of them."""
+    """Return targets with a building; one with several bodies is a group."""
     if found is None or isinstance(found, Diagnostic):
         return made._replace(faults=made.faults if found is None else (*made.faults, found))
     path = ("targets", name)
@@ -91,7 +91,7 @@ def _with_building(
 
 
 def _box_names(name: str, found: tuple[EnclosingShape, ...], spec: MissionSpec) -> Iterator[str]:
-    """Yield names for the bodies of a building: those of its parts where they can be used, else numbers."""
+    """Yield names for the bodies of a building: those of its parts where they are usable, else numbers."""
     parts = Counter(body.name for body in found)
     numbers = (own for own in (f"{name}.{i}" for i in count(1)) if own not in spec.targets)
     for body in found:
@@ -115,7 +115,7 @@ def _body(name: str, target: TargetSpec, put: Put, track: Track | None) -> Targe
         assert target.radius is not None
         shape = CylinderShape(target.radius, target.tall)
     else:
-        # A box that stands lies by its heading, a compass bearing; one that moves by its course.
+        # A standing box is oriented by its heading, a compass bearing; a moving one by its course.
         shape = BoxShape(*target.size, (sin(target.heading or 0.0), cos(target.heading or 0.0)))
     path = ("targets", name)
     if track is not None:
@@ -128,7 +128,7 @@ def _body(name: str, target: TargetSpec, put: Put, track: Track | None) -> Targe
 
 
 def _group(name: str, bodies: list[Target]) -> Target:
-    """Return bodies that stand as one target, about the middle of what they take of the world."""
+    """Return bodies that stand as one target, with its centre in the middle of their bounding box."""
     sides = [(b.shape.half_width((1.0, 0.0)), b.shape.half_width((0.0, 1.0)), b.height / 2) for b in bodies]
     reaches = list(zip([b.centre for b in bodies], sides, strict=True))
     middle = [
@@ -145,7 +145,7 @@ def _group(name: str, bodies: list[Target]) -> Target:
 def _wrong_parts(
     spec: MissionSpec, name: str, parts: tuple[str, ...], origins: OriginMap
 ) -> Iterator[Diagnostic]:
-    """Yield what cannot be a part of a group: it is not defined, moves, is a group, or stands there twice."""
+    """Yield invalid parts of a group: not defined, moving, a group itself, or named twice."""
     bodies = {other: None for other, target in spec.targets.items() if target.parts is None}
     rest = [part for part in dict.fromkeys(parts) if part in bodies and spec.targets[part].track is None]
     for i, part in enumerate(parts):
@@ -163,7 +163,9 @@ def _wrong_parts(
 
 
 def _sideways(name: str, target: TargetSpec, origins: OriginMap) -> Iterator[Diagnostic]:
-    """Tell of a box that moves and is wider than long: sizes of zones begin with the width."""
+    """Yield the warning of a moving box that is wider than long, because sizes of zones begin with
+    the width.
+    """
     if target.track is None or target.size is None or target.size[1] <= target.size[0]:
         return
     length, width, height = target.size

@@ -1,4 +1,4 @@
-"""The terrain that a mission names, read about the places that the mission writes down."""
+"""The terrain that a mission names, read around the places of the mission."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ FILE = ("world", "terrain", "file")
 def read_terrain(
     spec: MissionSpec, put: Callable[[Place], Vec3], files: Files
 ) -> Terrain | Diagnostic | None:
-    """Return the ground that a mission names, what is wrong with it, or None where it names none.
+    """Return the ground that a mission names, or its fault, or None where it names none.
 
-    put : places on flat ground into W; files : who reads files, and the origin
+    put : converts places on flat ground into W
+    files : reader of files, and the origin
     """
     written = spec.world.terrain
     if written is None:
@@ -43,9 +44,9 @@ def read_terrain(
 
 
 def _beyond(spec: MissionSpec) -> float:
-    """Return how far beyond the places that a mission writes down its terrain is read, metres.
+    """Return how far around the places of a mission its terrain is read, metres.
 
-    Where files and velocities say where things go, it is as far as a mission reaches.
+    Where files and velocities determine places, it is the largest range of a mission.
     """
     tracks = [target.track for target in spec.targets.values() if target.track is not None]
     led = any(track.file is not None or track.velocity is not None for track in tracks)
@@ -53,7 +54,7 @@ def _beyond(spec: MissionSpec) -> float:
 
 
 def _places(spec: MissionSpec) -> Iterator[Place]:
-    """Yield the places that a mission writes down, homes first, whatever their heights count from."""
+    """Yield the places written in a mission, homes first, whatever their heights count from."""
     yield from (drone.home for drone in spec.drones.values())
     for target in spec.targets.values():
         track = target.track
@@ -73,7 +74,7 @@ def _places(spec: MissionSpec) -> Iterator[Place]:
 
 
 def _zones(spec: MissionSpec) -> Iterator[Place]:
-    """Yield the middles and corners of the zones whose heights count from the ground."""
+    """Yield the centres and corners of the zones with heights above ground."""
     for zone in spec.world.zones.values():
         if not zone_counts_from_ground(zone):
             continue

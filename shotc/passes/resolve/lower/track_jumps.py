@@ -1,4 +1,4 @@
-"""Tracks that no target can have moved along: jumps, and gaps over which nothing is known."""
+"""Tracks along which no target can have moved: jumps, and gaps without data."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -11,18 +11,20 @@ from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.rounding import at_least
 
-GAP = 10.0  # times the usual time between rows; smart recorders leave out up to that much
-LEAST_GAP = 3.0  # seconds; over less a straight line is a fair guess
-ROUNDING = 1e-6  # of a speed
-MOST = 1000.0  # m/s that the language reads as a speed
-STOOD = 0.1  # metres: what has moved by less in a gap is taken to have stood, as recorders that pause do
+GAP = 10.0  # gap over the usual time between rows; smart recorders skip up to that much
+LEAST_GAP = 3.0  # seconds; over a shorter gap a straight line is a good estimate
+ROUNDING = 1e-6  # relative tolerance of a speed
+MOST = 1000.0  # m/s, largest speed that the language reads
+STOOD = 0.1  # metres of motion in a gap, below which the target stood; recorders may pause
 
 
 class CheckedTrack(NamedTuple):
-    """A track and what to say of it.
+    """A track with its metadata.
 
-    name : of the target; path : of its track in the mission; top_speed : m/s
-    file, lines : of the file and of its rows; empty where the mission itself gives the track
+    name : of the target
+    path : of its track in the mission
+    top_speed : m/s
+    file, lines : the file and the lines of its rows; empty where the mission contains the track
     """
 
     name: str
@@ -34,7 +36,7 @@ class CheckedTrack(NamedTuple):
 
 
 def check_jump(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
-    """Return the first two rows between which the target would have to be faster than it can be."""
+    """Return the fault of the first two rows between which the target exceeds its top speed, or None."""
     track, top = course.track, course.top_speed * (1 + ROUNDING)
     jumps = [i for i, ((s, t), (p, q)) in enumerate(_stretches(track)) if dist(p, q) > top * (t - s)]
     if not jumps:
@@ -60,7 +62,9 @@ def check_jump(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
 def check_velocity(
     course: CheckedTrack, speed: float, origins: OriginMap, *key: str | int
 ) -> Diagnostic | None:
-    """Return the fault of a speed, written at ``key`` below the track, that is above the target's own."""
+    """Return the fault of a speed, written at ``key`` below the track, above the target's top speed,
+    or None.
+    """
     if speed <= course.top_speed * (1 + ROUNDING):
         return None
     labels, raised = _labels(course, origins, (*course.path, *key), speed)
@@ -74,7 +78,7 @@ def check_velocity(
 
 
 def check_gap(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
-    """Return a warning of the longest gap of a recorded track in which its target moves, if it has one."""
+    """Return the warning of the longest gap of a recorded track in which its target moves, or None."""
     times, points = course.track.times, course.track.points
     spaces = [t - s for s, t in pairwise(times)]
     usual = sorted(spaces)[(len(spaces) - 1) // 2]
@@ -109,7 +113,7 @@ def _place(course: CheckedTrack, i: int) -> KeyPath:
 
 
 def _remedy(course: CheckedTrack, i: int) -> str:
-    """Say which row to mend: the one without which the target would move at a speed that it has."""
+    """Return which row to correct: the one without which the target keeps its top speed."""
     times, points = course.track.times, course.track.points
     for k in (i + 1, i):
         if 0 < k < len(times) - 1:
@@ -122,14 +126,14 @@ def _remedy(course: CheckedTrack, i: int) -> str:
 
 
 def _stretches(track: Track) -> Iterator[tuple[tuple[float, float], tuple[Vec3, Vec3]]]:
-    """Yield the times and the places of each row of a track and the next."""
+    """Yield the times and places of each two consecutive rows of a track."""
     return zip(pairwise(track.times), pairwise(track.points), strict=True)
 
 
 def _labels(
     course: CheckedTrack, origins: OriginMap, path: KeyPath, speed: float
 ) -> tuple[tuple[Label, ...], str]:
-    """Return the place of a fault beside the top speed, where one is written, and what to do with it."""
+    """Return labels on a fault and on the top speed, where one is written, and the remedy for the latter."""
     written = (*course.path[:-1], "top_speed")
     key = f"`top_speed: {at_least(speed, 1)} m/s`" if speed < MOST else "a `top_speed`"
     if written in origins.values:

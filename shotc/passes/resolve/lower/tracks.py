@@ -1,4 +1,4 @@
-"""The tracks of moving targets: files, velocities and points made rows of time and place."""
+"""The tracks of moving targets: files, velocities and points as rows of time and place."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import TOP_SPEED
 from shotc.spec.world import TargetSpec, TrackSpec
 
-SAME = 1e-6  # metres within which two points are one
-FEW = 12  # times that are written out in a help
+SAME = 1e-6  # metres within which two points are equal
+FEW = 12  # most times that a remedy lists
 
 
 class TargetTracks(NamedTuple):
-    """The tracks that can be used, by target, and what is wrong with the others.
+    """The usable tracks, by target, and the faults of the others.
 
-    level : the targets whose tracks keep to the ground: of files without heights, or lifted over it
+    level : targets whose tracks follow the ground: from files without heights, or with a lift above it
     """
 
     tracks: Mapping[str, Track]
@@ -64,7 +64,9 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> TargetTracks:
 
 
 def _standing(target: TargetSpec, put: Put) -> Put:
-    """Return what puts the places of a track into W: its centre, over the ground where it has no height."""
+    """Return the function from places of a track to its centre in W; without a height it is above the
+    ground.
+    """
     assert target.track is not None
     lift = target.track.lift
     if isinstance(lift, AboveGround):
@@ -80,7 +82,7 @@ def _raised(place: Vec3, by: float) -> Vec3:
 
 
 def _finished(target: TargetSpec, recording: Recording, put: Put) -> Track:
-    """Return a track as it is flown after: what is recorded is smoothed and lifted."""
+    """Return a track in its final form: a recorded one is smoothed and lifted."""
     spec, track = target.track, recording.track
     assert spec is not None
     if spec.file is None:
@@ -122,7 +124,7 @@ def _track(spec: TrackSpec, put: Put, files: Files, path: KeyPath) -> Recording 
 
 
 def _steady(points: list[Vec3], speed: float, origins: OriginMap, path: KeyPath) -> Track | Diagnostic:
-    """Return the motion along points at one speed; points that repeat the one before are dropped."""
+    """Return the motion along points at one speed; repeated points are dropped."""
     kept = points[:1]
     kept += [p for o, p in pairwise(points) if dist(o, p) > SAME]
     if len(kept) < 2:
@@ -135,7 +137,7 @@ def _steady(points: list[Vec3], speed: float, origins: OriginMap, path: KeyPath)
 
 
 def _in_order(times: tuple[float, ...], i: int) -> str:
-    """Say what makes times rise of which one is no later than the one before it."""
+    """Return how to correct a time that is not later than the one before."""
     if i + 1 < len(times) and times[i + 1] > times[i - 1]:
         return f"set it to {(times[i - 1] + times[i + 1]) / 2:g} s, between its neighbours"
     ordered = sorted(times)

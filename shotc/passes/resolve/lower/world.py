@@ -1,4 +1,4 @@
-"""World and drones: presets filled in, places put into W, zones made solids."""
+"""World and drones: presets filled in, places converted into W, zones as solids."""
 
 from __future__ import annotations
 
@@ -34,17 +34,17 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 Put = Callable[[Spot | Geodetic], Vec3]
 LEAST_AREA = 1e-4  # m^2
-BURIED = 0.25  # share of a target's height under the ground that is no rounding of its place
-BEYOND = 2.0  # times a preset's figure; presets stay at half of what makers publish, or more
-WIDER = 1.02  # times as wide as the picture of a model, from which a lens counts as another
+BURIED = 0.25  # share of a target's height below the ground that rounding does not explain
+BEYOND = 2.0  # factor of a preset's value; presets have at least half of the published values
+WIDER = 1.02  # ratio of widths from which a lens differs from the model's
 _PUBLISHED = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2"}
-LEAST_SPEED = 0.1  # m/s that the wind has to leave
+LEAST_SPEED = 0.1  # m/s, least speed that the wind has to leave
 
 
 def zones(
     spec: MissionSpec, put: Put, terrain: Terrain | None, origins: OriginMap
 ) -> tuple[tuple[Zone, ...], list[Diagnostic]]:
-    """Return the zones as solids; a polygon that encloses nothing is a fault and no zone."""
+    """Return the zones as solids, and the faults of polygons that enclose no area."""
     found: list[Zone] = []
     faults: list[Diagnostic] = []
     for name, zone in spec.world.zones.items():
@@ -60,7 +60,7 @@ def zones(
 
 
 def zone_counts_from_ground(zone: ZoneSpec) -> bool:
-    """Tell whether the heights of a zone count from the ground."""
+    """Return whether the heights of a zone are above ground."""
     if zone.box is not None:
         return counts_from_ground(zone.box.center)
     shape = zone.cylinder or zone.polygon
@@ -68,7 +68,7 @@ def zone_counts_from_ground(zone: ZoneSpec) -> bool:
 
 
 def _solid(zone: ZoneSpec, put: Put, terrain: Terrain | None) -> Solid | str:
-    """Return the solid of a zone, or what its polygon does wrong."""
+    """Return the solid of a zone, or the fault of its polygon."""
     if zone.cylinder is not None:
         c, (x, y), r = zone.cylinder, on_map(zone.cylinder.center, put), zone.cylinder.radius
         about = ((x - r, y - r), (x + r, y + r))
@@ -101,11 +101,12 @@ def on_map(place: Vec2 | OnMap, put: Put) -> Vec2:
 
 
 def _heights(zone: ZoneSpec, height: HeightRange, terrain: Terrain | None, ring: Sequence[Vec2]) -> Vec2:
-    """Return the lowest and the highest z of a zone whose heights may count from the ground.
+    """Return the lowest and the highest z of a zone whose heights may be above ground.
 
-    ring : corners of a polygon round it
-    Of ground that rises, a zone to keep out of has the lowest and the highest about it, so that it is no
-    smaller than what is meant, and one to stay in is no larger.
+    On rising ground, a keep-out zone has the lowest and the highest ground below it, so that it is not
+    smaller than intended, and a keep-in zone is not larger.
+
+    ring : corners of a polygon around it
     """
     if not height.ground or terrain is None:
         return height.low, height.high
@@ -117,7 +118,7 @@ def _heights(zone: ZoneSpec, height: HeightRange, terrain: Terrain | None, ring:
 
 
 def _ring(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:
-    """Drop corners that repeat the one before them, as a closing point does."""
+    """Return the corners without those that repeat the one before, as a closing point does."""
     return tuple(p for i, p in enumerate(points) if not _same(p, points[i - 1]))
 
 
@@ -126,7 +127,7 @@ def _same(p: Vec2, q: Vec2) -> bool:
 
 
 def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, Drone], list[Diagnostic]]:
-    """Return the drones by name, with presets filled in and what the wind does to their speed."""
+    """Return the drones by name, with presets and the effect of wind on their speed, and their faults."""
     found: dict[str, Drone] = {}
     faults: list[Diagnostic] = []
     wind = spec.world.wind
@@ -143,7 +144,7 @@ def drones(spec: MissionSpec, put: Put, origins: OriginMap) -> tuple[dict[str, D
 def resolve_drone(
     name: str, spec: DroneSpec, put: Put, wind: WindSpec, density: float = SEA_LEVEL_KG_M3
 ) -> Drone:
-    """Return a drone as its preset and what the mission puts in its place; density : of the air, kg/m^3."""
+    """Return a drone from its preset and the mission's values; density : of the air, kg/m^3."""
     preset, to = PRESETS[spec.model], toward(wind)
     power = _power(spec, preset, density)
     limits = limits_of(preset, spec.limits, wind.speed if to is None else 0.0)
@@ -172,9 +173,9 @@ def resolve_drone(
 
 
 def _power(spec: DroneSpec, preset: Preset, density: float) -> Power | None:
-    """Return the power of a drone in air of a density, None where nobody knows it.
+    """Return the power of a drone in air of a given density; None where it is not known.
 
-    Whose endurance is written may have another battery than its model: its energy is not known then.
+    If the endurance is written, the battery may differ from the model's, so its energy is not known.
     """
     written = spec.power
     if written is None:
@@ -188,13 +189,13 @@ def _power(spec: DroneSpec, preset: Preset, density: float) -> Power | None:
 
 
 def _lens(camera: CameraSpec, preset: Preset) -> LensRange | None:
-    """Return the lens of a camera; None where neither mission nor model says what it is."""
+    """Return the lens of a camera; None where neither mission nor model gives it."""
     hfov = camera.field_of_view or preset.hfov
     return camera.lens or (LensRange(hfov, hfov, 0.0) if preset.fixed_lens else None)
 
 
 def _safety(spec: DroneSpec, put: Put) -> Safety | None:
-    """Return what a drone does when something goes wrong; None where the mission is silent."""
+    """Return the drone's reactions to failures; None where the mission gives none."""
     written = spec.safety
     if written is None:
         return None
@@ -202,7 +203,7 @@ def _safety(spec: DroneSpec, put: Put) -> Safety | None:
 
 
 def _optics(camera: CameraSpec, preset: Preset) -> Optics | None:
-    """Return what a camera exposes with; None where the mission says neither aperture nor shutter."""
+    """Return the exposure of a camera; None where the mission gives neither aperture nor shutter."""
     if camera.aperture is None and camera.shutter is None:
         return None
     sensor = preset.sensor if camera.sensor is None else camera.sensor[0]
@@ -211,14 +212,14 @@ def _optics(camera: CameraSpec, preset: Preset) -> Optics | None:
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:
-    """Return the preset's limits with what the mission gives in their place, less so much wind, m/s."""
+    """Return the preset's limits with the mission's values, minus the wind's speed, m/s."""
     limits = _over(preset.limits, spec)
     limits["speed"] -= wind
     return Limits(**limits)
 
 
 def _over(preset: Limits | Gimbal, spec: BaseModel) -> dict[str, Any]:
-    """Return the preset's fields, with what the mission gives in their place."""
+    """Return the preset's fields with the mission's values."""
     given = {key: getattr(spec, key) for key in type(spec).model_fields}
     return {key: getattr(preset, key) if given[key] is None else given[key] for key in given}
 
@@ -226,10 +227,10 @@ def _over(preset: Limits | Gimbal, spec: BaseModel) -> dict[str, Any]:
 def beyond_model(
     what: str, spec: DroneSpec | FleetSpec, path: KeyPath, origins: OriginMap
 ) -> list[Diagnostic]:
-    """Warn of limits that no drone of the model that the mission names is likely to have.
+    """Return warnings for limits that no drone of the named model is likely to have.
 
-    Limits are taken at their word, and a preset is no bound: it is for planning, and below what its drone
-    can do. Where no model is named, they are of a drone of the user's own, which nothing is known of.
+    Limits are used as written. A preset is no bound: it is for planning, and lower than what its drone can
+    do. Without a named model the drone is the user's own, of which nothing is known.
     """
     model = (*path, "model")
     if model not in origins.values:
@@ -250,7 +251,7 @@ def beyond_model(
 
 
 def another_lens(spec: DroneSpec, drone: Drone, origins: OriginMap) -> list[Diagnostic]:
-    """Warn of a lens that the camera built into the drone's model has not: one that zooms, or a wider one."""
+    """Return a warning for a lens that the model's built-in camera lacks: one that zooms, or a wider one."""
     preset, lens = PRESETS[spec.model], drone.lens
     if not preset.fixed_lens or lens is None:
         return []
