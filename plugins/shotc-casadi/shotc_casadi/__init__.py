@@ -1,5 +1,5 @@
 """Refiners for shotc: the framing problem of Gebhardt and Hilliges as an optimal-control problem.
 
-conditions -> references -> stages -> solving -> program -> camera -> proof -> rounds -> messages -> refiner:
-each module uses those before it.
+Order of the modules for a shot on a path; each one uses those before it:
+conditions -> references -> stages -> solving -> program -> camera -> proof -> rounds -> messages -> refiner.
 """

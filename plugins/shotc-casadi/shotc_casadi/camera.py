@@ -1,4 +1,4 @@
-"""From the nodes of a solution to a camera over path parameter: smooth, exact where it has to be."""
+"""Fits a smooth camera over path parameter to the nodes of a solution; it interpolates what binds."""
 
 from __future__ import annotations
 
@@ -26,20 +26,22 @@ from shotc_casadi.lens import LEAST_SHARE, lens_bounds
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import LENS, PITCH, YAW
 
-STIFF = 1e-12  # weight of smoothness against the nodes, both without dimension by the spacing of keyframes
+STIFF = 1e-12  # weight of smoothness against the nodes, both dimensionless by the spacing of keyframes
 NODES_A_PIECE = 1.5
 
 
 class NoFit(Exception):
-    """No spline comes near the nodes within the gimbal's range."""
+    """No spline fits the nodes within the pitch range of the gimbal."""
 
 
 class Given(NamedTuple):
-    """Places on the path where the camera's angles bind, both ends among them, and others where slopes do.
+    """Where the camera angles bind (both ends included), and where slopes bind.
 
-    s : path parameter, shape (K,); angles : yaw and pitch, shape (K, 2)
-    through : path parameter, shape (L,); slopes : x, y, z, yaw, pitch by path parameter there, and the field
-        of view where the lens zooms, shape (L, 5) or (L, 6)
+    s : path parameter, shape (K,)
+    angles : camera yaw and pitch there, rad, shape (K, 2)
+    through : path parameter where slopes bind, shape (L,)
+    slopes : derivatives of x, y, z, yaw, pitch by path parameter there, and of the field of view if the lens
+        zooms, shape (L, 5) or (L, 6)
     """
 
     s: Array
@@ -49,11 +51,14 @@ class Given(NamedTuple):
 
 
 def camera(drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: Given) -> Piecewise:
-    """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline through the changes.
+    """Return x, y, z, yaw and pitch over the leg's s: the convex path plus a spline of the differences.
+
+    The camera interpolates ``given``, and at the pins the position and the lens.
+    If the lens zooms and leaves the convex path's field of view, channel 6 is the field of view.
 
     states : shape (N + 1, 16) or (N + 1, 18) as in symbols
-    given : is met exactly; so are the positions that bind, and the lens there
-    A lens that zooms otherwise than along the convex path is a sixth number, the field of view.
+
+    Raises NoFit if no spline fits within the bounds.
     """
     curve = leg.curve
     assert curve is not None
@@ -84,7 +89,7 @@ def camera(drone: Drone, leg: MovingLeg, stages: Stages, states: Array, given: G
 
 
 def _zooms(states: Array, given: Array) -> bool:
-    """Tell whether a lens strays from the field of view that it is given, both at the nodes."""
+    """Return whether a lens leaves the field of view ``given`` at a node (rad, shape (N + 1,))."""
     if states.shape[1] <= LENS:
         return False
     wide, own = np.tan(given / 2), np.tan(states[:, LENS] / 2)
@@ -92,7 +97,7 @@ def _zooms(states: Array, given: Array) -> bool:
 
 
 def _breaks(convex: Array, stages: Stages) -> Array:
-    """Return the convex path's breaks, each piece cut until it has few nodes."""
+    """Return the convex path's breaks; each piece is subdivided until it has few nodes."""
     nodes = np.histogram(stages.s, convex)[0]
     parts = np.maximum(1, np.ceil(nodes / NODES_A_PIECE).astype(int))
     pieces = [subdivide(convex[i : i + 2], int(n))[:-1] for i, n in enumerate(parts)]
@@ -100,7 +105,7 @@ def _breaks(convex: Array, stages: Stages) -> Array:
 
 
 def _task(breaks: Array, stages: Stages, value: Array, at: Array, anchor: Array) -> Fit:
-    """Return the fit of one channel; nodes weigh by the stretch of path that they stand for."""
+    """Return the fit of one channel; a node's weight is the length of path around it."""
     s = stages.s
     spacing = float(s[-1] - s[0]) / max(len(stages.pins) - 1, 1)
     stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)

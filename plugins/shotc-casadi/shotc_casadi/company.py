@@ -1,8 +1,8 @@
-"""Shots refined in a mission with a clock: each beside what other drones and moving targets do meanwhile.
+"""Refines shots in a mission with a clock, where other drones and targets move near them.
 
-A shot on a path is refined by the problem that it has alone, and flown in the time that its convex path
-takes, so that nobody planned beside it has to move. What comes too near then is kept away from by half-spaces
-at the nodes, at the times that these have, and the shot is solved again.
+First, a shot on a path is refined alone and takes the time of its convex path, so that nothing planned around
+it has to change. Then half-spaces at the nodes keep it away from what comes too near at the nodes' times, and
+the shot is solved again.
 """
 
 from __future__ import annotations
@@ -40,16 +40,16 @@ from shotc_casadi.report import deviation, report
 from shotc_casadi.rounds import Refined, refine_shot
 from shotc_casadi.walls import NodePlanes
 
-TRIES = 3  # about the last refined path; one more is about the convex path, which is known to be clear
+TRIES = 3  # with half-spaces about the last refined path; one more about the convex path, which is clear
 APART_S = 1e-6  # seconds at least between two nodes
-DEEPER_SHARE = 0.05  # share by which a drone may be deeper in a picture in which it is already
-ROOM_SHARE = 0.5  # of the room beside a wall, kept; what moves has its own
+DEEPER_SHARE = 0.05  # a drone that is already in a picture may come this share deeper into it
+ROOM_SHARE = 0.5  # share of the room beside a wall that is kept; moving obstacles have their own share
 
 
 def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> Outcome[PathIR]:
     """Return the path with every shot refined, drone by drone in order of priority.
 
-    Shots on their own clock have no keyframes to interpolate; the conditions that do leave them alone.
+    Shots on their own clock have no keyframes to interpolate, so only conditions that frame refine them.
     """
     diagnostics: list[Diagnostic] = []
     filmed = [
@@ -71,15 +71,15 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
 
 
 def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[PathIR, list[Diagnostic]]:
-    """Return the path with one shot on a path refined, and what has to be said of it."""
+    """Return the path with one shot on a path refined, and its diagnostics."""
     shot, task, why, needs = subject.placed.shot.id, subject, "", None
-    plain: tuple[Refined, PathIR] | None = None  # where nothing but a preference stands against it
+    plain: tuple[Refined, PathIR] | None = None  # the first solution that is only against a preference
     for tries in range(1, TRIES + 2):
         refined = refine_shot(task, condition)
         if refined.camera is None and not why:
             error = report(path, refined, condition.name)
             return path, [] if error is None else [error]
-        moved = path  # beside whose flight the next one is put
+        moved = path  # the next attempt is put beside the flights of this path
         if refined.camera is not None:
             try:
                 moved = rejoined(path, {shot: refined.camera})
@@ -104,7 +104,7 @@ def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[Path
 
 
 def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
-    """Tell whether a shot stays as near to another as a preference may move it from that."""
+    """Return whether a refined shot moved no farther from ``plain`` than a preference may move it."""
     assert refined.camera is not None
     assert plain.camera is not None
     s = plain.nodes.s
@@ -116,14 +116,14 @@ def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
 
 
 def _in_its_time(subject: Subject) -> MovingLeg:
-    """Return the leg with the time that it takes as the time that it is to take."""
+    """Return the leg with its current duration as the duration that is asked for."""
     return replace(subject.leg, duration=leg_time(subject.drone, subject.leg))
 
 
 def _told(
     path: PathIR, moved: PathIR, refined: Refined, condition: Condition
 ) -> tuple[PathIR, list[Diagnostic]]:
-    """Return a path with a shot that is refined, with what is measured and said of it."""
+    """Return the path with a refined shot, its statistics and its diagnostics."""
     warning = report(path, refined, condition.name)
     entries = stats(refined.shot, refined.rounds, refined.solution)
     left = (*moved.deviations, *deviation(path, refined))
@@ -132,9 +132,9 @@ def _told(
 
 
 def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
-    """Return what stands against a refined shot as it is flown, None where nothing does.
+    """Return why a refined shot may not be flown, or None if it may.
 
-    What its convex path keeps no better does not count: verification has the word on that.
+    A lack that the convex path has as well does not count: verification decides on that.
     """
     lacks = _lacking(after, subject)
     kept = _lacking(before, subject) if lacks else {}
@@ -146,7 +146,7 @@ def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
 
 
 def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
-    """Return what moves and is not proved to be clear of a shot as it is flown, with the metres that lack."""
+    """Return the lack of clearance, metres, of each moving obstacle that is not proved clear."""
     flown = flown_shot(path, subject.placed.shot.id).curve
     around = surroundings(path, subject.drone, flown.breaks, standing_too=False)
     lacks: dict[str, float] = {}
@@ -159,7 +159,7 @@ def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Passing:
-    """What moves about a shot's flight, at the times at which it passes its nodes."""
+    """The moving obstacles around a shot, at the times at which it passes its nodes."""
 
     path: PathIR
     subject: Subject
@@ -185,7 +185,7 @@ class _Passing:
         return quintic_hermite(t, *(curve.derivative(k)(inside) if k else curve(inside) for k in range(3)))
 
     def _subjects(self) -> Iterator[PlacedSubject]:
-        """Yield what the shot frames, if that is one target in one place."""
+        """Yield the subject of the shot if it is one target at one place on screen."""
         framed = {(k.target, k.reference) for k in self.subject.placed.keyframes}
         if len(framed) == 1:
             ((target, reference),) = framed

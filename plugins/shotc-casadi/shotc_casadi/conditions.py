@@ -1,4 +1,4 @@
-"""What is asked of the camera: the paper's conditions, with framing alone and with four points."""
+"""The conditions of the paper (what the camera has to do), and framing alone and with four points."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ Visibility = Literal["silhouette", "points", "none"]
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """One way to aim the camera between keyframes.
+    """One way to choose the camera between keyframes.
 
-    aims : "framing" holds the target at its place on screen, "angles" interpolates the author's own
-        camera angles, "look-at" the points that the author's cameras look at
-    visibility : how the target is kept whole: by its exact silhouette, by the four hull points of
-        Gebhardt and Hilliges (Eq. 4-7), or not at all
+    aims : "framing" holds the target at its place on screen, "angles" interpolates the author's camera
+        angles, "look-at" interpolates the points that the author's cameras look at
+    visibility : how the whole target is kept in the frame: by its exact silhouette, by the four hull points
+        of Gebhardt and Hilliges (Eq. 4-7), or not at all
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""How much of a target stays free of what covers it, which refined cameras are taken by."""
+"""How much of a target is free of occluders; the measure by which refined cameras are accepted."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import HALF_SHARE, Array, PlacedShot, coverage, hidden_on_purpose
 from shotc_casadi.references import Subject
 
-GAIN_SHARE = 0.005  # of an outline, or of the frames: less than that is as good
-LEAST_SHARE = 0.02  # of an outline: the same in the one frame that shows least of it
+GAIN_SHARE = 0.005  # of an outline, or of the frames: a smaller loss does not count
+LEAST_SHARE = 0.02  # the same for the one frame that shows least of the outline
 SAMPLES = 240  # of a path
 
 
 class Free(NamedTuple):
-    """How much of a target's outline nothing covers, shares from 0 to 1.
+    """Which share of a target's outline is not covered, from 0 to 1.
 
-    mean, least, first, last : over the frames, in that which shows least of it, and in both ends
-    sighted : share of the frames that show half of it or more
+    mean, least, first, last : mean over the frames, least of all frames, first frame, last frame
+    sighted : share of the frames that show at least half of the outline
     """
 
     mean: float = 1.0
@@ -30,16 +30,17 @@ class Free(NamedTuple):
 
 
 def free_of(covered: Array) -> Free:
-    """Return what frames, one at least, leave free; covered : share of the outline in each, (M,)."""
+    """Return what is free in one or more frames; covered : covered share of the outline by frame, (M,)."""
     free = 1.0 - covered
     in_sight = (free >= HALF_SHARE).mean()
     return Free(float(free.mean()), float(free.min()), float(free[0]), float(free[-1]), float(in_sight))
 
 
 def lost(placed: PlacedShot, before: Free, after: Free) -> float:
-    """Return by how much a target is free less than before in what is promised or told of it; 0 for not.
+    """Return by how much a target is less free than before in what is promised or reported; 0 if not.
 
-    Where it may be hidden nothing is told; else the mean counts, and half of the outline in every frame.
+    If the target may be hidden, only promises count. Otherwise the mean counts too, and that every frame
+    shows half of the outline.
     """
     if hidden_on_purpose(placed.shot):
         return broken(placed, before, after)
@@ -50,7 +51,7 @@ def lost(placed: PlacedShot, before: Free, after: Free) -> float:
 
 
 def broken(placed: PlacedShot, before: Free, after: Free) -> float:
-    """Return by how much a promise is broken that was kept before, or is broken further; 0 for none."""
+    """Return by how much a promise that was kept is broken, or is broken further; 0 for none."""
     promise, losses = placed.shot.promise, [0.0]
     if promise.visible is not None:
         losses.append(_short(promise.visible, before.least, after.least))
@@ -63,14 +64,14 @@ def broken(placed: PlacedShot, before: Free, after: Free) -> float:
 
 
 def _short(asked: float, before: float, after: float) -> float:
-    """Return by how much a value lacks of what is asked, or of the value before where that lacks too."""
+    """Return by how much a value misses what is asked, or the value before if that misses it too."""
     return asked - after if before >= asked else before - after - LEAST_SHARE
 
 
 def lost_on_path(subject: Subject, camera: Piecewise) -> float:
     """Return by how much a camera over s shows less of its targets than the convex path, as ``lost`` does.
 
-    What moves is left out: when the camera is where is not known yet.
+    Moving occluders do not count: the time of each place is not known yet.
     """
     after = _on_path(subject, camera)
     return 0.0 if after == Free() else lost(subject.placed, _on_path(subject, subject.leg.curve), after)

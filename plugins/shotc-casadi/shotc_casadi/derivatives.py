@@ -1,8 +1,7 @@
 """The derivatives of the programme: those of one stage, mapped over the horizon.
 
-They are made once in symbols for one stage, and their nonzeros are laid straight into the sparse
-matrices of the programme, so it takes a tenth of a second to build where differentiating the
-whole of it takes seconds.
+CasADi derives one stage symbolically, once. The nonzeros go directly into the sparse matrices of the
+programme. This takes a tenth of a second; to differentiate the whole programme takes seconds.
 """
 
 from __future__ import annotations
@@ -23,9 +22,10 @@ Index = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Derived:
-    """Functions of one stage and of the last node, with their derivatives laid out as the solvers ask.
+    """Functions of one stage and of the last node, and their derivatives as the solvers need them.
 
-    states, inputs, size : of a stage, how many of each and of parameters; bound, last_bound : constraints
+    states, inputs, size : number of states, inputs and parameters of a stage
+    bound, last_bound : number of constraints of a stage and of the last node
     """
 
     cost: Any
@@ -45,12 +45,12 @@ class Derived:
 
     @property
     def width(self) -> int:
-        """Return how many unknowns a stage has."""
+        """Number of unknowns of a stage."""
         return self.states + self.inputs
 
 
 class _Horizon(NamedTuple):
-    """The symbols of a programme cut into its stages: unknowns and parameters by column, those of the end."""
+    """The symbols of a programme, one column a stage: unknowns and parameters, and those of the last node."""
 
     z: Any
     end: Any
@@ -59,7 +59,7 @@ class _Horizon(NamedTuple):
 
 
 def laid_out(d: Derived, solver: str, stages: int, x: Any, p: Any) -> dict[str, Any]:
-    """Return the derivatives of the programme, under the names by which CasADi's solvers ask for them."""
+    """Return the derivatives of the programme, by the names that CasADi's solvers use."""
     wide = d.width
     z, end = ca.reshape(x[: stages * wide], wide, stages), x[stages * wide :]
     given = ca.reshape(p, p.numel() // (stages + 1), stages + 1)
@@ -120,12 +120,12 @@ def _costs(d: Derived, stages: int, over: _Horizon) -> tuple[Any, Any]:
 def derived(
     visibility: Visibility, planes: int, extents: int = 0, windy: bool = False, zooms: bool = False
 ) -> Derived:
-    """Return the functions of one stage with that many half-spaces; the others are as in ``stage``."""
+    """Return the functions of one stage with ``planes`` half-spaces; other arguments as in ``stage``."""
     return differentiated(stage(visibility, planes, extents, windy, zooms))
 
 
 def differentiated(s: StageSymbols) -> Derived:
-    """Return the functions of a stage; its state is what comes first in ``z``."""
+    """Return the functions of a stage; the first entries of ``z`` are its state."""
     states = s.following.numel()
     inputs = s.z.numel() - states
     x = s.z[:states]
@@ -169,7 +169,9 @@ def differentiated(s: StageSymbols) -> Derived:
 
 
 def _curved(lagrangian: Any, exact: Any, roots: Any, weight: Any, at: Any) -> list[Any]:
-    """Return the slope of a Lagrangian, and its curvature: of a part exactly, and that of squares."""
+    """Return the gradient of a Lagrangian and its Hessian: exact for ``exact``, Gauss-Newton for
+    ``roots``.
+    """
     slopes = ca.jacobian(roots, at)
     return [ca.gradient(lagrangian, at), ca.hessian(exact, at)[0] + 2 * weight * (slopes.T @ slopes)]
 
@@ -186,8 +188,8 @@ def _block_diagonal(d: Derived, stages: int) -> Any:
 def _staircase(d: Derived, stages: int) -> Any:
     """Return the sparsity of the constraints' Jacobian.
 
-    A stage's columns hold the joint to the stage before, then its own gap and bounds; the nonzeros of
-    ``jacobian`` come in that order.
+    The columns of a stage contain the coupling to the stage before, then the stage's own dynamics and bounds.
+    The nonzeros of ``jacobian`` have that order.
     """
     states, wide = d.states, d.width
     high = states + d.bound
@@ -206,9 +208,9 @@ def _staircase(d: Derived, stages: int) -> Any:
 def _repeated(
     block: Any, at: range, high: int, wide: int, lift: tuple[int, int] = (0, 0)
 ) -> tuple[Index, Index]:
-    """Return the places of a block repeated down a diagonal.
+    """Return rows and columns of a block that is repeated down a diagonal.
 
-    lift : how many first rows of the block stand higher than the rest of it would have them, and by how much
+    lift : how many first rows of the block are moved up, and by how many rows
     """
     first, by = lift
     row, column = _triplets(block)

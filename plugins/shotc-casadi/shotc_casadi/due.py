@@ -1,4 +1,4 @@
-"""When a mission wants a shot to be where: its length and its keyframes' times, without what it holds."""
+"""When a shot has to be where: its duration and the times of its keyframes, without holds."""
 
 from __future__ import annotations
 
@@ -12,16 +12,17 @@ from shotc.plugin_api.refiner import Array, flying_times
 
 
 class Due(NamedTuple):
-    """Places on the path with a time, the start first; shapes (K,).
+    """Places on the path that have a time, the start first; shapes (K,).
 
-    s : path parameter; t : seconds from the start, less all holds before
+    s : path parameter
+    t : seconds from the start, without all holds before
     """
 
     s: Array
     t: Array
 
     def __bool__(self) -> bool:
-        """Tell whether any place but the start has a time."""
+        """Return whether any place except the start has a time."""
         return len(self.s) > 1
 
     def lateness(self, s: Array, t: Array) -> float:
@@ -30,7 +31,9 @@ class Due(NamedTuple):
         return float(np.max(takes / np.maximum(given, 1e-9), initial=0.0)) - 1.0
 
     def kept(self, s: Array, t: Array, pace: float) -> Array:
-        """Return a motion's times, stretched so that every place is met; pace : of what follows the last."""
+        """Return the times t of a motion, scaled so that it meets every place; pace : after the last
+        place.
+        """
         known = np.interp(self.s, s, t)
         after = self.t[-1] + (t - known[-1]) / pace
         return np.where(t <= known[-1], np.interp(t, known, self.t), after)
@@ -43,6 +46,6 @@ def due(leg: MovingLeg) -> Due:
 
 
 def unhurried(leg: MovingLeg) -> MovingLeg:
-    """Return a leg without its times, to be flown as fast as the limits allow."""
+    """Return a leg without times; it is flown as fast as the limits allow."""
     marks = tuple(replace(mark, time=None) for mark in leg.marks)
     return replace(leg, duration=None, pace=1.0, marks=marks)

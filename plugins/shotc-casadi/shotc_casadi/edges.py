@@ -1,8 +1,8 @@
-"""Keyframes at which a target touches the frame's edge, and a camera that crops nothing beside them.
+"""Keeps the target whole beside keyframes at which it touches an edge of the frame.
 
-How far inside the frame the target is has its least value there. So its slope along the path is zero where
-the camera flies through, and does not fall where it begins. The nodes cannot see that: what is lost in the
-first instants after a keyframe is less than they weigh.
+At such a keyframe the distance of the target from the edge has a minimum. So its slope along the path has to
+be zero where the camera flies through, and must not be negative at the first keyframe. The nodes cannot
+enforce this: the loss just after a keyframe is smaller than the error that they tolerate.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from shotc_casadi.frames import LEAST_HALF_FRAMES, insides
 from shotc_casadi.references import LENS, Subject, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
-STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame, over which slopes are measured
-SLIGHT_HALF_FRAMES = 1e-7  # half frames lost over a way as long as the distance, which are none
+STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame: the step of a difference quotient
+SLIGHT_HALF_FRAMES = 1e-7  # a loss that counts as none: half frames, over a way as long as the distance
 
 
 def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Given) -> Given:
-    """Return what binds a camera, with how it goes through keyframes at which its target touches an edge.
+    """Return ``given`` with the slopes of the camera at keyframes where its target touches an edge.
 
-    Where it would crop it beside one, as little is changed as does: in shares of the distance, half frames.
+    If the camera would crop the target beside such a keyframe, the slopes change as little as possible,
+    measured in shares of the distance and in half frames.
     """
     s = nodes.s[nodes.pins]
     q, references = camera(s), references_at(subject, OURS, s)
@@ -35,10 +36,10 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
     for k in np.flatnonzero((references.whole > 0) & (inside.min(axis=1) < LEAST_HALF_FRAMES)):
         touches = inside[k] < LEAST_HALF_FRAMES
         slope = _along(subject, camera, float(s[k]), STEP_SHARE * float(away[k]))[touches]
-        # What it gains before the first keyframe, or after the last, nobody sees.
+        # Nobody sees a gain before the first keyframe or after the last one.
         lost = slope if 0 < k < len(s) - 1 else np.minimum(slope, 0.0) if k == 0 else np.maximum(slope, 0.0)
         if np.abs(lost).max() * away[k] > SLIGHT_HALF_FRAMES:
-            # Steps of the field of view, where the camera has one, are shares of it.
+            # A step of the field of view, if the camera has one, is a share of it.
             unit = np.array([*[away[k]] * 3, half[k], half[k], *np.sin(q[k, LENS:])])
             by = _by_pose(subject, float(s[k]), q[k], STEP_SHARE * unit)[touches] / STEP_SHARE
             rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
@@ -47,14 +48,14 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
 
 
 def _along(subject: Subject, camera: Piecewise, s: float, step: float) -> Array:
-    """Return by how much per metre of path a target comes inside each edge, half frames, (4,)."""
+    """Return by how much per metre of path the target moves inwards from each edge, half frames, (4,)."""
     at = np.clip(np.array([s - step, s + step]), camera.start, camera.end)
     before, after = insides(subject, references_at(subject, OURS, at), at, camera(at))
     return np.asarray((after - before) / (at[1] - at[0]))
 
 
 def _by_pose(subject: Subject, s: float, q: Array, steps: Array) -> Array:
-    """Return by how much a target comes inside each edge where a number of a pose takes its step, (4, K)."""
+    """Return by how much the target moves inwards from each edge for each step of the pose, (4, K)."""
     poses = np.concatenate([q + np.diag(steps), q - np.diag(steps)])
     at = np.full(len(poses), s)
     after, before = np.split(insides(subject, references_at(subject, OURS, at), at, poses), 2)

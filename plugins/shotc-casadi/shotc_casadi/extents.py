@@ -1,8 +1,8 @@
-"""Targets that are more than one upright cylinder, in numbers and in CasADi symbols: boxes, several bodies.
+"""Targets that are more than one upright cylinder (boxes, several bodies), in numbers and CasADi symbols.
 
-A body reaches as far from its centre along a unit vector n as the sum of an upright cylinder and a level
-parallelogram: h / 2 |n.up| + r sqrt(1 - (n.up)^2) + |n.a| + |n.b|. A cylinder has no sides a and b, a box no
-radius; what is between the two, where one target hands over to another, has both.
+Along a unit vector n, a body reaches from its centre as far as an upright cylinder plus a horizontal
+parallelogram: h / 2 |n.up| + r sqrt(1 - (n.up)^2) + |n.a| + |n.b|. A cylinder has no sides a and b, a box has
+no radius. Between the two, where one target hands over to another, a body has both.
 """
 
 from __future__ import annotations
@@ -25,16 +25,17 @@ from shotc.plugin_api.refiner import (
 )
 
 EXTENT = 9
-"""Numbers of a body: its centre from the target's (3), radius, height, halves of its sides (2 x 2)."""
-ROUNDED = 1e-4  # of a length: what is less aslant than that is rounded off
-TINY_M2 = 1e-16  # m^2 added to a square that is not to be none
+"""Numbers of a body: its centre relative to the target's (3), radius, height, half-sides (2 x 2)."""
+ROUNDED = 1e-4  # of a length: smaller parts are rounded off
+TINY_M2 = 1e-16  # m^2 added to a square so that it is not zero
 
 
 class Extent(NamedTuple):
-    """A body, in numbers, in arrays or in symbols.
+    """A body, in numbers, arrays or symbols.
 
-    offset : of its centre from the target's, W, metres
-    radius, height : metres; along, across : halves of its sides, (x, y) of W, metres
+    offset : of its centre from the target's centre, W, metres
+    radius, height : metres
+    along, across : half-sides, (x, y) of W, metres
     """
 
     offset: Any
@@ -45,11 +46,11 @@ class Extent(NamedTuple):
 
     @staticmethod
     def of(row: Any) -> Extent:
-        """Return the body of EXTENT numbers; of arrays they are the first axis."""
+        """Return the body of EXTENT numbers; the first axis of an array."""
         return Extent(row[:3], row[3], row[4], row[5:7], row[7:9])
 
     def reach(self, camera: View, n: UnitVector) -> Any:
-        """Return how far it reaches from its centre along a unit vector of C, metres; exact, of arrays."""
+        """Return how far the body reaches from its centre along a unit vector of C, m; exact, for arrays."""
         far = self.height / 2 * abs(n.up) + self.radius * abs(1.0 - n.up * n.up) ** 0.5
         for side in (self.along, self.across):
             right, down, forward = camera.to_camera((side[0], side[1], 0.0 * side[0]))
@@ -58,19 +59,19 @@ class Extent(NamedTuple):
 
 
 def is_round(shape: TargetShape) -> bool:
-    """Tell whether a target is one upright cylinder, which needs no extents."""
+    """Return whether a target is one upright cylinder, which needs no extents."""
     return isinstance(shape, CylinderShape)
 
 
 def count_of(shapes: Sequence[TargetShape]) -> int:
-    """Return how many extents a programme of targets of these shapes has; 0 where all are cylinders."""
+    """Return how many extents a programme with targets of these shapes has; 0 if all are cylinders."""
     return 0 if all(map(is_round, shapes)) else max(len(bodies_of(shape)) for shape in shapes)
 
 
 def extents_of(shape: TargetShape, count: int, times: int) -> Array:
-    """Return a target's bodies, shape (times, count, EXTENT); the first one fills what is left.
+    """Return a target's bodies, shape (times, count, EXTENT); copies of the first one fill the rest.
 
-    shape : its course may be one for each of the times
+    shape : may have one course for each of the times
     """
     rows = np.zeros((times, count, EXTENT))
     if count:
@@ -96,17 +97,20 @@ def _body(shape: BodyShape, times: int) -> Array:
 
 
 def rounded(part: Any, squared: Any) -> Any:
-    """Return the size of a vector's part along a direction, rounded off where it is square to that.
+    """Return the magnitude of a vector's component along a direction, smooth where it is zero.
 
-    squared : of the whole vector's length
+    part : that component
+    squared : the squared length of the vector
     """
     return ca.sqrt(part**2 + ROUNDED**2 * squared + TINY_M2)
 
 
 def between(first: Array, second: Array, share: Array) -> Array:
-    """Return bodies on the way from one target's to another's; share : (M, 1), of that way.
+    """Return bodies between those of one target and those of another; share : of the way, (M, 1).
 
-    first, second : (1, K, EXTENT). Sides that are told the other way round are turned: they are the same.
+    Sides that point the opposite way are turned: they describe the same body.
+
+    first, second : (1, K, EXTENT)
     """
     turned = second.copy()
     for pair in (slice(5, 7), slice(7, 9)):

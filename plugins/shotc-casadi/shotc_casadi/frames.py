@@ -1,8 +1,8 @@
-"""How far inside the frame a target is, in half frames, and how far inside the nodes ask it to be.
+"""How far inside the frame a target is, in half frames, and how far inside it the nodes ask it to be.
 
-All of it is without dimension: one half frame is half the picture's width or height, whatever the lens, and
-lengths count as shares of the distance to the target. So the same numbers hold for a person from 5 m and a
-ship from 500 m, at 15 and at 110 deg.
+All numbers are dimensionless: a half frame is half the width or height of the picture, for every lens, and
+lengths are shares of the distance to the target. So the same numbers fit a person from 5 m and a ship from
+500 m, at 15 and at 110 deg.
 """
 
 from __future__ import annotations
@@ -29,20 +29,22 @@ from shotc_casadi.extents import EXTENT, Extent
 from shotc_casadi.references import References, Subject, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
-SAMPLES_PER_PIECE = 6  # a piece
-INSIDE_HALF_FRAMES = 0.03  # kept from the edge at first: a squared hinge alone stops slightly outside
-LEAST_HALF_FRAMES = 2e-3  # kept from the edge where the nodes ask for more after a look between them
-OPENING_HALF_FRAMES = 0.1  # asked for more, per length of path over the distance, away from a keyframe
-MOST_HALF_FRAMES = 0.5  # half frames asked for at most
+SAMPLES_PER_PIECE = 6
+INSIDE_HALF_FRAMES = 0.03  # margin to the edge at first: a squared hinge alone stops slightly outside
+LEAST_HALF_FRAMES = 2e-3  # margin to the edge in later rounds, where the nodes ask for more
+OPENING_HALF_FRAMES = 0.1  # margin gained per length of path over the distance, away from a keyframe
+MOST_HALF_FRAMES = 0.5  # largest margin that is asked for
 
 
 def insides(subject: Subject, references: References, s: Array, q: Array) -> Array:
-    """Return how far inside each edge of the frame the whole target lies, half frames, shape (M, 4).
+    """Return how far inside each edge of the frame the whole target is, half frames, shape (M, 4).
 
+    The order is left, right, bottom, top; negative is cropped. It is the distance from the frustum's plane
+    (``frustum_margins``, exact) over the length of a half frame at the target's distance. What verification
+    counts as rounding counts as inside.
+
+    s : path parameter, shape (M,)
     q : camera x, y, z, yaw, pitch at s, shape (M, 5), or (M, 6) with its field of view
-    Order left, right, bottom, top; negative is cropped.
-    The distance from the frustum's plane (``frustum_margins``, exact), divided by what a half frame is
-    at the target's distance. What verification takes for rounding counts as inside.
     """
     offset = (references.centre - q[:, :3]).T
     wide, tall = fields_of_view(subject, s, q)
@@ -65,15 +67,15 @@ def _bodies(references: References, offset: Array) -> Iterator[tuple[tuple[Array
 
 
 def asked_at_first(subject: Subject, nodes: Stages, references: References) -> References:
-    """Return references that ask for the target inside the frame by as much as a first solve takes."""
+    """Return the references with the margins to the edges for the first solve."""
     return replace(references, inside=np.minimum(INSIDE_HALF_FRAMES, _allowed(subject, nodes, nodes.s)))
 
 
 def asked_again(subject: Subject, nodes: Stages, references: References, camera: Piecewise) -> References:
-    """Return what the nodes ask for after a camera was looked at between them.
+    """Return the references with the margins to the edges for the next solve.
 
-    The method of multipliers (Hestenes 1969, Powell 1969) for the hinge: where the target is nearer to an
-    edge than it should be on either side of a node, the node asks for as much more.
+    This is the method of multipliers (Hestenes 1969, Powell 1969) for the hinge: if the target is too near to
+    an edge on either side of a node, the node's margin grows by what is missing.
     """
     s, inside, whole = between_nodes(subject, camera)
     lacks = np.minimum(LEAST_HALF_FRAMES, _allowed(subject, nodes, s)) - inside
@@ -89,7 +91,7 @@ def asked_again(subject: Subject, nodes: Stages, references: References, camera:
 
 
 def cropped(subject: Subject, camera: Piecewise) -> float:
-    """Return by how much the target sticks out of the frame at worst, half frames; 0 where it is whole."""
+    """Return by how much the target is outside the frame at most, half frames; 0 if it is whole."""
     _, inside, whole = between_nodes(subject, camera)
     return float(max(0.0, -inside[whole].min(initial=0.0)))
 
@@ -97,7 +99,9 @@ def cropped(subject: Subject, camera: Piecewise) -> float:
 class Looked(NamedTuple):
     """Dense places on the path.
 
-    s : path parameter, shape (M,); inside : as of ``insides``; whole : where the target is to be whole
+    s : path parameter, shape (M,)
+    inside : as from ``insides``, shape (M, 4)
+    whole : where the target has to be whole, shape (M,)
     """
 
     s: Array
@@ -106,17 +110,17 @@ class Looked(NamedTuple):
 
 
 def between_nodes(subject: Subject, camera: Piecewise) -> Looked:
-    """Look at the target of a camera that holds its composition, at dense places."""
+    """Return how the camera shows its target at dense places between the nodes."""
     s: Array = subdivide(camera.breaks, SAMPLES_PER_PIECE)
     references = references_at(subject, OURS, s)
     return Looked(s, insides(subject, references, s, camera(s)), references.whole > 0)
 
 
 def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
-    """Return how far inside the keyframes let the target be at s, shape (M, 4).
+    """Return how far inside the keyframes allow the target to be at s, shape (M, 4).
 
-    A keyframe is passed exactly, however near to the frame's edge its target is; beside it the camera can
-    only back off bit by bit.
+    The camera passes a keyframe exactly, even if its target is near to the edge of the frame there. Beside it
+    the camera can only back off gradually.
     """
     curve = subject.leg.curve
     assert curve is not None

@@ -1,7 +1,7 @@
-"""One stage repeated over the horizon: a nonlinear programme, for fatrop or IPOPT.
+"""Repeats one stage over the horizon: a nonlinear programme for fatrop or IPOPT.
 
-Programmes are built once a process for each kind of stage, number of stages and pattern of bounds; missions
-are parameters.
+A process builds a programme once for each kind of stage, number of stages and pattern of bounds. The mission
+enters only by the parameters.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ ITERATIONS = 300
 
 @lru_cache(maxsize=32)
 def built(d: Derived, stages: int, solver: Solver, tolerance: float, pattern: bytes) -> Any:
-    """Return the solver of all problems of one kind of stage: unknowns x stage by stage, parameters p.
+    """Return the solver for all problems of one kind of stage; unknowns x stage by stage, parameters p.
 
-    pattern : of the bounds, as ``solving`` makes it for fatrop: where it changes, CasADi 3.8.2 makes a new
-        solver without its options, the tolerance among them. A problem of 8 iterations took 17 then.
+    pattern : of the bounds, as ``solving`` makes it for fatrop. If it changes, CasADi 3.8.2 makes a new
+        solver without its options (such as the tolerance): a problem of 8 iterations then took 17.
     """
     states, wide = d.states, d.width
     x = ca.MX.sym("x", stages * wide + states)
@@ -46,7 +46,7 @@ def built(d: Derived, stages: int, solver: Solver, tolerance: float, pattern: by
     quiet: dict[str, Any] = {
         "ipopt": {"print_level": 0, "sb": "yes", "tol": tolerance, "max_iter": ITERATIONS}
     }
-    # What is no number is told by the solution's status; prices of the parameters are not asked for.
+    # The status reports NaN; multipliers of the parameters are not needed.
     silent = {"print_time": False, "show_eval_warnings": False, "calc_lam_p": False}
     options: dict[str, Any] = {**silent, "cache": laid_out(d, solver, stages, x, p)}
     return ca.nlpsol("framing", solver, nlp, options | (layout if solver == "fatrop" else quiet))

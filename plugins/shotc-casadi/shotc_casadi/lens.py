@@ -1,8 +1,8 @@
-"""A lens that zooms, as a part of the problem: what it is to show between keyframes, and its bounds.
+"""A lens that zooms, as a part of the problem: its reference between keyframes, and its bounds.
 
-Keyframes bind it, as they bind the place. Between two that ask for the same lens, the lens stays as it is
-unless the picture needs another; between two that ask for different ones, the target's size goes from that at
-the first to that at the second as its place on screen does, and the lens follows from the size.
+Keyframes bind the lens as they bind the position. Between two keyframes with the same lens, the lens stays
+unless the picture needs another one. Between two with different lenses, the target's size moves from the
+first to the second in the same way as its place on screen, and the lens follows from the size.
 """
 
 from __future__ import annotations
@@ -19,20 +19,18 @@ from shotc_casadi.references import References, Subject, keys_of, progress_at
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import LENS_FIELDS, LENS_STATES
 
-# Weights of the cost: as in ``problem``, without dimension.
-ACCELERATION = (
-    1e-2  # per squared share of the field of view, gained in the square of the time between two pins
-)
-SAME_SHARE = 1e-9  # of a field of view by which two lenses differ that are one
-LEAST_SHARE = 2e-3  # of a field of view: a lens that strays by less from the one it is given keeps that
+# Weights of the cost: dimensionless, as in ``problem``.
+ACCELERATION = 1e-2  # per squared share of the field of view, over the squared time between two pins
+SAME_SHARE = 1e-9  # of a field of view: lenses that differ by less are the same
+LEAST_SHARE = 2e-3  # of a field of view: a lens that leaves its given one by less keeps that
 
 
 def is_free(subject: Subject, condition: Condition, stages: Stages, references: References) -> bool:
-    """Tell whether the lens of a shot is part of its problem.
+    """Return whether the lens of a shot is part of its problem.
 
-    It is where it zooms, the condition frames targets, keyframes that nobody wrote ask for no lens, and there
-    is something to win: keyframes ask for different ones, or the convex path shows less than nodes ask for
-    through a lens that has a wider end and that the drone's files zoom.
+    It is, if the lens zooms, the condition frames targets, no keyframe that the compiler added asks for a
+    lens, and zooming can help. It can help if keyframes ask for different lenses. It can also help if the
+    drone's files zoom, the lens has a wider end, and the convex path shows less than the nodes ask for.
     """
     if condition.aims != "framing" or not subject.drone.zooms:
         return False
@@ -50,7 +48,7 @@ def is_free(subject: Subject, condition: Condition, stages: Stages, references: 
 
 
 def lens_bounds(drone: Drone, given: Array) -> tuple[float, float]:
-    """Return the least and the largest field of view, rad: those of the lens, and those it is given."""
+    """Return the smallest and largest field of view, rad: of the lens and of ``given``."""
     assert drone.lens is not None
     return min(drone.lens.longest, float(given.min())), max(drone.lens.widest, float(given.max()))
 
@@ -63,7 +61,7 @@ def lens_guess(subject: Subject, stages: Stages) -> tuple[Array, Array]:
 
 
 def lens_state_bounds(subject: Subject, stages: Stages, pace: float) -> tuple[Array, Array]:
-    """Return the bounds of the states of the lens at all nodes; pace : share of its rate that is used."""
+    """Return the bounds of the lens states, two of shape (N + 1, 2); pace : share of its rate to use."""
     assert subject.drone.lens is not None
     low, high = lens_bounds(subject.drone, subject.leg.curve(stages.s)[:, HFOV])
     rate = pace * subject.drone.lens.rate
@@ -74,8 +72,9 @@ def lens_state_bounds(subject: Subject, stages: Stages, pace: float) -> tuple[Ar
 def lens_parameters(subject: Subject, stages: Stages, off: float, pin: float, still: float) -> Array:
     """Return the LENS_FIELDS of all nodes, shape (N + 1, sum of their sizes).
 
-    off, pin, still : weights of a squared share of the field of view, of the same where it binds, and of the
-        rate as a share of the largest where the drone rests
+    off : weight of a squared share of the field of view
+    pin : the same where the lens binds
+    still : weight of the squared share of the largest rate, where the drone rests
     """
     assert subject.drone.lens is not None
     n, total = len(stages.s) - 1, float(stages.t[-1])
@@ -99,9 +98,9 @@ def lens_parameters(subject: Subject, stages: Stages, off: float, pin: float, st
 
 
 def _spread(subject: Subject, s: Array) -> tuple[Array, Array]:
-    """Return the logarithm of half the width of the picture at the target, metres, and where that is asked.
+    """Return log of half the picture's width at the target (metres) and a mask of where it is asked for.
 
-    s : path parameters, shape (N + 1,), as of both
+    s : path parameters, shape (N + 1,); both results have this shape
     """
     keys = keys_of(subject)
     at = np.array([key_s for key_s, _ in keys])

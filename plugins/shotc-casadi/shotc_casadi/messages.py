@@ -1,4 +1,4 @@
-"""What has to be said of a shot's solver: words, diagnostics and statistics, whatever the problem was."""
+"""Diagnostics and statistics about the solver of a shot; the same for all problems."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ def word(solution: Solution) -> str:
 
 
 def fallen_back(path: PathIR, shot: str, first: Solution | None, solution: Solution) -> Diagnostic | None:
-    """Return what is said of a shot that is refined, if another solver failed first."""
+    """Return the warning that another solver failed first, None if none did."""
     return None if first is None else fallback(path, shot, (first.solver, solution.solver), word(first))
 
 
 def unsolved(path: PathIR, state: SolverState, solution: Solution) -> Diagnostic:
-    """Return the error of a shot that is not refined; a solution has something else against it then."""
+    """Return the error of a shot that is not refined; ``state`` names the constraint."""
     if solution.status == "nan":
         return solver_nan(path, state)
     if solution.status == "stopped":
@@ -47,7 +47,7 @@ def unsolved(path: PathIR, state: SolverState, solution: Solution) -> Diagnostic
 def stats(
     shot: str, rounds: int, solution: Solution, status: str | None = None
 ) -> tuple[tuple[str, float | str], ...]:
-    """Return the statistics of a shot; status : of its refinement, if that is not its solver's."""
+    """Return the statistics of a shot; status : of its refinement, if it differs from the solver's."""
     return (
         (f"{shot}.refine_stages", float(len(solution.inputs))),
         (f"{shot}.refine_rounds", float(rounds)),

@@ -37,26 +37,26 @@ from shotc_casadi.symbols import (
     size,
 )
 
-# Weights of the cost. Every term is a mean over the nodes or the time, and without dimension: half frames
-# for the picture, lengths as shares of the distance to the target, rates as shares of their limits, times as
-# shares of the shot's. So they mean the same for a person from 5 m and a ship from 500 m, whatever the lens,
-# in 5 s and in 5 min. The unit is the time: a share of the shot's time costs that share. What comes before it
-# is worth more by orders of magnitude: the flight's shape, the target's place on screen, the whole of it in
-# the frame. Who backs off by a share of the distance shrinks the picture by that share, so POSITION_ERROR
-# over VISIBILITY is the share of a crop that remains until the nodes ask for more.
+# Weights of the cost. Every term is a mean over nodes or time and dimensionless: half frames for the picture,
+# lengths as shares of the distance to the target, rates as shares of their limits, times as shares of the
+# shot's duration. So the weights fit a person from 5 m and a ship from 500 m, every lens, 5 s and 5 min. The
+# unit is time: a share of the shot's duration costs that share. The terms with higher priority weigh orders
+# of magnitude more: the shape of the flight, the target's place on screen, the whole target in the frame. To
+# back off by a share of the distance shrinks the picture by that share. So POSITION_ERROR over VISIBILITY is
+# the share of a crop that remains until the nodes ask for more.
 POSITION_ERROR = 3e3  # per squared share of the distance to the target
 FRAMING = 3e4  # per squared half frame
 VISIBILITY = 1e6  # per squared half frame
-AIMING = 10.0  # per rad^2: where no target is framed, angles are what the author gave
+AIMING = 10.0  # per rad^2: without a framed target, the author's angles are the reference
 JERK_SHARE = 1.0  # per squared share of the jerk limit
-ANGULAR_JERK_SHARE = 1.0  # per squared share of what reaches the gimbal's acceleration in a second
+ANGULAR_JERK_SHARE = 1.0  # per squared share of the jerk that reaches the gimbal's acceleration in a second
 PACE = 0.3  # per squared relative change of a stage's length
-LAG = 1e3  # per squared share of the way to the neighbouring nodes, so that a node is where it says it is
-PIN = 1e6  # per squared share of the distance, or half frame: places and angles that are given
-REST = 1e4  # per squared share of the drone's limits: where the drone stands
-TIMED = 1e7  # per squared share of the shot's time: when it is to be where
-KNOTS = 50  # of the motion that is the first guess, besides the places that bind
-SLOWEST, FASTEST = 5.0, 0.2  # bounds on a stage's length against the first guess
+LAG = 1e3  # per squared share of the way to the neighbouring nodes: keeps a node at its progress
+PIN = 1e6  # per squared share of the distance, or half frame: given places and angles
+REST = 1e4  # per squared share of the drone's limits: where the drone rests
+TIMED = 1e7  # per squared share of the shot's duration: deadlines
+KNOTS = 50  # of the motion of the initial guess, in addition to the places that bind
+SLOWEST, FASTEST = 5.0, 0.2  # bounds of a stage's length over that of the initial guess
 
 
 def problem(
@@ -67,7 +67,7 @@ def problem(
     walls: Array,
     margins: Margins,
 ) -> Problem:
-    """Return the programme of one shot; walls : shape (N + 1, M, 4)."""
+    """Return the programme of one shot; walls : half-spaces, shape (N + 1, M, 4)."""
     states, inputs = _guess(subject, stages, references, condition)
     parameters = _parameters(subject, stages, references, walls, margins, states)
     wind = _wind(subject, stages, margins)
@@ -101,7 +101,7 @@ def problem(
 
 
 def _beside(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Array, Array]:
-    """Return bounds with those of more columns beside them."""
+    """Return bounds with the columns of ``second`` appended."""
     return np.column_stack([first[0], second[0]]), np.column_stack([first[1], second[1]])
 
 
@@ -118,7 +118,7 @@ def _guess(
     angles = q[:, [CAM_YAW, CAM_PITCH]] if condition.aims == "framing" else references.aim
     values = np.column_stack([q[:, :3], angles])
     rest = ([(1, np.zeros(5)), (2, np.zeros(5))],) * 2
-    # As coarse however many the stages: a finer guess only has sharper jerks for the solver to undo.
+    # The number of knots is fixed: a finer guess has sharper jerks, which the solver has to remove.
     few = np.union1d(np.linspace(0, len(stages.s) - 1, KNOTS).astype(int), stages.pins)
     motion = make_interp_spline(stages.t[few], values[few], k=5, bc_type=rest)
     x = np.zeros((len(stages.s), STATES))
@@ -179,16 +179,17 @@ def _parameters(
 
 
 def _wind(subject: Subject, stages: Stages, margins: Margins) -> Array:
-    """Return the parameters of air that moves, shape (N + 1, 2), or (N + 1, 0) where it does not."""
+    """Return the wind parameters, shape (N + 1, 2), or (N + 1, 0) without wind."""
     nodes, wind = len(stages.s), np.array(subject.drone.limits.wind)
     return np.tile(_pace(subject, margins) * wind, (nodes, 1)) if wind.any() else np.zeros((nodes, 0))
 
 
 def _distance(references: References, reference: Array, stages: Stages) -> Array:
-    """Return the distance to the target by which lengths are measured, metres, shape (N + 1,).
+    """Return the distance to the target that lengths are measured by, metres, shape (N + 1,).
 
-    That of the places that bind, and between them between theirs: how near the reference happens to pass is
-    no reason to keep it there. Where nothing is framed it is a fifth of the path.
+    It is the distance at the places that bind, interpolated between them. How near the reference passes
+    between them does not matter: that is no reason to hold the camera there. Without a framed target it is a
+    fifth of the path.
     """
     pins = stages.pins[references.framed[stages.pins] > 0]
     if not len(pins):
@@ -198,7 +199,7 @@ def _distance(references: References, reference: Array, stages: Stages) -> Array
 
 
 def _planes(walls: Array, margins: Margins) -> Array:
-    """Return half-spaces as parameters, with the room that is kept from them."""
+    """Return half-spaces as parameters, with the added clearance."""
     planes = walls.copy()
     planes[:, :, 3] += margins.clearance * np.linalg.norm(walls[:, :, :3], axis=2)
     return planes.reshape(len(walls), -1)
@@ -207,7 +208,7 @@ def _planes(walls: Array, margins: Margins) -> Array:
 def _pinned(
     subject: Subject, stages: Stages, references: References, margins: Margins, guess: Array
 ) -> tuple[Array, Array]:
-    """Return wanted states and their weights: positions near the path, keyframes, rest, ends, times."""
+    """Return reference states and their weights: convex path, keyframes, rests, ends, times."""
     value = guess.copy()
     value[:, POSITION] = subject.leg.curve(stages.s)[:, :3]
     distance = _distance(references, value[:, POSITION], stages)
@@ -233,7 +234,7 @@ def _pinned(
 
 
 def _shares(subject: Subject) -> Array:
-    """Return one over the limit of every rate and acceleration of the state, 0 for the rest of it."""
+    """Return one over the limit of every rate and acceleration of the state, 0 for the other entries."""
     limits, shares = subject.drone.limits, np.zeros(STATES)
     shares[VELOCITY], shares[ACCELERATION] = 1.0 / limits.speed, 1.0 / limits.usable_acceleration
     for index, bound in _turning(subject).items():
@@ -257,9 +258,9 @@ def _state_bounds(subject: Subject, nodes: int, margins: Margins) -> tuple[Array
 
 
 def _turning(subject: Subject) -> dict[int, float]:
-    """Return the limits of the camera's rates and accelerations, by their index in the state."""
+    """Return the limits of the camera's rates and accelerations by state index."""
     limits, gimbal = subject.drone.limits, subject.drone.gimbal
-    # The camera turns with the body and on its gimbal; only a camera that the body follows has no gimbal.
+    # The camera turns with the body and on its gimbal; with "follow-camera" only the body turns.
     own = 0.0 if subject.drone.body == "follow-camera" else 1.0
     return {
         YAW_RATE: limits.yaw_rate + own * gimbal.rate,

@@ -1,4 +1,4 @@
-"""The programme of one shot on a path, in numbers, and solving it."""
+"""The programme of one shot on a path, in numbers, and its solution."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from shotc_casadi.solving import Array, Instance, Solution, solved
 
 TOLERANCE = 1e-4
 FEASIBLE = 1e-3  # of a constraint's residual, each in its own unit
-NARROW_WIDTH = 1e-3  # least width of a state's bounds: without an interior fatrop does not end
+NARROW_WIDTH = 1e-3  # least width of a state's bounds: without an interior, fatrop does not end
 ROWS = ("speed", "acceleration")
 
 
@@ -22,12 +22,13 @@ ROWS = ("speed", "acceleration")
 class Problem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(planes, extents, windy, zooms)); extents : how many bodies the
-        target has, 0 of one upright cylinder; windy : whether the air moves; zooms : whether the lens does
-    states, inputs : first guess, shapes (N + 1, STATES) and (N, INPUTS), each with those of a lens that zooms
+    parameters : shape (N + 1, symbols.size(planes, extents, windy, zooms))
+    states, inputs : initial guess, shapes (N + 1, STATES) and (N, INPUTS), with those of the lens if it zooms
     state_bounds, input_bounds : (lower, upper), shapes as states and inputs
-    held, driven : upper bounds (or lower, for half-spaces) of the stage's constraints:
-        (lower, upper), each of shape (2 + planes,) and (1,)
+    held, driven : (lower, upper) of a stage's constraints, each of shape (2 + planes,) and (1,)
+    extents : number of bodies of the target, 0 for one upright cylinder
+    windy : whether there is wind
+    zooms : whether the lens is part of the problem
     """
 
     visibility: Visibility
@@ -49,19 +50,19 @@ class Problem:
 
     @property
     def planes(self) -> int:
-        """How many half-spaces each node is kept in."""
+        """Number of half-spaces of each node."""
         return len(self.held[0]) - 2
 
 
 def solve(problem: Problem, solver: Solver) -> Solution:
-    """Solve a problem from its first guess."""
+    """Solve a problem from its initial guess."""
     return solved(instance(problem), solver)
 
 
 def instance(problem: Problem) -> Instance:
-    """Return a problem as the solvers take it.
+    """Return a problem in the form that the solvers take.
 
-    State bounds narrower than NARROW_WIDTH are opened to that about their middle.
+    State bounds narrower than NARROW_WIDTH are widened to it about their middle.
     """
     return Instance(
         kind=derived(problem.visibility, problem.planes, problem.extents, problem.windy, problem.zooms),
@@ -79,7 +80,7 @@ def instance(problem: Problem) -> Instance:
 
 
 def _named(planes: int, row: int) -> str:
-    """Return what people call a row of held and driven constraints."""
+    """Return the readable name of a row of held and driven constraints."""
     if row < len(ROWS):
         return ROWS[row]
     return "clearance" if row < len(ROWS) + planes else "jerk"

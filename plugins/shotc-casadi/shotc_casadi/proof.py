@@ -1,4 +1,4 @@
-"""Whether a refined camera holds between its nodes: clear of everything, in time, the target whole."""
+"""Checks a refined camera between its nodes: clearance, deadlines, the whole target in the frame."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
 from shotc_casadi.references import Subject
 
-PROVED_M = 1e-6  # metres that a proof may lack
-HOPELESS_RATIO = 1.1  # of what is asked: no bend of the path makes up for a rough profile that takes so long
-AMPLE_SHARE = 0.8  # of what is asked: a rough profile that takes no longer needs no closer look
+PROVED_M = 1e-6  # lack of clearance that a proof allows, metres
+HOPELESS_RATIO = 1.1  # of the time asked for: a rough profile this slow cannot be saved by a bend of the path
+AMPLE_SHARE = 0.8  # of the time asked for: a rough profile this fast needs no closer look
 
 
 def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
-    """Prove a camera's clearances, time it, and look at its frame between the nodes."""
+    """Return the errors of a camera: unproved clearance, lateness, hidden and cropped targets."""
     lack = float(shortfall(subject.space, camera.ctrl[:, :, :3]).max())
     looks = condition.visibility == "silhouette"
     hidden = lost_on_path(subject, camera) if looks else 0.0
@@ -32,13 +32,13 @@ def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
 
 
 def hopeless(subject: Subject) -> bool:
-    """Tell whether a shot's convex path is far from meeting the times asked for."""
+    """Return whether a shot's convex path is far too slow for the times asked for."""
     leg = subject.leg
     return due(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS_RATIO - 1.0
 
 
 def _late(subject: Subject, camera: Piecewise) -> float:
-    """Return by which share of a time asked for the fastest flight of this camera misses it."""
+    """Return by which share the fastest flight of this camera misses a time asked for."""
     drone, ahead = subject.drone, ahead_in(subject.mission, subject.placed.shot)
     leg = with_camera(drone, subject.leg, camera, ahead)
     asked = due(leg)

@@ -1,8 +1,8 @@
-"""What the camera is to show at every node: the target and its place on screen, or angles to keep.
+"""References for every node: the target and its place on screen, or camera angles.
 
-Between two keyframes that frame a target everything moves from one to the other with the C2 step of
-the convex path: the place on screen and, where targets change hands, the target's cylinder (f_t and
-v_d of Gebhardt and Hilliges, Sec. 4.1-4.2). Elsewhere the angles of the convex path are kept.
+Between two keyframes that frame a target, all references move from the first to the second with the C2 step
+of the convex path: the place on screen and, if the target changes, the target's cylinder (f_t and v_d of
+Gebhardt and Hilliges, Sec. 4.1-4.2). Elsewhere the reference is the camera angles of the convex path.
 """
 
 from __future__ import annotations
@@ -34,18 +34,19 @@ from shotc_casadi.extents import EXTENT, between, count_of, extents_of
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
 
-LENS = 5  # the column of the field of view in a camera of x, y, z, yaw, pitch and that
-AHEAD_M = 1.0  # metres ahead of the camera that a target nobody asked for is put
+LENS = 5  # column of the field of view in a camera of x, y, z, yaw, pitch, field of view
+AHEAD_M = 1.0  # metres ahead of the camera: the target if no target is asked for
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class References:
-    """One row a node.
+    """References, one row a node.
 
     centre (N + 1, 3), radius, height, place (N + 1, 2), aim (N + 1, 2) : as in symbols.FIELDS
-    extents : of the target's bodies, (N + 1, K, EXTENT); K is 0 where radius and height tell all
-    framed : where the target is to be at its place; whole : where it is to be in the frame
-    inside : half frames that it is to be inside the left, right, bottom and top edge then, (N + 1, 4)
+    framed : 1 where the target has a place on screen, shape (N + 1,)
+    whole : 1 where the whole target has to be in the frame, shape (N + 1,)
+    inside : margin of the target to the left, right, bottom and top edge there, half frames, (N + 1, 4)
+    extents : of the target's bodies, (N + 1, K, EXTENT); K is 0 if it is one cylinder
     """
 
     centre: Array
@@ -64,9 +65,9 @@ Beside = Callable[[Array], NodePlanes]
 
 
 class Subject(NamedTuple):
-    """What a shot is about: the mission, its drone, where it may fly, its keyframes and its leg.
+    """A shot to refine: the mission, its drone, the free space, its keyframes and its leg.
 
-    beside : what it is to keep clear of where others move near it, None where nothing does
+    beside : half-spaces that keep it clear of what moves near it, None if nothing does
     """
 
     mission: MissionIR
@@ -78,7 +79,7 @@ class Subject(NamedTuple):
 
 
 def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> Subject:
-    """Return what the shot of a leg is about; drone : who flies it."""
+    """Return the subject of a leg; drone : the name of its drone."""
     mission = path.keyframes.mission
     flown_by = mission.drone(drone)
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == leg.shot)
@@ -86,7 +87,7 @@ def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> Subject:
 
 
 def references_at(subject: Subject, condition: Condition, s: Array) -> References:
-    """Return what a condition wants at path parameters s, shape (N + 1,)."""
+    """Return the references of a condition at path parameters s, shape (N + 1,)."""
     if condition.aims == "framing":
         return _framed(subject, s)
     keys = keys_of(subject)
@@ -109,7 +110,7 @@ def references_at(subject: Subject, condition: Condition, s: Array) -> Reference
 
 
 def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float]:
-    """Return the camera yaw and pitch of the author's own framing, before composition."""
+    """Return camera yaw and pitch of the author's keyframe, before the composition."""
     if keyframe.target is None or keyframe.asked is None:
         return keyframe.yaw, keyframe.pitch
     centre = subject.mission.target(keyframe.target).centre
@@ -140,7 +141,7 @@ def _framed(subject: Subject, s: Array) -> References:
 
 
 def _unframed(subject: Subject, s: Array) -> References:
-    """Return references that keep the convex path's angles and frame nothing."""
+    """Return references with the convex path's angles and no framed target."""
     curve = subject.leg.curve
     assert curve is not None
     q = curve(s)
@@ -163,13 +164,13 @@ def _unframed(subject: Subject, s: Array) -> References:
 
 
 def _bodies(subject: Subject) -> int:
-    """Return how many extents the targets of a shot take."""
+    """Return the number of extents of the targets of a shot."""
     names = {k.target for k in subject.placed.keyframes if k.target is not None}
     return count_of([subject.mission.target(name).shape for name in names])
 
 
 def keys_of(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
-    """Return the keyframes with their places on the path, each place once."""
+    """Return the keyframes with their path parameters; each place occurs once."""
     keys: list[tuple[float, PlacedKeyframe]] = []
     for mark in subject.leg.marks:
         if not keys or mark.s > keys[-1][0]:
@@ -178,21 +179,23 @@ def keys_of(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
 
 
 def progress_at(at: Array, s: Array) -> tuple[Array, np.ndarray]:
-    """Return the smooth progress within the interval between keyframes, (N + 1, 1), and which it is."""
+    """Return the smooth progress within a keyframe interval, (N + 1, 1), and the interval's index, (N
+    + 1,).
+    """
     i = np.clip(np.searchsorted(at, s, side="right") - 1, 0, len(at) - 2)
     x = np.clip((s - at[i]) / (at[i + 1] - at[i]), 0.0, 1.0)
     return minimum_jerk(x)[:, None], i
 
 
 def _unwrapped(angles: list[tuple[float, float]], convex: Array) -> Array:
-    """Return angles as an array, each yaw on the convex path's winding there: stated turns stay."""
+    """Return angles as an array; each yaw gets the convex path's winding, so that the author's turns stay."""
     rows = np.array(angles, dtype=np.float64)
     rows[:, 0] += 2 * np.pi * np.round((convex - rows[:, 0]) / (2 * np.pi))
     return rows
 
 
 def _towards(d: Array, near: Array) -> Array:
-    """Return yaw and pitch of directions, yaw on the winding of ``near``."""
+    """Return yaw and pitch of directions; yaw has the winding of ``near``."""
     yaw = np.unwrap(np.arctan2(d[:, 1], d[:, 0]))
     yaw += 2 * np.pi * np.round((near[0, 0] - yaw[0]) / (2 * np.pi))
     return np.column_stack([yaw, np.arctan2(d[:, 2], np.hypot(d[:, 0], d[:, 1]))])
@@ -203,9 +206,9 @@ def _position(subject: Subject, s: Array) -> Array:
 
 
 def fields_of_view(subject: Subject, s: Array, q: Array | None = None) -> tuple[Array, Array]:
-    """Return tan of half the horizontal and vertical fields of view at s.
+    """Return tan of half the horizontal and vertical fields of view at s, shape (M,) each.
 
-    q : x, y, z, yaw, pitch of a camera there, and its field of view where that is not the convex path's
+    q : x, y, z, yaw, pitch of a camera there, and its field of view if it is not the convex path's
     """
     wide = subject.leg.curve(s)[:, HFOV] if q is None or q.shape[1] <= LENS else q[:, LENS]
     half = np.tan(wide / 2)

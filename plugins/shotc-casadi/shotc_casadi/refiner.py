@@ -1,4 +1,4 @@
-"""The refiners: every filmed leg refined, proved, and put back into the path."""
+"""The refiners: they refine and check every filmed leg and put it back into the path."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from shotc_casadi.rounds import Refined, refine_shot
 
 @dataclass(frozen=True, slots=True)
 class Refiner:
-    """A condition in the refiner seat."""
+    """A refiner that applies one condition."""
 
     condition: Condition
     api: ClassVar[int] = 1
 
     @property
     def name(self) -> str:
-        """Return the condition's name."""
+        """Name of the condition."""
         return self.condition.name
 
     @property
     def summary(self) -> str:
-        """Return the condition in one line."""
+        """The condition in one line."""
         return self.condition.summary
 
     def refine(self, path: PathIR, ctx: PassContext) -> Outcome[PathIR]:
-        """Return the path with every moving shot refined; a shot that cannot be keeps its convex path."""
+        """Return the path with every moving shot refined; what cannot be refined keeps its convex path."""
         if path.timed:
             return refine_in_company(path, ctx, self.condition)
         done = self.shots(path, ctx)
@@ -60,7 +60,7 @@ class Refiner:
         return done
 
     def _joined(self, path: PathIR, done: list[Refined]) -> tuple[PathIR, list[Diagnostic]]:
-        """Put the shots back; one whose new ends cannot be reached keeps its convex path."""
+        """Return the path with the refined shots; a shot without transfers to its new ends stays convex."""
         cameras = {r.shot: r.camera for r in done if r.camera is not None}
         try:
             return rejoined(path, cameras), []
@@ -81,7 +81,7 @@ class Refiner:
 
 
 def subjects(path: PathIR) -> list[Subject]:
-    """Return the shots of drones without a clock whose camera moves, in the order they are flown."""
+    """Return the shots of drones without a clock whose camera moves, in the order of flight."""
     return [
         subject_of(path, flown.drone, leg)
         for flown in path.drones

@@ -1,4 +1,4 @@
-"""What has to be said of a shot on a path: how its solver fared, and how far it leaves its convex path."""
+"""Diagnostics about a shot on a path: the solver's failure, and the distance from the convex path."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from shotc_casadi.rounds import Refined, UnprovedPlace
 from shotc_casadi.solving import MOTION
 from shotc_casadi.symbols import TIME
 
-NOTICE_M = 0.1  # metres off the convex path that are worth telling
+NOTICE_M = 0.1  # metres off the convex path that are reported
 SHOWS_LESS = "its convex path shows more of its targets"
 
 
 def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
-    """Return what has to be said of one shot's solver; name : of the refiner."""
+    """Return the diagnostic about one shot's solver, None if there is none; name : of the refiner."""
     solution = refined.solution
     if refined.camera is not None:
         return fallen_back(path, refined.shot, refined.first, solution)
@@ -30,7 +30,7 @@ def report(path: PathIR, refined: Refined, name: str) -> Diagnostic | None:
 
 
 def _between(refined: Refined, gap: UnprovedPlace, name: str) -> SolverState:
-    """Return the state of a problem whose solution does not hold between its nodes."""
+    """Return the state of a problem whose solution breaks a constraint between its nodes."""
     k = min(int(np.searchsorted(refined.nodes.s, gap.s)), len(refined.nodes.s) - 1)
     what = "the gimbal's pitch range" if isnan(gap.metres) else "the clearances between stages"
     state = state_of(refined, what, name)
@@ -41,7 +41,7 @@ def _between(refined: Refined, gap: UnprovedPlace, name: str) -> SolverState:
 
 
 def state_of(refined: Refined, constraint: str, name: str) -> SolverState:
-    """Return where the last problem of a shot stood, for a constraint; name : of the refiner."""
+    """Return the state of a shot's last problem, for a constraint; name : of the refiner."""
     solution = refined.solution
     time = float(solution.states[solution.stage, TIME])
     worst = bool(constraint) and constraint == solution.constraint
@@ -61,7 +61,7 @@ def state_of(refined: Refined, constraint: str, name: str) -> SolverState:
 
 
 def deviation(path: PathIR, refined: Refined) -> list[PathDeviation]:
-    """Return where a refined shot is farthest from its convex path, if that is worth telling."""
+    """Return where a refined shot is farthest from its convex path, if it is far enough to report."""
     assert refined.camera is not None
     leg = leg_of(path, refined.shot)
     s = refined.nodes.s

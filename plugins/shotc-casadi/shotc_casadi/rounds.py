@@ -1,4 +1,4 @@
-"""A shot refined in rounds: solved, looked at between its nodes, tightened, and solved again."""
+"""Refines a shot in rounds: solve, check between the nodes, tighten, solve again."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ from shotc_casadi.symbols import PITCH, YAW
 from shotc_casadi.walls import half_spaces
 
 ROUNDS = 6
-HOLD_AFTER = 3  # rounds, after which the convex path is all but held: it is known to be clear
+HOLD_AFTER = 3  # rounds; later ones almost hold the convex path, which is known to be clear
 
 
 class UnprovedPlace(NamedTuple):
-    """Where a camera is not proved to be clear, though its nodes are: path parameter, and by metres.
+    """Where a camera is not proved clear although its nodes are: path parameter, and lack in metres.
 
-    metres : NaN where no camera goes through the nodes within the gimbal's pitch range
+    metres : NaN if no camera fits the nodes within the gimbal's pitch range
     """
 
     s: float
@@ -45,12 +45,13 @@ class UnprovedPlace(NamedTuple):
 class Refined:
     """One shot refined.
 
-    camera : x, y, z, yaw, pitch over the leg's s, or None where no solver found a way
-    rounds : how often it was solved until it was proved between the nodes
-    problem, solution : those of the camera, or the last ones; first : the solver that failed before
+    camera : x, y, z, yaw, pitch over the leg's s, or None if no solver found one
+    rounds : number of solves
+    problem, solution : those of the camera, or the last ones
     seconds : of all solves
-    gap : what stands against the camera of a problem that was solved
-    shows_less : whether its camera is clear and shows less of its targets than the convex path
+    first : the solution of the solver that failed before
+    gap : what stands against the camera of a solved problem
+    shows_less : whether its camera is clear but shows less of its targets than the convex path
     """
 
     shot: str
@@ -66,11 +67,12 @@ class Refined:
 
 
 def refine_shot(subject: Subject, condition: Condition, count: int | None = None) -> Refined:
-    """Refine one shot, tightening what does not hold between the nodes until it does.
+    """Return one shot refined; each round tightens what fails between the nodes.
 
-    count : stages, or None for as many as its keyframes need
-    A shot whose times the solver does not meet is refined for the least time: the time pass slows it
-    down to them, or says best what it lacks.
+    If the solver misses the deadlines, the shot is refined for the shortest time. The time pass then slows it
+    down to the deadlines, or reports best what is missing.
+
+    count : number of stages, or None for as many as its keyframes need
     """
     if not due(subject.leg):
         return _refine(subject, condition, count, SOLVERS)[0]
@@ -112,20 +114,20 @@ def _refine(
 
 
 def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
-    """Return the half-spaces that the nodes are kept in."""
+    """Return the half-spaces of the nodes."""
     others = None if subject.beside is None else subject.beside(nodes.s)
     return half_spaces(subject.space, subject.leg.curve, nodes, margins, others)
 
 
 def _given(nodes: Stages, references: References, task: Problem) -> Given:
-    """Return the angles that bind: at both ends, and at keyframes whose target has its place on screen."""
+    """Return the angles that bind: at both ends, and at keyframes whose target has a place on screen."""
     inner = nodes.pins[1:-1]
     at = np.concatenate([[0], inner[references.framed[inner] > 0], [len(nodes.s) - 1]])
     return Given(nodes.s[at], task.states[at][:, [YAW, PITCH]])
 
 
 class _Tried(NamedTuple):
-    """One round: the camera, None where there is none; what is open; what came of its problem."""
+    """One round: its camera or None, the remaining errors, its problem and the solver's attempt."""
 
     camera: Piecewise | None
     check: Check
@@ -156,7 +158,7 @@ def _tried(
 
 
 def _leveled(subject: Subject, condition: Condition, tried: _Tried, to: tuple[Stages, Given]) -> _Tried:
-    """Return a round with a camera that crops nothing beside keyframes, where that is no worse elsewhere."""
+    """Return a round whose camera crops nothing beside keyframes, unless it is worse elsewhere."""
     nodes, given = to
     try:
         found = camera(subject.drone, subject.leg, nodes, tried.attempt.solution.states, given)
@@ -167,7 +169,7 @@ def _leveled(subject: Subject, condition: Condition, tried: _Tried, to: tuple[St
 
 
 def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
-    """Return the best camera if it is clear, or else where the last round ended."""
+    """Return the best camera if it is clear, else the state of the last round."""
     leg = subject.leg
     assert leg.shot is not None
     clear = best.check.lack <= 0

@@ -1,4 +1,4 @@
-"""Where a keyframe's centre ray meets the world: the look-at points of earlier tools."""
+"""Where a keyframe's centre ray hits the world: the look-at points of earlier tools."""
 
 from math import cos, sin
 
@@ -8,16 +8,16 @@ from shotc.plugin_api import MissionIR
 from shotc.plugin_api.refiner import Array, FreeSpace, PlacedKeyframe, distances
 
 STEPS = 2000
-HORIZON_M = 1000.0  # metres: how far a ray is followed
+HORIZON_M = 1000.0  # metres along a ray
 NEAR = 1e-3
 
 
 def sight_point(
     mission: MissionIR, space: FreeSpace, keyframe: PlacedKeyframe, angles: tuple[float, ...]
 ) -> Array:
-    """Return the first point of the ground, a target or a keep-out zone on a keyframe's centre ray.
+    """Return the first point on a keyframe's centre ray on the ground, a target or a keep-out zone.
 
-    Where the ray meets nothing, the point on it as far away as the keyframe's target.
+    If the ray hits nothing, it is the point on the ray at the distance of the keyframe's target.
     """
     yaw, pitch = angles[0], angles[1]
     eye = np.array(keyframe.at)
@@ -35,7 +35,10 @@ def sight_point(
 
 
 def _march(part: object, eye: Array, ray: Array) -> float | None:
-    """Follow a ray by steps as long as the distance to a convex solid: it cannot jump over it."""
+    """Return the distance along a ray to a convex solid, None if there is no hit.
+
+    Every step is as long as the distance to the solid, so it cannot jump over it.
+    """
     along = 0.0
     for _ in range(STEPS):
         gap = float(distances(part, eye + along * ray))  # type: ignore[arg-type]

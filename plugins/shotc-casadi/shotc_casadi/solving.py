@@ -1,4 +1,4 @@
-"""Calling the solver of a programme within the time allowed; what it says of itself is checked."""
+"""Calls the solver of a programme with a time limit, and checks what the solver reports."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from shotc_casadi.timeout import TIMEOUT_S, TimedOut, within
 
 Array = NDArray[np.float64]
 Status = Literal["solved", "stopped", "infeasible", "nan"]
-SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback, and it is announced
+SOLVERS: tuple[Solver, ...] = ("fatrop", "ipopt")  # IPOPT is the fallback; a diagnostic reports its use
 MOTION = "the motion from stage to stage"
 
 
@@ -26,11 +26,12 @@ class Instance:
 
     kind : of its stages
     parameters : shape (N + 1, kind.size)
-    states, inputs : first guess, shapes (N + 1, kind.states) and (N, kind.inputs)
+    states, inputs : initial guess, shapes (N + 1, kind.states) and (N, kind.inputs)
     state_bounds, input_bounds : (lower, upper), shapes as states and inputs
     held, driven : (lower, upper) of a stage's constraints
-    named : what people call a row of held and driven, by its number in them
-    tolerance : the solver's own; feasible : of a constraint's residual, each in its own unit
+    named : the readable name of a row of held and driven, by its index
+    tolerance : of the solver
+    feasible : largest residual of a constraint, each in its own unit
     """
 
     kind: Derived
@@ -52,18 +53,18 @@ class Instance:
 
     @property
     def high(self) -> int:
-        """How many rows of constraints a stage has: the motion, held and driven."""
+        """Number of constraint rows of a stage: dynamics, held and driven."""
         return self.kind.states + self.kind.bound
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solution:
-    """What a solver made of a problem.
+    """The result of a solver.
 
-    status : "solved", "stopped" (at a limit of its own), "infeasible" or "nan"
-    residual : the worst violation of a constraint, in its own unit; stage, constraint : where, which; none is
-        named where all are kept or there are no numbers
+    status : "solved", "stopped" (at a limit of the solver), "infeasible" or "nan"
     seconds : of the solver alone
+    residual : the worst violation of a constraint, in its own unit
+    stage, constraint : where, and which one; "" if all hold or there are no numbers
     """
 
     status: Status
@@ -79,19 +80,19 @@ class Solution:
 
 
 class Attempt(NamedTuple):
-    """What came of a problem; failed : by the solver that was asked before, where one was."""
+    """The result of a problem; failed : the result of the solver that failed before, if one did."""
 
     solution: Solution
     failed: Solution | None = None
 
     @property
     def seconds(self) -> float:
-        """How long all solvers took."""
+        """Time of all solvers, seconds."""
         return self.solution.seconds + (self.failed.seconds if self.failed else 0.0)
 
 
 def by_one_of(solvers: tuple[Solver, ...], solve: Callable[[Solver], Solution]) -> Attempt:
-    """Solve by the first of the solvers, or else by the second."""
+    """Solve with the first solver, and if that fails with the second one."""
     solution = solve(solvers[0])
     if solution.status == "solved" or len(solvers) == 1:
         return Attempt(solution)
@@ -99,10 +100,10 @@ def by_one_of(solvers: tuple[Solver, ...], solve: Callable[[Solver], Solution]) 
 
 
 def solved(task: Instance, solver: Solver) -> Solution:
-    """Solve a programme from its first guess, which is what is returned where a solver gives up inside."""
+    """Solve a programme from its initial guess; returns the guess if the solver leaves no iterate."""
     start = _flat(task.states, task.inputs)
     if not (np.isfinite(start).all() and np.isfinite(task.parameters).all()):
-        # fatrop does not end on numbers that are none.
+        # fatrop does not end on NaN.
         return _nothing("nan", task, solver, 0.0)
     lower, upper = _rows(task, 0), _rows(task, 1)
     low, high = (_flat(task.state_bounds[side], task.input_bounds[side]) for side in (0, 1))
@@ -120,29 +121,29 @@ def solved(task: Instance, solver: Solver) -> Solution:
     try:
         out = within(TIMEOUT_S, lambda: programme(**given))
     except RuntimeError:
-        # CasADi raises where a solver gives up inside; there is no iterate to look at then.
+        # CasADi raises if a solver gives up inside; then there is no iterate.
         return _nothing("nan", task, solver, time.perf_counter() - began)
     except TimedOut:
-        built.cache_clear()  # the one left behind is still at work on its memory
+        built.cache_clear()  # the abandoned solver still uses its memory
         return _nothing("stopped", task, solver, time.perf_counter() - began)
     return _judged(task, solver, out, programme.stats(), time.perf_counter() - began)
 
 
 def _pattern(*bounds: tuple[Array, Array]) -> bytes:
-    """Return which bounds there are, and which of them leave no choice."""
+    """Return which bounds are finite and which ones fix a variable, as bytes."""
     finite = [np.isfinite(side) for pair in bounds for side in pair]
     return np.packbits(np.concatenate([*finite, *(low == high for low, high in bounds)])).tobytes()
 
 
 def _nothing(status: Status, task: Instance, solver: Solver, seconds: float) -> Solution:
-    """Return the first guess, where there is no iterate of the solver's own."""
+    """Return the initial guess as the solution, for a solver without an iterate."""
     return Solution(status, solver, task.states, task.inputs, np.nan, 0, seconds, np.nan, 0, "")
 
 
 def _judged(
     task: Instance, solver: Solver, out: Mapping[str, Any], stats: Mapping[str, Any], seconds: float
 ) -> Solution:
-    """Return where a solver ended, by the residuals there."""
+    """Return the solver's last iterate, judged by its residuals."""
     x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
     states, inputs = _nodes(x, task)
     iterations = int(stats["iter_count"])
@@ -166,7 +167,7 @@ def _judged(
 
 
 def _status(stats: Mapping[str, Any], feasible: bool) -> Status:
-    # A success flag alone is no evidence.
+    # A success flag alone proves nothing.
     if stats["success"] and feasible:
         return "solved"
     status = str(stats.get("return_status", ""))
@@ -174,7 +175,7 @@ def _status(stats: Mapping[str, Any], feasible: bool) -> Status:
 
 
 def _name(row: int, task: Instance) -> str:
-    """Return what people call a row of the constraints; the last node has held ones only."""
+    """Return the readable name of a constraint row; the last node has only held rows."""
     closed = task.kind.states
     inner = row % task.high if row < task.stages * task.high else closed + row - task.stages * task.high
     return MOTION if inner < closed else task.named(inner - closed)

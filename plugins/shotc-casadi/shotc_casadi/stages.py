@@ -1,4 +1,4 @@
-"""The stages of a shot: where along the reference path the nodes stand, and a first guess of the motion."""
+"""The stages of a shot: its nodes along the reference path, and an initial guess of the motion."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ from shotc_casadi.due import due
 USUAL_STAGES = 100
 STAGES_PER_INTERVAL = 12
 MOST_STAGES = 400
-APART_SHARE = 1e-9  # of a path: places nearer to each other are one
+APART_SHARE = 1e-9  # of a path: places nearer to each other are the same
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stages:
     """Nodes of one shot.
 
-    s, t : shape (N + 1,), path parameter and seconds (without holds) of the first guess
-    pins : indices of the nodes where the position binds: the author put it there, or the drone rests
+    s : path parameter, shape (N + 1,)
+    t : seconds of the initial guess (without holds), shape (N + 1,)
+    pins : indices of the nodes where the position binds: keyframes of the author, rests and ends
     """
 
     s: Array
@@ -31,9 +32,9 @@ class Stages:
 
 
 def stages(leg: MovingLeg, placed: PlacedShot, drone: Drone, count: int | None) -> Stages:
-    """Return nodes evenly in time under a simple speed profile, with one at every place that binds.
+    """Return nodes at equal times under a simple speed profile, with one at every place that binds.
 
-    count : how many stages, or None for as many as those places need
+    count : number of stages, or None for as many as those places need
     """
     curve = leg.curve
     assert curve is not None
@@ -63,7 +64,7 @@ def _pins(leg: MovingLeg, placed: PlacedShot) -> Array:
 
 
 def _shares(knots: Array, count: int) -> np.ndarray:
-    """Share stages out among the intervals by their time, at least two each."""
+    """Distribute stages over the intervals by their duration, at least two each."""
     references = count * np.diff(knots) / (knots[-1] - knots[0])
     shares = np.maximum(2, np.floor(references)).astype(int)
     while shares.sum() < count:

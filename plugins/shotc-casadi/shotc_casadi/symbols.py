@@ -1,11 +1,10 @@
 """One stage of the optimal-control problem in CasADi symbols: dynamics, cost and constraints.
 
-State (16): position, velocity, acceleration (W, SI); camera yaw with rate and acceleration; camera
-pitch likewise; time. Input (6): jerk; yaw and pitch jerk; the stage's length in seconds. A stage
-stands at a given progress along the reference path, so the length of a stage is how fast the
-progress is made (theta of Gebhardt and Hilliges Eq. 15, with progress as the independent variable).
-Where the lens zooms, two states more are the horizontal field of view and its rate, and an input more is its
-acceleration.
+State (16): position, velocity, acceleration (W, SI); camera yaw with rate and acceleration; camera pitch
+likewise; time. Input (6): jerk; yaw and pitch jerk; the stage's length in seconds. A stage has a fixed
+progress along the reference path, so its length sets how fast the progress is (theta of Gebhardt and Hilliges
+Eq. 15, with progress as the independent variable). If the lens zooms, there are two more states (the
+horizontal field of view and its rate) and one more input (its acceleration).
 """
 
 from __future__ import annotations
@@ -28,10 +27,10 @@ JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5
 LENS, LENS_RATE, LENS_ACCELERATION = 16, 17, 6  # states and input of a lens that zooms
 LENS_STATES, LENS_INPUTS = 2, 1
 
-WIND = 2  # parameters of air that moves
+WIND = 2  # parameters of the wind
 
 RIGHT, UP, AHEAD = range(3)  # what _to_camera returns
-EDGES = ((RIGHT, 1), (RIGHT, -1), (UP, 1), (UP, -1))  # left, right, bottom, top: axis, and the way inwards
+EDGES = ((RIGHT, 1), (RIGHT, -1), (UP, 1), (UP, -1))  # left, right, bottom, top: axis, inward sign
 
 FIELDS = {
     "centre": 3,
@@ -55,17 +54,20 @@ FIELDS = {
     "pace": 1,
     "nominal": 1,
 }
-"""The parameters of a stage and their sizes; the target's bodies, where it is no cylinder, and half-spaces
-(normal and offset) follow, then where the lens zooms LENS_FIELDS, and at the end, where the air moves, how
-fast it does to the East and North.
+"""The parameters of a stage and their sizes.
+
+Then follow: the target's bodies unless it is a cylinder, the half-spaces (normal and offset), LENS_FIELDS if
+the lens zooms, and the wind to the East and North if there is wind.
 
 centre, radius, height : the target's cylinder, W, metres
-place : (u, v) wanted of its centre; half_width, half_height : tan of half the fields of view
-inside : half frames that the target is to be inside the frame's left, right, bottom and top edge
-aim : yaw and pitch wanted; state : wanted state
+place : reference (u, v) of its centre, half frames
+half_width, half_height : tan of half the fields of view
+inside : margin of the target to the frame's left, right, bottom and top edge, half frames
+aim : reference yaw and pitch, rad
+state : reference state
 tangent : unit vector along the reference path
-lag, framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights in the cost
-nominal : 1 / s, one over the stage's length in the first guess
+lag, framing, visibility, aiming, state_weight, jerk, angular_jerk, time, pace : weights of the cost
+nominal : one over the stage's length in the initial guess, 1 / s
 """
 
 LENS_FIELDS = {
@@ -76,12 +78,12 @@ LENS_FIELDS = {
     "lens_still": 1,
     "lens_acceleration": 1,
 }
-"""The parameters of a lens that zooms and their sizes.
+"""The parameters of a lens that zooms, and their sizes.
 
-lens : natural logarithm of the tangent of half the horizontal field of view wanted
-spread : the same plus that of the distance to the target, metres, at which the target has the size wanted
-lens_off, spread_off, lens_still, lens_acceleration : weights of squares: off these two, of the rate and of
-    the acceleration of the field of view
+lens : reference of the natural logarithm of tan of half the horizontal field of view
+spread : reference of the same plus the logarithm of the distance to the target (metres): the target's size
+lens_off, spread_off : weights of the squared errors of these two
+lens_still, lens_acceleration : weights of the squared rate and acceleration of the field of view
 """
 
 
@@ -89,11 +91,15 @@ lens_off, spread_off, lens_still, lens_acceleration : weights of squares: off th
 class StageSymbols:
     """Symbols of one stage.
 
-    z : state and input; p : parameters
-    following : the next state; node : cost of the state; passing : cost of the way to the next
-    held : what is bounded of the state; driven : what is bounded of the input
-    node_roots, passing_roots : columns whose squares are added to these costs, where the curvature is that of
-        Gauss and Newton: never negative, and half as dear
+    z : state and input
+    p : parameters
+    following : the next state
+    node : cost of the state
+    passing : cost of the way to the next node
+    held : bounded functions of the state
+    driven : bounded functions of state and input
+    node_roots, passing_roots : columns whose squares are added to these costs; their Hessian is that of
+        Gauss-Newton: it is never negative and costs half as much to compute
     """
 
     z: Any
@@ -108,25 +114,26 @@ class StageSymbols:
 
     @property
     def end_cost(self) -> Any:
-        """Return the whole cost of the state."""
+        """Whole cost of the state."""
         return self.node + ca.sumsqr(self.node_roots)
 
     @property
     def cost(self) -> Any:
-        """Return the whole cost of the state and of the way to the next."""
+        """Whole cost of the state and of the way to the next node."""
         return self.end_cost + self.passing + ca.sumsqr(self.passing_roots)
 
 
 def stage(
     visibility: Visibility, planes: int, extents: int = 0, windy: bool = False, zooms: bool = False
 ) -> StageSymbols:
-    """Return a stage with that many half-spaces to stay in, of a target of that many bodies.
+    """Return a stage with ``planes`` half-spaces.
 
-    extents : 0 where the target is one upright cylinder; windy : whether the air moves
+    held is the squared horizontal airspeed, the squared acceleration, then the slacks of the half-spaces
+    (metres). driven is the squared jerk.
+
+    extents : number of the target's bodies, 0 for one upright cylinder
+    windy : whether there is wind
     zooms : whether the field of view is part of the problem
-
-    held is horizontal speed through the air squared, acceleration squared, then the half-spaces' slacks
-    (metres); driven is jerk squared.
     """
     states = STATES + LENS_STATES * zooms
     z = ca.SX.sym("z", states + INPUTS + LENS_INPUTS * zooms)
@@ -169,13 +176,13 @@ def stage(
 
 
 def size(planes: int, extents: int = 0, windy: bool = False, zooms: bool = False) -> int:
-    """Return how many parameters a stage has."""
+    """Return the number of parameters of a stage."""
     lens = sum(LENS_FIELDS.values()) * zooms
     return sum(FIELDS.values()) + EXTENT * extents + 4 * planes + lens + WIND * windy
 
 
 def cut(p: Any, fields: Mapping[str, int]) -> dict[str, Any]:
-    """Cut the beginning of a parameter vector into fields of these sizes."""
+    """Return the first numbers of a parameter vector as fields of these sizes."""
     parts, at = {}, 0
     for name, width in fields.items():
         parts[name] = p[at : at + width]
@@ -201,7 +208,7 @@ def _following(x: Any, u: Any) -> Any:
 
 
 def _to_camera(d: Any, yaw: Any, pitch: Any) -> tuple[Any, Any, Any]:
-    """Turn a vector of W into the camera: right, up, forward (roll is zero)."""
+    """Return a vector of W in camera axes: right, up, forward (roll is zero)."""
     along = ca.cos(yaw) * d[0] + ca.sin(yaw) * d[1]
     right = ca.sin(yaw) * d[0] - ca.cos(yaw) * d[1]
     return (
@@ -214,8 +221,8 @@ def _to_camera(d: Any, yaw: Any, pitch: Any) -> tuple[Any, Any, Any]:
 def _framing(view: tuple[Any, Any, Any], distance: Any, given: dict[str, Any]) -> Any:
     """Return c_f of Gebhardt and Hilliges, Eq. 3: squared distance of unit rays, here in half frames.
 
-    Their axes are divided by half the screen's width and height (the axis ahead by the width), so that what
-    a weight buys does not depend on the lens.
+    The components are divided by half the screen's width and height (the forward one by the width), so that
+    the effect of a weight does not depend on the lens.
     """
     place, wide, tall = given["place"], given["half_width"], given["half_height"]
     ray = ca.vertcat(place[0] * wide, place[1] * tall, 1)
@@ -229,10 +236,10 @@ def _aiming(x: Any, given: dict[str, Any]) -> Any:
 
 
 def _off_lens(x: Any, distance: Any, given: dict[str, Any]) -> Any:
-    """Return what a lens pays for another field of view than wanted, and its target for another size.
+    """Return the cost of the lens: errors of the field of view and of the target's size, and its rate.
 
-    Shares, by their logarithms: a lens that is wider by a share shrinks the picture as a camera does that is
-    farther off by that share.
+    Both errors are differences of logarithms: a lens that is wider by a share shrinks the picture as much as
+    a distance that is longer by that share.
     """
     wide = ca.log(given["half_width"])
     return (
@@ -243,8 +250,10 @@ def _off_lens(x: Any, distance: Any, given: dict[str, Any]) -> Any:
 
 
 class _Body(NamedTuple):
-    """A body of the target as the camera sees it: its centre (right, up, forward), how large it is, and the
-    halves of its sides, turned into the camera, none of a cylinder.
+    """A body of the target in camera axes (right, up, forward).
+
+    view : its centre
+    sides : its half-sides; empty for a cylinder
     """
 
     view: tuple[Any, Any, Any]
@@ -256,7 +265,7 @@ class _Body(NamedTuple):
 def _bodies(
     p: Any, view: tuple[Any, Any, Any], x: Any, given: dict[str, Any], extents: int
 ) -> tuple[_Body, ...]:
-    """Return the bodies of the target in the camera; view : of the target's centre."""
+    """Return the bodies of the target in camera axes; view : of the target's centre."""
     if not extents:
         return (_Body(view, given["radius"], given["height"]),)
     bodies, at = [], sum(FIELDS.values())
@@ -270,9 +279,9 @@ def _bodies(
 
 
 def _cropped(visibility: Visibility, x: Any, bodies: tuple[_Body, ...], distance: Any, given: Any) -> Any:
-    """Return c_v: squared half frames by which the target is less inside the frame than it is to be.
+    """Return c_v: the squared lack of the target's margin inside the frame, half frames.
 
-    How far it is from a plane of the frustum, over what half a frame is at the target's distance.
+    A margin is the distance from a plane of the frustum over half a frame at the target's distance.
     """
     sin, cos = ca.sin(x[PITCH]), ca.cos(x[PITCH])
     exact = visibility == "silhouette"
@@ -292,7 +301,8 @@ def _cropped(visibility: Visibility, x: Any, bodies: tuple[_Body, ...], distance
 def _reach(up: Any, body: _Body, plane: tuple[Any, Any, int]) -> Any:
     """Return how far a body reaches along a unit normal.
 
-    up : the normal's upward component; plane : its components ahead and along an axis, and which that is
+    up : the normal's component upwards in W
+    plane : its components forward and along an axis, and the index of that axis
     """
     far = body.height / 2 * ca.sqrt(up**2 + 1e-8) + body.radius * ca.sqrt(1 - up**2 + 1e-6)
     ahead, aside, axis = plane
@@ -302,10 +312,10 @@ def _reach(up: Any, body: _Body, plane: tuple[Any, Any, int]) -> Any:
 
 
 def _hull_points(body: _Body, x: Any) -> list[tuple[Any, Any, Any]]:
-    """Return top, bottom, left and right of Eq. 4-7 in the camera, up as in the world.
+    """Return top, bottom, left and right of Eq. 4-7 in camera axes; top is above bottom in W.
 
-    Left and right are as high in the picture as the middle, at a right angle to what leads there: that is
-    known wherever the camera looks at its target, from straight above, too.
+    Left and right have the height of the centre in the picture, and are perpendicular to the horizontal view
+    of it. So they are defined wherever the camera looks at its target, also from straight above.
     """
     right, up, ahead = body.view
     half, sin, cos = body.height / 2, ca.sin(x[PITCH]), ca.cos(x[PITCH])

@@ -1,7 +1,7 @@
-"""A limit on how long a solver may take, for one that has none of its own.
+"""A time limit for solvers that have none of their own.
 
-fatrop adds to the diagonal of its linear system until that can be factorised, without a bound on how
-often, so there are problems on which it never ends. It cannot be interrupted; it can be left behind.
+fatrop adds to the diagonal of its linear system until it can factorise it, without a limit. So there are
+problems on which it never ends. It cannot be interrupted, but it can be abandoned.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ TIMEOUT_S = 30.0  # seconds: ten times what the largest problems take
 
 
 class TimedOut(Exception):
-    """A call has not ended in time; the thread that it runs in is left to itself."""
+    """A call did not end in time; its thread keeps running."""
 
 
 def within(seconds: float, call: Callable[[], Any]) -> Any:
-    """Return what ``call`` returns, or raise what it raises; TimedOut after so many seconds.
+    """Return what ``call`` returns, or raise what it raises.
 
-    The call runs in a thread of its own, so that an interrupt from the keyboard is heard meanwhile.
+    The call runs in its own thread, so that Ctrl-C works meanwhile.
+
+    Raises TimedOut after ``seconds``.
     """
     answer: SimpleQueue[tuple[Any, BaseException | None]] = SimpleQueue()
 

@@ -11,13 +11,13 @@ from shotc.plugin_api.refiner import Array, FreeSpace, IntArray, corridor, kept
 from shotc_casadi.margins import Margins
 from shotc_casadi.stages import Stages
 
-POINTS = 5  # of the reference, whose hull stands for a node and its neighbourhood
-COUNTS = (0, 2, 4, 8, 16)  # how many half-spaces a programme may have, so that few are built
-FREE_M = -1.0  # slack in metres of a half-space that means nothing
+POINTS = 5  # of the reference; their hull stands for a node and its neighbourhood
+COUNTS = (0, 2, 4, 8, 16)  # possible numbers of half-spaces, so that few programmes are built
+FREE_M = -1.0  # slack in metres of an unused half-space
 
 
 class NodePlanes(NamedTuple):
-    """Half-spaces n.p >= b for single nodes: which ones, shape (R,); normal and b, shape (R, 4)."""
+    """Half-spaces n.p >= b of single nodes: the node indices, shape (R,); normal and b, shape (R, 4)."""
 
     node: IntArray
     row: Array
@@ -28,9 +28,10 @@ def half_spaces(
 ) -> Array:
     """Return half-spaces n.p >= b that hold near every node, shape (N + 1, M, 4): normal and b.
 
+    They are the nearest ones of each node. M is the same for all nodes; unused rows hold everywhere.
+
     margins : comfort and reach
-    others : half-spaces beside what moves, to hold as well
-    The nearest ones of each node; M is the same for all, and rows that mean nothing hold everywhere.
+    others : additional half-spaces beside what moves
     """
     s, share = stages.s, margins.comfort
     low = np.concatenate([s[:1], s[:-1]])
@@ -61,7 +62,7 @@ def half_spaces(
 
 
 def _bounds(space: FreeSpace, hull: Array, share: float) -> list[Array]:
-    """Return walls, and discs by their tangent planes, as rows."""
+    """Return walls, and the tangent planes of discs, as rows."""
     rows = []
     for wall in space.walls:
         n = np.array(wall.normal)
