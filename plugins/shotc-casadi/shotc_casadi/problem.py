@@ -54,7 +54,7 @@ PACE = 0.3  # per squared relative change of a stage's length
 LAG = 1e3  # per squared share of the way to the neighbouring nodes: keeps a node at its progress
 PIN = 1e6  # per squared share of the distance, or half frame: given places and angles
 REST = 1e4  # per squared share of the drone's limits: where the drone rests
-TIMED = 1e7  # per squared share of the shot's duration: deadlines
+TIMED = 1e7  # per squared share of the shot's duration: times that are asked for
 KNOTS = 50  # of the motion of the initial guess, in addition to the places that bind
 SLOWEST, FASTEST = 5.0, 0.2  # bounds of a stage's length over that of the initial guess
 

@@ -60,7 +60,7 @@ class Refiner:
         return done
 
     def _joined(self, path: PathIR, done: list[Refined]) -> tuple[PathIR, list[Diagnostic]]:
-        """Return the path with the refined shots; a shot without transfers to its new ends stays convex."""
+        """Return the path with the refined shots; without a transfer to its ends a shot stays unrefined."""
         cameras = {r.shot: r.camera for r in done if r.camera is not None}
         try:
             return rejoined(path, cameras), []

@@ -1,6 +1,6 @@
-"""Shots on their own clock, refined: the position by a nonlinear programme, the camera by a convex one.
+"""Refines shots on their own clock: the position by a nonlinear programme, the camera by a convex one.
 
-The convex guide stays near the ideal and does not know what the camera has to do there. Here the place
-is weighed against the motion of the ray to the target, so that the camera turns calmly (Alcantara et al.,
-Eq. 12).
+The convex guide stays near the ideal and ignores how the camera has to turn there. Here the cost weighs the
+position against the motion of the ray to the target, so that the camera turns calmly (Alcantara et al., Eq.
+12).
 """

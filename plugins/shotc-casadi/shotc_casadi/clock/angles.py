@@ -1,4 +1,4 @@
-"""How fast the ray to a target turns: yaw and pitch of a direction with their derivatives, without atan2."""
+"""How fast the ray to a target turns: derivatives of its yaw and pitch, without atan2."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 
-BENEATH_M2 = 1e-2  # m^2 added to the squared distance over ground: straight above a target the yaw is none
+BENEATH_M2 = 1e-2  # m^2 added to the squared horizontal distance: straight above a target there is no yaw
 
 
 class RayDerivatives(NamedTuple):
-    """Derivatives of a ray's yaw and pitch by time: rates rad/s, accelerations rad/s^2, jerks rad/s^3."""
+    """Time derivatives of a ray's yaw and pitch: rates rad/s, accelerations rad/s^2, jerks rad/s^3."""
 
     yaw_rate: Any
     pitch_rate: Any
@@ -21,7 +21,7 @@ class RayDerivatives(NamedTuple):
 
 
 def over_ground(ray: Any) -> Any:
-    """Return the length of a ray over ground, metres; its square is smooth and never zero."""
+    """Return the horizontal length of a ray, metres; its square is smooth and never zero."""
     return ca.sqrt(ray[0] ** 2 + ray[1] ** 2 + BENEATH_M2)
 
 
@@ -35,9 +35,10 @@ def rates(ray: Any, first: Any) -> tuple[Any, Any]:
 
 
 def turning(ray: Any, first: Any, second: Any, third: Any) -> RayDerivatives:
-    """Return how a ray turns.
+    """Return the derivatives of a ray's yaw and pitch.
 
-    ray : from the camera to the target, W, metres; first, second, third : its derivatives by time
+    ray : from the camera to the target, W, metres
+    first, second, third : its time derivatives
     """
     r, r1, r2 = (ca.SX.sym(name, 3) for name in ("ray", "first", "second"))
     r3 = ca.SX.sym("third", 3)

@@ -1,8 +1,9 @@
-"""What the camera keeps away from, as ellipsoids: a hard one with a slack, and a potential field about it.
+"""Obstacles as ellipsoids: a hard constraint with a slack, and a potential field around it.
 
-An ellipsoid in a solid, its half-axes longer by the clearance, lies within what the clearance forbids: the
-length of the sum of two vectors is at most that of both. So it never takes a place that may be flown, and
-the half-spaces that carry the proof are never against it (viewpoint Eq. 12 and 13).
+An ellipsoid is inscribed in a solid, and its half-axes are longer by the clearance. It lies within the volume
+that the clearance forbids, because the length of the sum of two vectors is at most the sum of their lengths.
+So it excludes no place that may be flown, and it never contradicts the half-spaces that carry the proof
+(viewpoint Eq. 12 and 13).
 """
 
 from __future__ import annotations
@@ -20,18 +21,20 @@ from shotc_casadi.clock.occluders import ellipse
 from shotc_casadi.clock.references import ClockReferences
 from shotc_casadi.clock.symbols import BODY
 
-NEAR_M = 1.0  # metres beyond the potential field within which an ellipsoid counts
-COUNTS = (0, 1, 2, 4, 8)  # ellipsoids a programme may have, so that few are built
-NONE = 1e2  # added to the squared distance, where there is no ellipsoid
-ENDLESS_M = 1e3  # metres of half a height that is that of something without an end
+NEAR_M = 1.0
+COUNTS = (0, 1, 2, 4, 8)  # possible numbers of ellipsoids, so that few programmes are built
+NONE = 1e2  # added to the squared distance where there is no ellipsoid
+ENDLESS_M = 1e3  # a longer half-height counts as infinite, metres
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MovingEllipsoid:
     """An ellipsoid that moves.
 
-    scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
-    reach : the distance there at which the potential field about it ends; longest : its longest half-axis, m
+    scale : linear map from W to where it is the unit ball, 1/m, (3, 3)
+    centres : at the nodes, W, metres, (N + 1, 3)
+    reach : where its potential field ends, a distance in unit-ball coordinates
+    longest : its longest half-axis, metres
     """
 
     scale: Array
@@ -40,14 +43,14 @@ class MovingEllipsoid:
     longest: float
 
     def distance(self, eyes: Array) -> Array:
-        """Return how far places at the nodes are from the middle, where it is the unit ball; (N + 1,)."""
+        """Return the distance of ``eyes`` from the centres in unit-ball coordinates; (N + 1,)."""
         return np.asarray(np.linalg.norm((eyes - self.centres) @ self.scale.T, axis=1))
 
 
 def bodies_of(around: Surroundings, breaks: Array) -> tuple[MovingEllipsoid, ...]:
-    """Return all that a shot is flown clear of, at the nodes: targets, other drones, obstacles.
+    """Return all obstacles of a shot at the nodes: targets, other drones, standing obstacles.
 
-    A drone that needs no distance is a point without clearance: there is nothing to be in.
+    A drone that needs no distance is a point without clearance and has no ellipsoid.
     """
     bodies = []
     for what in (motion.what for motion in around.motions):
@@ -64,7 +67,7 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[MovingEllipsoid, ...
 
 
 class Ellipsoid(NamedTuple):
-    """An ellipsoid: its axes by columns, (3, 3), its half-axes, (3,), metres, and its centre, (3,)."""
+    """An ellipsoid: axes by columns, (3, 3), half-axes, (3,), metres, and centre, (3,)."""
 
     axes: Array
     half: Array
@@ -72,7 +75,7 @@ class Ellipsoid(NamedTuple):
 
 
 def inscribed(part: Solid) -> Ellipsoid:
-    """Return the axes (by columns), half-axes and centre of an ellipsoid in a convex solid."""
+    """Return an ellipsoid inside a convex solid."""
     if isinstance(part, Cylinder):
         flat, half, middle = np.eye(2), np.full(2, part.radius), np.array(part.centre)
     else:
@@ -80,7 +83,7 @@ def inscribed(part: Solid) -> Ellipsoid:
         middle, scale = ellipse(corners)
         value, flat = np.linalg.eigh(scale.T @ scale)
         mirrored = np.linalg.norm(corners[:, None] + corners[None] - 2 * middle, axis=2).min(axis=1)
-        # John: shrunk by the dimension, or by its root where it is its own mirror image, it is inside.
+        # John: scaled by 1 / dimension, or by its root if the solid is centrally symmetric, it is inside.
         even = bool(mirrored.max() < 1e-6 * np.sqrt(1 / value.min()))
         half = 1.0 / np.sqrt(value) / (sqrt(2.0) if even else 2.0)
     tall = bounded(part)
@@ -94,9 +97,9 @@ def inscribed(part: Solid) -> Ellipsoid:
 
 
 def kept_from(bodies: Sequence[MovingEllipsoid], references: ClockReferences, eyes: Array) -> ClockReferences:
-    """Return the references with the ellipsoids that come near places ``eyes`` at the nodes, (N + 1, 3).
+    """Return the references with the ellipsoids that are near ``eyes`` at the nodes, (N + 1, 3).
 
-    Those that came near before stay.
+    Ellipsoids of earlier rounds stay.
     """
     if not bodies:
         return references

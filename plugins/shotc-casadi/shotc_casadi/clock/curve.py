@@ -1,4 +1,4 @@
-"""From a solution to a leg: the position between the given ends, and the camera that follows from it."""
+"""From a solution to a leg: the position between the given ends, and the camera for it."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from shotc_casadi.solving import Solution
 
 
 def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecewise:
-    """Return the position of a solution, C2, with the guide's ends to the last digit.
+    """Return the position of a solution, C2, with exactly the guide's ends.
 
-    What the nodes at both ends are off is taken back over the ways into and out of the film.
+    The run-up and the run-out absorb the deviation of the solution at both ends.
     """
     states = solution.states[:, :PLACED].copy()
     leg = subject.leg
@@ -48,9 +48,9 @@ def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecew
 
 
 def filmed(subject: ClockSubject, position: Piecewise, camera: Piecewise | None = None) -> ClockLeg | None:
-    """Return the leg with a new position and the camera that follows from it, or None without one.
+    """Return the leg with a new position and the camera for it, or None if there is no camera.
 
-    camera : yaw and pitch over mission time, where they are found already; the body's yaw follows
+    camera : yaw and pitch over mission time, if they are known already; the body yaw follows
     """
     leg, angles = subject.leg, [CAM_YAW, CAM_PITCH, BODY_YAW]
     ends = np.array([leg.curve.ctrl[0, 0, angles], leg.curve.ctrl[-1, -1, angles]])

@@ -1,6 +1,6 @@
-"""A first guess that looks past what hides the subject: over it, or to either side of it.
+"""An initial guess that looks past occluders: over them or to either side.
 
-Right behind something no way out of its shadow is shorter than another, so that a solver has to be led.
+Straight behind an occluder no way out of its shadow is shorter than another, so the guess has to choose.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from shotc.plugin_api.refiner import Array, IntArray, Mask, quintic_hermite
 from shotc_casadi.clock.occluders import Occluder, occlusion_at
 from shotc_casadi.clock.references import ClockReferences
 
-CLEAR = -0.1  # of d_v, to which a guess is led
-TRIES = 20  # of ways to go to either side, up to the usual distance to the subject
-BRIDGED_S = 1.0  # seconds: stretches that are hidden, with less between them, are passed on one side
-SPREAD_S = 3.0  # seconds before and after such a stretch in which a guess goes aside
+CLEAR = -0.1  # of d_v, which a guess reaches if it can
+TRIES = 20  # steps to each side, up to the usual distance to the subject
+BRIDGED_S = 1.0  # hidden intervals with a shorter gap between them are passed on one side, seconds
+SPREAD_S = 3.0  # seconds before and after such an interval in which the guess moves aside
 
 
 def guess_past(
     curve: Piecewise, references: ClockReferences, occluders: Sequence[Occluder], filmed: Mask
 ) -> Piecewise:
-    """Return a position curve led aside where something hides the subject in the film; its ends stay."""
+    """Return a position curve that moves aside where the subject is hidden in the film; its ends stay."""
     if not occluders:
         return curve
     breaks = curve.breaks
@@ -39,7 +39,7 @@ def guess_past(
 
 
 def _way_out(eyes: Array, references: ClockReferences, occluders: Sequence[Occluder], run: IntArray) -> Array:
-    """Return the shortest way out of the shadow for all nodes of a run, W, metres, shape (3,)."""
+    """Return the shortest offset out of the shadow for all nodes of a run, W, metres, shape (3,)."""
     ray = (references.target[run, :3] - eyes[run]).mean(axis=0)
     side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)
     best, least = np.zeros(3), float(occlusion_at(occluders, references, eyes)[run].max())
@@ -54,7 +54,7 @@ def _way_out(eyes: Array, references: ClockReferences, occluders: Sequence[Occlu
 
 
 def _bump(breaks: Array, span: tuple[float, float]) -> list[Array]:
-    """Return a smooth step to 1 over a stretch of time and back, with its first two derivatives."""
+    """Return a smooth step to 1 over a time span and back, with its first two derivatives, (M,) each."""
     early = min(SPREAD_S, span[0] - breaks[0]) or 1.0
     late = min(SPREAD_S, breaks[-1] - span[1]) or 1.0
     before, after = (span[0] - breaks) / early, (breaks - span[1]) / late

@@ -1,8 +1,8 @@
-"""The lens of a shot on its own clock: the field of view over mission time, once the place is known.
+"""The lens of a shot on its own clock: the field of view over mission time for a known position.
 
-The place costs nothing that depends on the lens, so the two are found one after the other, and that of the
-lens is a convex programme of one channel: near to what is wanted, wide enough for whole subjects, smooth, in
-its range and its rate at every instant. Keyframes bind it, and so do both ends of the leg.
+No cost of the position depends on the lens, so the two are found one after the other. The lens is a convex
+programme with one channel: near the reference, wide enough for whole subjects, smooth, and within its range
+and rate at every instant. Keyframes bind it, and so do both ends of the leg.
 """
 
 from __future__ import annotations
@@ -34,23 +34,26 @@ from shotc_casadi.clock.references import ClockSubject, seen_at
 from shotc_casadi.clock.shown import cropped_on_purpose
 from shotc_casadi.lens import SAME_SHARE, lens_bounds
 
-# Weights: mean squares over the film, of shares of the field of view.
-WHOLE = 300.0  # of a share by which it is too narrow for a subject: as the framing of paths has it
-SMOOTH_S = 1.0  # seconds below which its wiggles vanish, with normal smoothing
-FAINT = 1e-3  # on the ways into and out of the film, against that in it
+# Weights of mean squares over the film, of shares of the field of view.
+WHOLE = 300.0  # of a share by which it is too narrow for a subject; the same in the framing of paths
+SMOOTH_S = 1.0  # shorter wiggles vanish with normal smoothing, seconds
+FAINT = 1e-3  # on run-up and run-out, relative to the film
 NEARLY_SHARE = 0.999  # of its rate that is used
-SIZED_SHARE = 0.05  # of a size that is asked for: what is nearer to it is left to the place
-NARROW_SHARE = 1e-3  # of a field of view that is missing for a subject, and is worth a zoom
+SIZED_SHARE = 0.05  # of a size that is asked for: the position corrects smaller errors
+NARROW_SHARE = 1e-3  # of a field of view: a zoom is worth it from this lack on
 SAME_S = 1e-6  # seconds
 TOLERANCE = 1e-9  # of the solver
-VALUE, RATE, BEND = range(3)  # of the states of a node
+VALUE, RATE, BEND = range(3)  # indices of the states of a node
 
 
 class _Lens(NamedTuple):
-    """What a lens is to do at nodes (N + 1,), fields of view in rad.
+    """The task of a lens at the nodes, shapes (N + 1,), fields of view in rad.
 
-    wanted : near which it stays; least : that shows all subjects whole; weight : of each node
-    given : of the guide; bound : where that binds
+    wanted : reference
+    least : smallest field of view that shows all subjects whole
+    weight : of each node
+    given : field of view of the guide
+    bound : where the given one binds
     """
 
     wanted: Array
@@ -61,9 +64,9 @@ class _Lens(NamedTuple):
 
 
 def zoomed(subject: ClockSubject, leg: ClockLeg) -> ClockLeg | None:
-    """Return a leg with a lens that zooms on the way, None where it has none or nothing is to be won.
+    """Return a leg with a lens that zooms, None if it cannot zoom or zooming gains nothing.
 
-    leg : of the subject's shot, refined or not; its place stays, its camera turns anew
+    leg : of the subject's shot, refined or not; its position stays, its camera is computed again
     """
     drone = subject.drone
     if not drone.zooms or not subject.framed:
@@ -81,7 +84,7 @@ def zoomed(subject: ClockSubject, leg: ClockLeg) -> ClockLeg | None:
 
 
 def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
-    """Return what the lens is to do, None where it may as well do what it is given."""
+    """Return the task of the lens, None if the given field of view is as good."""
     film = (t >= leg.start - SAME_S) & (t <= leg.end + SAME_S)
     pose = leg.curve(t)
     given = pose[:, HFOV]
@@ -98,7 +101,7 @@ def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
 
 
 def _bound(subject: ClockSubject, t: Array) -> Mask:
-    """Return where keyframes bind the lens: when they are reached, and while the camera holds there."""
+    """Return where keyframes bind the lens: at their times, and while the camera holds there."""
     bound = np.zeros(len(t), dtype=bool)
     keyed = subject.camera_task.keyed
     for stretch in () if keyed is None else keyed.stretches:
@@ -109,11 +112,11 @@ def _bound(subject: ClockSubject, t: Array) -> Mask:
 
 
 def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Array:
-    """Return the fields of view near which the lens stays, rad, shape (N + 1,).
+    """Return the reference field of view, rad, shape (N + 1,).
 
-    Between keyframes of one target and different lenses those at which its size goes evenly, by its
-    logarithm, from the one to the other; where sizes are asked for, and missed, those that have them; else
-    what the lens is given.
+    Between two keyframes of one target with different lenses, the logarithm of the target's size moves
+    linearly with the progress from the one to the other. If sizes are asked for and missed, the reference
+    meets them. Otherwise it is the given field of view.
     """
     keyed = subject.camera_task.keyed
     wanted = np.array(pose[:, HFOV])
@@ -137,7 +140,7 @@ def _wanted(subject: ClockSubject, leg: ClockLeg, t: Array, pose: Array) -> Arra
 
 
 def _factor(subject: ClockSubject, t: Array, pose: Array) -> Array:
-    """Return by which the picture is to be wider for the sizes asked for, in the mean of all, (N + 1,)."""
+    """Return how much wider the picture has to be to meet the sizes asked for on average, (N + 1,)."""
     off = []
     for one in subject.framed:
         asked = np.array([one.asked(float(u) - subject.leg.start).size or np.nan for u in t])
@@ -149,9 +152,9 @@ def _factor(subject: ClockSubject, t: Array, pose: Array) -> Array:
 
 
 def _least(subject: ClockSubject, t: Array, pose: Array) -> Array:
-    """Return the least field of view that has all subjects whole, rad, 0 where any does, shape (N + 1,).
+    """Return the smallest field of view that shows all subjects whole, rad, shape (N + 1,); 0 if any does.
 
-    Of one subject the camera keeps the place on screen, about which its outline shrinks then.
+    If there is one subject, the camera keeps its place on screen, so its outline shrinks about that place.
     """
     factor = np.zeros(len(t))
     for one in subject.framed:
@@ -168,7 +171,7 @@ def _least(subject: ClockSubject, t: Array, pose: Array) -> Array:
 
 
 def _places(subject: ClockSubject, one: PlacedSubject, t: Array) -> Array:
-    """Return where on screen a subject is to be at times, the middle if nowhere, shape (2, N + 1)."""
+    """Return the place on screen asked for a subject at times, the middle if none, shape (2, N + 1)."""
     places = np.zeros((2, len(t)))
     for span in subject.leg.framing:
         if span.target == one.target and span.reference is not None:
@@ -180,7 +183,9 @@ def _places(subject: ClockSubject, one: PlacedSubject, t: Array) -> Array:
 def _outline(
     subject: ClockSubject, one: PlacedSubject, t: Array, pose: Array
 ) -> tuple[Array, Array, Array, Array]:
-    """Return left, right, low and high of a subject's outline at times, half frames; NaN for behind."""
+    """Return left, right, low and high of a subject's outline at times, half frames; NaN behind the
+    camera.
+    """
     target = subject.mission.target(one.target)
     offset = (np.array([target.at(float(u)) for u in t]) - pose[:, :3]).T
     yaw, pitch, half = pose[:, CAM_YAW], pose[:, CAM_PITCH], np.tan(pose[:, HFOV] / 2)
@@ -190,7 +195,7 @@ def _outline(
 
 
 def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
-    """Return the field of view, its rate and its acceleration at the nodes, (N + 1, 3), None for no way."""
+    """Return field of view, rate and acceleration at the nodes, (N + 1, 3), None if infeasible."""
     n, h, smoother = len(t) - 1, np.diff(t), subject.placed.shot.smoother
     scale = 1.0 / np.sin(task.wanted)
     drawn, narrow = 2.0 * task.weight * scale**2, 2.0 * WHOLE * task.weight * scale**2
@@ -235,23 +240,23 @@ def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
 
 
 class _Rows:
-    """Where the unknowns of a programme stand: three states a node, an input a stage, a slack a node."""
+    """The order of the unknowns: three states a node, then an input a stage, then a slack a node."""
 
     def __init__(self, stages: int) -> None:
         self.n = stages
         self.size = 3 * (stages + 1) + stages + stages + 1
 
     def state(self, which: int) -> sparse.csr_matrix:
-        """Return the rows that pick a state at all nodes."""
+        """Return the rows that select a state at all nodes."""
         return self._picked(3 * np.arange(self.n + 1) + which)
 
     @property
     def slack(self) -> sparse.csr_matrix:
-        """Return the rows that pick the slacks."""
+        """Return the rows that select the slacks."""
         return self._picked(3 * (self.n + 1) + self.n + np.arange(self.n + 1))
 
     def motion(self, h: Array) -> sparse.csr_matrix:
-        """Return the rows that are zero where an even jerk leads from each node to the next."""
+        """Return the rows that are zero if a constant jerk leads from each node to the next."""
         jerk = self._picked(3 * (self.n + 1) + np.arange(self.n))
         value, first, second = (self.state(k) for k in (VALUE, RATE, BEND))
         by = sparse.diags

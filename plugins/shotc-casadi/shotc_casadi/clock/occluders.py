@@ -1,7 +1,8 @@
-"""What may stand before the subject, as ellipsoids, and how far a line of sight runs inside of one.
+"""Occluders as ellipsoids, and how deep a line of sight runs inside them.
 
-Horizon culling (viewpoint Eq. 11): where an ellipsoid is the unit ball, a point behind its horizon is hidden
-where the line of sight passes the centre nearer than 1. The paper's d_v is 1 less that distance squared.
+This is horizon culling (viewpoint Eq. 11). In coordinates in which the ellipsoid is the unit ball, a point
+behind its horizon is hidden if the line of sight passes the centre at less than 1. The paper's d_v is 1 minus
+the square of that distance.
 """
 
 from __future__ import annotations
@@ -27,22 +28,23 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.references import ClockReferences, ClockSubject
 from shotc_casadi.clock.symbols import LINE
 
-ENCLOSES = sqrt(2.0)  # the semi-axes of an ellipsoid over those of the upright cylinder that it goes round
-WIDER = 1.2  # of what is a ball or has no end, so that it counts before it hides
+ENCLOSES = sqrt(2.0)  # semi-axes of an ellipsoid over those of the upright cylinder that it encloses
+WIDER = 1.2  # for balls and infinite solids: wider, so that they count before they hide
 KHACHIYAN_STEPS = 200  # of Khachiyan's method
-NEAR_DV = 3.0  # of -d_v: lines of sight that pass within twice the ellipsoid count
-COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # ellipsoids a programme may have, so that few are built
+NEAR_DV = 3.0  # of -d_v: lines of sight within twice the ellipsoid count
+COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # possible numbers of ellipsoids, so that few programmes are built
 NONE = -1e2  # of d_v, where there is no ellipsoid
-ROOM_DV = 0.1  # of d_v: a camera or a subject in an ellipsoid, or as near to it, is not looked at through it
+ROOM_DV = 0.1  # of d_v: an ellipsoid that contains the camera or the subject, or almost, does not count
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Occluder:
     """An ellipsoid that moves.
 
-    scale : (3, 3), of W to where it is the unit ball; centres : at the nodes, W, (N + 1, 3)
-    before : the index of the subject that it may stand before
-    apart : at which nodes it is a thing of its own, (N + 1,); a part of its subject hides nothing of it
+    scale : linear map from W to where it is the unit ball, 1/m, (3, 3)
+    centres : at the nodes, W, metres, (N + 1, 3)
+    before : the index of the subject that it may hide
+    apart : at which nodes it is not a part of its subject, (N + 1,); a part hides nothing of it
     """
 
     scale: Array
@@ -51,10 +53,7 @@ class Occluder:
     apart: Mask | bool = True
 
     def occlusion(self, eyes: Array, points: Array) -> Array:
-        """Return d_v of lines of sight, above 0 hidden; -inf where the point is before the horizon.
-
-        eyes, points : (N + 1, 3), of the camera and of what it looks at
-        """
+        """Return d_v of lines of sight, > 0 if hidden, (N + 1,); -inf if the point is before the horizon."""
         ray, away = (points - eyes) @ self.scale.T, (self.centres - eyes) @ self.scale.T
         beyond = (points - self.centres) @ self.scale.T
         square = np.maximum((ray**2).sum(axis=1), 1e-12)
@@ -65,7 +64,7 @@ class Occluder:
 
 
 def occluders_of(subject: ClockSubject, breaks: Array) -> tuple[Occluder, ...]:
-    """Return all that may stand before a subject at the nodes: zones, meshes, other targets, other drones."""
+    """Return all occluders of the subjects at the nodes: zones, meshes, other targets, other drones."""
     return tuple(
         replace(occluder, before=i)
         for i, one in enumerate(subject.framed)
@@ -99,9 +98,10 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
 def with_occluders(
     occluders: Sequence[Occluder], references: ClockReferences, eyes: Array, filmed: Mask
 ) -> ClockReferences:
-    """Return the references with the ellipsoids that come near the lines of sight from ``eyes`` (N + 1, 3).
+    """Return the references with the ellipsoids near the lines of sight from ``eyes`` (N + 1, 3).
 
-    Those that came near before stay, and the camera goes as far from its place as it takes.
+    Ellipsoids of earlier rounds stay. The camera may then be at any distance from its ideal place.
+
     filmed : whether each node is in the film
     """
     if not occluders:
@@ -128,13 +128,13 @@ def with_occluders(
 
 
 def occlusion_at(occluders: Sequence[Occluder], references: ClockReferences, eyes: Array) -> Array:
-    """Return the most that anything covers each line of sight, d_v, above 0 hidden; shape (N + 1,)."""
+    """Return the largest d_v of each line of sight, > 0 if hidden; shape (N + 1,)."""
     occlusions = [occluder.occlusion(eyes, references.centres[:, occluder.before]) for occluder in occluders]
     return np.asarray(np.max(occlusions, axis=0, initial=-np.inf))
 
 
 def enclosing(part: Solid) -> tuple[Array, Array]:
-    """Return the scale and the centre of an ellipsoid about a convex solid, endless where that is."""
+    """Return scale and centre of an ellipsoid around a convex solid; it is infinite if the solid is."""
     if isinstance(part, Cylinder):
         middle, flat = np.array(part.centre), np.eye(2) / part.radius
     else:
@@ -148,7 +148,7 @@ def enclosing(part: Solid) -> tuple[Array, Array]:
 
 
 def ellipse(points: Array) -> tuple[Array, Array]:
-    """Return the centre c and the scale S of a small ellipse |S (x - c)| <= 1 about points (Khachiyan)."""
+    """Return centre c and scale S of a small ellipse |S (x - c)| <= 1 around points, (M, 2) (Khachiyan)."""
     n = len(points)
     lifted = np.column_stack([points, np.ones(n)]).T
     weight = np.full(n, 1.0 / n)

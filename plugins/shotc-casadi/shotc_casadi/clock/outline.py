@@ -1,8 +1,8 @@
-"""The outline of upright cylinders and boxes in a picture, in CasADi symbols: smooth, and next to exact.
+"""The outline of upright cylinders and boxes in a picture, in CasADi symbols: smooth and almost exact.
 
-``shotc.geom.shapes`` is exact, and has kinks: where the camera is as high as the cylinder's
-top or foot, where it looks level, and where one rim takes the other's place at an edge of the outline. Those
-are where people are filmed from. Here lengths and lesser values are rounded off by as little as nobody sees.
+``shotc.geom.shapes`` is exact but has kinks: where the camera is as high as the cylinder's top or foot, where
+it looks horizontally, and where the other rim becomes the edge of the outline. These are usual cameras for
+people. Here lengths and minima are rounded off by amounts that nobody sees.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ import casadi as ca
 from shotc.plugin_api.refiner import View
 from shotc_casadi.extents import TINY_M2, Extent
 
-DEEP_SHARE = 0.01  # of its distance, by which a subject counts as before the camera at least
-LEVEL_SHARE = 0.003  # of its distance: a rim that is less above or below the camera is rounded off
-UPRIGHT = 0.01  # of a sine or cosine of the pitch, the same
-EVEN_HALF_FRAMES = 0.001  # half frames: two rims that are less apart on screen are, too
+DEEP_SHARE = 0.01  # of its distance: the least depth of a subject before the camera
+LEVEL_SHARE = 0.003  # of its distance: a rim closer to the camera's height is rounded off
+UPRIGHT = 0.01  # of a sine or cosine of the pitch: smaller ones are rounded off
+EVEN_HALF_FRAMES = 0.001  # half frames: two rims closer on screen are rounded off
 
 
 class Outline(NamedTuple):
-    """Where a subject is on screen, half frames: its centre (u, v), and the box about its outline."""
+    """A subject on screen, half frames: its centre (u, v), and the bounding box of its outline."""
 
     place: Any
     left: Any
@@ -43,9 +43,11 @@ class _Edges(NamedTuple):
 def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Outline:
     """Return the outline of a cylinder.
 
-    away : its centre less the camera, W, metres; far : the length of that, not zero
-    solid : radius and height. A cylinder that is not all before the camera is moved along the camera's axis
-    until it is.
+    A cylinder that is not completely in front of the camera is moved along the camera's axis until it is.
+
+    away : its centre minus the camera, W, metres
+    far : the length of ``away``, not zero
+    solid : radius and height, metres
     """
     radius, height = solid
     reach = height / 2 * length(camera.sin_pitch, UPRIGHT) + radius * length(camera.cos_pitch, UPRIGHT)
@@ -56,7 +58,10 @@ def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Outlin
 
 
 def outline_of(camera: View, away: Any, far: Any, bodies: Sequence[Extent]) -> Outline:
-    """Return the outline of several bodies as one; away : of their common centre, else as in ``outline``."""
+    """Return the outline of several bodies as one.
+
+    away : of their common centre; other arguments as in ``outline``
+    """
     reaches = [_towards(camera, body) - ca.dot(_axis(camera), body.offset) for body in bodies]
     reach = -reduce(partial(lesser, apart=DEEP_SHARE * far), [-reach for reach in reaches])
     centre = _before(camera, away, far, reach)
@@ -66,7 +71,7 @@ def outline_of(camera: View, away: Any, far: Any, bodies: Sequence[Extent]) -> O
 
 
 def _boxes(camera: View, centre: Any, far: Any, body: Extent) -> list[_Edges]:
-    """Return what a body takes of the screen: a cylinder and a box's corners, one of them without width."""
+    """Return the screen boxes of a body: of its cylinder and of its corners; one of them has no width."""
     corners = []
     for a, b, c in product((-1, 1), repeat=3):
         level = centre[:2] + a * body.along + b * body.across
@@ -84,7 +89,7 @@ def _cylinder(camera: View, centre: Any, far: Any, solid: tuple[Any, Any]) -> _E
 
 
 def _union(boxes: Sequence[_Edges]) -> _Edges:
-    """Return the box about boxes, two and two."""
+    """Return the bounding box of boxes; it combines them in pairs."""
     if len(boxes) == 1:
         return boxes[0]
     half = (len(boxes) + 1) // 2
@@ -98,12 +103,12 @@ def _union(boxes: Sequence[_Edges]) -> _Edges:
 
 
 def length(x: Any, least: Any) -> Any:
-    """Return |x|, rounded off where it is not well above ``least``."""
+    """Return |x|, rounded off where it is not much larger than ``least``."""
     return ca.sqrt(x**2 + least**2)
 
 
 def lesser(a: Any, b: Any, apart: Any) -> Any:
-    """Return the lesser of two, or up to ``apart / 2`` less where they are nearly the same."""
+    """Return the minimum of two, or up to ``apart / 2`` less where they are almost equal."""
     return 0.5 * (a + b - length(a - b, apart))
 
 
@@ -122,9 +127,9 @@ def _towards(camera: View, body: Extent) -> Any:
 
 
 def _before(camera: View, away: Any, far: Any, reach: Any) -> Any:
-    """Return an offset moved along the camera's axis until all of a subject is before it, hardly else.
+    """Return an offset moved along the camera's axis until the subject is in front; else almost unchanged.
 
-    reach : how far the subject comes from there towards the camera's image plane, metres
+    reach : how far the subject reaches from its centre towards the camera's image plane, metres
     """
     axis = _axis(camera)
     depth = ca.dot(axis, away) - reach
@@ -132,11 +137,11 @@ def _before(camera: View, away: Any, far: Any, reach: Any) -> Any:
 
 
 def _rim(camera: View, centre: Any, radius: Any, far: Any) -> _Edges:
-    """Return the screen box of a level circle, all of it before the camera.
+    """Return the screen box of a horizontal circle that is completely in front of the camera.
 
-    Its points in C are (x + r sin t, y + r sin(pitch) cos t, z + r cos(pitch) cos t). y / z has its extremes
-    where cos t is 1 or -1; the distance of the two is that of the rim from the camera's height. x / z
-    has them where (x - m z)^2 is r^2 (1 + m^2 cos(pitch)^2), a quadratic in m.
+    Its points in C are (x + r sin t, y + r sin(pitch) cos t, z + r cos(pitch) cos t). y / z has its extrema
+    where cos t is 1 or -1; their distance is proportional to the distance of the rim from the camera's
+    height. x / z has its extrema where (x - m z)^2 is r^2 (1 + m^2 cos(pitch)^2), a quadratic equation in m.
     """
     x, y, z = camera.to_camera((centre[0], centre[1], centre[2]))
     lean_y, lean_z = radius * camera.sin_pitch, radius * camera.cos_pitch

@@ -1,7 +1,7 @@
-"""How a subject appears, in CasADi symbols: place on screen, size and viewing angle (viewpoint Eq. 7 to 9).
+"""How a subject appears, in CasADi symbols: place on screen, size, view (viewpoint Eq. 7 to 9).
 
-The terms are those of ``shotc.geom.viewpoint``, by which the ideal of a framing is found: half frames on
-screen, the logarithm of the exact outline's size, chords of the view, hinges that keep the subject whole.
+The terms are those of ``shotc.geom.viewpoint``, which finds the ideal of a framing: half frames on screen,
+the logarithm of the outline's size, chords of the view, hinges that keep the subject whole.
 """
 
 from __future__ import annotations
@@ -30,32 +30,38 @@ FIELDS = {
 }
 """The parameters of a subject and their sizes.
 
-centre : W, metres; solid : radius and height of a cylinder; uv, size, elevation : as in ``viewpoint.Wanted``
-toward : unit vector from it to where the camera is wanted, level where only the bearing counts
-placed, sized, whole, level : factors of what is off its place, of the logarithm of the size, of what is out
-    of the frame, and of what is not level; viewed : of the chord, the level chord, and the elevation
+centre : W, metres
+solid : radius and height of a cylinder, metres
+uv, size, elevation : as in ``viewpoint.Wanted``
+toward : unit vector from the subject to the reference camera; horizontal if only the bearing counts
+placed, sized, whole, level : factors of the error of the place, of the logarithm of the size, of what is
+    outside the frame, and of the height difference over the distance
+viewed : factors of the chord, of the horizontal chord, and of the elevation
 """
 SUBJECT = sum(FIELDS.values())
-TINY_M2 = 1e-12  # m^2 added to a squared distance that is not to be none
-STEEP_SHARE = 0.003  # of the distance that a subject is away over ground at least, for its bearing
+TINY_M2 = 1e-12  # m^2 added to a squared distance so that it is not zero
+STEEP_SHARE = 0.003  # of the distance: the least horizontal distance, so that the subject has a bearing
 
 
 def picture(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
-    """Return the sum of the squares of all that is off; arguments as in ``residuals``."""
+    """Return the sum of squares of ``residuals``."""
     return ca.sumsqr(residuals(subject, eye, aim, lens))
 
 
 def width(extents: int) -> int:
-    """Return how many numbers a subject of that many bodies has; 0 of one upright cylinder."""
+    """Return the number of parameters of a subject with that many bodies; 0 for one upright cylinder."""
     return SUBJECT + EXTENT * extents
 
 
 def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
-    """Return how far a subject is off what is asked, as a column.
+    """Return the errors of a subject's appearance as a column.
 
-    subject : SUBJECT numbers, and EXTENT for each of its bodies where it is no cylinder
-    eye : W, metres; aim : yaw and pitch, rad; lens : as in symbols.FIELDS
-    Smooth wherever the camera is: see ``outline``, which also moves what is behind the camera before it.
+    They are smooth for every camera: see ``outline``, which moves what is behind the camera to its front.
+
+    subject : SUBJECT numbers, and EXTENT for each of its bodies unless it is a cylinder
+    eye : camera position, W, metres
+    aim : camera yaw and pitch, rad
+    lens : as in symbols.FIELDS
     """
     given = cut(subject, FIELDS)
     radius, height = given["solid"][0], given["solid"][1]

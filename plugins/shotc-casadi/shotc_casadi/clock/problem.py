@@ -1,4 +1,4 @@
-"""The programme of one shot on its own clock, in numbers: stages, parameters, bounds, a first guess."""
+"""The programme of one shot on its own clock, in numbers: stages, parameters, bounds, initial guess."""
 
 from __future__ import annotations
 
@@ -18,19 +18,20 @@ from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Siz
 from shotc_casadi.extents import EXTENT
 
 USUAL_STAGES = 100  # of the film, if its pieces allow
-COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # half-spaces a programme may have, so that few are built
-FREE_M = 1.0  # metres of slack of what means nothing: a constraint needs an interior
+COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # possible numbers of half-spaces, so that few programmes are built
+FREE_M = 1.0  # metres of slack of an unused half-space: a constraint needs an interior
 WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "picture")
 UNFILMED = 1e3
-ENDS = 5e-4  # half the width of the box about the given states of both ends, m and so on
-HELD = 2e-4  # half the width of the box about a keyframe's place; of its velocity and acceleration at rest
+ENDS = 5e-4  # half-width of the box about the given states of both ends, SI
+HELD = 2e-4  # half-width of the box about a keyframe's place, and about rest there, SI
 SAME_S = 1e-9  # seconds
 
 
 class Use(NamedTuple):
-    """What a programme may use.
+    """How much of the limits a programme may use.
 
-    share : of each limit; ends : half the width of the box about the given states of both ends, m and so on
+    share : of each limit
+    ends : half-width of the box about the given states of both ends, SI
     """
 
     share: float
@@ -41,9 +42,11 @@ class Use(NamedTuple):
 class ClockProblem:
     """One instance of the programme: N stages, N + 1 nodes.
 
-    parameters : shape (N + 1, symbols.size(sizes)); unit : what their weights are multiplied by
-    states, inputs : first guess, shapes (N + 1, sizes.states) and (N, sizes.inputs)
-    state_bounds : (lower, upper), shapes as states; least : of each input, shape (sizes.inputs,)
+    parameters : shape (N + 1, symbols.size(sizes))
+    unit : the factor that their weights contain
+    states, inputs : initial guess, shapes (N + 1, sizes.states) and (N, sizes.inputs)
+    state_bounds : (lower, upper), shapes as states
+    least : lower bound of each input, shape (sizes.inputs,)
     held, driven : (lower, upper) of a stage's constraints, as in symbols.stage
     """
 
@@ -64,20 +67,20 @@ class ClockProblem:
 
     @property
     def units(self) -> Array:
-        """The units of all inputs, shape (N, sizes.inputs): of a slack, what costs 1 in a stage."""
+        """Units of all inputs, shape (N, sizes.inputs); one unit of a slack costs 1 a stage."""
         units = np.ones_like(self.inputs)
         for price, k in self.sizes.slacks.items():
             units[:, k] = 1.0 / (self._each("length") * self._each(price))
         return units
 
     def _each(self, name: str) -> Array:
-        """Return a parameter of all stages that is one number, shape (N,)."""
+        """Return a scalar parameter of all stages, shape (N,)."""
         names = list(FIELDS)
         return self.parameters[:-1, sum(FIELDS[other] for other in names[: names.index(name)])]
 
 
 def breaks_of(subject: ClockSubject) -> Array:
-    """Return the times of the nodes: the guide's pieces cut, in the film until there are USUAL_STAGES."""
+    """Return the times of the nodes: the guide's breaks, subdivided to about USUAL_STAGES in the film."""
     breaks, leg = subject.leg.curve.breaks, subject.leg
     middle = 0.5 * (breaks[:-1] + breaks[1:])
     filmed = (middle > leg.start) & (middle < leg.end)
@@ -90,7 +93,10 @@ def breaks_of(subject: ClockSubject) -> Array:
 
 
 def guess(curve: Piecewise, breaks: Array, camera: Piecewise | None = None) -> tuple[Array, Array]:
-    """Return states and inputs along a position curve, and along the leg whose camera is in the problem."""
+    """Return states and inputs along a position curve.
+
+    camera : a leg whose camera angles are appended, if the camera is part of the problem
+    """
     orders = [curve, curve.derivative(1), curve.derivative(2)]
     states = np.concatenate([order(breaks)[:, :3] for order in orders], axis=1)
     length = np.diff(breaks)[:, None]
@@ -111,9 +117,9 @@ def problem(
     use: Use,
     start: tuple[Array, Array],
 ) -> ClockProblem:
-    """Return the programme; start : as ``guess`` returns.
+    """Return the programme; start : states and inputs as from ``guess``.
 
-    The slacks of ellipsoids begin at one unit each.
+    The initial slack of ellipsoids is one unit each.
     """
     limits = subject.drone.limits
     table, count = _half_spaces(planes, len(breaks) - 1)
@@ -157,7 +163,7 @@ def problem(
 
 
 def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tuple[Array, Array]:
-    """Return the bounds of all states: at both ends those of the guide."""
+    """Return the bounds of all states; at both ends they are those of the guide."""
     limits, leg = subject.drone.limits, subject.leg
     low = np.full((len(breaks), sizes.states), -inf)
     high = -low
@@ -177,7 +183,7 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
 
 
 def _drawn_angles(pose: Near) -> Array:
-    """Return yaw and pitch that a camera stays near, 0 where they are free, and the weights of both, (4,)."""
+    """Return reference yaw and pitch (0 if free), rad, and the weights of both, (4,)."""
     asked = (pose.yaw, pose.pitch)
     weight = viewpoint.NEAR_WEIGHT**2
     return np.array([*(a or 0.0 for a in asked), *(0.0 if a is None else weight for a in asked)])
@@ -200,7 +206,7 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
     unit = weights.TOGETHER if subject.together else binds
     pose, ideal, angles = subject.near, references.ideal, np.zeros((n + 1, 4))
     place, leash = binds * near * np.ones(n + 1), near / weights.LEASH**2
-    if pose is not None:  # viewpoint Eq. 10, as the ideal has it
+    if pose is not None:  # viewpoint Eq. 10, as for the ideal
         drawn = np.array([near_at(subject.mission, pose, float(t)) for t in breaks])
         angles = _drawn_angles(pose) * np.where(filmed, 1.0, 0.0)[:, None]
         angles[:, 2:] *= paid * weights.TOGETHER * _shared(length)[:, None]
@@ -233,11 +239,12 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
 
 
 def _unit(references: ClockReferences) -> float:
-    """Return what all weights are multiplied by for the solver.
+    """Return the factor on all weights for the solver.
 
-    Where nothing is filmed a jerk costs next to nothing, and fatrop takes a small curvature for none: it adds
-    to the diagonal, again and again, and creeps. Beside what is looked past the cost has hills between one
-    side and the other, and costs that are large against the barrier strand it on the first: there they stay.
+    Without a filmed subject a jerk costs almost nothing. fatrop takes such a small curvature for zero, adds
+    to the diagonal again and again, and makes little progress; the factor prevents this. With occluders the
+    cost has hills between their sides, and a cost that is large against the barrier keeps the solver on the
+    first side. So there the factor is 1.
     """
     if references.sight_lines.shape[1]:
         return 1.0
@@ -245,7 +252,7 @@ def _unit(references: ClockReferences) -> float:
 
 
 def _binds(subject: ClockSubject, references: ClockReferences) -> float:
-    """Return the weight of the place."""
+    """Return the weight of the position."""
     if len(subject.framed) > 1:
         return weights.LOOSE
     if not references.placed or subject.held_whole:
@@ -254,12 +261,14 @@ def _binds(subject: ClockSubject, references: ClockReferences) -> float:
 
 
 def _shared(stages: Array) -> Array:
-    """Return what nodes weigh, half of the stages to either side."""
+    """Return the duration that each node stands for: half of the stages on both sides."""
     return np.asarray(0.5 * (stages + np.append(0.0, stages[:-1])))
 
 
 def _half_spaces(planes: HalfSpaces, stages: int) -> tuple[Array, int]:
-    """Return the half-spaces as parameters, shape (N + 1, count * PLANE), and how many a stage has."""
+    """Return the half-spaces as parameters, shape (N + 1, count, PLANE) flattened, and their number a
+    stage.
+    """
     most = int(np.bincount(planes.piece, minlength=1).max()) if len(planes.piece) else 0
     count = next((c for c in COUNTS if c >= most), most)
     table = np.zeros((stages + 1, count, PLANE))

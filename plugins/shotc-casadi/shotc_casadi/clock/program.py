@@ -1,4 +1,4 @@
-"""Solving the programme of one shot on its own clock, and what a motion costs by it."""
+"""Solves the programme of one shot on its own clock, and evaluates its cost for a motion."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from shotc_casadi.horizon import Solver
 from shotc_casadi.solving import Instance, Solution, solved
 
 TOLERANCE = 1e-5
-IN_UNITS = 1e-2  # the same, where the cost is in a unit of the problem's own
+IN_UNITS = 1e-2  # the same if the cost is scaled by the problem's unit
 FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
 HELD = ("speed", "acceleration", "distance from its place")
 ROWS = (*HELD, "jerk", "speed", "climb and descent")
 
 
 def solve(task: ClockProblem, solver: Solver) -> Solution:
-    """Solve a problem from its first guess."""
+    """Solve a problem from its initial guess."""
     solution = solved(instance(task), solver)
     return replace(solution, inputs=solution.inputs * task.units, objective=solution.objective / task.unit)
 
 
 def instance(task: ClockProblem) -> Instance:
-    """Return a problem as the solvers take it, with each slack in its unit."""
+    """Return a problem in the form that the solvers take, with each slack in its unit."""
     return Instance(
         kind=derived(task.sizes),
         parameters=task.parameters,
@@ -44,7 +44,7 @@ def instance(task: ClockProblem) -> Instance:
 
 
 def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
-    """Return what a motion costs by a programme; what ellipsoids ask slacks for is paid.
+    """Return the cost of a motion, including the slacks that its ellipsoids need.
 
     inputs : shape (N, sizes.moves), without those slacks
     """
@@ -63,7 +63,7 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
 
 
 def _named(sizes: Sizes, row: int) -> str:
-    """Return what people call a row of held and driven constraints."""
+    """Return the readable name of a row of held and driven constraints."""
     if row < len(ROWS):
         return ROWS[row]
     row -= len(HELD)

@@ -1,4 +1,4 @@
-"""Whether a motion keeps limits and distances at every instant, by hulls; and whether its camera follows."""
+"""Proves limits and clearances of a motion at every instant by hulls, and checks its camera."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from shotc_casadi.clock.references import ClockSubject
 
 PROVED_M = 1e-6  # metres
 ROUNDING_SHARE = 1e-9  # of a limit
-AIMS = 200  # at which a camera is compared with its aim
+AIMS = 200  # number of times at which a camera is compared with its reference
 
 
 class UnprovedMoment(NamedTuple):
-    """Where a motion is not proved: mission time, what is lacking there, and by how much in ``unit``."""
+    """A moment at which a motion is not proved: mission time, the constraint, and the lack in ``unit``."""
 
     time: float
     what: str
@@ -36,7 +36,7 @@ class UnprovedMoment(NamedTuple):
 
 
 def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> UnprovedMoment | None:
-    """Return the worst of what the hulls of a motion do not prove, None where they prove all."""
+    """Return the worst of what the hulls of a motion do not prove, None if they prove all."""
     lack = around.lacking(position.ctrl)
     k = int(lack.argmax())
     if lack[k] > PROVED_M:
@@ -62,7 +62,7 @@ def gap_in(drone: Drone, around: Surroundings, position: Piecewise) -> UnprovedM
 
 
 def astray(subject: ClockSubject, leg: ClockLeg) -> float:
-    """Return the most by which a camera misses the aim that its subject asks for, in the film, rad."""
+    """Return the largest error of the camera angles in the film against their reference, rad."""
     watched, drone, camera_task = subject.watched, subject.drone, subject.camera_task
     if camera_task.keyed is not None:
         return _off(camera_task, leg)
@@ -82,7 +82,7 @@ def astray(subject: ClockSubject, leg: ClockLeg) -> float:
 
 
 def _off(camera_task: CameraTask, leg: ClockLeg) -> float:
-    """Return the most by which a camera misses what keyframes tell it, in the film, rad."""
+    """Return the largest error of the camera angles in the film against those of its keyframes, rad."""
     times = np.linspace(leg.start, leg.end, AIMS)
     pose = leg.curve(times)
     aims = aims_at(camera_task, times, pose[:, :3])

@@ -1,4 +1,4 @@
-"""What a shot on its own clock wants at every node: the ideal place, and the motion of what it films."""
+"""References of a shot on its own clock at every node: the ideal place, and the motion of its subjects."""
 
 from __future__ import annotations
 
@@ -32,25 +32,25 @@ from shotc.plugin_api.refiner import (
 from shotc_casadi.clock.several import pictured, where_it_fits
 from shotc_casadi.clock.symbols import BODY, LINE
 
-AROUND_S = 0.5  # seconds to either side over which a track is smoothed, so that its corners can be followed
-QUADRATURE_SAMPLES = 200  # of Gauss and Legendre: exact where the motion is even
+AROUND_S = 0.5  # seconds on each side over which a track is smoothed: its corners can then be followed
+QUADRATURE_SAMPLES = 200  # of Gauss-Legendre: exact for linear motion
 STEEPEST = tan(89.0 * pi / 180)
-KEPT_SHARE = 0.05  # of the usual distance: a guide that is farther off a framing's place does not keep it
-STEEP_SHARE = 0.15  # of a line of sight that is level, below which it is as good as straight down
-NEAREST_M = 1.0  # metres: least distance that counts as usual
-NO_SUBJECT_M = 100.0  # metres east of its place: where a shot without a subject has its target
-PREFERRED = 0.98 * MOST_MOVED  # of a distance: between two nodes a camera may be a little farther off
-LOOKS_PER_STAGE = 8  # at an ideal, a stage
-INNER_M = 0.005  # metres that it may be farther off than its guide: a constraint needs an interior
+KEPT_SHARE = 0.05  # of the usual distance: a guide farther from a framing's place does not keep it
+STEEP_SHARE = 0.15  # horizontal share of a line of sight below which it counts as vertical
+NEAREST_M = 1.0  # least distance that counts as usual, metres
+NO_SUBJECT_M = 100.0  # the target of a shot without a subject is this far east of the camera, metres
+PREFERRED = 0.98 * MOST_MOVED  # less than MOST_MOVED, because of the motion between nodes
+LOOKS_PER_STAGE = 8  # samples of an ideal, a stage
+INNER_M = 0.005  # metres beyond the guide's distance that are allowed: a constraint needs an interior
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockSubject:
-    """A shot on its own clock: the path that it is part of, its leg and what is asked of it.
+    """A shot on its own clock: its path, its drone, its placed subjects and its leg.
 
-    held_whole : whether the camera of a shot that follows one subject is part of the problem all the same, so
-        that all of it is kept in the frame
-    lens : the field of view over mission time, rad, where that is chosen; else the leg's
+    held_whole : whether the camera is part of the problem although the shot follows one subject; it keeps the
+        whole subject in the frame
+    lens : the chosen field of view over mission time, rad; None for that of the leg
     """
 
     path: PathIR
@@ -67,58 +67,62 @@ class ClockSubject:
 
     @property
     def camera_task(self) -> CameraTask:
-        """Who films, and what its camera does where keyframes tell it."""
+        """The drone that films, and the motion of its camera if keyframes give one."""
         task = camera_task_of(self.mission, self.drone, self.placed, self.leg.start)
         return task if self.lens is None else through(task, self.lens)
 
     @property
     def bound(self) -> tuple[Bound, ...]:
-        """Where keyframes of the author's bind the camera."""
+        """Where the author's keyframes bind the camera."""
         return bounds_of(self.mission, self.placed.shot, self.leg.start)
 
     @property
     def watched(self) -> PlacedSubject | None:
-        """What the camera follows, None where it keeps an aim or looks where it goes."""
+        """The subject that the camera follows, None if it keeps fixed angles or looks where it goes."""
         if self.camera_task.keyed is not None:
             return followed(self.placed, self.camera_task.keyed)
         return self.placed.subjects[0] if self.placed.subjects and self.aim is None else None
 
     @property
     def framed(self) -> tuple[PlacedSubject, ...]:
-        """All that is to be seen, where the camera follows something."""
+        """All subjects of the picture, if the camera follows something."""
         if self.camera_task.keyed is not None:
             return () if self.watched is None else (self.watched,)
         return self.placed.subjects if self.aim is None else ()
 
     @property
     def together(self) -> bool:
-        """Whether the camera is part of the problem, as where several subjects share the picture."""
+        """Whether the camera is part of the problem, as it is for several subjects."""
         return self.held_whole or len(self.framed) > 1
 
     @property
     def near(self) -> Near | None:
-        """The pose near which the camera of several subjects stays as far as the picture lets it."""
+        """The pose that the camera of several subjects stays near, as far as the picture allows."""
         ideal = self.placed.shot.ideal
         return None if ideal is None or not self.together else ideal.near
 
     @property
     def aim(self) -> tuple[float, float] | None:
-        """The yaw and pitch that the camera keeps, if the author gave them."""
+        """The fixed camera yaw and pitch, rad, if the author gave them."""
         return None if self.placed.shot.ideal is None else self.placed.shot.ideal.aim
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockReferences:
-    """One row a node.
+    """References, one row a node.
 
     ideal (N + 1, 3), target (N + 1, 12) : as in symbols.FIELDS
-    reach : metres that the camera may be off the ideal place, (N + 1,), inf where as far as it takes
-    usual : distance to the target in the film, metres; watches : whether anything is filmed
-    placed : whether the author gave the places; yields : whether the guide cannot keep a framing's
-    centres : of all that is to be seen, (N + 1, J, 3), W, metres
-    subjects : how several are to appear, (N + 1, J, picture.width); of one J is 0
-    sight_lines : past occluders, (N + 1, K, LINE), as in symbols.occlusion; near : which those are, by node
-    bodies : what to keep away from, (N + 1, B, BODY), as in symbols.inside; beside : which those are, by node
+    reach : largest distance of the camera from the ideal place, metres, (N + 1,); inf if there is no limit
+    usual : median distance to the target in the film, metres
+    watches : whether anything is filmed
+    placed : whether the author gave the places
+    yields : whether the guide cannot keep the place of a framing
+    centres : of all subjects, (N + 1, J, 3), W, metres
+    subjects : how several subjects appear, (N + 1, J, picture.width); J is 0 for one subject
+    sight_lines : past occluders, (N + 1, K, LINE), as in symbols.occlusion
+    bodies : obstacles, (N + 1, B, BODY), as in symbols.inside
+    near : which occluders ``sight_lines`` contains at each node
+    beside : which obstacles ``bodies`` contains at each node
     """
 
     ideal: Array
@@ -137,12 +141,12 @@ class ClockReferences:
 
     @property
     def screened(self) -> int:
-        """How many ellipsoids are looked past, counted at every node."""
+        """Number of occluders, summed over the nodes."""
         return 0 if self.near is None else int(self.near.sum())
 
 
 def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
-    """Return what a shot wants at mission times t, shape (N + 1,)."""
+    """Return the references of a shot at mission times t, shape (N + 1,)."""
     ideal = _ideal_at(subject, t)
     watched, shot, n = subject.watched, subject.placed.shot, len(t)
     keyed = subject.camera_task.keyed is not None
@@ -178,12 +182,12 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
 
 
 def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
-    """Return how far a camera may be from its ideal place at times, metres, (N + 1,).
+    """Return how far the camera may be from its ideal place at times, metres, (N + 1,).
 
-    What is not promised is a preference, and costs a camera a share of its distance from what it films; where
-    the guide has to be farther off, as much as that. As far as it takes goes a shot that promises what its
-    subject looks like, one with a picture of several, and one led by keyframes, between which nobody asked
-    for a place. Between two of the times the ideal may bend away.
+    What is not promised is a preference: for it the camera may move by a share of its distance to the
+    subject, or as far as the guide is, if that is farther. There is no limit outside the film, and none if
+    the shot promises how its subject appears, shows several subjects, or has keyframes, because nobody asked
+    for a place between keyframes. The limit is less by how far the ideal bends between two of the times.
     """
     leg, promise, n = subject.leg, subject.placed.shot.promise, len(t) - 1
     promised = promise.in_frame is not None or promise.screen_error is not None
@@ -208,25 +212,25 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
 
 
 def _ideal_at(subject: ClockSubject, t: Array) -> Array:
-    """Return the ideal places at mission times, shape (M, 3), W, metres."""
+    """Return the ideal places at mission times, W, metres, shape (M, 3)."""
     shot, start = subject.placed.shot, subject.leg.start
     return ideal_places(subject.mission, shot, start, t)
 
 
 def followed(placed: PlacedShot, keyed: Keyed) -> PlacedSubject | None:
-    """Return the target that all keyframes of a shot lead from place to place on screen, if it is one."""
+    """Return the target that all keyframe intervals of a shot follow, None unless it is one."""
     one = len(placed.subjects) == 1 and all(stretch.follows for stretch in keyed.stretches)
     return placed.subjects[0] if one else None
 
 
 def _over(subject: ClockSubject, centres: Array, ideal: Array) -> bool:
-    """Tell whether the camera comes so nearly over its target that the ray to it has no bearing."""
+    """Return whether the camera is so nearly above its target that the ray to it has no bearing."""
     rays = centres[:, 0] - ideal
     return bool((np.linalg.norm(rays[:, :2], axis=1) < STEEP_SHARE * np.linalg.norm(rays, axis=1)).any())
 
 
 def seen_at(subject: ClockSubject, t: Array) -> Array:
-    """Return the centres of all that a shot shows at mission times t, shape (M, J, 3)."""
+    """Return the centres of all subjects of a shot at mission times t, W, metres, shape (M, J, 3)."""
     places = np.zeros((len(t), len(subject.framed), 3))
     for j, one in enumerate(subject.framed):
         target = subject.mission.target(one.target)
@@ -237,7 +241,7 @@ def seen_at(subject: ClockSubject, t: Array) -> Array:
 def motion(mission: MissionIR, name: str, t: Array) -> Array:
     """Return a target's smoothed position, velocity, acceleration and jerk at times; shape (M, 12).
 
-    The track is convolved with (1 - s^2)^4, s over AROUND_S seconds: an linear motion stays what it is.
+    The track is convolved with (1 - s^2)^4, s over AROUND_S seconds. A linear motion stays the same.
     """
     target = mission.target(name)
     if target.track is None:
@@ -256,15 +260,15 @@ def motion(mission: MissionIR, name: str, t: Array) -> Array:
 
 @cache
 def _legendre() -> tuple[Array, Array]:
-    """Return places and weights of the quadrature, shape (M,) each; they are eigenvalues, and slow."""
+    """Return nodes and weights of the quadrature, shape (M,) each; cached, since its eigenvalues are slow."""
     s, share = np.polynomial.legendre.leggauss(QUADRATURE_SAMPLES)
     return np.asarray(s), np.asarray(share)
 
 
 def steepest(subject: ClockSubject, t: Array) -> Array:
-    """Return the tangents of the lowest and highest elevation of a target that the gimbal's pitch allows.
+    """Return the tangents of the lowest and highest elevation of a ray that the gimbal allows, (M, 2).
 
-    The target is off the middle of the picture by its place there; its height on it counts. Shape (M, 2).
+    The ray to the target differs from the camera's axis by the target's height on screen.
     """
     drone, watched, v = subject.drone, subject.watched, np.zeros(len(t))
     for span in subject.leg.framing:

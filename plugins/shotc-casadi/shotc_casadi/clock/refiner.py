@@ -1,4 +1,4 @@
-"""Every shot of a path that is on its own clock refined, and what has to be said of it."""
+"""Refines every shot of a path that is on its own clock, and reports on it."""
 
 from __future__ import annotations
 
@@ -36,21 +36,23 @@ from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_occlude
 from shotc_casadi.messages import UNITS, fallen_back, stats, unsolved
 from shotc_casadi.solving import MOTION
 
-NOTICE_M, LEFT_M = 0.5, 0.1  # metres off the ideal that are worth telling, and that belong to such a stretch
-STEP_S = 0.1  # seconds between the places that are compared with it
+NOTICE_M, LEFT_M = 0.5, 0.1  # metres off the ideal: peaks that are reported, and the places around them
+STEP_S = 0.1  # seconds between the places that are compared with the ideal
 KEPT = "kept: the guide shows more"
 GUIDE_BETTER = "its guide films the subject as well or better by what the refiner measures"
 SHOWS_LESS = "its guide shows more of its subjects"
 IN_PICTURE = "refined, a drone would come into another's picture"
-OUT_M = 0.05  # metres or rad out of a picture that the samples it is judged by may miss
+OUT_M = 0.05  # metres or rad: a smaller distance from a picture may be an error of its samples
 WHOLE = "the whole subject in the frame, and the drone's limits"
-SAME_S = 2.0  # seconds between a place that moved the guide and one that is off for the same reason
+SAME_S = 2.0  # seconds: a deviation this close to one of the guide has the same cause
 
 
 def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tuple[Diagnostic, ...]]:
     """Return the path with its shots on their own clock refined, each clear of those before it.
 
-    name : of the refiner. A shot that cannot be refined keeps its guide, with an error that says why.
+    A shot that cannot be refined keeps its guide; an error says why.
+
+    name : of the refiner
     """
     diagnostics: list[Diagnostic] = []
     legs = [leg for flown in path.timed for leg in flown.legs if isinstance(leg, ClockLeg)]
@@ -64,9 +66,9 @@ def refine_clocks(path: PathIR, ctx: PassContext, name: str) -> tuple[PathIR, tu
 def refine_one(
     path: PathIR, shot: str, name: str, *, keeps_whole: bool = True
 ) -> tuple[PathIR, list[Diagnostic]]:
-    """Return the path with one shot on its own clock refined, and what has to be said of it.
+    """Return the path with one shot on its own clock refined, and its diagnostics.
 
-    keeps_whole : whether the place gives way where its one subject is not whole in the frame
+    keeps_whole : whether the position changes if its single subject is not whole in the frame
     """
     subject = subject_of(path, shot)
     unseen = given_up(path.stats, shot) is None
@@ -81,7 +83,7 @@ def refine_one(
 
 
 class _Tried(NamedTuple):
-    """A shot refined: the path with it, or why it stays as it was; said : of its solver, if anything."""
+    """A shot refined: the path with it, or why it does not change; said : a diagnostic of its solver."""
 
     refined: ClockRefined
     path: PathIR
@@ -90,7 +92,7 @@ class _Tried(NamedTuple):
 
 
 def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keeps_whole: bool) -> _Tried:
-    """Refine a shot; unseen : whether the drones' pictures are to be kept free."""
+    """Return a shot refined; unseen : whether it has to keep the drones' pictures free."""
     refined = refine_clock(subject, unseen=unseen)
     message = _report(path, subject, refined, name)
     refined = _zoomed(subject, refined)
@@ -108,7 +110,7 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keep
 
 
 def _zoomed(subject: ClockSubject, refined: ClockRefined) -> ClockRefined:
-    """Return a refinement whose lens zooms, where that has something to win and shows no less."""
+    """Return a refinement with a lens that zooms, if this gains something and shows no less."""
     before = refined.leg or subject.leg
     leg = zoomed(subject, before)
     if leg is None or not as_whole(subject, before, leg):
@@ -121,8 +123,8 @@ def _taken(
 ) -> tuple[ClockRefined | None, PathIR]:
     """Return the first of a shot's refinements that may be flown, and the path with it.
 
-    candidates : each with the reason for which it leaves its place
-    unseen : whether it has to keep the drones' pictures free, or not to come deeper into them
+    candidates : each with the reason why it leaves its ideal place
+    unseen : whether it has to stay out of the drones' pictures, or at least come no deeper into them
     """
     for one, why in candidates:
         if one is None or one.leg is None:
@@ -144,9 +146,9 @@ def subject_of(path: PathIR, shot: str) -> ClockSubject:
 
 
 def with_leg(path: PathIR, leg: ClockLeg, why: str) -> PathIR:
-    """Return the path with another leg for a shot, which leaves its ideal as far as it then does.
+    """Return the path with another leg for a shot, and the deviations of that leg from its ideal.
 
-    why : it does so where nothing moved the guide
+    why : the cause of a deviation that is not one of the guide's
     """
     timed = tuple(
         TimedPath(
@@ -164,7 +166,7 @@ def with_leg(path: PathIR, leg: ClockLeg, why: str) -> PathIR:
 def _deviations(
     subject: ClockSubject, before: tuple[ClockDeviation, ...], why: str
 ) -> tuple[ClockDeviation, ...]:
-    """Return the worst of every stretch off the ideal; what moved the guide nearest to there is why."""
+    """Return the peak of every deviation from the ideal; the nearest one of the guide gives the cause."""
     leg = subject.leg
     t = np.append(np.arange(leg.start, leg.end, STEP_S), leg.end)
     ideal = ideal_places(subject.mission, subject.placed.shot, leg.start, t)
@@ -181,7 +183,7 @@ def _cause(before: tuple[ClockDeviation, ...], t: float, why: str) -> str:
 
 
 def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: str) -> Diagnostic | None:
-    """Return what has to be said of one shot's solver."""
+    """Return the diagnostic about one shot's solver, None if there is none."""
     solution = refined.solution
     if refined.leg is not None:
         return fallen_back(path, refined.shot, refined.first, solution)
@@ -191,7 +193,7 @@ def _report(path: PathIR, subject: ClockSubject, refined: ClockRefined, name: st
 
 
 def _state(subject: ClockSubject, refined: ClockRefined, name: str) -> SolverState:
-    """Return where the problem of a shot that is not refined stood; name : of the refiner."""
+    """Return the state of the problem of a shot that is not refined; name : of the refiner."""
     worst, breaks = refined.gap or _worst(refined), refined.breaks
     known = bool(worst.what) and isfinite(worst.lack)
     return SolverState(
@@ -210,7 +212,7 @@ def _state(subject: ClockSubject, refined: ClockRefined, name: str) -> SolverSta
 
 
 def _worst(refined: ClockRefined) -> UnprovedMoment:
-    """Return the constraint that the solver broke most, if it broke any."""
+    """Return the constraint that the solver violates most; its name is "" if it violates none."""
     solution = refined.solution
     what = solution.constraint
     return UnprovedMoment(float(refined.breaks[solution.stage]), what, solution.residual, UNITS.get(what, ""))

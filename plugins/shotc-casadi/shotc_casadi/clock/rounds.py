@@ -1,5 +1,6 @@
-"""A shot on its own clock refined in rounds: solved, proved at every instant, put beside its surroundings
-anew, and solved again while that helps; then the camera.
+"""Refines a shot on its own clock in rounds: solve, prove at every instant, update the surroundings.
+
+The rounds end when the cost does not improve any more. Then the camera is computed.
 """
 
 from __future__ import annotations
@@ -32,24 +33,27 @@ from shotc_casadi.clock.side import Pass, guess_to_side, held, passes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
 ROUNDS = 6
-REACH_M = 8.0  # metres beyond its clearance within which a wall counts
-ROOM_SHARE = 0.5  # of the room beside a wall that is kept
-NEARLY_SHARE = 0.998  # of each limit that is used, so that rounding breaks none
-ALLOWED_RAD = 0.01  # rad by which a camera may miss its aim, if its guide misses it by less
+REACH_M = 8.0  # an obstacle counts up to this far beyond its clearance, metres
+ROOM_SHARE = 0.5  # share of the room beside a wall that is kept
+NEARLY_SHARE = 0.998  # share of each limit that is used, so that rounding breaks none
+ALLOWED_RAD = 0.01  # rad: a camera may miss its reference by this, or by as much as its guide does
 FIRST = Use(NEARLY_SHARE)
-NARROWER_SHARE = 0.1  # of what the ends may be off, which is taken back beside walls that nodes are held to
-GAIN_SHARE = 0.02  # of the cost: a round that gains less is the last
+NARROWER_SHARE = 0.1  # factor on the allowed error of the ends, if the clearances are not proved
+GAIN_SHARE = 0.02  # of the cost: a round that gains less is the last one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockRefined:
     """One shot refined.
 
-    leg : with its new curve, or None where no solver found one that holds, or where its camera follows less
-        well than the guide's
-    rounds : how often it was solved; solution : the leg's, or the last one; first : the solver that failed
-        before it; seconds : of all solves; gap : what stands against the motion of a solved problem
-    costs : of several subjects, what its flown leg and the guide cost by the problem's own cost
+    leg : with its new curve; None if no solver found one that holds, or if its camera or its cost is worse
+        than the guide's
+    rounds : number of solves
+    solution : that of the leg, or the last one
+    seconds : of all solves
+    first : the solution of the solver that failed before
+    gap : what stands against the motion of a solved problem
+    costs : for a camera in the problem, the costs of the flown leg and of the guide
     """
 
     shot: str
@@ -64,7 +68,7 @@ class ClockRefined:
 
 
 class _Best(NamedTuple):
-    """A round that holds: its motion, and the problem that it solves."""
+    """A round that holds: its motion, its solution and its problem."""
 
     position: Piecewise
     solution: Solution
@@ -73,9 +77,10 @@ class _Best(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shot:
-    """What stays from round to round.
+    """What is the same in all rounds.
 
-    occluders, bodies : to look past, and to keep away from; shown : whether each node is in the film
+    occluders, bodies : to look past, and to keep away from
+    shown : whether each node is in the film
     unseen : as in ``refine_clock``
     """
 
@@ -89,23 +94,29 @@ class _Shot:
 
     @property
     def guide(self) -> Piecewise:
-        """The position that the guide has, on the nodes."""
+        """The guide's position, on the nodes."""
         return restrict(self.subject.leg.curve.channels(0, 1, 2), self.breaks)
 
     def guess(self, position: Piecewise) -> tuple[Array, Array]:
-        """Return a motion as a first guess, with the guide's camera where that is part of the problem."""
+        """Return a motion as initial guess, with the guide's camera if the camera is part of the problem."""
         return guess(position, self.breaks, self.subject.leg.curve if self.subject.together else None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Round:
-    """Where a round begins, or the last one ended.
+    """The state before a round.
 
-    course : the motion that the surroundings are put beside; start : the first guess
-    over : ways over the target that are held to their side; guess_aside : whether the guess is
-    reach : of what stands near, metres; use : of the limits, and of where the ends are
-    rounds, last, seconds : how often it was solved, what came of it last, and how long all of it took
-    first : the solver that failed before one that did not
+    course : the motion that the half-spaces are set up around
+    start : the initial guess
+    over : passes over the target that are held to one side
+    guess_aside : whether the initial guess leaves the guide to choose a side
+    reach : obstacles count up to this far beyond their clearance, metres
+    use : how much of the limits, and of the error of the ends, is used
+    rounds, last, seconds : number of solves, the last solution, and time of all solves
+    first : the solution of a solver that failed before another one succeeded
+    gap : what was not proved in the last round
+    best : the best round that holds
+    ended : whether there are no more rounds
     """
 
     references: ClockReferences
@@ -127,10 +138,10 @@ class _Round:
 def refine_clock(
     subject: ClockSubject, occluders: tuple[Occluder, ...] = (), *, unseen: bool = True
 ) -> ClockRefined:
-    """Refine one shot.
+    """Return one shot refined.
 
-    occluders : what it is to look past
-    unseen : whether it stays as far out of the drones' pictures as its guide
+    occluders : what it has to look past
+    unseen : whether it stays as far outside the drones' pictures as its guide
     """
     breaks = breaks_of(subject)
     around = surroundings(subject.path, subject.drone, breaks)
@@ -143,7 +154,7 @@ def refine_clock(
 
 
 def _begun(shot: _Shot) -> _Round:
-    """Return the first round: from the guide, led aside where it has to choose a side."""
+    """Return the first round: from the guide, moved aside if it has to choose a side."""
     subject, guide = shot.subject, shot.guide
     references = references_at(subject, shot.breaks)
     over = () if subject.together else passes(subject, shot.breaks, references)
@@ -153,7 +164,7 @@ def _begun(shot: _Shot) -> _Round:
 
 
 def _next(shot: _Shot, now: _Round) -> _Round:
-    """Return the round after one: set up about its course, solved, and proved at every instant."""
+    """Return the next round: set up the problem around the course, solve it, prove it at every instant."""
     references = with_occluders(shot.occluders, now.references, now.course(shot.breaks), shot.shown)
     references = kept_from(shot.bodies, references, now.course(shot.breaks))
     task = problem(shot.subject, shot.breaks, references, _planes(shot, now), now.use, now.start)
@@ -168,13 +179,13 @@ def _next(shot: _Shot, now: _Round) -> _Round:
     after = replace(after, first=now.first or failed, gap=gap, course=curve)
     if gap is not None:
         return _tightened(after, gap)
-    # What is looked past anew has a price that the motion before did not pay.
+    # The cost before does not contain new occluders.
     anew = references.screened > now.references.screened
     return _improved(after, _Best(curve, solution, task), anew=anew)
 
 
 def _planes(shot: _Shot, now: _Round) -> HalfSpaces:
-    """Return the half-spaces about the course of a round."""
+    """Return the half-spaces around the course of a round."""
     subject, leg = shot.subject, shot.subject.leg
     planes = held(shot.around.half_spaces(now.course.ctrl, now.reach, ROOM_SHARE), now.references, now.over)
     if not shot.unseen:
@@ -183,15 +194,15 @@ def _planes(shot: _Shot, now: _Round) -> HalfSpaces:
 
 
 def _unsolved(shot: _Shot, after: _Round) -> _Round:
-    """Return what follows a round without a solution: the guide as it is, if that was not tried yet."""
+    """Return the state after a round without a solution: with the guide itself, unless that was tried."""
     if after.best is not None or not after.guess_aside:
         return replace(after, ended=True)
-    # The room may leave no place on that side; a camera that cannot follow then is not taken.
+    # There may be no room on that side. A camera that cannot follow the guide is rejected later.
     return replace(after, over=(), guess_aside=False, course=shot.guide, start=shot.guess(shot.guide))
 
 
 def _tightened(after: _Round, gap: UnprovedMoment) -> _Round:
-    """Return what follows a round that does not hold, from the same first guess."""
+    """Return the state after a round that does not hold; the initial guess is the same."""
     if gap.unit == "m":
         return replace(
             after, reach=2 * after.reach, use=after.use._replace(ends=NARROWER_SHARE * after.use.ends)
@@ -200,7 +211,7 @@ def _tightened(after: _Round, gap: UnprovedMoment) -> _Round:
 
 
 def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
-    """Return what follows a round that holds; anew : its cost is not compared with those before."""
+    """Return the state after a round that holds; anew : its cost is not comparable with earlier ones."""
     solution, best = found.solution, after.best
     least = inf if best is None or anew else best.solution.objective
     return replace(
@@ -212,7 +223,7 @@ def _improved(after: _Round, found: _Best, *, anew: bool) -> _Round:
 
 
 def _refined(shot: _Shot, now: _Round) -> ClockRefined:
-    """Return what has come of all rounds."""
+    """Return the result of all rounds."""
     assert now.last is not None
     name, best = shot.subject.leg.shot, now.best
     if best is None:
@@ -226,7 +237,7 @@ def _refined(shot: _Shot, now: _Round) -> ClockRefined:
 def _weighed(
     subject: ClockSubject, best: _Best
 ) -> tuple[ClockLeg | None, tuple[float, float] | None, UnprovedMoment | None]:
-    """Return the leg of the best round where it is no worse than the guide, the costs, and what is amiss."""
+    """Return the best leg unless it is worse than the guide, the costs, and what stands against it."""
     leg, whole = subject.leg, _filmed(subject, best.position, best.solution)
     if whole is None:
         return None, None, UnprovedMoment(leg.start, "the camera's limits", float("nan"), "")
@@ -244,5 +255,5 @@ def _filmed(subject: ClockSubject, position: Piecewise, solution: Solution) -> C
 
 
 def flown_cost(task: ClockProblem, breaks: Array, leg: ClockLeg) -> float:
-    """Return what a leg costs by a programme of several subjects, with the camera that it has."""
+    """Return the cost of a leg by a programme that contains the camera, with the leg's own camera."""
     return cost(task, *guess(leg.curve, breaks, leg.curve))

@@ -1,4 +1,4 @@
-"""Several subjects in one picture, in numbers: what is asked of each, and the camera in the problem."""
+"""Several subjects in one picture, in numbers: the references of each, and the camera's states."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
 from shotc_casadi.extents import count_of, extents_of
 
 WHOLE = sum(FIELDS[name] for name in tuple(FIELDS)[: tuple(FIELDS).index("whole")])
-FARTHEST_M = 1e6  # metres that count where a camera may go back as far as it takes
+FARTHEST_M = 1e6  # stands for an unlimited distance, metres
 
 
 def pictured(
@@ -33,8 +33,11 @@ def pictured(
 ) -> Array:
     """Return the parameters of subjects in a picture at times (M,), shape (M, J, picture.width).
 
-    centres : of theirs, (M, J, 3); start : mission time of the first frame
-    What is free weighs as in ``viewpoint``, as faintly as the ideal has it.
+    What is free has a faint weight, as in ``viewpoint`` for the ideal.
+
+    centres : of the subjects, W, metres, (M, J, 3)
+    t : mission time, seconds
+    start : mission time of the first frame
     """
     sized = any(s.size is not None for s in subjects)
     targets = [mission.target(s.target) for s in subjects]
@@ -51,7 +54,7 @@ def pictured(
 
 
 def _asked(target: Target, subject: Asked, sized: bool) -> list[float]:
-    """Return all parameters of a subject but its centre, in the order of picture.FIELDS."""
+    """Return all parameters of a subject except its centre, in the order of picture.FIELDS."""
     azimuth, elevation = subject.view or (None, None)
     both = azimuth is not None and elevation is not None
     toward = viewpoint.direction(azimuth or 0.0, (elevation or 0.0) if both else 0.0)
@@ -74,10 +77,13 @@ def _asked(target: Target, subject: Asked, sized: bool) -> list[float]:
 
 
 def where_it_fits(rows: Array, shape: TargetShape, drone: Drone, goes: tuple[Array, Array]) -> Array:
-    """Return the parameters of one subject, kept whole only where a camera that goes back can have it whole.
+    """Return the parameters of one subject; it has to be whole only where that is possible.
 
-    rows : as of ``pictured``, (M, 1, picture.width); shape : as it is then
-    goes : places of the camera, (M, 3), and metres that it may go back from there, (M,)
+    It is possible if the subject fits into the picture when the camera backs off as far as it may.
+
+    rows : as from ``pictured``, (M, 1, picture.width)
+    shape : at these times
+    goes : camera positions, W, metres, (M, 3), and how far the camera may back off, metres, (M,)
     """
     ideal, reach = goes
     offset = rows[:, 0, :3] - ideal
@@ -94,21 +100,23 @@ def where_it_fits(rows: Array, shape: TargetShape, drone: Drone, goes: tuple[Arr
 
 
 def angles(curve: Piecewise, breaks: Array) -> Array:
-    """Return the camera's yaw and pitch of a leg with their rates and accelerations, shape (N + 1, 6)."""
+    """Return a leg's camera yaw and pitch, each with rate and acceleration, shape (N + 1, 6)."""
     orders = [curve, curve.derivative(1), curve.derivative(2)]
     return np.column_stack([order(breaks)[:, c] for c in (CAM_YAW, CAM_PITCH) for order in orders])
 
 
 def turned(breaks: Array, states: Array) -> Piecewise:
-    """Return the yaw and the pitch of a solution as a curve."""
+    """Return camera yaw and pitch of a solution as a curve."""
     value, rate, acceleration = (states[:, [YAW + k, PITCH + k]] for k in range(3))
     return quintic_hermite(breaks, value, rate, acceleration)
 
 
 def turning_room(drone: Drone, share: float) -> tuple[Array, Array]:
-    """Return the bounds of the camera's angles, rates and accelerations, two of shape (6,).
+    """Return lower and upper bounds of the camera's angles, rates and accelerations, shape (6,) each.
 
-    A body that is free adds what it turns to what the gimbal does. share : of rates that is used
+    A free body adds its turning to that of the gimbal.
+
+    share : of the rates and accelerations that is used
     """
     gimbal, limits = drone.gimbal, drone.limits
     fixed = drone.body == "follow-camera"

@@ -1,4 +1,4 @@
-"""What a motion shows of its subject, frame by frame: what a shot that looks past something is taken by."""
+"""What a motion shows of its subject, frame by frame; the measure for shots that look past occluders."""
 
 from __future__ import annotations
 
@@ -24,13 +24,16 @@ from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
 from shotc_casadi.covered import GAIN_SHARE, Free, broken, free_of, lost
 
-RATE_HZ = 25.0  # frames a second that are looked at
-SLACK_SHARE = 1e-4  # of a size, of half a frame, of the frames: as good
+RATE_HZ = 25.0  # frames a second that are evaluated
+SLACK_SHARE = 1e-4  # tolerance, of a size, of half a frame, of the number of frames
 
 
 class Shown(NamedTuple):
-    """How much of the subject stays free, the share of the frames in which it is not whole, and its sizes.
+    """What a leg shows of a subject.
 
+    free : free share of its outline
+    cropped : share of the frames in which it is not whole
+    smallest, largest : its sizes
     off : its largest distance from its place on screen, half frames
     """
 
@@ -42,10 +45,12 @@ class Shown(NamedTuple):
 
 
 def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
-    """Return a shot refined so that more of its subjects is seen than in a plain refinement, or None.
+    """Return a shot refined so that its subjects are less hidden than in a plain refinement, or None.
 
-    unseen : as in ``refine_clock``. Where the author gave the places they stay, as where keyframes keep the
-    camera in one; what the shot promises is kept, or is broken no further.
+    If the author gave the places, or keyframes hold the camera in one, the result is None. A promise of the
+    shot is kept, or at least broken no further.
+
+    unseen : as in ``refine_clock``
     """
     shot, ideal = subject.placed.shot, subject.placed.shot.ideal
     failed = plain.solution.status != "solved" or plain.gap is not None
@@ -62,10 +67,12 @@ def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool =
 
 
 def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
-    """Return a shot refined so that its subject is whole in more frames than in a plain refinement, or None.
+    """Return a shot refined so that its subject is whole in more frames than in a plain one, or None.
 
-    unseen : as in ``refine_clock``. The camera is part of the problem then, with what the gimbal does: so the
-    place gives way where the camera cannot follow, or where the subject does not fit.
+    The camera with its gimbal is then part of the problem. So the position changes where the camera cannot
+    follow or the subject does not fit.
+
+    unseen : as in ``refine_clock``
     """
     ideal, failed = subject.placed.shot.ideal, plain.solution.status != "solved" or plain.gap is not None
     follows = subject.watched is not None and subject.camera_task.keyed is None and not subject.together
@@ -82,21 +89,22 @@ def held_whole(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = Tru
 
 
 def cropped_on_purpose(one: PlacedSubject) -> bool:
-    """Tell whether a subject is asked for at a size at which not all of it is in the picture."""
+    """Return whether the size asked for a subject is too large for the whole of it."""
     sizes = (one.size, *(setpoint.size for setpoint in one.setpoints))
     return any(size is not None and size > 1.0 for size in sizes)
 
 
 def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
-    """Tell whether a leg shows as much of all subjects as another, and breaks no promise that that keeps."""
+    """Return whether a leg shows as much of all subjects as another one, and keeps as many promises."""
     gained = _covered(subject, after) <= _covered(subject, before) + GAIN_SHARE
     return gained and as_whole(subject, before, after)
 
 
 def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
-    """Tell whether no subject is cropped in more frames than it was, and promises are kept as they were.
+    """Return whether no subject is cropped in more frames than before, and promises are as well kept.
 
-    Nor is one subject alone hidden more than is told of it. Of several, one may give way to another.
+    A single subject must also not be hidden more in what is reported of it. Of several subjects, one may be
+    hidden for another.
     """
     against = lost if len(subject.framed) == 1 else broken
     for which in range(len(subject.framed)):
@@ -109,11 +117,11 @@ def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
 
 
 def _covered(subject: ClockSubject, leg: ClockLeg) -> float:
-    """Return the share of a subject that is covered, over the frames, added up over all subjects."""
+    """Return the mean covered share of the outline over the frames, summed over all subjects."""
     return sum(1.0 - shown(subject, leg, which).free.mean for which in range(len(subject.framed)))
 
 
-@lru_cache(maxsize=8)  # a guide and what is refined are compared by several rules
+@lru_cache(maxsize=8)  # several rules compare a guide with its refinement
 def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     """Return what a leg shows of one of the subjects of its shot in the film."""
     one = subject.framed[which]
@@ -134,7 +142,7 @@ def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
 
 
 def _promised(subject: ClockSubject, before: Shown, after: Shown) -> bool:
-    """Tell whether all that a shot promises is kept, or is as it was."""
+    """Return whether each promise of a shot is kept, or broken no further than before."""
     promise = subject.placed.shot.promise
     held = [True]
     if promise.size is not None:

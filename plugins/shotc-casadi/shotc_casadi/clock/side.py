@@ -1,7 +1,8 @@
-"""On which side of its target a camera passes, where its guide goes nearly over it.
+"""On which side a camera passes its target, if its guide passes almost over it.
 
-Straight above a target the yaw of the ray is none, and the two sides differ by a whole turn of the camera.
-The guide's camera has chosen one; the nodes near there are kept on it, and the first guess is led aside.
+Straight above a target the ray has no yaw, and between the two sides the camera turns a full turn. The
+guide's camera has chosen a side. Half-spaces hold the nodes near the target on it, and the initial guess
+moves aside.
 """
 
 from __future__ import annotations
@@ -16,21 +17,25 @@ from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import CAM_YAW, Array, HalfSpaces, beside, quintic_hermite
 from shotc_casadi.clock.references import ClockReferences, ClockSubject
 
-NEAR_SHARE = 0.35  # of the usual distance: passes over ground that are nearer are held to their side
-SIDE_M = 0.3  # metres that the camera keeps to its side
-GUESS_SHARE = 0.3  # of the usual distance by which the guess is led aside
-LEAST_M = 0.15  # metres: who may not go as far aside passes on no side
-SIDESTEP_SHARE = 0.5  # of how far the camera may go aside from its guide, by which it goes at most
-HELD_S = 1.0  # seconds before and after the nearest place, at which the side is held
-ALONG_SHARE = 0.1  # of a direction: what is less across is along
-SPREAD_S = 2.0  # seconds to either side over which it is
+NEAR_SHARE = 0.35  # of the usual distance: passes at a shorter horizontal distance are held to their side
+SIDE_M = 0.3  # metres beyond the target's axis that the camera keeps to its side
+GUESS_SHARE = 0.3  # of the usual distance: how far the initial guess moves aside
+LEAST_M = 0.15  # metres: with less room to its side, a pass is not held
+SIDESTEP_SHARE = 0.5  # of the distance that the camera may leave its guide
+HELD_S = 1.0  # seconds before and after the closest point in which the side is held
+ALONG_SHARE = 0.1  # of a direction: with a smaller component across, it is along
+SPREAD_S = 2.0  # seconds before and after the closest point in which the guess moves aside
 
 
 class Pass(NamedTuple):
-    """A way over a target: the stages near it, when it is nearest, and the side to keep there (M, 3), level.
+    """A pass over a target.
 
-    offset : metres beyond the target's axis to keep there, (M,)
-    least : index among the stages of the nearest one; guess_offset : metres that the guess goes aside there
+    stages : near it, shape (M,)
+    time : of the closest point
+    sides : horizontal unit vectors to the side that is kept, (M, 3)
+    offset : metres to keep beyond the target's axis, (M,)
+    least : index of the closest stage in ``stages``
+    guess_offset : metres that the initial guess moves aside there
     """
 
     stages: NDArray[np.intp]
@@ -42,7 +47,7 @@ class Pass(NamedTuple):
 
 
 def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) -> tuple[Pass, ...]:
-    """Return the ways over the target that have room on their side, in their order."""
+    """Return the passes over the target that have room on their side, in time order."""
     leg = subject.leg
     if not references.watches:
         return ()
@@ -73,7 +78,7 @@ def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) ->
 
 
 def _across(way: Array, away: Array) -> Array:
-    """Return the directions across ways (M, 2) that point to the side of ``away``, units; itself if along."""
+    """Return unit vectors across ways (M, 2) on the side of ``away``; ``away`` itself if it is along."""
     across = np.column_stack([-way[:, 1], way[:, 0]])
     length = np.linalg.norm(across, axis=1)[:, None]
     across = across / np.maximum(length, 1e-6)
@@ -82,7 +87,7 @@ def _across(way: Array, away: Array) -> Array:
 
 
 def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Pass]) -> HalfSpaces:
-    """Return half-spaces with those that keep the nodes near a target on their side."""
+    """Return half-spaces together with those that hold the nodes near a target on their side."""
     target = references.target[:, :3]
     for one in over:
         ends = [
@@ -93,7 +98,7 @@ def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Pass]) 
 
 
 def guess_to_side(curve: Piecewise, over: Sequence[Pass]) -> Piecewise:
-    """Return the guide led aside where it goes over its target, smoothly; its ends stay."""
+    """Return the guess moved aside smoothly at its passes over the target; its ends stay."""
     values = [curve(curve.breaks), *(curve.derivative(order)(curve.breaks) for order in (1, 2))]
     for one in over:
         spread = min(SPREAD_S, one.time - curve.start, curve.end - one.time)

@@ -1,12 +1,11 @@
 """One stage of a shot on its own clock in CasADi symbols: dynamics, cost and constraints.
 
-State (9): position, velocity, acceleration (W, SI). Input (4): jerk; metres by which the gimbal's pitch
-range is left. Of several subjects the camera is part of the problem: its yaw and its pitch, each with rate
-and acceleration, are six states more, and their jerks are inputs instead of that slack. Where something may
-hide a subject, another input is by how much the worst does; where the camera may come too near to something,
-another is how far it is in its ellipsoid. Stages have given lengths, and the jerk is even on each, so that
-the position is a cubic: its control points, those of the velocity and the ends of the acceleration bound it
-at every instant.
+State (9): position, velocity, acceleration (W, SI). Input (4): jerk; metres by which the ray leaves the
+gimbal's pitch range (a slack). For several subjects the camera is part of the problem: its yaw and pitch,
+each with rate and acceleration, are six more states, and their jerks are inputs instead of that slack. With
+occluders, one more input is the largest occlusion; with ellipsoids to keep out of, one more is the depth in
+them. A stage has a given length and a constant jerk, so the position is a cubic. Its control points, those of
+the velocity and the ends of the acceleration bound it at every instant.
 """
 
 from __future__ import annotations
@@ -23,22 +22,23 @@ from shotc_casadi.derivatives import Derived, differentiated
 from shotc_casadi.symbols import WIND, StageSymbols, cut
 
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
-PLACED = 9  # states that are the camera's place and its derivatives
+PLACED = 9  # states of the camera's position and its derivatives
 YAW, PITCH = 9, 12  # each with rate and acceleration
 JERK, SLACK, CAMERA_JERK = slice(0, 3), 3, slice(3, 5)
 POINTS = 4  # control points of a stage's position
 PLANE = 5  # normal, offset at the stage's start, change of the offset over it
-OCCLUDER = 13  # what is looked past: see ``occlusion``
-LINE = OCCLUDER + 3  # the same, and the point that is looked at
-BODY = 14  # what is kept away from: see ``inside``
-TINY = 1e-9  # added to a square that is not to be none
+OCCLUDER = 13  # an occluder: see ``occlusion``
+LINE = OCCLUDER + 3  # the same, and the point that the camera looks at
+BODY = 14  # an obstacle: see ``inside``
+TINY = 1e-9  # added to a square so that it is not zero
 
 
 class Sizes(NamedTuple):
-    """What a stage has: half-spaces, ellipsoids to look past, others to keep out of, subjects in one picture.
+    """The parts of a stage: half-spaces, occluders, obstacles as ellipsoids, subjects in one picture.
 
-    subjects : 0 where the camera follows one or none, and is no part of the problem
-    extents : bodies of each subject, 0 where each is one upright cylinder; windy : whether the air moves
+    subjects : 0 if the camera follows one or none, and is not part of the problem
+    extents : bodies of each subject, 0 if each is one upright cylinder
+    windy : whether there is wind
     """
 
     planes: int
@@ -50,38 +50,38 @@ class Sizes(NamedTuple):
 
     @property
     def rows(self) -> tuple[tuple[int, int], ...]:
-        """How many half-spaces, occluders, bodies and subjects there are, and the numbers of each."""
+        """Number of half-spaces, occluders, bodies and subjects, and the parameters of each."""
         subject = width(self.extents)
         return (self.planes, PLANE), (self.occluders, LINE), (self.bodies, BODY), (self.subjects, subject)
 
     @property
     def states(self) -> int:
-        """How many states there are."""
+        """Number of states."""
         return PLACED + (6 if self.subjects else 0)
 
     @property
     def moves(self) -> int:
-        """How many inputs there are besides the slacks of ellipsoids, which come last."""
+        """Number of inputs except the slacks of ellipsoids, which come last."""
         return 5 if self.subjects else 4
 
     @property
     def inputs(self) -> int:
-        """How many inputs there are."""
+        """Number of inputs."""
         return self.moves + (self.occluders > 0) + (self.bodies > 0)
 
     @property
     def slacks(self) -> dict[str, int]:
-        """The inputs that are slacks of ellipsoids, each under the name of its price.
+        """The inputs that are slacks of ellipsoids, by the name of their price.
 
-        Solvers have them in units that cost 1 a stage: multipliers begin at 1, and a price that is large
-        beside that is what most of the steps of an interior-point method go into.
+        The solvers get them in units that cost 1 a stage. Multipliers start at 1; with a much larger price an
+        interior-point method needs most of its steps to raise them.
         """
         inputs = {"hidden": self.moves} if self.occluders else {}
         return inputs | ({"touch": self.inputs - 1} if self.bodies else {})
 
     @property
     def limits(self) -> int:
-        """How many rows of ``driven`` there are before those of half-spaces and ellipsoids."""
+        """Number of rows of ``driven`` before those of half-spaces and ellipsoids."""
         return 3 if self.subjects else 5
 
 
@@ -104,36 +104,44 @@ FIELDS = {
     "picture": 1,
     "lens": 2,
 }
-"""The parameters of a stage and their sizes; half-spaces follow, PLANE numbers each, then what may hide a
-subject, LINE numbers each, what is kept away from, BODY numbers each, several subjects, ``picture.width``
-each, and, where the air moves, how fast it does to the East and North.
+"""The parameters of a stage and their sizes.
+
+Then follow: half-spaces (PLANE numbers each), occluders (LINE numbers each), obstacles (BODY numbers each),
+several subjects (``picture.width`` each), and the wind to the East and North if there is wind.
 
 length : seconds
-ideal : where the camera would be, W, metres; place : weight of the squared distance to it
-leash : 1/m^2, by which that weight grows with the squared distance
-drawn : yaw and pitch that the camera of several subjects stays near, rad, and the weights of both squares
-near : 1/m^2, one over the square of how far the camera may be from there; 0 where as far as it takes
-target : its position, velocity, acceleration and jerk; of several subjects their middle's
+ideal : reference position of the camera, W, metres
+place : weight of the squared distance to it
+leash : how that weight grows with the squared distance, 1/m^2
+drawn : reference yaw and pitch of the camera of several subjects, rad, and the weights of both squares
+near : one over the square of the largest distance from the reference position, 1/m^2; 0 without a limit
+target : its position, velocity, acceleration and jerk; of several subjects their mean's
 jerk : weight of the camera's squared jerk
-turn : weights of the squares of the ray's yaw and pitch rate, acceleration and jerk, as in ``Turning``; of
-    the camera's, where it is part of the problem
+turn : weights of the squared yaw and pitch rate, acceleration and jerk of the ray, in the order of
+    ``RayDerivatives``; of the camera, if that is part of the problem
 steep : tangents of the lowest and the highest elevation of the ray that the gimbal reaches
-free : metres added to what that leaves, where nothing is filmed; price : of a metre that is missing
-hidden : price of a subject's being hidden, for a second and a unit of d_v
-field : weight of the potential field; touch : price of being in an ellipsoid, for a second
-picture : weight of how several subjects appear; lens : tan of half the fields of view
+free : metres added to that range where nothing is filmed
+price : of a metre outside it
+hidden : price of a hidden subject, a second and a unit of d_v
+field : weight of the potential field
+touch : price of being in an ellipsoid, a second
+picture : weight of the appearance of several subjects
+lens : tan of half the fields of view
 """
 
 
 def stage(sizes: Sizes) -> StageSymbols:
-    """Return a stage with that many half-spaces to stay in, ellipsoids to look past and out of, and subjects.
+    """Return a stage with that many half-spaces, ellipsoids and subjects.
 
-    held is horizontal speed through the air squared, acceleration squared, and the squared distance to the
-    ideal place, over that of how far the camera may be. driven is jerk squared; of the velocity's middle
-    control point that speed squared and the climb; for one subject, what is left of the gimbal's pitch range
-    below and above, metres; then, for each half-space, the slack of the position's control points, metres;
-    then, for each ellipsoid, by how much less than the input says it hides a subject, or how far the place
-    is out of it beyond what the input says.
+    held is the squared horizontal airspeed, the squared acceleration, and the squared distance to the ideal
+    place over the square of the largest one. driven has these rows:
+
+    - the squared jerk, and the squared horizontal airspeed and the climb at the velocity's middle control
+      point
+    - for one subject: the slacks to the lowest and highest pitch of the gimbal, metres
+    - for each half-space: the slacks of the position's control points, metres
+    - for each occluder: the slack input minus d_v
+    - for each obstacle: the squared unit-ball distance minus 1 plus the slack input
     """
     z, p = ca.SX.sym("z", sizes.states + sizes.inputs), ca.SX.sym("p", size(sizes))
     x, u = z[: sizes.states], z[sizes.states :]
@@ -174,10 +182,13 @@ def stage(sizes: Sizes) -> StageSymbols:
 
 
 class _Aimed(NamedTuple):
-    """What aiming adds to a stage.
+    """What aiming the camera adds to a stage.
 
-    turned : rates, accelerations and jerks that turning costs; slack : cost a second of what is given way
-    node : cost of the state; moved : states of the camera after it; limits : rows of ``driven``
+    turned : rates, accelerations and jerks that have a cost
+    slack : cost of the pitch slack, a second
+    node : cost of the state
+    moved : states of the camera after the stage
+    limits : rows of ``driven``
     """
 
     turned: Any
@@ -188,7 +199,7 @@ class _Aimed(NamedTuple):
 
 
 def _aims_at_one(x: Any, u: Any, given: Mapping[str, Any]) -> _Aimed:
-    """Return what it takes to follow the ray to a subject, as far as the gimbal reaches."""
+    """Return the terms of a camera that follows the ray to one subject within the gimbal's range."""
     t = given["target"]
     ray = t[:3] - x[POSITION]
     turned = turning(ray, t[3:6] - x[VELOCITY], t[6:9] - x[ACCELERATION], t[9:] - u[JERK])
@@ -199,31 +210,31 @@ def _aims_at_one(x: Any, u: Any, given: Mapping[str, Any]) -> _Aimed:
 
 
 def _aims_at_several(x: Any, u: Any, given: Mapping[str, Any], shown: Sequence[Any]) -> _Aimed:
-    """Return what it takes to have several subjects in a picture: the camera's angles are states."""
+    """Return the terms of a camera with several subjects; the camera's angles are states."""
     turns = u[CAMERA_JERK]
     moved = (_integrated(x[k : k + 3], turns[i], given["length"]) for i, k in enumerate((YAW, PITCH)))
     turned = ca.vertcat(x[YAW + 1], x[PITCH + 1], x[YAW + 2], x[PITCH + 2], turns)
     off = (residuals(one, x[POSITION], (x[YAW], x[PITCH]), given["lens"]) for one in shown)
-    # What cannot all be as asked leaves much: by Gauss and Newton that takes many steps.
+    # Conflicting references leave large residuals; on these Gauss-Newton needs many steps.
     node = given["picture"] * sum(map(ca.sumsqr, off)) + _off_drawn(x[YAW], x[PITCH], given["drawn"])
     return _Aimed(turned, node=node, moved=tuple(moved))
 
 
 def _off_drawn(yaw: Any, pitch: Any, drawn: Any) -> Any:
-    """Return what a camera pays for being off the angles that it stays near (viewpoint Eq. 10)."""
+    """Return the cost of the camera angles against their reference (viewpoint Eq. 10)."""
     aside = 2.0 * ca.sin(0.5 * (yaw - drawn[0]))
     return drawn[2] * aside**2 + drawn[3] * (pitch - drawn[1]) ** 2
 
 
 def _integrated(x: Any, jerk: Any, h: Any) -> Any:
-    """Return a value, its rate and its acceleration after a stage of even jerk."""
+    """Return a value, its rate and its acceleration after a stage of constant jerk."""
     n = x.numel() // 3
     q, v, a = x[:n], x[n : 2 * n], x[2 * n :]
     return ca.vertcat(q + h * (v + h * (a / 2 + h * jerk / 6)), v + h * (a + h * jerk / 2), a + h * jerk)
 
 
 def _slacks(walls: list[Any], place: Any, v: Any, following: Any, h: Any) -> list[Any]:
-    """Return how far each control point of the position is in each half-space, metres."""
+    """Return the slack of each control point of the position in each half-space, metres."""
     points = [
         place,
         place + h * v / 3,
@@ -238,10 +249,13 @@ def _slacks(walls: list[Any], place: Any, v: Any, following: Any, h: Any) -> lis
 
 
 def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
-    """Return d_v of viewpoint Eq. 11: how far inside an ellipsoid a line of sight runs, 1 through its middle.
+    """Return d_v of viewpoint Eq. 11: how deep a line of sight runs in an ellipsoid, 1 through its centre.
 
-    occluder : OCCLUDER numbers: scale by columns, centre, and 1, or less where there is none
-    d_v is 1 less the squared distance of the line from the centre, where the ellipsoid is the unit ball.
+    d_v is 1 minus the squared distance of the line from the centre, in coordinates in which the ellipsoid is
+    the unit ball.
+
+    occluder : OCCLUDER numbers: scale by columns, centre, and 1 (much less for an unused one)
+    eye, point : camera and the point that it looks at, W, metres
     """
     scale, centre = ca.reshape(occluder[:9], 3, 3), occluder[9:12]
     ray, away = scale @ (point - eye), scale @ (centre - eye)
@@ -249,10 +263,10 @@ def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
 
 
 def inside(body: Any, eye: Any) -> Any:
-    """Return the squared distance from the middle of an ellipsoid, where that is the unit ball.
+    """Return the squared distance from an ellipsoid's centre, in coordinates in which it is the unit ball.
 
-    body : BODY numbers: scale by columns, centre, what is added to the square where there is none, and the
-        square at which the potential field ends (viewpoint Eq. 12 and 13)
+    body : BODY numbers: scale by columns, centre, what is added to the square (0 unless it is unused), and
+        the square at which the potential field ends (viewpoint Eq. 12 and 13)
     """
     scale, centre = ca.reshape(body[:9], 3, 3), body[9:12]
     return ca.sumsqr(scale @ (eye - centre)) + body[12]
@@ -265,12 +279,12 @@ def derived(sizes: Sizes) -> Derived:
 
 
 def size(sizes: Sizes) -> int:
-    """Return how many parameters a stage has."""
+    """Return the number of parameters of a stage."""
     return sum(FIELDS.values()) + sum(count * wide for count, wide in sizes.rows) + WIND * sizes.windy
 
 
 def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:
-    """Return the parameters by name, and those of half-spaces, occluders, bodies and subjects, each apart."""
+    """Return the parameters by name, and those of half-spaces, occluders, bodies and subjects."""
     at = sum(FIELDS.values())
     rows: list[list[Any]] = []
     for count, wide in sizes.rows:
