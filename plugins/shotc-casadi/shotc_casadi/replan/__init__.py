@@ -1,5 +1,5 @@
-"""Receding-horizon planning: one Gauss-Newton step a replan, with PIQP for its quadratic programme.
+"""Receding-horizon planning: one Gauss-Newton step a replan; PIQP solves its quadratic programme.
 
-solids -> keeping -> layout -> evaluation -> steps -> flight -> pictures -> chase, framing -> replanner: each
-module uses those before it.
+Order of the modules; each one uses those before it:
+solids -> keeping -> layout -> evaluation -> steps -> flight -> pictures -> chase, framing -> replanner.
 """

@@ -1,8 +1,9 @@
-"""Shots of one target: Alcantara et al., Eq. 12, planned anew from every measured state.
+"""Shots of one target: Alcantara et al., Eq. 12, replanned from every measured state.
 
-State: place and velocity; input: acceleration, held over a step. A stage costs its acceleration, its height
-off that of the shot and the rates of the camera that looks at the target; the last one the distance from the
-wanted state instead of the rates. What the measured stage costs cannot be changed and is left out.
+The state is position and velocity. The input is the acceleration, constant over a step. The cost of a stage
+contains its acceleration, the difference of its height from that of the shot, and the rates of the camera
+that looks at the target. The last stage has the distance from the reference state instead of the rates. The
+cost of the measured stage is constant and is left out.
 """
 
 from __future__ import annotations
@@ -20,24 +21,24 @@ from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
 from shotc_casadi.replan.keeping import Kept, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, Until
 
-PRICES = Prices(lacking=(1e4,), outside=30.0, damping=1e-3)  # a metre, a m/s, and of steps
+PRICES = Prices(lacking=(1e4,), outside=30.0, damping=1e-3)  # of a metre, of a m/s, of the squared step
 FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
 STATES, INPUTS = 6, 3
-OWN = BOUNDS + 8  # parameters of a stage: and the target, whether it is not the last, whether it is
-SHARED = 12  # parameters of all: weights, the wanted state, the height
+OWN = BOUNDS + 8  # parameters of a stage: also the target, 1 if not the last stage, 1 if the last stage
+SHARED = 12  # parameters of all stages: weights, reference state, height
 
 
 class Chase:
     """Plans a shot of one target (``ChasePlanner``)."""
 
     def __init__(self, problem: ChaseProblem, until: Until = WARM) -> None:
-        """Take memory; until : where a replan stops that continues a plan, for those who want a finer one."""
+        """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
         self._weights, self._until = problem.weights, until
         made = partial(_horizon, stages=problem.horizon.stages)
         self._flight = ShotSolvers(problem.keeping, problem.horizon, made, self._begin)
 
     def replan(self, situation: ChaseSituation, last: Plan | None) -> Replan:
-        """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
+        """Plan from the measured state: one step from the last plan, or up to 30 without one."""
         s, flight = situation, self._flight
         with np.errstate(all="ignore"):
             solver, widened = flight.solver(s.place, s.velocity, s.traffic)
@@ -59,12 +60,12 @@ class Chase:
         into.common[:5] = w.effort, w.pitch, w.yaw, w.height, w.end
 
     def _shifted(self, s: ChaseSituation, last: Plan) -> Array:
-        """Return the accelerations of the last plan from now on, and none after its end."""
+        """Return the accelerations of the last plan from now on, (N, 3); zero after its end."""
         flown = np.concatenate([last.accelerations, np.zeros((1, 3))])
         return np.asarray(flown[self._flight.index(s.time, last)])
 
     def _guess(self, s: ChaseSituation) -> Array:
-        """Return the accelerations of the cubic in time to the wanted state."""
+        """Return the accelerations of the cubic in time to the reference state, (N, 3)."""
         times = self._flight.times
         whole = float(times[-1])
         share = ((times[1:] + times[:-1]) / (2.0 * whole))[:, None]

@@ -1,6 +1,7 @@
-"""A horizon by CasADi: one stage in symbols, made into two functions of all stages, called without copies.
+"""Evaluates a horizon with CasADi: two functions of all stages, made from one symbolic stage.
 
-One gives what a motion costs and lacks, the other besides the quadratic programme of a step from it.
+One function returns the cost and the violations of a motion. The other one also returns the quadratic
+programme of a step from it. Calls copy no arrays.
 """
 
 from __future__ import annotations
@@ -21,13 +22,15 @@ from shotc_casadi.replan.layout import Index, Pattern, Places, ProgramMatrices, 
 class StageExpressions(NamedTuple):
     """One stage in symbols.
 
-    x, u, y : state, input, and the state they lead to; p : parameters of the stage; g : those of all stages
-    allowed : the nearest input that the vehicle takes, by u and g
+    x, u, y : state, input, and next state
+    p : parameters of the stage
+    g : parameters of all stages
+    allowed : the nearest input that the vehicle can take, by u and g
     following : the next state, by x, u and g
-    residuals : whose squares are the cost, by u, y, p and g
-    rows : what is not negative where it is kept, by u, y, p and g, in groups; the worst one of each is priced
-    firm : rows that every allowed input keeps, by u and g
-    ends : more of the first group at the last stage, by y and g
+    residuals : the cost is the sum of their squares; by u, y, p and g
+    rows : constraints (>= 0 where they hold) by u, y, p and g, in groups; the worst one of each has a price
+    firm : constraints that every allowed input meets, by u and g
+    ends : additional constraints of the first group at the last stage, by y and g
     inputs, states : lower and upper bounds of u, by g, and of y, by p
     """
 
@@ -47,11 +50,11 @@ class StageExpressions(NamedTuple):
 
 
 class Prices(NamedTuple):
-    """What steps cost besides.
+    """Additional costs of a step.
 
-    lacking : what the worst row of a group lacks at a stage, for each group
-    outside : what a state is out of its bounds, in the merit alone
-    damping : half the squares of the step itself, never of the slack
+    lacking : of the violation of the worst row of a group at a stage, for each group
+    outside : of the distance of a state from its bounds; only in the merit function
+    damping : of the squared step, halved; never of the slack
     """
 
     lacking: tuple[float, ...]
@@ -61,7 +64,7 @@ class Prices(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Horizon:
-    """Functions of N stages with U inputs, X states, P parameters each and G of them all."""
+    """Functions of N stages with U inputs, X states and P parameters each, and G common parameters."""
 
     motion: Any
     step: Any
@@ -73,9 +76,10 @@ class Horizon:
 
 
 class Rollout(NamedTuple):
-    """Inputs (N, U) that the vehicle takes, the states (N, X) that they lead to, and what these cost.
+    """A motion: allowed inputs (N, U), the resulting states (N, X), and their cost.
 
-    merit : with all prices; worst : what the worst row of the first group lacks
+    merit : cost with all prices
+    worst : violation of the worst row of the first group
     """
 
     inputs: Array
@@ -85,7 +89,7 @@ class Rollout(NamedTuple):
 
 
 def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
-    """Return the functions of so many stages."""
+    """Return the functions of that many stages."""
     s, n = stage, stages
     u, x0 = ca.MX.sym("u", s.u.numel(), n), ca.MX.sym("x0", s.x.numel())
     p, g = ca.MX.sym("p", s.p.numel(), n), ca.MX.sym("g", s.g.numel())
@@ -119,16 +123,17 @@ def horizon(stage: StageExpressions, stages: int, prices: Prices) -> Horizon:
 
 
 class Evaluation:
-    """A horizon with memory of its own; one thread may use it at a time.
+    """A horizon with its own memory; only one thread may use it at a time.
 
-    Whoever calls writes the measured state (X,) into ``start``, parameters into ``given`` (N, P) and
-    ``common`` (G,) first. What ``step`` makes stands in ``programme`` until it is called again: the cost's
-    matrix and its linear part, the motion's matrix, that of the rows with their lower bounds, and the lower
-    and upper bounds of the step; of matrices the values, as a ``ProgramMatrices`` takes them.
+    The caller first writes the measured state (X,) into ``start``, and parameters into ``given`` (N, P) and
+    ``common`` (G,). ``step`` writes the programme into ``programme``, where it stays until the next call: the
+    values of the cost matrix, the linear cost, the values of the dynamics matrix and of the constraint matrix
+    (as ``ProgramMatrices`` takes them), the lower bounds of the constraints, and the lower and upper bounds
+    of the step.
     """
 
     def __init__(self, of: Horizon) -> None:
-        """Take memory."""
+        """Allocate memory."""
         self.of = of
         self._inputs = np.zeros((of.stages, of.inputs))
         self.start = np.zeros(of.states)
@@ -141,7 +146,7 @@ class Evaluation:
 
     @property
     def is_finite(self) -> bool:
-        """Whether all that was written is."""
+        """Whether all that the caller wrote is finite."""
         return isfinite(self.start.sum() + self.given.sum() + self.common.sum())
 
     def motion(self, inputs: Array) -> Rollout:
@@ -149,7 +154,7 @@ class Evaluation:
         return self._moved(self._motion, inputs)
 
     def step(self, inputs: Array) -> Rollout:
-        """Return the same, and make the programme of a step from it."""
+        """Return the same, and write the programme of a step from it."""
         return self._moved(self._step, inputs)
 
     def _moved(self, call: _Call, inputs: Array) -> Rollout:
@@ -163,7 +168,7 @@ class Evaluation:
 
 
 class _Call:
-    """A function on arrays that it keeps."""
+    """A CasADi function that works on arrays that it keeps."""
 
     def __init__(self, function: Any, given: Sequence[Array]) -> None:
         self._given = given
@@ -179,7 +184,7 @@ class _Call:
 
 
 def _rolled(s: StageExpressions, stages: int) -> Any:
-    """Return the function of inputs, measured state and common parameters to what is flown."""
+    """Return the function from inputs, measured state and common parameters to inputs and states flown."""
     following = _function("following", [s.x, s.u, s.g], [s.following])
     nearest = _function("nearest", [s.u, s.g], [s.allowed])
     u, x = ca.SX.sym("u", s.u.numel(), stages), ca.SX.sym("x", s.x.numel())
@@ -192,7 +197,7 @@ def _rolled(s: StageExpressions, stages: int) -> Any:
 
 
 def _judged(s: StageExpressions, stages: int) -> Any:
-    """Return the function of all stages to cost, lack and excess of each."""
+    """Return the function from all stages to the cost, the violations and the excess of each stage."""
     low, high = s.states
     outside = ca.sum1(ca.fmax(s.y - high, 0) + ca.fmax(low - s.y, 0))
     one = _function(
@@ -204,7 +209,7 @@ def _judged(s: StageExpressions, stages: int) -> Any:
 def _derived(
     s: StageExpressions, stages: int, damping: float
 ) -> tuple[Any, tuple[Places, Places, Places, Places]]:
-    """Return the function of all stages to what a programme is made of, and where its values stand."""
+    """Return the function from all stages to the values of a programme, and the places of these values."""
     w = ca.vertcat(s.u, s.y)
     slope = ca.jacobian(s.residuals, w)
     squares = ca.triu(2 * slope.T @ slope + damping * ca.SX.eye(w.numel()))
@@ -237,17 +242,18 @@ def _with_slack(of: Any, s: StageExpressions, slack: Any) -> Any:
 
 
 def _unit(prices: Prices, lack: Any, late: Any) -> Any:
-    """Return the units of slacks, groups by stages: what is lacking there, and at least so much that costs 1.
+    """Return the units of slacks, groups by stages: the violation there, but at least what costs 1.
 
-    An interior point method begins with a dual residual of the price of a unit, and with slacks of some
-    units. So it takes half the iterations of metres where nothing is lacking, and no more where much is.
+    An interior-point method starts with a dual residual equal to the price of a unit, and with slacks of a
+    few units. Compared to metres, this halves the iterations if nothing is violated, and needs no more if
+    much is.
     """
     least = ca.repmat(1.0 / ca.DM(prices.lacking), 1, lack.size2())
     return ca.fmax(ca.vertcat(ca.horzcat(lack[0, :-1], ca.fmax(lack[0, -1], late)), lack[1:, :]), least)
 
 
 def _each(unit: Any, counts: Sequence[int], ends: int) -> Any:
-    """Return the units of all rows that have a slack, stage by stage, and of those at the end."""
+    """Return the units of all rows that have a slack, stage by stage, and then of those at the end."""
     rows = ca.vertcat(*(ca.repmat(unit[group, :], many, 1) for group, many in enumerate(counts)))
     return ca.vertcat(ca.vec(rows), ca.repmat(unit[0, -1], ends, 1))
 

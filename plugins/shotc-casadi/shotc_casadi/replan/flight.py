@@ -1,4 +1,4 @@
-"""What all planners do: keep what is kept, continue the plan that is flown, and tell what was done."""
+"""The common part of all planners: constraints, the warm start from the last plan, and the result."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from shotc_casadi.replan.steps import Solver, Walk
 
 BEYOND = "the motion from here is beyond all numbers"
 SOON_S = 1e-6
-"""What begins so soon has begun, seconds."""
+"""A step that begins this soon has begun, seconds."""
 BOUNDS = 6
 """The first parameters of a stage: lower and upper bounds of the velocity."""
 
 
 class ShotSolvers:
-    """The solvers of one shot, one for each number of other drones and of what stands near.
+    """The solvers of one shot: one for each number of other drones and set of near obstacles.
 
-    Parameters of a stage begin with the bounds of the velocity and end with those of ``keeping.each``;
-    parameters of all end with those of ``keeping.common``. What is between is the planner's.
+    The parameters of a stage begin with the velocity bounds and end with those of ``keeping.each``. The
+    common parameters end with those of ``keeping.common``. The planner defines those in between.
     """
 
     def __init__(
@@ -44,14 +44,15 @@ class ShotSolvers:
     ) -> None:
         """Make the solver of a shot without traffic.
 
-        made : returns a horizon; begun : writes into a new solver what never changes
+        made : returns a horizon
+        begun : writes the constants into a new solver
         """
         limits, n = keeping.limits, ahead.stages
         self._keeping, self._step, self._made, self._begun = keeping, ahead.step, made, begun
         self._standing = StaticObstacles(keeping)
         self._solvers: dict[Kept, Solver] = {}
         self.times = ahead.step * np.arange(n + 1)
-        self._way = float(self.times[-1])  # at a metre a second
+        self._way = float(self.times[-1])  # metres at 1 m/s
         self._back = limits.usable_acceleration / np.sqrt(3.0) * self.times[1:, None] * np.ones(3)
         east, north = limits.wind
         self._lowest = np.array([east - limits.speed, north - limits.speed, -limits.descent])
@@ -59,9 +60,9 @@ class ShotSolvers:
         self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))
 
     def solver(self, place: Array, v: Array, traffic: Traffic) -> tuple[Solver, bool]:
-        """Return the solver with all that is kept written, and whether the velocity opens its bounds.
+        """Return the solver with all constraints written, and whether the velocity widens its bounds.
 
-        place, v : of the drone, shape (3,), written as the beginning of the measured state
+        place, v : of the drone, shape (3,); they are written as the first entries of the measured state
         """
         fastest = max(self._keeping.limits.fastest, float(np.linalg.norm(v)))
         near = self._standing.near(place, fastest * self._way)
@@ -76,12 +77,12 @@ class ShotSolvers:
         return solver, self._bound(into.given, v)
 
     def index(self, time: float, last: Plan) -> Array:
-        """Return which steps of the last plan those from now on are, (N,); past its end, their number."""
+        """Return which steps of the last plan the steps from now on are, (N,); past its end, their number."""
         now = time + self.times[:-1] + SOON_S
         return np.asarray(np.maximum(np.searchsorted(last.times, now, side="right") - 1, 0))
 
     def told(self, solver: Solver, done: Walk, time: float, widened: bool) -> Replan:
-        """Return what steps from a measured state came to."""
+        """Return the result of steps from a measured state."""
         motion = done.motion
         if not (isfinite(motion.worst) and isfinite(motion.states.sum())):
             return Replan(None, "failed", BEYOND)
@@ -100,9 +101,10 @@ class ShotSolvers:
         return self._solvers[of]
 
     def _bound(self, given: Array, v: Array) -> bool:
-        """Bound the velocities, and tell whether the measured one opens these bounds.
+        """Write the velocity bounds, and return whether the measured velocity widens them.
 
-        Who is too fast gets back within them by the acceleration that can be had along every axis at once.
+        If it is outside, the bounds narrow again at the acceleration that is available along every axis at
+        once.
         """
         back = self._back[0]
         given[:, :3], given[:, 3:BOUNDS] = self._lowest, self._highest
@@ -114,7 +116,7 @@ class ShotSolvers:
 
 
 def fault(given: Mapping[str, Sequence[Array]]) -> Replan:
-    """Return the failure of a replan, with the name of the first that is not finite."""
+    """Return the failure of a replan, with the name of the first input that is not finite."""
     broken = (name for name, arrays in given.items() if not all(np.isfinite(a).all() for a in arrays))
     return Replan(None, "failed", next((f"{name} is not finite" for name in broken), BEYOND))
 

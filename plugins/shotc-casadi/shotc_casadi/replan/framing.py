@@ -1,8 +1,9 @@
-"""Shots that compose subjects: Naegeli et al., Eq. 14, planned anew from every measured state.
+"""Shots that compose subjects: Naegeli et al., Eq. 14, replanned from every measured state.
 
-State: place, velocity, yaw and pitch of the camera; input: acceleration and the rates of both, held over a
-step. The paper's inputs are the body's roll and pitch, which stand for level acceleration, the upward
-velocity and the gimbal's pitch; here all of them have the limits of the drone and of its gimbal.
+The state is position, velocity, camera yaw and camera pitch. The inputs are the acceleration and the rates of
+both angles, constant over a step. The inputs of the paper are the body's roll and pitch (which stand for
+horizontal acceleration), the upward velocity and the gimbal's pitch. Here all of them have the limits of the
+drone and its gimbal.
 """
 
 from __future__ import annotations
@@ -41,31 +42,34 @@ from shotc_casadi.replan.pictures import (
 )
 from shotc_casadi.replan.steps import Solver, Until
 
-PRICES = Prices(lacking=(300.0, 1.0), outside=30.0, damping=0.1)  # a metre, a cover's weight, a m/s, of steps
+PRICES = Prices(
+    lacking=(300.0, 1.0), outside=30.0, damping=0.1
+)  # a metre, a cover's weight, a m/s, a squared step
 FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
 STATES, INPUTS = 8, 5
-SHARED = (
-    13  # parameters of all: weights, half the fields of view, greatest rates, pitch range; subjects follow
-)
+SHARED = 13  # common: weights, tan of half the fields of view, largest rates, pitch range; then the subjects
 
 NEAR, NEAR_COMMON = 3, 5
-"""Parameters of what the camera stays near, after those of bodies: of a stage its place; of all stages yaw
-and pitch, and the roots of the weights of place, yaw and pitch."""
+"""Parameters of the reference pose, after those of the bodies.
+
+NEAR of a stage: its position. NEAR_COMMON of all stages: yaw and pitch, and the square roots of the weights
+of position, yaw and pitch.
+"""
 
 Cast = tuple[bool, ...]
-"""Which of the bodies are filmed."""
+"""For each body, whether it is filmed."""
 
 
 class Framing:
     """Plans a shot that composes subjects (``FramingPlanner``)."""
 
     def __init__(self, problem: FramingProblem, until: Until = WARM) -> None:
-        """Take memory; until : where a replan stops that continues a plan, for those who want a finer one."""
+        """Allocate memory; until : when a warm-started replan stops, for a finer plan than the default."""
         self._problem, self._until = problem, until
         self._flights: dict[Cast, ShotSolvers] = {}
 
     def replan(self, situation: FramingSituation, last: Plan | None) -> Replan:
-        """Plan from the measured state on: one step from the last plan, up to 30 where there is none."""
+        """Plan from the measured state: one step from the last plan, or up to 30 without one."""
         s = situation
         with np.errstate(all="ignore"):
             flight = self._flight(tuple(body.wanted is not None for body in s.subjects))
@@ -99,7 +103,7 @@ class Framing:
 
 
 def _fill(s: FramingSituation, given: Array, common: Array) -> None:
-    """Write subjects into parameters."""
+    """Write the subjects and the reference pose into the parameters."""
     for i, body in enumerate(s.subjects):
         at, own = BOUNDS + EACH * i, SHARED + COMMON * i
         wanted = body.wanted or Appearance()
@@ -122,9 +126,11 @@ def _fill(s: FramingSituation, given: Array, common: Array) -> None:
 
 
 def _drawn(s: FramingSituation, near: DrawnPose, place: float) -> list[float]:
-    """Return yaw, pitch and the roots of the weights of a pose that the camera stays near.
+    """Return yaw, pitch and the square roots of the weights of a reference pose.
 
-    They are those by which the ideal of the shot is found. place : weight of a half frame, squared
+    The weights are those that find the ideal of the shot.
+
+    place : weight of a squared half frame
     """
     middle = np.mean([body.point[0] for body in s.subjects if body.wanted is not None], axis=0)
     away = max(float(np.linalg.norm(near.places[0] - middle)), 1.0)
@@ -134,7 +140,7 @@ def _drawn(s: FramingSituation, near: DrawnPose, place: float) -> list[float]:
 
 
 def _shifted(index: Array, last: Plan) -> Array:
-    """Return the inputs of the last plan from now on, and none after its end."""
+    """Return the inputs of the last plan from now on, (N, 5); zero after its end."""
     aim = np.zeros((len(last.times), 2)) if last.aim is None else last.aim
     rates = np.diff(aim, axis=0) / np.diff(last.times)[:, None]
     flown = np.concatenate([np.hstack([last.accelerations, rates]), np.zeros((1, INPUTS))])
@@ -201,13 +207,13 @@ def _residuals(camera: CameraSymbols, u: Any, bodies: list[Symbols], cast: Cast,
 
 
 def _off_pose(camera: CameraSymbols, place: Any, drawn: Any) -> Any:
-    """Return how far a camera is off the pose that it stays near (Naegeli et al., Eq. 10)."""
+    """Return the error of the camera against its reference pose (Naegeli et al., Eq. 10)."""
     turned = ca.vertcat(2.0 * ca.sin(0.5 * (camera.yaw - drawn[0])), camera.pitch - drawn[1])
     return ca.vertcat(drawn[2] * (camera.place - place), drawn[3:] * turned)
 
 
 def _covers(place: Any, bodies: list[Symbols], cast: Cast, weight: Any) -> tuple[Any, ...]:
-    """Return the rows of all pairs of a filmed subject and another body, where there are such."""
+    """Return the rows of all pairs of a filmed subject and another body, if there are any."""
     pairs = [
         weight * uncovered(place, body, other)
         for body, filmed in zip(bodies, cast, strict=True)

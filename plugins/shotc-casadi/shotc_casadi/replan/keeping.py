@@ -1,6 +1,6 @@
-"""What every plan keeps, as rows in symbols that are not negative where it is kept: metres, or m/s.
+"""The constraints of every plan as symbolic rows, >= 0 where they hold, in metres or m/s.
 
-It is the same for all kinds of shots, by place and velocity of the drone at a stage.
+They depend on the position and velocity of the drone at a stage, and are the same for all shots.
 """
 
 from __future__ import annotations
@@ -15,19 +15,21 @@ from shotc.plugin_api.replanner import Array, Keeping, Traffic
 from shotc_casadi.replan.solids import SHARP_M, TINY_M, SolidConstraint, count, free_at, half_space, rooms
 
 STANDING_MS = 1e-3
-"""Added to speeds and accelerations, whose direction would not be known at 0, m/s and m/s^2."""
+"""Added to speeds and accelerations, which have no direction at 0, m/s and m/s^2."""
 REACH_M = 1.0
-"""What stands farther off than this and the way of a horizon is left out, metres."""
+"""Obstacles farther than this beyond the reach of a horizon are left out, metres."""
 FEW = 3
-"""So many rooms are never left out, so that no programme has to be laid out anew in flight."""
+"""Up to this number of solids, none is left out, so that no new programme is built in flight."""
 LIMITS = 10
 
 
 class Kept(NamedTuple):
-    """What rows there are.
+    """Which rows there are.
 
-    shapes : of what stands; others, cones : how many; low, high : whether pitch has such a bound
-    framed : whether there is a cone about the own camera's axis that holds no other drone
+    shapes : of the obstacles
+    others, cones : their numbers
+    low, high : whether the pitch has this bound
+    framed : whether no other drone may be in a cone about the camera's axis
     """
 
     shapes: tuple[int, ...]
@@ -39,20 +41,20 @@ class Kept(NamedTuple):
 
     @property
     def common(self) -> int:
-        """Return how many parameters all stages share."""
+        """Number of parameters that all stages share."""
         return LIMITS + sum(map(count, self.shapes)) + self.cones
 
     @property
     def each(self) -> int:
-        """Return how many parameters a stage has of its own."""
+        """Number of parameters of one stage."""
         return 6 * (self.others + self.cones)
 
 
 class StaticObstacles:
-    """All that stands and is kept clear of, or stayed inside of."""
+    """All solids that the drone keeps clear of, or stays inside of."""
 
     def __init__(self, keeping: Keeping) -> None:
-        """Cut zones into convex parts."""
+        """Split the zones into convex parts."""
         found = [room for zone in keeping.zones for room in rooms(zone, keeping.margin)]
         if np.isfinite(keeping.floor):
             found.append(half_space((0.0, 0.0, 1.0), keeping.floor))
@@ -60,7 +62,7 @@ class StaticObstacles:
         self._discs = np.array([room.disc for room in found]).reshape(-1, 3)
 
     def near(self, place: Array, way: float) -> tuple[SolidConstraint, ...]:
-        """Return what may be met on a way of so many metres, or all where it is not much."""
+        """Return the solids within a way of ``way`` metres; all if there are few."""
         if len(self._rooms) <= FEW:
             return tuple(self._rooms)
         x, y, radius = self._discs.T
@@ -69,7 +71,7 @@ class StaticObstacles:
 
 
 def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) -> Kept:
-    """Return what rows there are in one replan."""
+    """Return which rows there are in one replan."""
     low, high = keeping.pitch
     return Kept(
         tuple(room.shape for room in near),
@@ -82,7 +84,7 @@ def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) 
 
 
 def common(keeping: Keeping, near: tuple[SolidConstraint, ...], step: float) -> list[float]:
-    """Return the parameters that all stages share, but the half angles of cones, which come after them."""
+    """Return the common parameters without the half-angles of cones, which come after them."""
     limits, given = keeping.limits, keeping
     numbers = [
         step,
@@ -96,16 +98,16 @@ def common(keeping: Keeping, near: tuple[SolidConstraint, ...], step: float) -> 
 
 
 def each(traffic: Traffic) -> Array:
-    """Return the parameters that every stage has of its own, shape (N, 6 (D + C))."""
+    """Return the parameters of each stage, shape (N, 6 (D + C))."""
     sent = [np.hstack([other[1:], np.diff(other, axis=0)]) for other in traffic.others]
     sent += [np.hstack([cone.apex[1:], cone.axis[1:]]) for cone in traffic.cones]
     return np.hstack(sent)
 
 
 def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
-    """Return the rows of a stage, as a column.
+    """Return the rows of a stage as a column.
 
-    state : place and velocity of the drone, and the unit vector against which its camera looks
+    state : position and velocity of the drone, and the unit vector opposite to its camera's axis
     p, g : parameters of ``each`` and ``common``
     """
     place, v, back = state
@@ -115,7 +117,7 @@ def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
     for i in range(of.others):
         other, way = p[6 * i : 6 * i + 3], p[6 * i + 3 : 6 * i + 6]
         d = place - other
-        # The way of one as seen from the other is straight, too, between two stages.
+        # The relative motion of the two between two stages is straight, too.
         cut = ca.sumsqr(step * v - way) / (8 * ca.fmax(apart, SHARP_M))
         found.append(length(d) - apart - cut)
         if of.framed:
@@ -129,17 +131,17 @@ def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
 
 
 def within(a: Any, most: Any) -> tuple[Any, Any]:
-    """Return the nearest acceleration that is no larger, and how much larger it may be.
+    """Return the nearest acceleration within the limit ``most``, and the slack of ``a`` to that limit.
 
-    A step that does not know of that limit would be cut off by it, and lead where nothing gets better.
+    Without this row, a step would be clipped by the limit, and its direction would not improve the merit.
     """
     return a * most / ca.fmax(ca.norm_2(a), most), most - ca.sqrt(ca.sumsqr(a) + STANDING_MS**2)
 
 
 def ends(of: Kept, place: Any, v: Any, g: Any) -> Any:
-    """Return the room where the drone stands after it has braked from the last stage, as a column.
+    """Return the slacks at the place where the drone stops if it brakes from the last stage, as a column.
 
-    The way is straight, and the linearised room of a convex solid is no larger than the room there.
+    The braking path is straight, and the linearised slack of a convex solid is never larger than the slack.
     """
     acceleration, reaction = g[2], g[3]
     seconds = reaction + ca.sqrt(ca.sumsqr(v) + STANDING_MS**2) / (2 * acceleration)
@@ -151,9 +153,9 @@ def ends(of: Kept, place: Any, v: Any, g: Any) -> Any:
 
 
 def beside_cone(d: Any, axis: Any, half_angle: Any) -> Any:
-    """Return how far what lies at d from the apex is out of a cone, metres; behind it, the distance.
+    """Return how far a point at d from the apex is outside a cone, metres; behind it, the distance.
 
-    With the line of sight for an axis it is Alcantara et al., Eq. 12.i and 13, in metres.
+    If the axis is the line of sight, it is Alcantara et al., Eq. 12.i and 13, in metres.
     """
     along = ca.dot(axis, d)
     across = ca.sqrt(ca.fmax(ca.sumsqr(d) - along**2, 0) + TINY_M**2)
@@ -172,7 +174,9 @@ def _rooms(of: Kept, g: Any) -> Iterator[tuple[int, Any]]:
 def pitched(of: Kept, q: Any, g: Any) -> Any:
     """Return the distances from the cones of the lowest and the highest line of sight, as a column.
 
-    Alcantara et al., Eq. 12.g. q : from the target to the camera
+    Alcantara et al., Eq. 12.g.
+
+    q : from the target to the camera, W, metres
     """
     low, high = g[6], g[7]
     flat = ca.sqrt(ca.sumsqr(q[:2]) + TINY_M**2)
@@ -185,5 +189,5 @@ def pitched(of: Kept, q: Any, g: Any) -> Any:
 
 
 def length(d: Any) -> Any:
-    """Return the length of a vector, whose slope is known at 0, too."""
+    """Return the length of a vector; it is differentiable at 0, too."""
     return ca.sqrt(ca.sumsqr(d) + TINY_M**2)

@@ -1,7 +1,7 @@
-"""Where the entries of a step's quadratic programme stand.
+"""Where the entries of a step's quadratic programme are.
 
-The unknowns of a stage are the change of its input, its slacks, and the change of the state it leads to. The
-measured state is no unknown, so nothing is fixed.
+The unknowns of a stage are the change of its input, its slacks, and the change of the next state. The
+measured state is not an unknown, so no unknown is fixed.
 """
 
 from __future__ import annotations
@@ -20,10 +20,13 @@ Places = tuple[Index, Index]
 class Pattern(NamedTuple):
     """Rows and columns of the nonzeros of a stage's matrices, in the order of their values.
 
-    hessian : of the upper triangle, by input and next state; onward, driven : of the next state, by the state
-    and by the input; kept : of the rows, by input and next state; ends : of those of the end, by the state
-    rows : how many of each stage there are with each slack; after them come as many as ``firm`` without one
-    last : how many at the end, with the first slack
+    hessian : of the upper triangle, by input and next state
+    onward, driven : of the next state, by the state and by the input
+    kept : of the rows, by input and next state
+    ends : of the rows at the end, by the state
+    rows : number of rows of each stage with each slack
+    firm : number of rows of each stage without a slack, after those
+    last : number of rows at the end, with the first slack
     """
 
     hessian: Places
@@ -38,7 +41,7 @@ class Pattern(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sparse:
-    """A sparse matrix of a fixed pattern, and in which order its values are taken from a list of them."""
+    """A sparse matrix with a fixed pattern; ``order`` gives the place of each value in a list."""
 
     order: Index
     indices: NDArray[np.int32]
@@ -46,15 +49,16 @@ class Sparse:
     shape: tuple[int, int]
 
     def over(self, values: Any) -> Any:
-        """Return the matrix whose values are an array, which may change."""
+        """Return a matrix on top of an array of values, which may change."""
         return csc_matrix((values, self.indices, self.starts), self.shape, copy=False)
 
 
 class ProgramMatrices(NamedTuple):
     """The matrices of a programme over a horizon.
 
-    cost : of the stages' Hessians; motion : of their ``driven``, then -1 for every state, then ``onward`` but
-    the first; bound : of ``kept``, then ``ends``, then the unit of its slack for every row with one
+    cost : of the stages' Hessians
+    motion : of their ``driven``, then -1 for every state, then ``onward`` of all stages except the first
+    bound : of ``kept``, then ``ends``, then for every row with a slack its unit
     """
 
     cost: Sparse
@@ -63,7 +67,7 @@ class ProgramMatrices(NamedTuple):
 
 
 def layout(pattern: Pattern, stages: int, inputs: int, states: int) -> ProgramMatrices:
-    """Return the matrices of so many stages."""
+    """Return the matrices of that many stages."""
     p, n, slacks = pattern, stages, len(pattern.rows)
     width = inputs + slacks + states
     after, first = np.arange(states) + inputs + slacks, width * np.arange(n)[:, None]

@@ -9,9 +9,9 @@ import casadi as ca
 from shotc_casadi.replan.keeping import length
 
 INFLATED = 1.3
-"""How much larger than its ellipsoid a body is where it may cover a subject."""
+"""Factor on the ellipsoid of a body that may cover a subject."""
 FIELD_M = 0.8
-"""How far the field about a body reaches beyond its ellipsoid, metres."""
+"""How far the potential field of a body reaches beyond its ellipsoid, metres."""
 EACH, COMMON = 9, 10
 
 
@@ -19,7 +19,8 @@ class Symbols(NamedTuple):
     """A subject at a stage.
 
     point, centre, view : as of ``FilmedSubject`` and ``Appearance``
-    uv, size, diameter, axes : likewise; placed, sized, viewed : whether there is such a wish, 1 or 0
+    uv, size, diameter, axes : likewise
+    placed, sized, viewed : 1 if this is asked for, else 0
     """
 
     point: Any
@@ -35,12 +36,12 @@ class Symbols(NamedTuple):
 
     @classmethod
     def of(cls, p: Any, g: Any) -> Symbols:
-        """Cut it out of its parameters, EACH of a stage and COMMON of all."""
+        """Return the subject of its parameters, EACH of a stage and COMMON of all stages."""
         return cls(p[:3], p[3:6], p[6:9], g[:2], g[2], g[3], g[4:7], g[7], g[8], g[9])
 
 
 class CameraSymbols(NamedTuple):
-    """Place, yaw, pitch and tan of half its fields of view (2,)."""
+    """Position, yaw, pitch and tan of half the fields of view (2,)."""
 
     place: Any
     yaw: Any
@@ -48,7 +49,7 @@ class CameraSymbols(NamedTuple):
     half: Any
 
     def seen(self, d: Any) -> Any:
-        """Return a vector of W in the camera: right, up, ahead."""
+        """Return a vector of W in camera axes: right, up, forward."""
         along = ca.cos(self.yaw) * d[0] + ca.sin(self.yaw) * d[1]
         right = ca.sin(self.yaw) * d[0] - ca.cos(self.yaw) * d[1]
         sine, cosine = ca.sin(self.pitch), ca.cos(self.pitch)
@@ -56,13 +57,13 @@ class CameraSymbols(NamedTuple):
 
     @property
     def ahead(self) -> Any:
-        """Return the unit vector along which it looks."""
+        """Unit vector along the camera's axis."""
         level = ca.cos(self.pitch)
         return ca.vertcat(level * ca.cos(self.yaw), level * ca.sin(self.yaw), ca.sin(self.pitch))
 
 
 def off_place(camera: CameraSymbols, subject: Symbols) -> Any:
-    """Return the difference of unit rays, in half frames near the middle (Eq. 7), as a column."""
+    """Return the difference of unit rays as a column; half frames near the middle of the picture (Eq. 7)."""
     ray, half = subject.point - camera.place, camera.half
     wanted = ca.vertcat(subject.uv[0] * half[0], subject.uv[1] * half[1], 1)
     apart = camera.seen(ray) / length(ray) - wanted / ca.norm_2(wanted)
@@ -70,7 +71,7 @@ def off_place(camera: CameraSymbols, subject: Symbols) -> Any:
 
 
 def off_size(camera: CameraSymbols, subject: Symbols) -> Any:
-    """Return the logarithm of the wanted size over the size (Eq. 8)."""
+    """Return the logarithm of the size asked for over the size (Eq. 8)."""
     away = length(subject.point - camera.place)
     return subject.sized * ca.log(2 * camera.half[1] * away * subject.size / subject.diameter)
 
@@ -82,22 +83,22 @@ def off_view(camera: CameraSymbols, subject: Symbols) -> Any:
 
 
 def clear(place: Any, subject: Symbols) -> Any:
-    """Return about how many metres a place is off the ellipsoid (Eq. 13), exact along its axes."""
+    """Return the approximate distance from the ellipsoid, metres (Eq. 13); exact along its shortest axis."""
     scaled = length((place - subject.centre) / subject.axes)
     return (scaled - 1) * ca.mmin(subject.axes)
 
 
 def in_field(place: Any, subject: Symbols) -> Any:
-    """Return about how many metres a place is in the field about the ellipsoid (Eq. 12)."""
+    """Return the approximate depth in the field of the ellipsoid, metres (Eq. 12)."""
     axes = subject.axes + FIELD_M
     return ca.fmax(0, 1 - length((place - subject.centre) / axes)) * ca.mmin(axes)
 
 
 def uncovered(place: Any, subject: Symbols, other: Symbols) -> Any:
-    """Return by how much another body does not cover the subject's point; not negative where it is seen.
+    """Return the slack to covering the subject's point by another body; >= 0 where the point is visible.
 
-    Eq. 11 by its horizon: where the body is a unit ball, the ray passes 1 or more from its middle, or the
-    point is before the plane through its horizon.
+    This is Eq. 11 with the horizon: in coordinates in which the body is the unit ball, the ray passes its
+    centre at 1 or more, or the point is before the plane through its horizon.
     """
     axes = INFLATED * other.axes
     to_point, to_body = (subject.point - place) / axes, (other.centre - place) / axes

@@ -1,4 +1,4 @@
-"""The replanner: what shotc finds in the seat ``shotc.replanners``."""
+"""The replanner for the seat ``shotc.replanners``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from shotc_casadi.replan.framing import Framing
 
 
 class Ours:
-    """One Gauss-Newton step a replan, so that the time it takes is known before."""
+    """One Gauss-Newton step a replan, so that its computing time is known in advance."""
 
     name: ClassVar[str] = "ours"
     summary: ClassVar[str] = "one Gauss-Newton step a replan by PIQP, from the plan that is flown"

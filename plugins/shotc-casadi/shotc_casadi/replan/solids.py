@@ -1,6 +1,6 @@
-"""How much room there is beside what stands, in symbols, with the shapes of solids as parameters.
+"""Distances from standing obstacles, in symbols; the solids' dimensions are parameters.
 
-The distance from a convex solid is a convex function: where its linearisation is kept, the distance is.
+The distance from a convex solid is a convex function: where its linearisation is >= 0, so is the distance.
 """
 
 from __future__ import annotations
@@ -22,20 +22,21 @@ from shotc.plugin_api.replanner import (
 )
 
 FAR_M = 1e6
-"""What has no end ends here, metres."""
+"""Infinite solids end here, metres."""
 SHARP_M = 0.5
-"""Radius of the curve that leads round a corner: a straight step between two stages cuts it."""
+"""Radius of the curve around a corner, metres: a straight step between two stages cuts it."""
 TINY_M = 1e-9
 HALF_SPACE, PILLAR, SHAFT = 0, 1, 2
-"""Shapes with a fixed number of parameters; a prism is named by how many corners it has."""
+"""Shapes with a fixed number of parameters; the shape of a prism is its number of corners."""
 
 
 class SolidConstraint(NamedTuple):
-    """A part of what a drone keeps clear of, or stays inside of.
+    """A convex part that a drone keeps clear of, or a space that it stays inside of.
 
-    shape : HALF_SPACE (normal, offset), PILLAR, an upright cylinder, (x, y, radius, bottom, top), SHAFT, the
-        room in an endless one, (x, y, radius), or a number of corners (bottom, top, their x and y)
-    metres : that are kept from it; radius : of the curve on which they are kept, infinite for a plane
+    shape : HALF_SPACE (normal, offset); PILLAR, an upright cylinder, (x, y, radius, bottom, top); SHAFT, the
+        inside of an infinite one, (x, y, radius); or a number of corners (bottom, top, their x and y)
+    metres : clearance from it
+    radius : of curvature of the surface at that clearance, infinite for a plane
     """
 
     shape: int
@@ -45,7 +46,7 @@ class SolidConstraint(NamedTuple):
 
     @property
     def disc(self) -> tuple[float, float, float]:
-        """Return a disc that holds it with its metres, (x, y, radius); endless for what has no end."""
+        """A disc that contains it with its clearance, (x, y, radius); infinite for an infinite solid."""
         if self.shape in (HALF_SPACE, SHAFT):
             return (0.0, 0.0, np.inf)
         if self.shape == PILLAR:
@@ -56,22 +57,25 @@ class SolidConstraint(NamedTuple):
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Return metres, what a step between stages cuts off times 8 / way^2, and the sizes."""
+        """Its clearance, its curvature, and its sizes.
+
+        A straight step of length l between two stages cuts off at most l^2 / 8 times the curvature.
+        """
         return (self.metres, 1.0 / self.radius, *self.sizes)
 
 
 def count(shape: int) -> int:
-    """Return how many parameters a room of a shape has."""
+    """Return the number of parameters of a solid of a shape."""
     return 2 + {HALF_SPACE: 4, PILLAR: 5, SHAFT: 3}.get(shape, 2 + 2 * shape)
 
 
 def half_space(normal: Sequence[float], offset: float) -> SolidConstraint:
-    """Return the room in normal . p >= offset; normal : a unit vector."""
+    """Return the constraint normal . p >= offset; normal : a unit vector."""
     return SolidConstraint(HALF_SPACE, (*normal, offset), 0.0, np.inf)
 
 
 def rooms(zone: Clearance, margin: float) -> Iterator[SolidConstraint]:
-    """Yield what is kept of one clearance."""
+    """Yield the constraints of one clearance."""
     metres = zone.metres + margin
     if not zone.inside:
         yield from (_outside(part, metres) for part in convex_parts(zone.solid))
@@ -93,12 +97,12 @@ def rooms(zone: Clearance, margin: float) -> Iterator[SolidConstraint]:
 
 
 def free_at(shape: int, p: Any, sizes: Any) -> Any:
-    """Return the room at a place in symbols; sizes : the parameters of a ``SolidConstraint``."""
+    """Return the slack at a position in symbols, metres; sizes : the parameters of a ``SolidConstraint``."""
     metres, s = sizes[0], sizes[2:]
     if shape == HALF_SPACE:
         return ca.dot(s[:3], p) - s[3] - metres
     if shape in (PILLAR, SHAFT):
-        # A direction is there even on the axis.
+        # The offset keeps it differentiable on the axis.
         across = ca.norm_2(p[:2] - s[:2] + ca.SX([TINY_M, 0.0])) - s[2]
         return -across - metres if shape == SHAFT else _upright(across, p, s[3], s[4]) - metres
     return _upright(_polygon(p, ca.reshape(s[2:], 2, shape)), p, s[0], s[1]) - metres
@@ -115,7 +119,7 @@ def _outside(part: Solid, metres: float) -> SolidConstraint:
 
 
 def _polygon(p: Any, corners: Any) -> Any:
-    """Return the signed distance over ground from a convex polygon, corners (2, k) counter-clockwise."""
+    """Return the signed horizontal distance from a convex polygon, corners (2, k) counter-clockwise."""
     k = corners.size2()
     faces, squares = [], []
     for i in range(k):
@@ -129,7 +133,7 @@ def _polygon(p: Any, corners: Any) -> Any:
 
 
 def _upright(across: Any, p: Any, bottom: Any, top: Any) -> Any:
-    """Return the signed distance from an upright solid by that over ground."""
+    """Return the signed distance from an upright solid, given the horizontal one."""
     up = ca.fmax(bottom - p[2], p[2] - top)
     corner = ca.sqrt(ca.fmax(across, 0) ** 2 + ca.fmax(up, 0) ** 2 + TINY_M**2)
     return ca.if_else(ca.fmin(across, up) > 0, corner, ca.fmax(across, up))

@@ -1,7 +1,7 @@
-"""Gauss-Newton steps, each a quadratic programme by PIQP, shortened until an exact-penalty merit falls.
+"""Gauss-Newton steps: PIQP solves a quadratic programme, and a line search lowers an exact-penalty merit.
 
-Inputs are the unknowns: the states are rolled out from the measured one, so that every iterate can be flown,
-and what it lacks is known and priced.
+The inputs are the unknowns; the states are rolled out from the measured one. So every iterate can be flown,
+and the merit includes its violations.
 """
 
 from __future__ import annotations
@@ -17,23 +17,24 @@ from shotc_casadi.replan.evaluation import Evaluation, Horizon, Rollout
 SHORTER = 0.4
 TRIES = 5
 TOLERANCE, GAP = 1e-4, 1e-4
-"""Of PIQP: of what is to hold, and of the cost, relative and absolute."""
+"""Of PIQP: of the constraints, and of the cost, relative and absolute."""
 ITERATIONS = 50
-"""Of PIQP: about 10 are usual, and a programme without a solution takes all of them."""
+"""Of PIQP: about 10 are usual; an infeasible programme takes all of them."""
 
 
 class Until(NamedTuple):
-    """When to stop: after so many steps, or one that lowers the merit by less than this share of it."""
+    """When to stop: after ``most`` steps, or if a step lowers the merit by less than the share ``gain``."""
 
     most: int
     gain: float
 
 
 class Walk(NamedTuple):
-    """Where steps led.
+    """The result of steps.
 
-    steps : how many programmes were taken up; stalled : whether none of the steps lowered the merit
-    opened : whether a programme had no solution until its bounds were widened to the states of its iterate
+    steps : number of programmes
+    stalled : whether no step lowered the merit
+    opened : whether an infeasible programme got its bounds widened to the states of its iterate
     """
 
     motion: Rollout
@@ -43,10 +44,10 @@ class Walk(NamedTuple):
 
 
 class Solver:
-    """Takes steps over one horizon; one thread may use it at a time."""
+    """Takes steps over one horizon; only one thread may use it at a time."""
 
     def __init__(self, of: Horizon) -> None:
-        """Take memory."""
+        """Allocate memory."""
         self.evaluation = Evaluation(of)
         cost, self._linear, motion, bound, self._rows, self._low, self._high = self.evaluation.programme
         laid = of.layout
@@ -57,7 +58,7 @@ class Solver:
         self._solver: Any = None
 
     def walk(self, inputs: Array, until: Until) -> Walk:
-        """Take steps from inputs (N, U) on."""
+        """Take steps from inputs (N, U)."""
         taken, moved, opened = 0, False, False
         point = self.evaluation.step(inputs)
         while True:
@@ -77,7 +78,7 @@ class Solver:
             point, moved = self.evaluation.step(better.inputs), True
 
     def _solved(self) -> Array | None:
-        """Return the change of the inputs (N, U) that the programme asks for, or None where there is none."""
+        """Return the change of the inputs (N, U) by the programme, None if it is infeasible."""
         given = (self._cost, self._linear, self._motion, self._still, self._bound, self._rows, None)
         if self._solver is None:
             self._solver = _solver()
@@ -92,17 +93,17 @@ class Solver:
         share = 1.0
         for _ in range(TRIES):
             found = self.evaluation.motion(point.inputs + share * step)
-            if found.merit < point.merit:  # what is no number is not
+            if found.merit < point.merit:  # false for NaN
                 return found
             share *= SHORTER
         return None
 
 
 def _solver() -> Any:
-    """Return a solver whose answers do not depend on what it solved before.
+    """Return a solver whose results do not depend on earlier programmes.
 
-    Scaling would be taken over from one programme to the next, to their last digits; in metres and seconds a
-    programme is near to scale.
+    Its scaling would carry over from one programme to the next and change the last digits. In metres and
+    seconds a programme is scaled well enough.
     """
     solver = piqp.SparseSolver()
     settings = solver.settings
