@@ -25,7 +25,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner, drone_owner, target_owner, zone_owner
 from shotc.rounding import at_least, at_most, down, up
 
-if TYPE_CHECKING:  # a mission of cameras loads none of it
+if TYPE_CHECKING:  # not loaded for missions without fleets
     from shotc.ir.show import Fleet
 
 ROUNDING_M = 1e-6  # metres

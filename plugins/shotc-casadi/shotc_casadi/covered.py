@@ -39,8 +39,8 @@ def free_of(covered: Array) -> Free:
 def lost(placed: PlacedShot, before: Free, after: Free) -> float:
     """Return by how much a target is less free than before in what is promised or reported; 0 if not.
 
-    If the target may be hidden, only promises count. Otherwise the mean counts too, and that every frame
-    shows half of the outline.
+    If the target may be hidden, only promises count. Otherwise two more values count: the mean, and whether
+    every frame shows half of the outline.
     """
     if hidden_on_purpose(placed.shot):
         return broken(placed, before, after)

@@ -67,7 +67,7 @@ Beside = Callable[[Array], NodePlanes]
 class Subject(NamedTuple):
     """A shot to refine: the mission, its drone, the free space, its keyframes and its leg.
 
-    beside : half-spaces that keep it clear of what moves near it, None if nothing does
+    beside : half-spaces that keep it clear of moving obstacles, None if there are none
     """
 
     mission: MissionIR

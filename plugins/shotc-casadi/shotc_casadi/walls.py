@@ -31,7 +31,7 @@ def half_spaces(
     They are the nearest ones of each node. M is the same for all nodes; unused rows hold everywhere.
 
     margins : comfort and reach
-    others : additional half-spaces beside what moves
+    others : additional half-spaces beside moving obstacles
     """
     s, share = stages.s, margins.comfort
     low = np.concatenate([s[:1], s[:-1]])

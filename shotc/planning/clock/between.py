@@ -30,7 +30,7 @@ class StandingDrone(NamedTuple):
 
 
 class Lack(NamedTuple):
-    """Metres of missing clearance: beside obstacles whose clearance the mission states, and beside any."""
+    """Missing clearance, metres: over all stated clearances of transfers, and over all of them."""
 
     required: float
     any: float

@@ -1,4 +1,4 @@
-"""Candidate transfers from one pose to another: direct, around what moves, and above it."""
+"""Candidate transfers from one pose to another: direct, around moving obstacles, and above them."""
 
 from __future__ import annotations
 

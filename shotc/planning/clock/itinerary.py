@@ -158,7 +158,7 @@ class Itinerary:
     def _ended(self, ends: tuple[tuple[bool, bool], ...]) -> bool:
         """Plan the last shot again with the first feasible pair of ends; return whether there is one.
 
-        ends : whether the shot begins aside of what moves, and whether it ends so
+        ends : whether the shot begins away from moving obstacles, and whether it ends so
         """
         if self.last is None:
             return False

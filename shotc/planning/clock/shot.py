@@ -74,7 +74,7 @@ FROM_AFAR = (Ask(3.0, 2.0), Ask(0.0, 2.0), Ask(0.0, 3.0))
 
 
 def aside(before: bool, after: bool) -> tuple[Ask, ...]:
-    """Return requirements with rest aside of what moves, before the film, after it, or both."""
+    """Return requirements with rest away from moving obstacles: before the film, after it, or both."""
     if not (before or after):
         return ASKED
     return tuple(

@@ -86,7 +86,7 @@ class TooLate:
 class Reached:
     """A planned shot, the transfer to it, and the drone's delay there in seconds.
 
-    aside : whether the shot begins, and whether it ends, aside of what moves
+    aside : whether the shot begins, and whether it ends, away from moving obstacles
     """
 
     shot: TimedShot

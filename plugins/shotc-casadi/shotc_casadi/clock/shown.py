@@ -103,8 +103,8 @@ def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
 def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Return whether no subject is cropped in more frames than before, and promises are as well kept.
 
-    A single subject must also not be hidden more in what is reported of it. Of several subjects, one may be
-    hidden for another.
+    A single subject must also not be hidden more than before, in what is reported of it. Of several subjects,
+    one may be hidden for another.
     """
     against = lost if len(subject.framed) == 1 else broken
     for which in range(len(subject.framed)):

@@ -42,9 +42,7 @@ from shotc_casadi.replan.pictures import (
 )
 from shotc_casadi.replan.steps import Solver, Until
 
-PRICES = Prices(
-    lacking=(300.0, 1.0), outside=30.0, damping=0.1
-)  # a metre, a cover's weight, a m/s, a squared step
+PRICES = Prices(lacking=(300.0, 1.0), outside=30.0, damping=0.1)  # a metre, a cover, a m/s, a squared step
 FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
 STATES, INPUTS = 8, 5
 SHARED = 13  # common: weights, tan of half the fields of view, largest rates, pitch range; then the subjects

@@ -12,7 +12,7 @@ from shotc.passes.resolve.lower.obstacles import Obstacles
 from shotc.spec.mission import MissionSpec
 from shotc.spec.words import closest
 
-if TYPE_CHECKING:  # a mission without any loads no numpy
+if TYPE_CHECKING:  # missions without these do not load numpy
     from shotc.ir.obstacle_mesh import ObstacleMesh
 
 MOST_BODIES = 8

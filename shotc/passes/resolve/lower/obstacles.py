@@ -18,7 +18,7 @@ from shotc.requirements import remedy
 from shotc.spec.mission import MissionSpec
 from shotc.spec.world import BuildingsSpec, SceneSpec
 
-if TYPE_CHECKING:  # a mission without any loads no numpy
+if TYPE_CHECKING:  # missions without these do not load numpy
     from shotc.ir.obstacle_mesh import ObstacleMesh
     from shotc.ir.terrain import Terrain
 

@@ -21,7 +21,7 @@ from shotc.spec.heights import Altitude
 from shotc.spec.mission import MissionSpec
 from shotc.spec.shot import NO_DRONE, ShotBase
 
-if TYPE_CHECKING:  # a mission of cameras loads none of it
+if TYPE_CHECKING:  # missions without these features do not load them
     from shotc.ir.show import Display
     from shotc.spec.shot import RequireSpec
 

@@ -22,7 +22,7 @@ from shotc.passes.resolve.lower.world import Put
 from shotc.spec.mission import MissionSpec
 from shotc.spec.world import TargetSpec
 
-if TYPE_CHECKING:  # a mission of cameras loads none of it
+if TYPE_CHECKING:  # missions without these features do not load them
     from shotc.geom.track import Track
 
 

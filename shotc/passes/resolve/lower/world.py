@@ -27,7 +27,7 @@ from shotc.spec.presets import CIRCLE_SHARE, PIXELS, PRESETS, Preset
 from shotc.spec.rehearse import WindSpec
 from shotc.spec.world import ZoneSpec
 
-if TYPE_CHECKING:  # a mission of cameras loads none of it
+if TYPE_CHECKING:  # missions without these features do not load them
     from shotc.ir.show import Fleet
     from shotc.ir.terrain import Terrain
     from shotc.spec.fleets import FleetSpec
