@@ -16,8 +16,8 @@ def centred(ir: KeyframeIR) -> list[str]:
         if name is not None:
             shots.setdefault(name, []).append(placed.shot.id)
     return [
-        f"`{name}` keeps the target of {_listed(ids)} in the centre, for that is its place nearest to where "
-        "the camera looks; `composition: thirds-first` puts it on a third"
+        f"`{name}` keeps the target of {_listed(ids)} in the centre, the place of the set that is nearest to "
+        "where the camera looks; `composition: thirds-first` puts it on a third"
         for name, ids in shots.items()
     ]
 

@@ -71,7 +71,7 @@ def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
         lattice = re.fullmatch(r"goals (.+)/(\d+) lattice", name)
         if arcs and value:
             moves = "move" if value == 1 else "moves"
-            yield f"{value:.0f} {moves} of {arcs[1]} on arcs: it stands too near for straight ones"
+            yield f"{value:.0f} {moves} of {arcs[1]} on arcs: its drones stand too near for straight lines"
         if lattice:
             where = f"picture {lattice[2]} of {lattice[1]}"
             yield f"{where} is a lattice of {value:.0f} lights: spread evenly, they have no room"

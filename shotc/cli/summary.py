@@ -357,7 +357,10 @@ def _pair(plan: VerifiedIR, claim: Claim) -> str:
     if claim.constraint not in ("separation", "separation in the air"):
         return text
     apart = plan.trajectory.keyframes.mission.fleet(claim.subject).apart
-    return f"{text}; heights count {stretch(apart):.2g} times ({apart.shape})"
+    scale = stretch(apart)
+    if scale == 1 and apart.shape == "ellipsoid":
+        return text
+    return f"{text}; heights count {scale:.2g} times ({apart.shape})"
 
 
 WAYS = {"bounded": "every instant", "exact": "arithmetic", "sampled": "output samples"}

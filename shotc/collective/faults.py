@@ -62,4 +62,4 @@ def _help(claim: Claim) -> str:
         return f"show all until then {lack} sooner, or raise `endurance` by {lack} if the battery has it"
     if claim.drones and claim.constraint.startswith("separation from"):
         return "put the pads of the fleets farther apart, or show their pictures one after the other"
-    return f"{lack} are missing: place its pictures or its pads elsewhere, or move what stands there"
+    return f"it lacks {lack}: place its pictures or its pads elsewhere, or move what stands there"

@@ -123,8 +123,8 @@ FRAMED: tuple[CodeInfo, ...] = (
         "target-cropped",
         (
             "a target is not whole in the frame for a part of its shot",
-            "The shot promises nothing, so this is a warning. The worst frame is named: move back or widen the "
-            "field of view there. State `require: {in_frame: 100 %}` to have the shot held to it.",
+            "The shot promises nothing, so this is a warning. The worst frame is named: move back or widen "
+            "the field of view there. `require: {in_frame: 100 %}` makes it an error.",
         ),
         severity=Severity.WARNING,
     ),
@@ -133,11 +133,12 @@ FRAMED: tuple[CodeInfo, ...] = (
         "target-off-its-place",
         (
             "a target strays far from its place on screen, and the shot promises nothing of it",
-            "Where the composition and a limit conflict, the limit wins: the drone keeps its clearances and the gimbal "
-            "its range and rates, and the target leaves its place. This is told from a twentieth of half a frame on, "
-            "once a shot, with the worst frame, its time, and what of the gimbal and of the space around is at its "
-            "limit there. Loosen that or move the keyframes beside it. State `require: {screen_error: ...}` to have "
-            "the shot held to it; then it is an error. A shot without a composition is not judged.",
+            "Where the composition and a limit conflict, the limit wins: the drone keeps its clearances "
+            "and the gimbal its range and rates, and the target leaves its place. The warning appears from "
+            "an error of a twentieth of half a frame, once a shot, with the worst frame, its time, and the "
+            "limits of the gimbal and of the space that are reached there. Loosen those limits or move the "
+            "keyframes beside it. `require: {screen_error: ...}` makes it an error. A shot without a "
+            "composition is not judged.",
         ),
         severity=Severity.WARNING,
     ),
@@ -146,10 +147,11 @@ FRAMED: tuple[CodeInfo, ...] = (
         "drone-in-picture",
         (
             "a drone is in another one's picture",
-            "The plan keeps drones out of each other's pictures where it can, unless the mission says otherwise; "
-            "here it could not. The first frame that shows the drone, the worst one and the share of the shot are "
-            "told. Film at another time or from another side. `rules: {mutual_visibility: {strength: require}}` "
-            "makes it an error, `strength: off` has it not judged. See V025 for what counts as in the picture.",
+            "The plan keeps drones out of each other's pictures where it can, unless the mission says "
+            "otherwise; here it could not. The notes give the first frame that shows the drone, the worst "
+            "one and the share of the shot. Film at another time or from another side. `rules: "
+            "{mutual_visibility: {strength: require}}` makes it an error, `strength: off` removes the "
+            "warning. See V025 for what counts as in the picture.",
         ),
         (_pair("prefer", _FACING), _pair("prefer", _ABREAST)),
         severity=Severity.WARNING,

@@ -11,10 +11,10 @@ HELD: tuple[CodeInfo, ...] = (
         "certificate-differs",
         (
             "the certificate in the plan is not what the plan proves",
-            "`shotc verify` proves every claim again from the trajectory and the limits in the file. Where a value, "
-            "a limit or a claim in its certificate differs, something in the file was edited: the certificate, the "
-            "trajectory or a limit. A file that another version of shotc wrote may differ in many claims, which is told "
-            "at once. The proof that counts is the new one; plan the mission again.",
+            "`shotc verify` proves every claim again from the trajectory and the limits in the file. Where "
+            "a value, a limit or a claim in its certificate differs, something in the file was edited: the "
+            "certificate, the trajectory or a limit. A file from another version of shotc may differ in "
+            "many claims; then one message says so. The new proof counts; plan the mission again.",
         ),
     ),
     verified(
@@ -65,15 +65,16 @@ HELD: tuple[CodeInfo, ...] = (
         "path-left-untold",
         (
             "a shot is flown elsewhere than its kind asks, and the plan does not say so",
-            "A path that a kind generates is an ideal: planning leaves it where something stands in the way, or for "
-            "the picture's sake, and says by how much (`deviations`). No more than that is allowed, half a metre at "
-            "its beginning and its end where nothing is near, and half the distance to the target elsewhere. So an "
-            "orbit of another sweep, the other way round or backwards is none. What the plan says is believed as far "
-            "as the mission explains it: going round what stands or comes there, half the distance to the target for "
-            "its picture, and of what moves the way in which the drone stops. Between placed keyframes the path "
-            "stays within half of the way between them of the straight one, and what stands there. A place that the "
-            "author gave is left only for the pictures of other drones, by a fifth of the distance where they are "
-            "preferred free, and for what comes there. Plan the mission again.",
+            "A path that a kind generates is an ideal: planning leaves it where something stands in the "
+            "way, or for the picture's sake, and says by how much (`deviations`). No more than that is "
+            "allowed, half a metre at its beginning and its end where nothing is near, and half the "
+            "distance to the target elsewhere. So an orbit of another sweep, or in the other direction, is "
+            "refused. What the plan says is believed as far as the mission explains it: going round what "
+            "stands or comes there, half the distance to the target for its picture, and of what moves the "
+            "way in which the drone stops. Between placed keyframes the path stays within half of the way "
+            "between them of the straight one, and what stands there. A place that the author gave is left "
+            "only for the pictures of other drones, by a fifth of the distance where they are preferred "
+            "free, and for what comes there. Plan the mission again.",
         ),
     ),
     verified(

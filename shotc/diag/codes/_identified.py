@@ -27,10 +27,11 @@ IDENTIFIED: tuple[CodeInfo, ...] = (
         "N016",
         "not-identified",
         Severity.ERROR,
-        "a keyframe has a box, and nobody has said what is in it",
-        "A `box` on the screen of a keyframe shows what its author means. `shotc identify` finds out what of the mission's "
-        "scene that is, and writes the mission again with the targets that it found; or the keyframe names its `target` "
-        "itself. Until then the mission checks clean, but is not planned: the camera would follow nothing.",
+        "a keyframe has a box, but no target",
+        "A `box` on the screen of a keyframe shows what its author means. `shotc identify` finds out what "
+        "of the mission's scene that is, and writes the mission again with the targets that it found; or "
+        "the keyframe names its `target` itself. Until then the mission passes `check`, but is not "
+        "planned: the camera would follow nothing.",
         _PASSING.replace("target: tower, box", "box"),
         _PASSING,
         "plan",

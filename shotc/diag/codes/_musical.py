@@ -28,8 +28,8 @@ _LISTED = (
 
 _IN_FILES = (
     ("D126", "song-not-read", "nothing tells how long a song is",
-     "The length of a song is read from its file, so that a show which outlasts it is told. A file that does not read as "
-     "music is carried as it is; whether players play it nobody knows."),
+     "The length of a song is read from its file, so that a show which outlasts it is told. A file that "
+     "does not read as music is carried as it is; it is not known whether players play it."),
     ("D127", "song-too-short", "a song ends before the show does",
      "The last picture stands, or the way to it is flown, after the song has ended. `music: {start: ...}` is when the song "
      "begins on the mission's clock."),

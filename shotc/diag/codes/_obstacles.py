@@ -58,27 +58,29 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "large-scene",
         _WARNING,
         "a scene is so large that its unit is likely to be another",
-        "A scene of several kilometres is most often a house in millimetres. The help has the unit that makes it as large "
-        "as scenes are. Leave it where it is right.",
+        "A scene of several kilometres is most often a house in millimetres. The help has the unit with "
+        "which it has the usual size of a scene. If the size is right, ignore this warning.",
     ),
     _of_a_file(
         "G031",
         "misplaced-scene",
         _ERROR,
         "a scene is smaller than a drone, or lies where no drone of the mission flies",
-        "Half a metre is no scene, and ten kilometres from the origin nothing is flown. Either the unit is another, or "
-        "its coordinates count from somewhere else, as those of surveys do: then take a round number off them in the "
-        "program that made them, and give that place as `at`.",
+        "A scene is larger than half a metre, and nothing is flown ten kilometres from the origin. Either "
+        "the unit is wrong, or the coordinates count from somewhere else, as those of surveys do: then "
+        "subtract a round number from them in the program that made them, and give that place as `at`.",
     ),
     _of_a_file(
         "G032",
         "scene-under-ground",
         _WARNING,
         "much of a scene lies under the ground",
-        "No camera sees it there. Most often another axis of the file points up: OBJ and GLB files are read with y up, "
-        "STL, PLY and clouds with z up, unless `up` says it. Or its origin is not on the ground: raise it by `at`. It is a "
-        "warning, for foundations, cellars and the ground of a scan lie under the ground, too: the plan is proved with the scene as "
-        "it is written, and the storyboard shows whether that is what was meant. A scene that is under the ground as a whole is an error (G051).",
+        "No camera sees that part. Most often another axis of the file points up: OBJ and GLB files are "
+        "read with y up, STL, PLY and clouds with z up, unless `up` says it. Or its origin is not on the "
+        "ground: raise it by `at`. It is only a warning, because foundations, cellars and the ground of a "
+        "scan lie under the ground, too. The plan is proved with the scene as it is written; the "
+        "storyboard shows whether that is right. A scene that is under the ground as a whole is an error "
+        "(G051).",
     ),
     _of_a_file(
         "G033",
@@ -103,43 +105,44 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "building-without-height",
         _ERROR,
         "the file of the buildings does not say how high some of them are",
-        "A drone may fly over what is not high, so a height is never guessed. A building has `height` (`12`, `12 m`, "
-        "`40'`) or `building:levels` of 3 m; a part without one has that of its building. Or write one for all "
-        "that have none: `buildings: {file: ..., height: 10}`. Take the highest.",
+        "A drone may fly over a low building, so a height is never guessed. A building has `height` (`12`, "
+        "`12 m`, `40'`) or `building:levels` of 3 m; a part without one has that of its building. Or write "
+        "one for all that have none: `buildings: {file: ..., height: 10}`. Take the highest.",
     ),
     _of_a_file(
         "G036",
         "assumed-height",
         _WARNING,
         "some buildings are taken to be as high as the mission says, for their file does not say it",
-        "`height` under `world.buildings` is that of every building without a height and levels. A higher one is not "
-        "kept clear of above that height. The notes name the first ones.",
+        "`height` under `world.buildings` is that of every building without a height and levels. Drones do "
+        "not keep clear of the part of a building that is higher than that. The notes name the first ones.",
     ),
     _of_a_file(
         "G037",
         "left-out",
         _WARNING,
         "some of the file of the buildings does not become an obstacle",
-        "Points, lines, polygons that are no buildings beside some that are, and buildings that are out of reach are "
-        "left out: drones do not keep clear of them. An outline whose parts do not cover it is told as well.",
+        "Points, lines, polygons that are no buildings beside some that are, and buildings that are out of "
+        "reach are left out: drones do not keep clear of them. An outline that its parts do not cover is "
+        "reported as well.",
     ),
     _of_a_file(
         "G048",
         "unknown-building",
         _ERROR,
         "a target is a building that is not there",
-        "`building` is the `name` of a building in the file of `world.buildings`, or its id (`id`, `@id`), as written "
-        "there, or the name of a part of `world.scene`. A part of a building has its own. What was left out of the file "
-        "(G037) is no building; one beyond the terrain has no ground.",
+        "`building` is the `name` of a building in the file of `world.buildings`, or its id (`id`, `@id`), "
+        "as written there, or the name of a part of `world.scene`. A part of a building has its own. What "
+        "was left out of the file (G037) is no building. A building beyond the terrain has no ground.",
     ),
     _of_a_file(
         "G049",
         "two-buildings-of-one-name",
         _ERROR,
         "a target is a building whose name another has, too",
-        "The notes have the other names of each, and where they stand. Write the id of the one that is meant, or several "
-        "targets, and a group of them: `parts: [barn-1, barn-2]`. A part of a building that is called as the whole is "
-        "no second one: the whole is meant.",
+        "The notes give the other names of each, and their places. Write the id of the right one, or "
+        "several targets, and a group of them: `parts: [barn-1, barn-2]`. If a part of a building has the "
+        "name of the whole, the whole is taken.",
     ),
     slip(
         "G050",

@@ -37,13 +37,13 @@ PASSED: tuple[CodeInfo, ...] = (
         "passed-nearer",
         Severity.WARNING,
         "a way between shots leads nearer to something than it should",
-        "On its ways between shots a drone keeps 5 m from what the mission films, and 3 m from other targets and from "
-        "keep-out zones, wherever there is room for it: the defaults of `rules.transit_clearance`. Where a shot begins "
-        "or ends nearer to something, or the pad is nearer, the way may begin and end so near, and keeps half a metre "
-        "more with each metre from there. Here it is nearer than that by more than a tenth, for a narrow gap, a detour "
-        "that would be too long, or no time to wait. Write down the clearance that is to be kept, and it is; or give "
-        "the way more room "
-        "or time.",
+        "On its ways between shots a drone keeps 5 m from what the mission films, and 3 m from other "
+        "targets and from keep-out zones, wherever there is room for it: the defaults of "
+        "`rules.transit_clearance`. If a shot begins or ends nearer to something, or the pad is nearer, "
+        "the way may begin and end that near; it then keeps half a metre more with each metre from there. "
+        "Here the way is nearer than that by more than a tenth, because of a narrow gap, a detour that "
+        "would be too long, or no time to wait. A clearance that the mission writes is always kept; or "
+        "give the way more room or time.",
         _GAP.replace("WIDE", "44"),
         _GAP.replace("WIDE", "36"),
         "plan",
@@ -53,11 +53,11 @@ PASSED: tuple[CodeInfo, ...] = (
         "transit-clearance-broken",
         Severity.ERROR,
         "a way between shots leads nearer to something than the mission allows",
-        "`rules.transit_clearance`, written down, is required of every way between shots, and of those from the pad "
-        "and back: the body keeps `filmed` from every target that a shot films, and `other` from all other targets and "
-        "keep-out zones. Where a shot begins or ends nearer, or the pad is nearer, the way may begin and end so near, "
-        "and keeps half a metre more with each metre from there. Lower the clearance, start the shot at another time, "
-        "or give the way more room.",
+        "`rules.transit_clearance`, written down, is required of every way between shots, and of those "
+        "from the pad and back: the body keeps `filmed` from every target that a shot films, and `other` "
+        "from all other targets and keep-out zones. If a shot begins or ends nearer, or the pad is nearer, "
+        "the way may begin and end that near; it then keeps half a metre more with each metre from there. "
+        "Lower the clearance, start the shot at another time, or give the way more room.",
         _LANE.replace("CLEARANCE", "8 m"),
         _LANE.replace("CLEARANCE", "3 m"),
         "plan",

@@ -23,10 +23,11 @@ PLACED: tuple[CodeInfo, ...] = (
         "G045",
         "degrees-as-metres",
         "a position in metres looks like latitude and longitude",
-        "A list `[x, y, z]` is in metres from the world's origin. Here its first two numbers are a latitude and "
-        "a longitude, in this order or in the other, of a place within 10 km of that origin, as maps and files "
-        "give it: in metres it is next to the origin, wherever it was meant to be. The help has the same place "
-        "in degrees. Nothing is told near 0 N, 0 E, nor of numbers that are good to a tenth of a degree only.",
+        "A list `[x, y, z]` is in metres from the world's origin. Here its first two numbers are a "
+        "latitude and a longitude, in this order or in the other, of a place within 10 km of that origin, "
+        "as maps and files give it: in metres it is next to the origin, wherever it was meant to be. The "
+        "help has the same place in degrees. There is no warning near 0 N, 0 E, nor for numbers with a "
+        "precision of a tenth of a degree.",
         _ON_EARTH,
         ("at: {lat: 46.6808, lon: 7.6791, height: 12}", "at: [46.6808, 7.6791, 12]"),
     )._replace(severity=Severity.WARNING),
@@ -47,11 +48,11 @@ PLACED: tuple[CodeInfo, ...] = (
         "shaky-recording",
         Severity.WARNING,
         "the noise of a recorded track shakes the picture of a shot that follows it",
-        "A camera keeps its subject where it is wanted on screen, and where the recording jumps, so does the rest of "
-        "the picture. Receivers stray by a metre or two, more in height. The number is how far the rows that the shot "
-        "films lie from their course, the track smoothed over 1 s, across the line of sight of the shot's ideal, as a "
-        "share of half a frame's width: root mean square, 0.01 of which nobody sees. `smooth` in the track takes the "
-        "noise; the summary of the plan tells how far it moves the track.",
+        "A camera keeps its subject at its place on screen, so a recording that jumps makes the rest of "
+        "the picture jump. Receivers err by a metre or two, more in height. The number is the distance of "
+        "the filmed rows from the track smoothed over 1 s, measured across the line of sight of the shot's "
+        "ideal, as a share of half a frame's width (root mean square). 0.01 is invisible. `smooth` in the "
+        "track removes the noise; the summary of the plan says how far it moves the track.",
         "",
         "",
         "other",

@@ -36,9 +36,9 @@ SHAPED: tuple[CodeInfo, ...] = (
         "G040",
         "goes-sideways",
         "a box that moves is wider than it is long",
-        "The `size` of a target is [length, width, height]: it goes along its length, first of the three. The box "
-        "of a zone begins with its width, and one copied from there lies across. What does go sideways, such as a "
-        "ferry at its pier, is planned as it is written.",
+        "The `size` of a target is [length, width, height], and the target moves along its length. The "
+        "`size` of a zone's box begins with its width, so a size copied from there lies across. If the "
+        "target does move sideways, like a ferry at its pier, ignore this warning.",
         _CAR,
         ("size: [4.5, 1.8, 1.5]", "size: [1.8, 4.5, 1.5]"),
     )._replace(severity=Severity.WARNING),

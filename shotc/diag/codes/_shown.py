@@ -75,10 +75,11 @@ SHOWN: tuple[CodeInfo, ...] = (
         "covered-more-than-promised",
         Severity.ERROR,
         "more of a target is covered in a frame than its shot promises",
-        "`require: {visible: 90 %}` promises the least share of the target's outline that nothing covers, in any frame: "
-        "keep-out zones, terrain, scenes, other targets, other drones. It is sampled: at every tick of the output rate, "
-        "by rays to the outline. What the edge of the frame cuts off does not count; that is `in_frame`. The notes tell "
-        "what covers it, how much and how often. Film from another side or from higher up, or promise what is kept.",
+        "`require: {visible: 90 %}` promises the least share of the target's outline that nothing covers, "
+        "in any frame: keep-out zones, terrain, scenes, other targets, other drones. It is sampled: at "
+        "every tick of the output rate, by rays to the outline. What the edge of the frame cuts off does "
+        "not count; that is `in_frame`. The notes say what covers it, how much and how often. Film from "
+        "another side or from higher up, or promise less.",
         _WALL.replace("EAST", "10.3").replace("look_at: mast}", "look_at: mast, require: {visible: 90 %}}"),
         _WALL.replace("EAST", "40").replace("look_at: mast}", "look_at: mast, require: {visible: 90 %}}"),
         "plan",
@@ -88,10 +89,11 @@ SHOWN: tuple[CodeInfo, ...] = (
         "reveal-broken",
         Severity.ERROR,
         "a shot does not reveal its target as it promises",
-        "`require: {reveal: {from: 0 %, to: 100 %}}` promises how much of the target's outline is free in the first frame "
-        "and in the last: of the smaller share at most so much, of the larger at least. `{from: 100 %, to: 0 %}` loses "
-        "the target from sight. Being hidden meanwhile is meant, so that V031 and V050 are not told. Begin where "
-        "something covers the target, and end where nothing does; the notes tell what does.",
+        "`require: {reveal: {from: 0 %, to: 100 %}}` promises how much of the target's outline is free in "
+        "the first frame and in the last. The smaller share is an upper bound, the larger share a lower "
+        "bound. `{from: 100 %, to: 0 %}` loses the target from sight. V031 and V050 are not reported for "
+        "such a shot. Begin where something covers the target, and end where nothing does; the notes say "
+        "what covers it.",
         _REVEAL.replace("EAST", "60"),
         _REVEAL.replace("EAST", "0"),
         "plan",
@@ -101,14 +103,15 @@ SHOWN: tuple[CodeInfo, ...] = (
         "target-hidden",
         Severity.WARNING,
         "something stands before a target for a part of its shot",
-        "Another target, a keep-out zone, terrain, a scene or another drone covers more than half of the target's "
-        "outline in some frame, or the target is within a zone. Targets that overlap or touch, as a lantern in "
-        "its tower, are parts of one thing and do not hide each other. The notes tell what hides how much of it and how "
-        "often, by the names of buildings and parts of a scene, and when it is worst. Film from another side or from higher up. Planning leads "
-        "shots past terrain, scenes and buildings where the author left the way free, and the refiner `ours` goes "
-        "aside in shots of moving targets, as far as that shows more. Where it is hidden in most frames, that "
-        "is an error (V050). Less is told by `covered` in framing.csv and in the summary; `require: {visible: 90 %}` has it held "
-        "(V028).",
+        "Another target, a keep-out zone, terrain, a scene or another drone covers more than half of the "
+        "target's outline in some frame, or the target is within a zone. Targets that overlap or touch, as "
+        "a lantern in its tower, are parts of one thing and do not hide each other. The notes tell what "
+        "hides how much of it and how often, by the names of buildings and parts of a scene, and when it "
+        "is worst. Film from another side or from higher up. Planning leads shots past terrain, scenes and "
+        "buildings where the author left the way free, and the refiner `ours` goes aside in shots of "
+        "moving targets, as far as that shows more. If it is hidden in most frames, that is an error "
+        "(V050). `covered` in framing.csv and the summary show smaller shares; `require: {visible: 90 %}` "
+        "makes them an error (V028).",
         "",
         "",
         "other",
@@ -118,11 +121,11 @@ SHOWN: tuple[CodeInfo, ...] = (
         "hidden-subject",
         Severity.ERROR,
         "a shot shows its subject in fewer than half of its frames",
-        "A shot has a subject so that it is seen. Here something covers more than half of its outline in most of the "
-        "frames: a keep-out zone, terrain, a scene, another target or another drone (V031 tells of less). The notes "
-        "tell what hides how much of it, and how often. Film from another side or from higher "
-        "up, or move what hides it. Where it is meant, as with a zone that can be looked through, write "
-        "`allow: [hidden-subject]` in the shot, or under `rules` for the whole mission; then nothing is told.",
+        "A shot has a subject so that it is seen. Here something covers more than half of its outline in "
+        "most of the frames: a keep-out zone, terrain, a scene, another target or another drone (V031 "
+        "tells of less). The notes tell what hides how much of it, and how often. Film from another side "
+        "or from higher up, or move what hides it. If it is intended, as with a zone that can be looked "
+        "through, write `allow: [hidden-subject]` in the shot, or under `rules` for the whole mission.",
         _WALL.replace("EAST", "0"),
         _WALL.replace("EAST", "40"),
         "plan",
@@ -132,12 +135,13 @@ SHOWN: tuple[CodeInfo, ...] = (
         "pan-flown-too-fast",
         Severity.WARNING,
         "the camera turns faster than a film can show, as it is flown",
-        "The rule of F005, held to the plan: over any second of the shot, a frame width goes by in 7 s or more, or in "
-        "3 s or more behind a subject that has its place on screen. `check` knows the mean rate between keyframes "
-        "whose time is known; a drone that begins and ends at rest turns faster in between, and most turns have no "
-        "time before they are planned. The note has the number that is flown, and F005 is not told beside it. Take "
-        "more time, turn less, go farther away, or take a wider lens. Where it is meant, write `allow: [fast-pan]` in "
-        "the shot, or under `rules` for the whole mission.",
+        "The rule of F005, held to the plan: over any second of the shot, a frame width goes by in 7 s or "
+        "more, or in 3 s or more behind a subject that has its place on screen. `check` knows the mean "
+        "rate between keyframes whose time is known; a drone that begins and ends at rest turns faster in "
+        "between, and most turns have no time before they are planned. The note has the number that is "
+        "flown, and F005 is then not reported. Take more time, turn less, go farther away, or take a wider "
+        "lens. If it is intended, write `allow: [fast-pan]` in the shot, or under `rules` for the whole "
+        "mission.",
         _PAN.replace("TIMING", "pace: brisk"),
         _PAN.replace("TIMING", "timing: {duration: 20}"),
         "plan",
@@ -147,11 +151,12 @@ SHOWN: tuple[CodeInfo, ...] = (
         "soft-subject",
         Severity.WARNING,
         "a subject is not sharp from its nearest to its farthest point",
-        "With `camera: {aperture: f/2.8}` the depth of field is told: the lens is focused on the centre of the target that is "
-        "framed, or on the shot's `focus`, and a thin lens shows points nearer and farther as discs. Up to "
-        "`circle_of_confusion` a disc counts as sharp; it is 0.03 mm on a sensor 36 mm wide, and as much less as the sensor is "
-        "narrower. The notes tell how much it is and from where to where all is sharp. Stop the lens down, film from farther "
-        "away, or write `allow: [soft-subject]` in the shot.",
+        "With `camera: {aperture: f/2.8}` the depth of field is known. The lens is focused on the centre "
+        "of the target that is framed, or on the shot's `focus`, and a thin lens shows points nearer and "
+        "farther as discs. Up to `circle_of_confusion` a disc counts as sharp; it is 0.03 mm on a sensor "
+        "36 mm wide, and as much less as the sensor is narrower. The notes give the size of the disc and "
+        "the range that is sharp. Stop the lens down, film from farther away, or write `allow: "
+        "[soft-subject]` in the shot.",
         _LENS.replace("STOP", "f/1.4"),
         _LENS.replace("STOP", "f/4"),
         "plan",
@@ -161,10 +166,11 @@ SHOWN: tuple[CodeInfo, ...] = (
         "motion-blur",
         Severity.WARNING,
         "a subject moves too far on the picture while the shutter is open",
-        "With `camera: {shutter: 1/50 s}` motion blur is told: how far the centre of a target moves on the picture during one "
-        "exposure, by the camera's way, its turning, its zoom and the target's own motion. A 384th of the picture's width, 10 "
-        "pixels of 3840, is not told. What is behind the subject may be blurred: `background_blur_px` in framing.csv tells how "
-        "much. Take a shorter time, fly more slowly, or write `allow: [motion-blur]` in the shot.",
+        "With `camera: {shutter: 1/50 s}` motion blur is known: how far the centre of a target moves on "
+        "the picture during one exposure, by the camera's way, its turning, its zoom and the target's own "
+        "motion. Up to a 384th of the picture's width, 10 pixels of 3840, there is no warning. What is "
+        "behind the subject may be blurred: `background_blur_px` in framing.csv tells how much. Take a "
+        "shorter time, fly more slowly, or write `allow: [motion-blur]` in the shot.",
         _RUNNER.replace("TIME", "1/24 s"),
         _RUNNER.replace("TIME", "1/100 s"),
         "plan",

@@ -80,9 +80,9 @@ CODES: tuple[CodeInfo, ...] = (
         2,
         "in-zone",
         "a camera stands in a zone that is to be kept out of, or touches it",
-        "What the user places binds, so a keyframe in a keep-out zone can never be flown. The distance "
-        "counts from the body sphere. The help gives the shortest move to a place that is free of all "
-        "zones, targets and the ground.",
+        "A position that the user writes is binding, so a keyframe in a keep-out zone can never be flown. "
+        "The distance counts from the body sphere. The help gives the shortest move to a place that is "
+        "free of all zones, targets and the ground.",
         ("at: [0, -45, 18]", "at: [-31, 21, 10]"),
     ),
     _code(
@@ -184,17 +184,18 @@ CODES: tuple[CodeInfo, ...] = (
         14,
         "looks-at-itself",
         "a camera is to look at the place where it stands",
-        "`look_at` is the point in the middle of the picture; where it is the camera's own place there is "
-        "no direction. Give another point, or a heading and pitch.",
+        "`look_at` is the point in the middle of the picture; if it is the camera's own place there is no "
+        "direction. Give another point, or a heading and pitch.",
         ("at: [0, -45, 18], look_at: tower", "at: [0, -45, 18], look_at: [0, -45, 18]"),
     ),
     _code(
         15,
         "no-origin",
         "a position is given in latitude and longitude, but the mission has no origin",
-        "`world.origin` ties the world's metres to the earth; without it a geodetic position is nowhere, and "
-        "without its `alt` a GPX file's elevations are, which count from sea level. Add "
-        "`origin: {lat: ..., lon: ..., alt: ...}` under `world`, or give positions as [x, y, z].",
+        "`world.origin` ties the world's metres to the earth. Without it a geodetic position has no place "
+        "in the world. Without its `alt` the elevations of a GPX file have none, because they count from "
+        "sea level. Add `origin: {lat: ..., lon: ..., alt: ...}` under `world`, or give positions as [x, "
+        "y, z].",
         ("  origin: {lat: 47.3769, lon: 8.5417, alt: 408}\n", ""),
         base=_ON_EARTH,
     ),
@@ -221,10 +222,10 @@ CODES: tuple[CodeInfo, ...] = (
         "target-underground",
         "a target reaches into the ground",
         "`at` is the middle of a target, not its foot: a tower 24 m high that stands on the ground has its "
-        "middle at z = 12. A target that lies a good deal under the ground is framed where nobody sees it. "
-        "Give its middle. One that moves goes straight from row to row of its track, which may lead through a rise "
-        "between them; it is told of where it is deepest of all its way. `lift` puts its middle over what is "
-        "recorded; rows nearer to each other follow the ground.",
+        "middle at z = 12. A target far under the ground is framed where no camera sees it. Give its "
+        "middle. A moving target goes straight from row to row of its track, perhaps through a rise "
+        "between them; the message gives the deepest place of its way. `lift` puts its middle above the "
+        "recorded places; rows that are nearer to each other follow the ground.",
         ("tower: {at: [0, 0, 12]", "tower: {at: [0, 0, 0]"),
     ),
     _code(
@@ -241,11 +242,11 @@ CODES: tuple[CodeInfo, ...] = (
         20,
         "altitude-from-foot",
         "the altitude of a shot counts from the foot of its target, not from z = 0",
-        "The `altitude` of a shot with a target counts from the target's foot at that moment: a roof is filmed from "
-        "above the roof, a cyclist on a climb from above the road. Up to version 0.1 it counted from the plane z = 0. "
-        "Where the two differ this tells both, once: write `altitude: {above: target, height: ...}` to say that the "
-        "foot is meant, or `{above: origin, height: ...}` for z, or `{above: ground, height: ...}` for the height "
-        "over the ground below the camera.",
+        "The `altitude` of a shot with a target counts from the target's foot at that moment: a roof is "
+        "filmed from above the roof, a cyclist on a climb from above the road. Up to version 0.1 it "
+        "counted from the plane z = 0. If the two differ, this warning gives both. Write `altitude: "
+        "{above: target, height: ...}` to say that the foot is meant, or `{above: origin, height: ...}` "
+        "for z, or `{above: ground, height: ...}` for the height over the ground below the camera.",
         ("altitude: {above: target, height: 12}", "altitude: 12"),
         base=_ROOF,
     ),
@@ -253,9 +254,9 @@ CODES: tuple[CodeInfo, ...] = (
         21,
         "below-foot",
         "a camera is below the foot of its target, though its height counts from target or ground",
-        "A height over the target's foot is negative, or the ground below the camera lies lower than the target "
-        "stands, so that the picture looks up at it from below. Raise the altitude. A camera that is to be so low, "
-        "as on the sea before a cliff, says so by `above: origin`.",
+        "A height over the target's foot is negative, or the ground below the camera lies lower than the "
+        "target stands, so that the picture looks up at it from below. Raise the altitude. If the camera "
+        "is meant to be so low, for example on the sea before a cliff, write `above: origin`.",
         ("height: 12", "height: -2"),
         base=_ROOF,
     ),
@@ -272,20 +273,21 @@ CODES: tuple[CodeInfo, ...] = (
         23,
         "target-in-zone",
         "a target stands in a keep-out zone, or comes into it",
-        "Keep-out zones are solid: what is within one is seen by no camera outside of it, and counts as hidden. "
-        "Told where the centre of a target, to which the lines of sight go, stands in a zone, or when and where it "
-        "comes into one before the last shot ends (before the longest endurance, where that is not known). Move "
-        "the target or the zone, or give the zone a shape that leaves the target out. Where a zone is there for "
-        "other reasons and can be looked through, write `allow: [hidden-subject]` in the shots that film the "
-        "target, or under `rules`. See V050.",
+        "Keep-out zones are solid: a camera outside of a zone does not see what is inside, which therefore "
+        "counts as hidden. The message says where the centre of a target (the end of the line of sight) "
+        "stands in a zone, or when and where it enters one before the last shot ends (before the longest "
+        "endurance, if that end is not known). Move the target or the zone, or give the zone a shape that "
+        "leaves the target out. Where a zone is there for other reasons and can be looked through, write "
+        "`allow: [hidden-subject]` in the shots that film the target, or under `rules`. See V050.",
         ("center: [-30, 20], radius: 3, height: [0, 12]", "center: [1, 0], radius: 8, height: [0, 26]"),
     ),
     _code(
         24,
         "above-legal-height",
         "a camera is higher above the ground than most countries allow",
-        "Without a permit, drones are flown at most 120 m (400 ft) above the ground in most countries. Lower the "
-        "shot; or write `max_height` under `rules`: a number is kept and proved, `off` is none.",
+        "Without a permit, drones are flown at most 120 m (400 ft) above the ground in most countries. "
+        "Lower the shot; or write `max_height` under `rules`: a number becomes a limit that is proved, "
+        "`off` removes the limit.",
         (
             "radius: 40, altitude: {above: target, height: 12}",
             "radius: 150, altitude: {above: target, height: 130}",
@@ -306,8 +308,8 @@ CODES: tuple[CodeInfo, ...] = (
         54,
         "rally-in-zone",
         "a rally point lies in a keep-out zone, or outside of a keep-in one",
-        "`safety: {rally: [[x, y]]}` of a drone are places where it may land instead of at home. What lies in a zone that it is to keep out "
-        "of, or outside of one that it is to stay in, is none. Move it.",
+        "`safety: {rally: [[x, y]]}` of a drone are places where it may land instead of at home. Such a "
+        "place may not lie in a keep-out zone, or outside of a keep-in zone. Move it.",
         ("rally: [[40, -60]]", "rally: [[-30, 20]]"),
         base=_PASSING.replace("home: [0, -60, 0]}", "home: [0, -60, 0], safety: {rally: [[40, -60]]}}"),
     ),

@@ -55,20 +55,20 @@ def _code(
     return made._replace(severity=Severity.WARNING)
 
 
-_ALLOW = " Where it is meant, write `allow: [{}]` in the shot, or under `rules` for the whole mission."
+_ALLOW = " If it is intended, write `allow: [{}]` in the shot, or under `rules` for the whole mission."
 
 CODES: tuple[CodeInfo, ...] = (
     _code(
         1,
         "crossing-the-line",
         "a cut crosses the line of action",
-        "The line of action is the way that a subject moves or, of two subjects filmed together, the line between "
-        "them. As long as the camera stays on one side of it, what goes to the left goes to the left in every shot "
-        "(the 180-degree rule). A cut to the other side turns it round. Judged from the last frame of a shot to "
-        "the first of the next one in the order of the film, that of all drones; a camera less than 15 deg off the "
-        "line, ahead, behind or overhead, is on neither side. A shot that goes over the line before the eyes of the "
-        "audience is no fault, and the side on which it ends is the one that counts. Film both shots from one "
-        "side, or put another shot between them." + _ALLOW.format("crossing-the-line"),
+        "The line of action is the way that a subject moves or, of two subjects filmed together, the line "
+        "between them. As long as the camera stays on one side of it, what goes to the left goes to the "
+        "left in every shot (the 180-degree rule). A cut to the other side turns it round. The last frame "
+        "of a shot is compared with the first frame of the next one, in the order of the film over all "
+        "drones. A camera less than 15 deg off the line, ahead, behind or overhead, is on neither side. A "
+        "shot may cross the line while it films; then the side on which it ends counts. Film both shots "
+        "from one side, or put another shot between them." + _ALLOW.format("crossing-the-line"),
         _PASSING,
         ("side: left, distance: 4", "side: right, distance: 4"),
     ),
@@ -99,11 +99,11 @@ CODES: tuple[CodeInfo, ...] = (
         4,
         "walks-out-of-frame",
         "a subject is not in the picture of a camera that does not turn",
-        "A static shot with `heading` and `pitch`, or with a point to look at, keeps its camera still while its target "
-        "moves through the picture. Told where no part of the target is in the frame for half a second or more of "
-        "the shot, however it comes about; the time is known from the shot's `start`. An empty frame may be what is "
-        "wanted. Where it is not, let the camera follow (`look_at` and the target's name), stand farther away, take "
-        "a wider lens, or film while the target passes." + _ALLOW.format("walks-out-of-frame"),
+        "A static shot with `heading` and `pitch`, or with a point to look at, keeps its camera still "
+        "while its target moves through the picture. The warning appears if no part of the target is in "
+        "the frame for half a second or more of the shot. An empty frame may be intended. If not, let the "
+        "camera follow (`look_at` and the target's name), stand farther away, take a wider lens, or film "
+        "while the target passes." + _ALLOW.format("walks-out-of-frame"),
         _STILL,
         ("{start: 15, duration: 10}", "{start: 15, duration: 20}"),
     ),
@@ -111,15 +111,15 @@ CODES: tuple[CodeInfo, ...] = (
         5,
         "fast-pan",
         "the camera turns faster than a film can show",
-        "A film shows 24 pictures a second, and where what is in them moves too far from one to the next it judders. "
-        "The usual rule (RED, Panning Speed Best Practices; the tables of camera manuals) is that nothing goes "
-        "through the frame in less than 7 s. A camera that turns at w moves the surroundings by "
-        "w / (2 tan(hfov / 2)) frame widths a second. Where it follows a subject, that stands still on screen and "
-        "holds the eye, and the surroundings may go by in 3 s, where RED shows its example of plain judder. The rate "
-        "is the mean one between keyframes whose time is known, for a drone may turn evenly at best; of a shot on "
-        "its own clock it is that over the fastest second. Without a duration nothing is told. Turn less, take more "
-        "time, a wider lens, or a place farther away. What is flown is judged by the same rule (V051)."
-        + _ALLOW.format("fast-pan"),
+        "A film shows 24 pictures a second, and where what is in them moves too far from one to the next "
+        "it judders. The usual rule (RED, Panning Speed Best Practices; the tables of camera manuals) is "
+        "that nothing goes through the frame in less than 7 s. A camera that turns at w moves the "
+        "surroundings by w / (2 tan(hfov / 2)) frame widths a second. Where it follows a subject, that "
+        "stands still on screen and holds the eye, and the surroundings may go by in 3 s, where RED shows "
+        "its example of plain judder. The rate is the mean one between keyframes whose time is known, for "
+        "a drone may turn evenly at best; of a shot on its own clock it is that over the fastest second. "
+        "Without a duration there is no warning. Turn less, take more time, a wider lens, or a place "
+        "farther away. What is flown is judged by the same rule (V051)." + _ALLOW.format("fast-pan"),
         _PAN,
         ("duration: 8", "duration: 4"),
     )._replace(exact=("V051",)),

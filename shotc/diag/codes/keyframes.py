@@ -140,15 +140,14 @@ CODES: tuple[CodeInfo, ...] = (
         9,
         "drift-without-duration",
         "a drifting view from above has no duration",
-        "A drift is a velocity: how far it leads depends on how long it lasts. Add `duration` to the shot's "
-        "timing.",
+        "A drift is a velocity, so its length depends on its duration. Add `duration` to the shot's timing.",
         ("{start: 100, duration: 10}", "{start: 100}"),
     ),
     _code(
         10,
         "nothing-moves",
         "a moving shot does not move",
-        "Both ends of what should move are the same place. Give the moving parameter as [from, to], or use "
+        "Both ends of the motion are the same place. Give the moving parameter as [from, to], or use "
         "`kind: static` for a camera that stands still.",
         ("altitude: [5, 30]", "altitude: 30"),
     ),
@@ -196,10 +195,10 @@ CODES: tuple[CodeInfo, ...] = (
         15,
         "limit-above-model",
         "a limit is far above what the drone's model is planned with",
-        "`limits` override what the `model` says, and are taken at their word. The figures of a model stay at "
-        "half of what its maker publishes, or more; a speed or an acceleration of more than twice as much is "
-        "most likely a slip: a number in km/h without its unit, or a digit too many. Mend it, or leave it "
-        "where the drone does fly so. Without `model` nothing is said, for the drone is your own.",
+        "`limits` override the values of the `model`. The figures of a model stay at half of what its "
+        "maker publishes, or more; a speed or an acceleration of more than twice as much is most likely a "
+        "slip: a number in km/h without its unit, or a digit too many. Correct it, or ignore the warning "
+        "if the drone is really so fast. A drone without `model` is your own, so it gets no warning.",
         ("speed: 9 m/s", "speed: 50 m/s"),
     )._replace(severity=Severity.WARNING),
     _code(
@@ -230,9 +229,9 @@ CODES: tuple[CodeInfo, ...] = (
         22,
         "lens-not-of-the-model",
         "a drone is given a lens that the camera built into its model has not",
-        "`camera` overrides what the `model` says, and is taken at its word. A model whose camera is built in has one field of view; a lens "
-        "that zooms, or a wider one, is most likely none that it carries, and what is framed with it is not in the film. A narrower one is "
-        "not told: most of these cameras crop.",
+        "`camera` overrides the values of the `model`. A model with a built-in camera has one field of "
+        "view. It most likely carries no lens that zooms or is wider, so the film does not show what is "
+        "framed with one. A narrower lens gets no warning, because most of these cameras can crop.",
         (
             "{model: x500, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min,\n    camera: {zoom",
             "{model: pro, home: [0, -60, 0], limits: {speed: 9 m/s}, endurance: 10 min,\n    camera: {zoom",

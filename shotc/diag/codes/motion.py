@@ -116,16 +116,16 @@ CODES: tuple[CodeInfo, ...] = (
         2,
         "target-stands",
         "a shot that follows a motion has a target that stands",
-        "Chase, lead, lateral and flyby are told ahead of, behind and beside the way a target goes. Give the "
-        "target a `track`, or use a kind that needs no motion.",
+        "Chase, lead, lateral and flyby place the camera relative to the direction in which the target "
+        "moves. Give the target a `track`, or use a kind that needs no motion.",
         ("target: runner", "target: tower"),
     ),
     _code(
         3,
         "no-duration",
         "a shot of a moving target does not say how long it lasts",
-        "A shot of targets that stand takes the time its path needs. Where a target moves, the shot goes with "
-        "it, and only its author knows for how long: add `duration` to its timing.",
+        "A shot of targets that stand takes the time its path needs. If a target moves, the shot moves "
+        "with it, and only its author knows for how long: add `duration` to its timing.",
         ("{start: 15, duration: 10}", "{start: 15}"),
     ),
     _code(
@@ -173,9 +173,9 @@ CODES: tuple[CodeInfo, ...] = (
         8,
         "leaves-its-place",
         "a shot cannot keep its place beside a moving target",
-        "The place that a chase, a lateral or another kind asks for is an ideal. Where the drone's limits, a zone, "
-        "the ground or another target stand against it, the plan leaves it by as little as it can, and says by how "
-        "much and when. Give the shot more room, or the drone higher limits.",
+        "The place that a chase, a lateral or another kind asks for is an ideal. If the drone's limits, a "
+        "zone, the ground or another target prevent it, the plan leaves the ideal by as little as it can, "
+        "and says by how much and when. Give the shot more room, or the drone higher limits.",
         (
             "targets:",
             "world: {zones: {tree: {keep: out, cylinder: {center: [30, 8], radius: 1.5, height: [0, 12]}}}}\ntargets:",
@@ -209,10 +209,10 @@ CODES: tuple[CodeInfo, ...] = (
         11,
         "target-in-the-way",
         "every way to a shot, or home, meets a target",
-        "Ways to shots and home are the plan's own. It goes straight, round targets and over them, and sets out at "
-        "other times, and takes the first on which the body keeps `rules.target_clearance` from all of them at "
-        "every instant. Here there is none, mostly for zones that leave no room beside a target. Start the shot "
-        "at another time, put `home` elsewhere, or widen the zone.",
+        "Ways to shots and home are the plan's own. It goes straight, round targets and over them, and "
+        "sets out at other times, and takes the first on which the body keeps `rules.target_clearance` "
+        "from all of them at every instant. Here there is none, mostly because zones leave no room beside "
+        "a target. Start the shot at another time, put `home` elsewhere, or widen the zone.",
         (
             "points: [[0, 0, 0.9], [60, 0, 0.9]], times: [0, 40]",
             "points: [[0, 0, 0.9], [0.5, 0, 0.9], [30, 0, 0.9]], times: [0, 14, 26]",
@@ -315,8 +315,9 @@ CODES: tuple[CodeInfo, ...] = (
         32,
         "view-blocked",
         "the place from which a subject is to be seen is no place for a camera",
-        "Size, place on screen and view say where the camera stands. Here that is under the ground clearance, or "
-        "in a zone or a target throughout the shot. A view that is left out is chosen where there is room.",
+        "Size, place on screen and view say where the camera stands. Here that place is below the ground "
+        "clearance, or in a zone or a target throughout the shot. If you leave the view out, it is chosen "
+        "where there is room.",
         (_SECOND, ""),
         ("size: 0.3}", "size: 0.3, view: {elevation: -15 deg}}"),
     ),
@@ -324,9 +325,9 @@ CODES: tuple[CodeInfo, ...] = (
         33,
         "subjects-apart",
         "subjects cannot be in one picture as asked",
-        "Several subjects are in one picture where the camera is far enough away, and then all are small. Here one "
-        "of them is out of the frame, or less than half as large as asked. Film them in two shots, ask for "
-        "smaller sizes, or take a wider lens.",
+        "Several subjects are in one picture if the camera is far enough away, and then all are small. "
+        "Here one of them is out of the frame, or less than half as large as asked. Film them in two "
+        "shots, ask for smaller sizes, or take a wider lens.",
         ("[[0, 3, 1], [60, 3, 1]]", "[[0, 53, 1], [60, 53, 1]]"),
         ("[0.27, 0.0]", "[0.27, 0.0], size: 0.3"),
     ),
@@ -334,9 +335,9 @@ CODES: tuple[CodeInfo, ...] = (
         34,
         "framing-compromise",
         "several subjects cannot all appear as asked at once",
-        "A camera has a place and two angles: that is enough for two places on screen and one more wish. Beyond that "
-        "the plan takes the middle: the squares of what is off on screen, in size and in view are least. The notes "
-        "say by how much each subject is off. `require` holds the plan to what matters.",
+        "A camera has a place and two angles: that is enough for two places on screen and one more wish. "
+        "Beyond that the plan is a compromise: it minimises the squared errors of place on screen, size "
+        "and view. The notes give the errors of each subject. Write `require` for what matters most.",
         ("size: 0.3}", "size: 0.3, view: {azimuth: 270 deg}}"),
     ),
     _framing(
@@ -361,9 +362,10 @@ CODES: tuple[CodeInfo, ...] = (
         "out-of-turn",
         Severity.WARNING,
         "a drone gives way to one of a later priority",
-        "Drones are planned in order of `priority`, each clear of those before it. Where one finds no way beside "
-        "them, it is planned before them, and they go clear of it, if all have a way then. The note says what could "
-        "not be flown in order of priority. Drones of one priority have no order of their own: nothing is said of them.",
+        "Drones are planned in order of `priority`, each clear of those before it. Where one finds no way "
+        "beside them, it is planned before them, and they go clear of it, if all have a way then. The note "
+        "says what could not be flown in order of priority. There is no warning for drones of the same "
+        "priority.",
         _IN_TURN,
         _IN_TURN.replace("priority: 2", "priority: 1"),
         phase="plan",

@@ -113,10 +113,10 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.ERROR,
         "a file that the mission names does not hold what it should",
         "A track is a CSV file with the columns t,x,y,z or t,lat,lon,height and maybe heading (rad) or "
-        "heading_deg, its times rising, or a GPX file with elevations and times; a route is a CSV file with "
-        "x,y,z or lat,lon,height, or a GPX file with elevations. All numbers are finite. XML with a "
-        "document type declaration is refused, and so is a file of more than 4 MB (terrain, scenes and buildings: 400 MB). The note names the line of "
-        "the file. Mend that line.",
+        "heading_deg, its times rising, or a GPX file with elevations and times; a route is a CSV file "
+        "with x,y,z or lat,lon,height, or a GPX file with elevations. All numbers are finite. XML with a "
+        "document type declaration is refused, and so is a file of more than 4 MB (terrain, scenes and "
+        "buildings: 400 MB). The note names the line of the file. Correct that line.",
         _BY_FILE.replace("points: [[0, -50, 15], [40, -50, 15]]", "file: route.csv"),
         _BY_FILE,
         phase="other",
@@ -126,8 +126,8 @@ CODES: tuple[CodeInfo, ...] = (
         "file-outside",
         Severity.ERROR,
         "a file that the mission names lies outside its folder",
-        "A mission may come from anywhere, so it reads nothing but what lies in its own folder: a link that "
-        "leads out of it is not followed. Put the file itself into the folder.",
+        "A mission may come from anywhere, so it reads only files in its own folder. A link that leads out "
+        "of the folder is not followed. Put the file itself into the folder.",
         _BY_FILE.replace("points: [[0, -50, 15], [40, -50, 15]]", "file: link-to-elsewhere.csv"),
         _BY_FILE,
         phase="other",

@@ -23,8 +23,9 @@ CODES: tuple[CodeInfo, ...] = (
         "plugin-broken",
         Severity.ERROR,
         "a plugin cannot be imported",
-        "An installed package registers a plugin whose import raises. A mission that names the plugin cannot be planned "
-        "or written; others do not mind, and `shotc list` tells of it. Update the package, or uninstall it.",
+        "An installed package registers a plugin whose import raises. A mission that names the plugin "
+        "cannot be planned or written. Other missions are not affected, and `shotc list` shows the fault. "
+        "Update the package, or uninstall it.",
         "",
         "",
         "other",
@@ -80,10 +81,10 @@ CODES: tuple[CodeInfo, ...] = (
         "no-refiner",
         Severity.WARNING,
         "planned without a refiner, since none was asked for and ours is not installed",
-        "Without `--refiner` a mission is planned by the refiner `ours`, which keeps the composition between keyframes "
-        "and comes with the package shotc-casadi. It is not installed here, so the convex path is flown as it is: "
-        "proved like any other, but with nobody to trade framing against smoothness. Install it, or say `--refiner "
-        "none` to mean it.",
+        "Without `--refiner` a mission is planned by the refiner `ours`, which keeps the composition "
+        "between keyframes and comes with the package shotc-casadi. It is not installed here, so the "
+        "convex path is flown as it is: proved like any other, but without a trade-off between framing and "
+        "smoothness. Install it, or write `--refiner none` to choose this.",
         "",
         "",
         "other",

@@ -23,10 +23,10 @@ CODES: tuple[CodeInfo, ...] = (
         "refiner-broken-path",
         Severity.ERROR,
         "the refiner returned something that is not a flyable path",
-        "What a refiner returns is checked, not believed: legs joined end to end, at rest where the convex path rests, "
-        "finite numbers, no jump of place, angle or of their first two derivatives. This one broke a rule. It is a "
-        "fault of the package that is named: tell its authors, and plan with another refiner meanwhile, or let the shot "
-        "accept its convex path by `refine: {optional: true}`.",
+        "The result of a refiner is checked: legs joined end to end, at rest where the convex path rests, "
+        "finite numbers, no jump of place, angle or of their first two derivatives. This one broke a rule. "
+        "It is a fault of the package that is named: tell its authors, and plan with another refiner "
+        "meanwhile, or let the shot accept its convex path by `refine: {optional: true}`.",
         "",
         "",
         "other",
@@ -60,10 +60,11 @@ CODES: tuple[CodeInfo, ...] = (
         "refiner-changed-mission",
         Severity.ERROR,
         "the refiner changed what is not its to change",
-        "A refiner may move the camera between keyframes. Which shots there are and in which order, their durations, "
-        "pace, holds, keyframes and fixed times, which targets they frame, and where those are wanted on screen is the "
-        "mission's; take-off and landing are at home. This refiner handed back a path for another mission. It is a "
-        "fault of the package that is named: tell its authors, and plan with another refiner meanwhile.",
+        "A refiner may move the camera between keyframes. The mission decides the rest: the shots and "
+        "their order, their durations, pace, holds, keyframes and fixed times, the targets that they "
+        "frame, and the places of these on screen. Take-off and landing are at home. This refiner handed "
+        "back a path for another mission. It is a fault of the package that is named: tell its authors, "
+        "and plan with another refiner meanwhile.",
         "",
         "",
         "other",
@@ -73,10 +74,11 @@ CODES: tuple[CodeInfo, ...] = (
         "refined-path-too-near",
         Severity.ERROR,
         "the refined path comes too near to a zone, a target or the ground",
-        "Every filmed leg and every way between shots has to keep its clearances at every point, not only at the "
-        "solver's stages. The refined path does not: what it comes too near to, where, and by how much is told. The "
-        "refiner should have kept it, so tell the authors of the package that is named; more room between the keyframes "
-        "and what stands there avoids it meanwhile, and so do another refiner and `refine: {optional: true}`.",
+        "Every filmed leg and every way between shots has to keep its clearances at every point, not only "
+        "at the solver's stages. The refined path does not; the message says to what it comes too near, "
+        "where, and by how much. The refiner should have kept it, so tell the authors of the package that "
+        "is named; more room between the keyframes and what stands there avoids it meanwhile, and so do "
+        "another refiner and `refine: {optional: true}`.",
         "",
         "",
         "other",
@@ -86,9 +88,10 @@ CODES: tuple[CodeInfo, ...] = (
         "refined-keyframe-missed",
         Severity.ERROR,
         "the refined path misses a keyframe that the mission places",
-        "A position that the user wrote down binds, to a millimetre. The refined path passes it at a distance, which is "
-        "told. It is a fault of the package that is named: tell its authors, and plan with another refiner meanwhile, "
-        "or let the shot accept its convex path by `refine: {optional: true}`.",
+        "A position that the user writes is binding, to a millimetre. The refined path passes it at the "
+        "distance in the message. It is a fault of the package that is named: tell its authors, and plan "
+        "with another refiner meanwhile, or let the shot accept its convex path by `refine: {optional: "
+        "true}`.",
         "",
         "",
         "other",
@@ -98,10 +101,11 @@ CODES: tuple[CodeInfo, ...] = (
         "refined-gimbal-out-of-range",
         Severity.ERROR,
         "the refined path points the camera where the gimbal cannot",
-        "The gimbal's pitch is measured against the horizon, its yaw against the body; both have to stay in the range "
-        "of the mission at every point. The refined path leaves it: the axis, where, and by how much is told. It is a "
-        "fault of the package that is named: tell its authors, and plan with another refiner meanwhile, or let the shot "
-        "accept its convex path by `refine: {optional: true}`.",
+        "The gimbal's pitch is measured against the horizon, its yaw against the body; both have to stay "
+        "in the range of the mission at every point. The refined path leaves it; the message gives the "
+        "axis, the place and the amount. It is a fault of the package that is named: tell its authors, and "
+        "plan with another refiner meanwhile, or let the shot accept its convex path by `refine: "
+        "{optional: true}`.",
         "",
         "",
         "other",
@@ -111,10 +115,10 @@ CODES: tuple[CodeInfo, ...] = (
         "refined-path-refused",
         Severity.ERROR,
         "the refined path cannot be flown, and the convex one can",
-        "A later pass refuses the refined path: it takes longer than the duration asked, or breaks a limit or a "
-        "promise. The convex path, tried instead, does not. So it is the refiner's doing; what it broke is in the "
-        "notes. Plan with another refiner or with `--refiner none`, loosen what is named, or let all shots accept their "
-        "convex paths by `refine: {optional: true}`.",
+        "A later pass refuses the refined path: it takes longer than the duration asked, or breaks a limit "
+        "or a promise. The convex path, which was tried instead, does not. So the refiner is at fault; the "
+        "notes say what it broke. Plan with another refiner or with `--refiner none`, loosen what is "
+        "named, or let all shots accept their convex paths by `refine: {optional: true}`.",
         "",
         "",
         "other",
@@ -137,10 +141,11 @@ CODES: tuple[CodeInfo, ...] = (
         "solver-stopped-early",
         Severity.ERROR,
         "the refiner's solver stopped before it had a path",
-        "The solver reached its limit of iterations or of time. What it had by then is not used: it had not settled. "
-        "Where it breaks a constraint, the stage, its time, the constraint that was worst and by how much are named. A "
-        "limit that is barely met, or keyframes that ask for a sharp turn, make a problem slow. A note says whether the "
-        "convex path would do, and how to keep it, by `refine: {optional: true}` in the shot or by `--refiner none`.",
+        "The solver reached its limit of iterations or of time. The unfinished result is not used. Where "
+        "it breaks a constraint, the stage, its time, the constraint that was worst and by how much are "
+        "named. A limit that is barely met, or keyframes that ask for a sharp turn, make a problem slow. A "
+        "note says whether the convex path would do, and how to keep it, by `refine: {optional: true}` in "
+        "the shot or by `--refiner none`.",
         "",
         "",
         "other",
@@ -174,10 +179,11 @@ CODES: tuple[CodeInfo, ...] = (
         "shot-not-refined",
         Severity.WARNING,
         "a shot stays as the convex path has it",
-        "A refiner improves the filmed legs of the convex path where it can. This shot stays as it was, for the reason "
-        "that is told: refined, it would come too near to something that moves, into another drone's picture, or not be "
-        "over in the time that the flights beside it were planned for; what the refiner found is no better; or the "
-        "refiner has nothing for shots of its kind. The plan is verified like any other.",
+        "A refiner improves the filmed legs of the convex path where it can. This shot stays as it was, "
+        "for the reason in the message: refined, it would come too near to something that moves, into "
+        "another drone's picture, or not be over in the time that the flights beside it were planned for; "
+        "what the refiner found is no better; or the refiner has nothing for shots of its kind. The plan "
+        "is verified like any other.",
         "",
         "",
         "other",

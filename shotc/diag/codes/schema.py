@@ -30,9 +30,9 @@ CODES: tuple[CodeInfo, ...] = (
         "S003",
         "unknown-field",
         "a key is not part of the language here",
-        "A key that is not known is refused instead of ignored: a limit with a slip of the pen would "
-        "otherwise be no limit. The nearest known key is proposed. Some keys belong one level up or down: "
-        "`hfov` of a drone stands under `camera`.",
+        "An unknown key is refused, not ignored: otherwise a misspelt limit would be no limit. The nearest "
+        "known key is proposed. Some keys belong one level up or down: `hfov` of a drone stands under "
+        "`camera`.",
         LOOK,
         ("home: [0, -60, 0]", "hom: [0, -60, 0]"),
     ),
@@ -40,9 +40,9 @@ CODES: tuple[CodeInfo, ...] = (
         "S004",
         "missing-field",
         "a key that has to be there is missing",
-        "The mapping is incomplete. What is underlined is the key of the mapping that lacks it, or the "
-        "first line for keys of the mission itself. Keys that belong together are reported the same way: a "
-        "heading needs a pitch beside it.",
+        "The mapping is incomplete. The key of the mapping that lacks it is underlined, or the first line "
+        "for keys of the mission itself. Keys that belong together are reported the same way: a heading "
+        "needs a pitch beside it.",
         LOOK,
         ("radius: 4, height: 24", "height: 24"),
     ),
@@ -61,8 +61,8 @@ CODES: tuple[CodeInfo, ...] = (
         "S006",
         "empty-value",
         "a key has no value",
-        "A key is written down and nothing after its colon, or an explicit null. Whether its default is "
-        "meant or something was forgotten cannot be told. Write the value, or remove the key.",
+        "A key has nothing after its colon, or an explicit null. Either its default is meant, or something "
+        "was forgotten. Write the value, or remove the key.",
         LOOK,
         ("wind: 3 m/s", "wind: null"),
     ),
@@ -70,8 +70,8 @@ CODES: tuple[CodeInfo, ...] = (
         "S007",
         "wrong-type",
         "a value is of the wrong type",
-        "The language expects another shape here: a list where a single value stands, a mapping where there"
-        " is text, a number where there is true or false. In YAML, text in quotes is never a number.",
+        "The language expects another type here: for example a list instead of a single value, a mapping "
+        "instead of text, or a number instead of true or false. In YAML, text in quotes is never a number.",
         LOOK,
         ("home: [0, -60, 0]", "home: under the tree"),
     ),

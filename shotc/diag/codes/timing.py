@@ -55,11 +55,11 @@ CODES: tuple[CodeInfo, ...] = (
         "duration-too-short",
         "a shot cannot be flown in the duration it is given",
         "The path is flown as fast as the limits allow: speed, climb and descent, acceleration and jerk as "
-        "norms in space, the turning of the body and of each gimbal axis, from rest to rest, with its holds. "
-        "If that takes longer than `duration`, the shortest possible duration is named, with the limits that "
-        "hold the drone back and where. Of a path that a refiner has led aside it is that path's, and the note says "
-        "what the convex one would take. Give the shot that duration, raise the limit, or bring its keyframes "
-        "nearer together.",
+        "norms in space, the turning of the body and of each gimbal axis, from rest to rest, with its "
+        "holds. If that takes longer than `duration`, the message gives the shortest possible duration, "
+        "and the notes give the limits that hold the drone back and where. If a refiner has changed the "
+        "path, the duration is that of the refined path, and a note gives that of the convex path. Give "
+        "the shot that duration, raise the limit, or bring its keyframes nearer together.",
         ("duration: 16 s", "duration: 9 s"),
         (", time: 8 s", ""),
     ),
@@ -76,11 +76,12 @@ CODES: tuple[CodeInfo, ...] = (
         3,
         "start-too-early",
         "a shot starts before its drone can be there",
-        "`start` is when the first frame is filmed. Take-off, the shots before and the way between them take "
-        "longer than that; what they take is listed. Start later, or shorten what comes before. A moving target goes "
-        "on while the start is put off, so the start that is named is one at which the drone is where the shot "
-        "begins then; where a recorded track ends too soon for that, so is how long the shot can be. A recording "
-        "that is let begin later (`track: {file: ..., begins: 10 s}`) leaves the drone that much more time.",
+        "`start` is when the first frame is filmed. Take-off, the earlier shots and the ways between them "
+        "take longer than that; the notes list them. Start later, or shorten what comes before. A moving "
+        "target moves on while the start is delayed. The start in the message takes that into account. If "
+        "a recorded track ends too soon for it, the message gives the possible duration as well. A "
+        "recording that begins later (`track: {file: ..., begins: 10 s}`) gives the drone that much more "
+        "time.",
         ("start: 20 s", "start: 7 s"),
     ),
     _code(
@@ -96,8 +97,8 @@ CODES: tuple[CodeInfo, ...] = (
         5,
         "shot-without-length",
         "a shot takes no time",
-        "Its keyframes are one and the same view, none is held, and it has no duration: there is nothing to "
-        "film. Give it a `duration` or a `hold`, or a keyframe elsewhere.",
+        "All its keyframes are the same view, none has a hold, and the shot has no duration, so there is "
+        "nothing to film. Give it a `duration` or a `hold`, or a keyframe elsewhere.",
         ("    timing: {duration: 5 s}\n", ""),
         base=_STILL,
     ),
@@ -106,10 +107,10 @@ CODES: tuple[CodeInfo, ...] = (
         "timed-roughly",
         Severity.WARNING,
         "the solver gave no fastest timing, so a slower one is flown",
-        "A shot's timing is the fastest that keeps every limit, found by a convex solver. Where that gives up, "
-        "which sensible missions should not bring about, a rough timing is slowed down until every limit is "
-        "kept; it takes about a third longer. Leave more room between keyframes that lie very near together, "
-        "or report it together with the mission file.",
+        "A shot's timing is the fastest that keeps every limit, found by a convex solver. If the solver "
+        "gives up, which should not happen with sensible missions, a rough timing is slowed down until it "
+        "keeps every limit; it takes about a third longer. Leave more room between keyframes that lie very "
+        "near together, or report it together with the mission file.",
         _MISSION,
         _MISSION,
         "other",

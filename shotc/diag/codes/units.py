@@ -49,8 +49,8 @@ CODES: tuple[CodeInfo, ...] = (
         "U005",
         "not-a-quantity",
         "a value is no number with a unit",
-        "Here stands a quantity: one number, and a unit after it. Sums, ranges in words, thousands "
-        "separators and decimal commas are not read; nothing is evaluated.",
+        "A quantity is one number, and a unit after it. Sums, ranges in words, thousands separators and "
+        "decimal commas are not read; nothing is evaluated.",
         LOOK,
         ("wind: 3 m/s", "wind: 3 to 5 m/s"),
     ),
@@ -59,8 +59,8 @@ CODES: tuple[CodeInfo, ...] = (
         "absurd-value",
         "a quantity is not finite or far too large",
         "Infinity, not-a-number and magnitudes that no camera drone meets (beyond 100 km, 1000 m/s, a day "
-        "in the air) are slips of the pen, and would only surface as strange failures of the solver later. "
-        "The help names the largest magnitude.",
+        "in the air) are slips. Without this check they would appear later as strange failures of the "
+        "solver. The help names the largest magnitude.",
         LOOK,
         ("wind: 3 m/s", "wind: 1e300"),
     ),

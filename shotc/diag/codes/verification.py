@@ -81,9 +81,10 @@ _LIMITS = (
         "battery-too-small",
         (
             "the flight takes more energy than its battery may give",
-            "Where the mission's `power`, or the model, tells mass, battery and rotors, the energy from lift-off to "
-            "touch-down is proved from the polynomials, and `reserve` is left at landing. Shorten or drop shots, bring "
-            "home nearer, or cut the mission in two. `power` tells what the drone really has.",
+            "If the mission's `power`, or the model, gives mass, battery and rotors, the energy from "
+            "lift-off to touch-down is proved from the polynomials, and `reserve` is left at landing. "
+            "Shorten or drop shots, bring home nearer, or cut the mission in two. `power` tells what the "
+            "drone really has.",
         ),
     ),
     verified(
@@ -119,8 +120,9 @@ _LIMITS = (
         "field-of-view-out-of-range",
         (
             "the field of view is none that a camera has",
-            "The horizontal field of view must lie between 1 and 170 degrees at every instant of the plan: outside "
-            "of that the projection means nothing. Where `camera` says what lens it has, it must be one of the lens.",
+            "The horizontal field of view must lie between 1 and 170 degrees at every instant of the plan: "
+            "outside of that the projection has no meaning. If `camera` describes the lens, the lens must "
+            "have the field of view.",
         ),
     ),
     verified(
@@ -224,10 +226,11 @@ _FORM = (
         "motion-jumps",
         (
             "position, rate or acceleration jumps at a joint of the trajectory",
-            "A plan is a chain of polynomials that agree at their joints in value, first and second derivative. What "
-            "rounding leaves is added up over all joints of a flight, and is at most a micrometre, a micrometre a "
-            "second and a tenth of a millimetre a second squared (so many microradians for angles) in each channel. A "
-            "plan in which it is more was edited or damaged. Plan the mission again.",
+            "A plan is a chain of polynomials that agree at their joints in value, first and second "
+            "derivative. The rounding errors are added up over all joints of a flight. The sum is at most "
+            "a micrometre, a micrometre a second and a tenth of a millimetre a second squared (so many "
+            "microradians for angles) in each channel. A plan with a larger sum was edited or damaged. "
+            "Plan the mission again.",
         ),
     ),
     verified(

@@ -69,7 +69,7 @@ def _vehicle(drone: Drone, safety: Safety) -> str:
     """Say what is the vehicle's own: no mission file of MAVLink holds its parameters."""
     px4 = drone.autopilot == "px4"
     name = f"{drone.autopilot} {drone.name}"
-    text = f"{name}: when the link is lost the vehicle does what is set in it, not in the file"
+    text = f"{name}: the vehicle's own settings decide what happens when the link is lost, not the file"
     if safety.link_lost is None and safety.return_height is None:
         names = "NAV_DLL_ACT, NAV_RCL_ACT, RTL_RETURN_ALT" if px4 else "FS_GCS_ENABLE, FS_THR_ENABLE, RTL_ALT"
         return f"{text}: {names}"
@@ -82,7 +82,7 @@ def _vehicle(drone: Drone, safety: Safety) -> str:
 
 def _app(drone: Drone, safety: Safety) -> str:
     name = f"{drone.autopilot} {drone.name}"
-    text = f"{name}: what it does when the link is lost is set in the app, not in the table"
+    text = f"{name}: the app's settings decide what happens when the link is lost, not the table"
     wanted = [] if safety.link_lost is None else [f"`{safety.link_lost}`"]
     wanted += [] if safety.return_height is None else [f"a return at {safety.return_height:g} m"]
     return f"{text}: set {' and '.join(wanted)}" if wanted else text

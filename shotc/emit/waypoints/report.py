@@ -297,7 +297,7 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
     parts = [] if aperture is None else [f"aperture f/{aperture:g}"]
     parts += [] if shutter is None else [f"shutter {exposure(shutter)}"]
     parts += [] if focuses or aperture is None else ["focus"]
-    told = "set on the camera, for no file does"
+    told = "set by hand on the camera, as no file holds it"
     return [f"{drone.autopilot} {drone.name}: {told}: {', '.join(parts)}"]
 
 

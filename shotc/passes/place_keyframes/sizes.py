@@ -54,7 +54,7 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
         f"the size of `{worst.name}` in shot `{shot.id}` is {sizes}, not {asked:.3g}",
         (mission.origins.value((*shot.path, "size")),),
         (
-            "how far away the camera is, other numbers of the shot say",
+            "other numbers of the shot decide how far away the camera is",
             _instead(mission, worst, asked),
         ),
         f"change those numbers or the lens, or leave `size` out{_framed(mission, placed, asked)}",

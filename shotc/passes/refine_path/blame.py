@@ -71,9 +71,9 @@ def shortest_refined(
             return d
         return d._replace(
             message=d.message.replace(
-                POSSIBLE, f"the shortest for the path of refiner `{seat.refiner.name}`"
+                POSSIBLE, f"the shortest possible on the path of refiner `{seat.refiner.name}`"
             ),
-            notes=(*d.notes, f"the convex path would not do either: {other.message}"),
+            notes=(*d.notes, f"the convex path is too slow, too: {other.message}"),
         )
 
     return tuple(told(d) for d in diagnostics)

@@ -31,7 +31,7 @@ def _told(path: PathIR, error: Diagnostic, against: Diagnostic | None) -> Diagno
     shot = shot_of(path.keyframes.mission, error)
     whose = "the convex path" if shot is None else f"the convex path of shot `{shot}`"
     if against is not None:
-        note = f"{whose} would not do either: {against.code}: {against.message}"
+        note = f"{whose} cannot be flown either: {against.code}: {against.message}"
         return error._replace(notes=(*error.notes, note), help=against.help or error.help)
     where = "all shots" if shot is None else f"shot `{shot}`"
     keep = f"let {where} fly the convex path by `refine: {{optional: true}}`, or {NONE}"

@@ -101,9 +101,9 @@ def _walk(written: Any, asked: Any, at: _Place) -> Iterator[Difference]:
         return
     if isinstance(written, float | int) and isinstance(asked, float | int):
         if not _same(written, asked, at.near):
-            yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
     elif type(written) is not type(asked):
-        yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
     elif names := field_names(asked):
         near = ITERATED_SHARE if getattr(asked, "framed", False) is True else at.near
         here = at._replace(path=getattr(asked, "path", at.path), near=near)
@@ -113,7 +113,7 @@ def _walk(written: Any, asked: Any, at: _Place) -> Iterator[Difference]:
     elif isinstance(asked, tuple):
         yield from _items(written, asked, at)
     elif written != asked:
-        yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+        yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
 
 
 def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[Difference]:
@@ -123,7 +123,7 @@ def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator
     elif all(isinstance(item, float | int | str) for item in (*written, *asked)):
         pairs = zip(written, asked, strict=False)
         if len(written) != len(asked) or not all(_same(one, other, at.near) for one, other in pairs):
-            yield at.differs(f" is {_shown(written)} in the plan, {_shown(asked)} by the mission")
+            yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
     elif len(written) != len(asked):
         yield at.differs(f": the plan has {len(written)}, the mission asks for {len(asked)}")
     else:

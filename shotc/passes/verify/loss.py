@@ -78,8 +78,8 @@ def _loss(ir: TrajectoryIR, claim: Claim) -> Diagnostic:
         f"{target} is up to {off} on screen in shot `{claim.shot}`",
         (mission.origins.key(claim.path),),
         (when, why, *bends(ir, str(claim.shot))),
-        f"{'loosen that or ' if binding else ''}{remedy}, or state "
-        "`require: {screen_error: ...}` to have it held",
+        f"{'loosen that or ' if binding else ''}{remedy}, or write "
+        "`require: {screen_error: ...}` to make it an error",
     )
 
 

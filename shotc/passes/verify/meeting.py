@@ -35,7 +35,8 @@ def meeting(ir: TrajectoryIR, claim: Claim) -> Diagnostic | None:
     where = f", for shot{'s' if len(shots) > 1 else ''} {' and '.join(shots)}" if shots else ""
     return Diagnostic(
         "V022",
-        f"{pair[0].drone} and {pair[1].drone} come within {found} of each other{where}; {least} is the least",
+        f"{pair[0].drone} and {pair[1].drone} come within {found} of each other{where}; "
+        f"the separation is {least}",
         tuple(_labels(mission, pair, phases, least)),
         (*_notes(ir, claim, pair), "proved over continuous time"),
         f"{', or '.join(_remedies(mission, claim, pair, phases))}; then plan again",

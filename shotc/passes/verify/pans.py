@@ -125,8 +125,8 @@ def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: Pan) ->
         f"shot `{shot.id}` pans too fast for the eye",
         (mission.origins.key(shot.path),),
         (
-            f"as it is flown a frame width goes by in {pan.width:.1f} s at {into}; {whose(pan.followed)} it "
-            f"takes {slowest(pan.followed):.0f} s or more, at 24 frames a second, not to judder",
+            f"in the plan a frame width goes by in {pan.width:.1f} s at {into}; {whose(pan.followed)} "
+            f"{slowest(pan.followed):.0f} s or more are needed to avoid judder at 24 frames a second",
         ),
         f"{help_}, or write `allow: [fast-pan]` in it",
     )

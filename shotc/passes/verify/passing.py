@@ -147,7 +147,7 @@ def _near(claim: Claim, passed: Pass) -> str:
 
 
 def _kept(claim: Claim) -> str:
-    return "are required" if claim.hard else "are kept where there is room"
+    return "are required" if claim.hard else "are the default where there is room"
 
 
 def _where(way: Way) -> str:

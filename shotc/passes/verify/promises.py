@@ -83,7 +83,7 @@ def unjudged(ir: TrajectoryIR, certificate: tuple[Claim, ...]) -> Iterator[Diagn
                 continue
             yield Diagnostic(
                 "V046",
-                f"shot `{shot.id}` promises `{key}`, and nothing in the plan can be held to it",
+                f"shot `{shot.id}` promises `{key}`, but nothing in the plan can be judged by it",
                 (origins.value((*shot.path, "require", key)),),
                 ("no target of the shot is framed, or none has a place on screen",),
                 f"remove `{key}`, or give the shot a target and a composition; then plan the mission again",

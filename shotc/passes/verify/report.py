@@ -231,9 +231,9 @@ def _mostly_hidden(claim: Claim, claims: tuple[Claim, ...]) -> bool:
 
 _ASIDE = "film from another side or from higher up, so that nothing stands on the line of sight"
 _LOST_HELP = {
-    "V030": "move or widen the shot there, or state `require: {in_frame: ...}` to have it held",
+    "V030": "move or widen the shot there, or write `require: {in_frame: ...}` to make it an error",
     "V031": _ASIDE,
-    "V050": f"{_ASIDE}, or write `allow: [hidden-subject]` in the shot where it is meant",
+    "V050": f"{_ASIDE}, or write `allow: [hidden-subject]` in the shot to accept it",
 }
 
 

@@ -138,7 +138,7 @@ def _blurred(mission: MissionIR, each: Claim) -> Diagnostic:
         (
             f"worst at t = {each.time or 0.0:.3f} s: it moves {at_least(each.worst, 1)} px of {optics.pixels}"
             f" while the shutter is open for {exposure(optics.shutter)}",
-            f"up to {each.limit:.3g} px are not told",
+            f"up to {each.limit:.3g} px cause no warning",
         ),
         f"{faster}write `allow: [{BLURRED}]` in the shot",
     )

@@ -74,9 +74,9 @@ def _price(price: Price) -> str:
         return "no place near its own keeps the drones' pictures free"
     far = f"{at_least(price.moved)} m, {100 * price.share:.0f} % of its distance from what it films"
     if not price.suffices:
-        return f"to move it by {far}, would not keep the drones' pictures free either"
+        return f"even a move by {far}, would not keep the drones' pictures free"
     most = f"moves it by at most {100 * MOST_MOVED:g} %" if price.share > MOST_MOVED else "crops no subject"
-    return f"to keep the drones' pictures free would move it by {far}, and a preference {most}"
+    return f"keeping the drones' pictures free would move it by {far}; a preference {most}"
 
 
 def _overlap(a: Phase, b: Phase) -> bool:
@@ -136,8 +136,9 @@ def _doing(other: DroneTrajectory, time: float) -> str:
 def _help(sight: Sight, claim: Claim, phase: Phase) -> str:
     ways = ", or ".join(kept_out(sight, claim, phase))
     if claim.hard:
-        return f"{ways}, or write `rules: {{mutual_visibility: {{strength: prefer}}}}` to be told only"
+        prefer = "`rules: {mutual_visibility: {strength: prefer}}`"
+        return f"{ways}, or write {prefer} for a warning instead of an error"
     return (
-        f"{ways}, or write `rules: {{mutual_visibility: {{strength: off}}}}` to have it not judged; "
-        "`require` there keeps drones out whatever it takes"
+        f"{ways}, or write `rules: {{mutual_visibility: {{strength: off}}}}` to accept it; "
+        "`require` there keeps drones out at any cost"
     )

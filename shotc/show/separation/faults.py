@@ -51,7 +51,7 @@ def standing_too_near(
     return Diagnostic(
         "D085",
         f"two drones of `{fleet.name}` stand {nearest.attained:.2f} m apart {where}, "
-        f"and {fleet.apart.across:.2f} m is the least",
+        f"but the separation is {fleet.apart.across:.2f} m",
         (mission.origins.key(path), *_rule(mission, fleet)),
         (_who(fleet, nearest),),
         change,
@@ -75,7 +75,7 @@ def recorded_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried:
     return Diagnostic(
         "D156",
         f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "
-        f"{nearest.time:.2f} s, and {across:.2f} m is the least",
+        f"{nearest.time:.2f} s; the separation is {across:.2f} m",
         (mission.origins.value((*picture.path, "flight")), *_rule(mission, fleet)),
         tuple(notes),
         f"move them apart where the show was made, or ask for a separation of {least} m if that is enough",
@@ -89,7 +89,7 @@ def too_near(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried:
     return Diagnostic(
         "D086",
         f"two drones of `{fleet.name}` come within {nearest.attained:.2f} m of each other at "
-        f"{nearest.time:.2f} s, and {across:.2f} m is the least",
+        f"{nearest.time:.2f} s; the separation is {across:.2f} m",
         (mission.origins.key(path), *_rule(mission, fleet)),
         (
             _who(fleet, nearest),
@@ -125,7 +125,7 @@ def fleets_meet(
     return Diagnostic(
         "D087",
         f"{fleets[0].words} and {fleets[1].words} come within {nearest.attained:.2f} m of each "
-        f"other at {nearest.time:.2f} s, and {across:.2f} m is the least",
+        f"other at {nearest.time:.2f} s; the separation is {across:.2f} m",
         tuple(mission.origins.key(fleet.key) for fleet in fleets),
         (
             f"they are `{first}` and `{second}`, at [{x:.1f}, {y:.1f}, {z:.1f}]",

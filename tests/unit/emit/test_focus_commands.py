@@ -40,7 +40,7 @@ def test_px4_focuses_in_metres_before_it_films_and_as_often_as_sharpness_asks() 
     # The tower is 60 m to the North, and so is where the camera looks: that is its depth all along.
     assert [p[1] for p in told] == [pytest.approx(60.0, abs=0.1)]
     assert (
-        emission.notes[-2] == "px4 cam1: set on the camera, for no file does: aperture f/0.95, shutter 1/50 s"
+        emission.notes[-2] == "px4 cam1: set by hand on the camera, as no file holds it: aperture f/0.95, shutter 1/50 s"
     )
 
 
@@ -65,11 +65,11 @@ def test_nothing_is_focused_where_nothing_is_said_of_an_aperture() -> None:
     shutter = FAST._replace(aperture=None)
     emission = MAVLINK.emit(plan(straight(), mission=mission(), target="tower", optics=shutter))
     assert commands(emission, 532) == []
-    assert emission.notes[-2] == "px4 cam1: set on the camera, for no file does: shutter 1/50 s"
+    assert emission.notes[-2] == "px4 cam1: set by hand on the camera, as no file holds it: shutter 1/50 s"
 
 
 def test_other_machines_are_told_what_is_left_to_the_hand() -> None:
-    by_hand = "set on the camera, for no file does: aperture f/0.95, shutter 1/50 s, focus"
+    by_hand = "set by hand on the camera, as no file holds it: aperture f/0.95, shutter 1/50 s, focus"
     ardupilot = MAVLINK.emit(
         plan(straight(), mission=mission(), target="tower", optics=FAST, autopilot="ardupilot")
     )
@@ -80,4 +80,4 @@ def test_other_machines_are_told_what_is_left_to_the_hand() -> None:
 @pytest.mark.slow
 def test_files_of_dji_are_told_so_too() -> None:
     emission = DJI.emit(retold(orbit_plan(), optics=FAST, autopilot="pilot-2"))
-    assert any("for no file does: aperture f/0.95" in note for note in emission.notes)
+    assert any("as no file holds it: aperture f/0.95" in note for note in emission.notes)

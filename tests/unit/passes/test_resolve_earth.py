@@ -200,4 +200,4 @@ def test_many_slips_are_told_one_by_one_up_to_ten() -> None:
     points = ", ".join(f"[46.68{i}, 7.68{i}, 15]" for i in range(10, 30))
     found = [d for d in faults(VALLEY.replace("[0, -55, 15], [9, -50, 15]", points)) if d.code == "G045"]
     assert len(found) == 10
-    assert found[-1].notes[-1] == "10 more places of this mission are so"
+    assert found[-1].notes[-1] == "10 more places of this mission look like this"

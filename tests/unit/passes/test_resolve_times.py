@@ -32,7 +32,7 @@ def test_a_keyframe_sooner_than_a_straight_line_from_the_start_allows() -> None:
     )
     d = only(mission(shot))
     # 96 m at 8 m/s take 12 s, after a hold of 2 s.
-    assert (d.code, d.message) == ("K004", "nobody gets there in the 5.0 s between keyframes 1 and 3")
+    assert (d.code, d.message) == ("K004", "no drone gets there in the 5.0 s between keyframes 1 and 3")
     assert d.notes == ("the 96.0 m between them need at least 14.0 s",)
     assert faults(mission(shot.replace("time: 5", "time: 14.0"))) == []
 

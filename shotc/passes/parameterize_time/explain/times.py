@@ -48,7 +48,7 @@ def too_fast(
             "T001",
             f"shot `{leg.shot}` is given {plain(fault.asked)} s, but {least} s is the shortest possible",
             (timing_value(mission, leg.path, "duration"), *labels),
-            (f"{least} s is at full limits, with holds", *notes),
+            (f"{least} s is the time at full limits, holds included", *notes),
             _either([f"give it `duration: {least} s`", *raised]),
         )
     message = (

@@ -105,7 +105,7 @@ def _blocked(
     notes: tuple[str, ...] = (f"it is {where}; {need} must be free", *_large(near.mesh))
     if len(places) > 1:
         worst = ", ".join(f"{c:.1f}" for c in at)
-        notes = (*notes, f"{len(lacking)} of {len(places)} points are so; the worst is [{worst}]")
+        notes = (*notes, f"{len(lacking)} of {len(places)} points have this fault; the worst is [{worst}]")
     labels = (mission.origins.value(path), mission.origins.key(near.mesh.path, "the obstacle"))
     if bound:
         what = "the keyframe" if shot.kind == "keyframes" else "the camera"

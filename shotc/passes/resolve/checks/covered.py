@@ -91,5 +91,5 @@ def _told(mission: MissionIR, target: Target, zone: Zone, met: TargetPosition) -
         f"target `{target.name}` {state} keep-out zone `{zone.name}`",
         (mission.origins.key(target.path), mission.origins.key(zone.path, "the zone")),
         (f"{where}, within the zone, and no camera outside of it sees it there",),
-        "move the target or the zone; where it is meant, write `allow: [hidden-subject]` in what films it",
+        "move the target or the zone; or write `allow: [hidden-subject]` in what films it",
     )

@@ -200,7 +200,7 @@ def _without_room(mission: MissionIR, course: StartedFraming, advise: bool) -> D
         ),
         (
             f"it would be at [{x:.1f}, {y:.1f}, {z:.1f}], where {owner.words} lacks {lack:.2f} m",
-            "it is so all through the shot",
+            "this holds all through the shot",
         ),
         _either(
             *(remedy(_fits, mission, shot, asked) for remedy in (for_azimuth, for_elevation)),
@@ -274,7 +274,7 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
     if notes:
         if not _known(mission, shot):
             notes.append(
-                f"so it is where the shot begins at {course.times[0]:.1f} s; the plan says when it does"
+                f"this assumes that the shot begins at {course.times[0]:.1f} s; `plan` finds when it does"
             )
         near = shot.ideal is not None and shot.ideal.near is not None
         what = "what is asked of" if near else "the subjects of"
@@ -283,7 +283,7 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
             f"{what} shot `{shot.id}` cannot all {'be had' if near else 'appear as asked'} at once",
             tuple(labels),
             tuple(notes),
-            "leave out what matters least, or hold to what matters by `require`",
+            "leave out what matters least, or write `require` for what matters most",
         )
 
 

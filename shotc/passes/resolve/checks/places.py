@@ -121,7 +121,7 @@ def blocked(
     place = ", ".join(f"{c:.1f}" for c in worst.at)
     notes: tuple[str, ...] = (obstacle.measure(worst.at, drone.radius),)
     if len(keyframes) > 1:
-        notes = (*notes, f"{len(lacking)} of {len(keyframes)} points are so; the worst is [{place}]")
+        notes = (*notes, f"{len(lacking)} of {len(keyframes)} points have this fault; the worst is [{place}]")
     if ideal and len(lacking) < len(keyframes):
         message = f"the ideal path of this {shot.kind} {obstacle.relation(worst.at)}"
         help_ = f"the plan will leave the ideal here; to keep it, {free}"

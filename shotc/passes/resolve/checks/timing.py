@@ -111,7 +111,7 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
     if end - start >= least - SLACK:
         return None
     note = f"the {length(stretch):.1f} m between them need at least {at_least(least, 1)} s"
-    message = f"nobody gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
+    message = f"no drone gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
     return Diagnostic("K004", message, (label,), (note,), help_)
 
 

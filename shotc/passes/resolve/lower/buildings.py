@@ -52,7 +52,7 @@ def read_buildings(
 def _errors(written: BuildingsSpec, houses: Houses, files: Files) -> Iterator[Diagnostic]:
     label = (files.origins.value(BUILDINGS),)
     if houses.wrong:
-        message = f"{_count(houses.wrong)} of `{written.file}` cannot stand as it is written"
+        message = f"{_count(houses.wrong)} of `{written.file}` with an outline or a height that is impossible"
         help_ = "mend their outlines and heights in the file, or take them out of it"
         yield Diagnostic("G034", message, label, _listed(houses.wrong), help_)
     if houses.unknown:
@@ -76,7 +76,7 @@ def _warnings(
     if houses.far:
         left = (*left, f"{len(houses.far)} buildings more than {FARTHEST / 1000:.0f} km from the origin")
     if left:
-        message = f"some of `{written.file}` is no building near the mission, and left out"
+        message = f"some of `{written.file}` is left out: it is no building near the mission"
         yield Diagnostic("G037", message, label, (f"left out: {', '.join(left)}",), _LEFT)
     if houses.uncovered:
         message = f"{_count(houses.uncovered)} of `{written.file}` not covered by the parts in it"
@@ -84,7 +84,7 @@ def _warnings(
         yield Diagnostic("G037", message, label, _listed(houses.uncovered), help_)
 
 
-_LEFT = "drones fly through what is left out; give what stands there `building: yes` and a `height`"
+_LEFT = "drones do not keep clear of what is left out; give what stands there `building: yes` and a `height`"
 
 
 def _without_any(written: BuildingsSpec, found: Collection, houses: Houses, files: Files) -> Diagnostic:

@@ -52,7 +52,7 @@ def _without_origin(places: list[tuple[KeyPath, OnMap]], origins: OriginMap) -> 
 
 
 def _count(number: int) -> tuple[str, ...]:
-    return (f"{number} positions of this mission are so",) if number > 1 else ()
+    return (f"{number} positions of this mission have this fault",) if number > 1 else ()
 
 
 def _geodetic(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, OnMap]]:

@@ -91,7 +91,7 @@ def _ahead(heading: float) -> tuple[float, float]:
 
 def _without_size(origins: OriginMap, picture: Picture) -> Diagnostic:
     label = origins.value((*picture.path, "name"))
-    note = "how large it is drawn is known where it is planned, too late for the cameras that frame it"
+    note = "its size is known only when the show is planned, too late for the cameras that frame it"
     message, help_ = (
         f"nothing says how large `{picture.name}` is",
         "say its `size`, as [width, depth, height]",

@@ -97,10 +97,10 @@ def not_judged(what: str, name: str, path: tuple[str, ...], files: Files) -> Dia
     """Return the diagnostic of a file that this installation cannot read: what is not checked."""
     unknown = {
         "terrain": "homes, keyframes, altitudes and framing are not judged: all of them depend on the ground",
-        "scene": "homes, keyframes and paths are not held to it",
-        "buildings": "homes, keyframes and paths are not held to them",
+        "scene": "homes, keyframes and paths are not checked against it",
+        "buildings": "homes, keyframes and paths are not checked against them",
     }
-    message = f"the {what} `{name}` cannot be judged: that takes numpy, not installed here"
+    message = f"the {what} `{name}` cannot be judged: numpy is not installed"
     return Diagnostic("N013", message, (files.origins.value(path),), (unknown[what],), remedy(["numpy"]))
 
 

@@ -158,9 +158,9 @@ def _focus(spec: MissionSpec, shot: ShotBase, cast: Cast, path: KeyPath) -> list
     return [
         Diagnostic(
             "K021",
-            f"`focus` is asked of `{shot.drone}`, whose camera has no aperture",
+            f"shot `{shot.id}` has a `focus`, but the camera of `{shot.drone}` has no aperture",
             (cast.origins.value(where),),
-            ("how far is sharp before and behind it follows from the aperture",),
+            ("the depth of field follows from the aperture",),
             f"write `camera: {{aperture: f/2.8}}` of `{shot.drone}`, or take `focus` out",
         )
     ]

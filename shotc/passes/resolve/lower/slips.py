@@ -45,7 +45,7 @@ def check_slips(spec: MissionSpec, origin: GeoOrigin | None, origins: OriginMap)
                 found.append(_slip(written, (lat, lon), origin, origins))
                 break
     if len(found) > TOLD:
-        more = f"{len(found) - TOLD} more places of this mission are so"
+        more = f"{len(found) - TOLD} more places of this mission look like this"
         last = found[TOLD - 1]
         found[TOLD - 1 :] = [last._replace(notes=(*last.notes, more))]
     return found

@@ -243,7 +243,8 @@ def beyond_model(
             f"the `{key}` of {what} `{path[-1]}` is far above its model's",
             (origins.value((*path, "limits", key)), origins.value(model, "the model")),
             (f"{limit:g} {_PUBLISHED[key]} are {limit / usual:.1f} times the {usual:g} of `{spec.model}`",),
-            f"mend it if it was not meant (a bare number is in {_PUBLISHED[key]}); it is taken at its word",
+            f"correct it if it is a slip (a bare number is in {_PUBLISHED[key]}); "
+            "the plan uses it as it is written",
         )
         for key, (limit, usual) in given.items()
         if limit is not None and limit > BEYOND * usual * (1 + 1e-9)
@@ -264,7 +265,7 @@ def another_lens(spec: DroneSpec, drone: Drone, origins: OriginMap) -> list[Diag
     return [
         Diagnostic(
             "K022",
-            f"the lens that is written for `{drone.name}` is not the one of its model",
+            f"the lens of `{drone.name}` is not the one built into its model",
             (origins.key((*drone.path, "camera")), origins.value((*drone.path, "model"), "the model")),
             (f"it {shown}; `{spec.model}` has a camera built in that shows {degrees(preset.hfov):.4g} deg",),
             "take the lens out of `camera`, unless the machine carries it: what is framed with it is not in"

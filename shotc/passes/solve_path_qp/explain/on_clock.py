@@ -39,7 +39,7 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
         causes.append(cause if owner is None else owner.words)
     calm = shot.smoothing > NORMAL_S
     smoothly = f"with `smoothing: {written(shot.smoothing)}`" if calm else "smoothly"
-    notes = [f"what stands against it: {', '.join(causes)}, and that it is flown {smoothly}"]
+    notes = [f"the reasons: {', '.join(causes)}, and that it is flown {smoothly}"]
     if len(stretches) > 1:
         often = ", ".join(f"{d.distance:.2f} m at t = {d.t:.1f} s" for d in stretches[:TOLD])
         more = f" and {len(stretches) - TOLD} more" if len(stretches) > TOLD else ""
@@ -80,7 +80,7 @@ def stopped_on_clock(
         f"shot `{shot.id}` cannot be flown clear of {most[0].words}",
         labels,
         notes,
-        "move the shot or what is in its way by so much",
+        "move the shot, or what is in its way, by that much",
     )
 
 
@@ -116,7 +116,7 @@ def _out_of_reach(mission: MissionIR, shot: Shot, missed: Missed) -> Diagnostic:
     )
     remedies = ["raise its `limits`", "move them nearer to the way of the target"]
     if blocked:
-        remedies = [f"move {_these(blocked)} by so much", "give the shot another time"]
+        remedies = [f"move {_these(blocked)} by that much", "give the shot another time"]
     if missed.longer is not None:
         seconds = up((shot.timing.duration or 0.0) * missed.longer, 1)
         timed = any(k.time for k in shot.keyframes)

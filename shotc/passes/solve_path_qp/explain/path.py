@@ -146,7 +146,7 @@ def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cuts: tuple[
         note = f"it would take {degrees(worst.excess):.1f} deg more pitch"
     notes = [f"{worst.s:.1f} m along the shot {note}"]
     if len(cuts) > 1:
-        notes.append(f"{len(cuts)} stretches between keyframes are so; this is the worst")
+        notes.append(f"{len(cuts)} stretches between keyframes have this fault; this one is the worst")
     keyframe = shot.keyframes[worst.index]
     return Diagnostic(
         "Q007",
@@ -178,7 +178,7 @@ def swings(mission: MissionIR, shot: PlacedShot, swing: Swing) -> Diagnostic:
     else:
         message = f"the camera of shot `{shot.shot.id}` cannot keep target `{swing.target}` in its place"
         notes = [f"{where}, {off}"]
-        help_ = "move these keyframes apart, or ask for more alike places on screen"
+        help_ = "move these keyframes apart, or ask for places on screen that are more alike"
     labels = (mission.origins.key(first.path, "from here"), mission.origins.key(second.path, "to here"))
     return Diagnostic("Q009", message, labels[: 1 + (first.path != second.path)], tuple(notes), help_)
 

@@ -92,8 +92,8 @@ def test_a_duration_that_is_too_short_is_told_as_that_of_the_refined_path_and_of
     (fault,) = planned(detour, hurried(seconds=7)).diagnostics
     assert fault.code == alone.code == "T001"
     assert "is the shortest possible" in alone.message
-    assert "is the shortest for the path of refiner `odd`" in fault.message
-    assert fault.notes[-1] == f"the convex path would not do either: {alone.message}"
+    assert "is the shortest possible on the path of refiner `odd`" in fault.message
+    assert fault.notes[-1] == f"the convex path is too slow, too: {alone.message}"
 
 
 def lost(shot, code="R012"):
@@ -134,7 +134,7 @@ def test_what_the_help_of_a_solver_s_fault_says_does_when_it_is_written(planned,
 @pytest.mark.parametrize("act", [fails, lost(ROUND)])
 def test_a_convex_path_that_would_not_do_is_not_offered(planned, act):
     (fault,) = (d for d in planned(act, hurried(seconds=7)).diagnostics if d.code[0] == "R")
-    assert "would not do either: T001" in fault.notes[-1]
+    assert "cannot be flown either: T001" in fault.notes[-1]
     assert "refine:" not in fault.help
     assert "--refiner none" not in fault.help
 

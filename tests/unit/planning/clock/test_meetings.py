@@ -40,7 +40,7 @@ def test_two_shots_too_near_to_each_other_are_both_labelled_with_numbers():
     assert fault.code == "V022"
     assert [label.span.line for label in fault.labels] == [8, 10]
     assert "come within 1.000 m of each other" in fault.message
-    assert "3.000 m is the least" in fault.message
+    assert "the separation is 3.000 m" in fault.message
     assert "bring them 2.00 m farther apart" in fault.help
     assert "nearer than that from t = " in fault.notes[0]
 

@@ -66,8 +66,8 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
         f"the cut from `{before.id}` to `{after.id}` makes `{left.names[0]}` jump",
         (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
         (
-            f"it is seen from {int(degrees(angle))} deg to the side, {change}; a cut wants 30 deg or more, "
-            f"or a size that changes {ALIKE:.1f} times",
+            f"the camera moves {int(degrees(angle))} deg round it, which is then {change}; a cut needs "
+            f"30 deg or more, or a size that changes by a factor of {ALIKE:.1f}",
         ),
         f"{', or '.join(ways)}, or write `allow: [jump-cut]` in it",
     )

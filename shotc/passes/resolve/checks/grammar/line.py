@@ -30,7 +30,7 @@ def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
     if goes_over(mission, after, pair=pair):
         return None
     who = " and ".join(f"`{name}`" for name in left.names[: 2 if pair else 1])
-    what = "the line from the one to the other" if pair else "the way it goes"
+    what = "the line from the one to the other" if pair else "its direction of motion"
     sides = [
         f"`{shot.id}` {verb} {abs(sine) * hypot(*seen.offset):.1f} m to the {'left' if sine > 0 else 'right'}"
         for shot, verb, sine, seen in ((before, "ends", a, left), (after, "begins", b, right))
@@ -40,7 +40,7 @@ def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
         "F001",
         f"the cut from `{before.id}` to `{after.id}` crosses the line of action of {who}",
         (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
-        (f"of {what}, {sides[0]}, {sides[1]}: on screen it turns round",),
+        (f"relative to {what}, {sides[0]} and {sides[1]}, so directions reverse on screen",),
         f"begin `{after.id}` on the {side_kept}, put a shot from ahead, from behind or of something else "
         "between them, or write `allow: [crossing-the-line]` in it",
     )

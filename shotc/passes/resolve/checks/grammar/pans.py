@@ -63,7 +63,7 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         (label,),
         (
             f"a frame width goes by in {worst.seconds / worst.widths:.1f} s{when}; {whose(worst.followed)} "
-            f"it takes {slowest(worst.followed):.0f} s or more, at 24 frames a second, not to judder",
+            f"{slowest(worst.followed):.0f} s or more are needed to avoid judder at 24 frames a second",
         ),
         f"{help_}, or write `allow: [fast-pan]` in it",
     )

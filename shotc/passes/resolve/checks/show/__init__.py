@@ -69,7 +69,7 @@ def _nobody_left(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
                 mission.origins.value((*display.path, "fleet")),
                 mission.origins.key(("fleets", display.fleet, "groups"), "its groups"),
             )
-            note = "without a `group`, the drones draw that are in none"
+            note = "a display without a `group` is drawn by the drones that are in none"
             some = " or ".join(f"`group: {name}`" for name in list(fleet.groups)[:SHOWN])
             help_ = (
                 f"write {some}; for a picture by all, give each group a display with its part of it, and all "
