@@ -69,14 +69,15 @@ def compare(
 ) -> None:
     """Plan one mission under several refiners and show what each does to its framing.
 
-    All start from the same convex path, are held to the same limits and are measured alike: how far the
-    target is from its wanted place on screen, in how many frames it is whole, how smooth the flight is.
-    What a shot promises (`require`) refuses no plan here; a promise that is broken is told. A refiner that
-    fails is a row that says so. Of every refiner it is told at which frame of each shot it differs most from
-    the last one, by metres between the cameras plus degrees between where they look. The files are
-    compare.json and compare.md with the table, compare.png with the worst frame of each, differences.png
-    with the frames that differ most, and compare.rrd with the camera views, for the rerun viewer.
-    Nothing here is to be flown; `shotc plan --refiner NAME` plans with one of them. Examples:
+    All refiners start from the same convex path, keep the same limits and are measured alike: the distance of
+    the target from its wanted place on screen, the share of frames that show it whole, the smoothness of the
+    flight. A broken promise (`require`) is reported and refuses no plan here. A refiner that fails has a row
+    that says so. For every refiner and shot the output gives the frame that differs most from the last
+    refiner, by metres between the cameras plus degrees between their directions.
+
+    The files are compare.json and compare.md (the table), compare.png (the worst frame of each),
+    differences.png (the frames that differ most), and compare.rrd (the camera views, for the rerun viewer).
+    None of them is flown; `shotc plan --refiner NAME` plans with one refiner. Examples:
 
         shotc compare tower.yaml --refiners none,ours
         shotc compare runner.yaml --refiners ours --smoothing low,normal,high

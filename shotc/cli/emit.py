@@ -20,9 +20,9 @@ Emit = Annotated[
 
 
 def emit(plan: PlanPath, output: Output = None, emit: Emit = None) -> None:
-    """Write a plan's output files again, without planning; plan.json itself stays as and where it is.
+    """Write a plan's output files again, without planning; plan.json itself stays unchanged.
 
-    The plan is proved first: what does not hold is not written. Example:
+    The plan is proved first; a plan that does not hold is not written. Example:
 
         shotc emit out/tower/plan.json --emit csv -o tables
     """

@@ -22,7 +22,7 @@ Code = Annotated[
 
 
 def explain(code: Code = None) -> None:
-    """Explain a diagnostic: what it means, why, and how to mend it.
+    """Explain a diagnostic: what it means, why it matters, and how to correct it.
 
     Example: `shotc explain Y012` or `shotc explain duplicate-key`
     """

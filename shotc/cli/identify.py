@@ -34,7 +34,7 @@ Guess = Annotated[
     typer.Option("--guess", help="Guess a box for each keyframe that has neither a box nor a target."),
 ]
 SaliencyName = Annotated[
-    str, typer.Option("--saliency", metavar="NAME", help="Who guesses; see `shotc list saliency`.")
+    str, typer.Option("--saliency", metavar="NAME", help="What guesses; see `shotc list saliency`.")
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace the files if they exist.")]
 
@@ -48,15 +48,15 @@ def identify(
 ) -> None:
     """Find the targets that keyframes mean in the mission's scene.
 
-    Draw what you mean as `box: [u0, v0, u1, v1]` in a keyframe of a `keyframes` shot: its lower left and
-    upper right corner on the screen, u to the right and v up, from -1 to 1. Rays through the box find what
-    of `world.scene` and `world.buildings` is in it. What belongs together becomes a target, a cylinder; one
-    that several keyframes mean is one target.
+    Draw `box: [u0, v0, u1, v1]` round your subject in a keyframe of a `keyframes` shot: the lower left and
+    the upper right corner on the screen, u to the right and v up, from -1 to 1. Rays through the box find
+    the parts of `world.scene` and `world.buildings` in it. Parts that belong together become one target, a
+    cylinder. If several keyframes show the same thing, it is one target.
 
-    Written are the mission with the targets, its comments and layout as they were, and beside it a sheet of
-    pictures (PNG) with boxes and cylinders: look at it. How sure each target is stands in both; below 60 % it
-    is a warning with the runner-up. A `--guess` is what is unlike the rest of the picture, seldom what is
-    meant; the box that was guessed is written, too, so that it can be mended.
+    The command writes the mission with the targets; comments and layout stay. Beside it, it writes a sheet of
+    pictures (PNG) with boxes and cylinders: look at it. Both give the confidence of each target; less than
+    60 % is a warning with the runner-up. `--guess` draws a box round what is unlike the rest of the picture,
+    which is seldom right; the guessed box is written, too, so that you can correct it.
 
     Example: `shotc identify church.yaml -o church-identified.yaml`
     """

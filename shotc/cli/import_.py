@@ -44,7 +44,8 @@ Times = Annotated[
     bool, typer.Option("--times", help="Keep when each camera is reached, not only how long a take lasts.")
 ]
 Fps = Annotated[
-    float | None, typer.Option("--fps", metavar="N", help="Frames a second, of blender-camera; 24 if silent.")
+    float | None,
+    typer.Option("--fps", metavar="N", help="Frames a second, of blender-camera; 24 by default."),
 ]
 Ground = Annotated[
     float | None,
@@ -71,16 +72,16 @@ def import_(
     `kml` reads tours of Google Earth (`gx:Tour`, KML or KMZ), or the cameras of placemarks in their order;
     `blender-camera` a table `frame,x,y,z,rx,ry,rz,lens`, or with `qw,qx,qy,qz` and `hfov`, metres with Z up;
     `qgc` waypoints, headings and gimbal commands of a QGroundControl plan; `litchi` the table of its Hub.
-    Each tour, animation or recording becomes a shot of `keyframes`; tours and animations keep how long they
-    last, where the drone is fast enough. Cameras that the others imply are left out: what is as far away as
-    the camera is high stays within 0.01 half frames of where the file shows it.
+    Each tour, animation or recording becomes a shot of `keyframes`. Tours and animations keep their length if
+    the drone is fast enough. Cameras that the others imply are left out: a thing that is as far away as the
+    camera is high stays within 0.01 half frames of its place in the file.
 
-    `show` reads a show of drones that was made elsewhere: zipped CSV (.zip) or a `.skyc`. The mission flies
-    it as it is recorded; `-o` names it, and its pads and, unless it is there, the file are put beside it.
+    `show` reads a drone show from elsewhere: zipped CSV (.zip) or a `.skyc`. The mission flies the show as it
+    is recorded. `-o` names the mission; its pads, and the file unless it is there, are put beside it.
 
-    What the file leaves open, has wrong or says twice is assumed: each assumption is a warning with its
-    line and column, and a comment in the mission, where it is easily changed. `--strict` refuses instead.
-    What is written is a mission that `shotc check` accepts, or nothing is.
+    If the file leaves something open, has an error or contradicts itself, the importer makes an assumption:
+    each is a warning with its line and column, and a comment in the mission, where you can change it.
+    `--strict` refuses instead. The command writes a mission that `shotc check` accepts, or nothing.
 
     Example: `shotc import kml tour.kml --ground 408 -o tour.yaml`
     """

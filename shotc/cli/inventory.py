@@ -30,12 +30,12 @@ class Group(StrEnum):
 
 
 GROUPS: dict[str, str] = {
-    Group.KINDS: "what sorts of shots there are",
+    Group.KINDS: "kinds of shots",
     Group.DRONES: "models of drones, with their limits",
-    Group.REFINERS: "who refines a path, for `plan --refiner`",
-    Group.REPLANNERS: "who plans anew in flight, for `simulate --replanner`",
-    Group.EMITTERS: "what can be written, for `output: {emit: [...]}` and `emit`",
-    Group.SALIENCY: "who guesses what a picture is about, for `identify --saliency`",
+    Group.REFINERS: "what refines a path, for `plan --refiner`",
+    Group.REPLANNERS: "what plans anew in flight, for `simulate --replanner`",
+    Group.EMITTERS: "what writes files, for `output: {emit: [...]}` and `emit`",
+    Group.SALIENCY: "what guesses the subject of a picture, for `identify --saliency`",
     Group.COMPOSITIONS: "places and sets of places on screen, for `composition` and `frame`",
     Group.HEADINGS: "ways to turn a camera that follows nothing, for `plan --headings`",
 }

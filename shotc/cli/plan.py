@@ -65,7 +65,7 @@ Deadline = Annotated[
     float | None,
     typer.Option(
         metavar="SECONDS",
-        help="Stop the refiner when it has taken so long, loading included, whatever it is doing.",
+        help="Stop the refiner after this time, loading included.",
         callback=_positive,
     ),
 ]
@@ -118,12 +118,12 @@ def plan(
 ) -> None:
     """Compile a mission: validate it, plan it, prove the plan, write its files.
 
-    Nothing is written unless every hard constraint is proved to hold. Example:
+    Nothing is written unless every hard constraint is proved. Example:
 
         shotc plan tower.yaml -o out/tower --emit csv,mavlink
 
     Missions of a folder are planned side by side, each into a folder of its own, with a table at the end.
-    Where that is stopped, the same command goes on from there. Example:
+    The same command continues after an interruption. Example:
 
         shotc plan missions/ --jobs 8
     """

@@ -41,10 +41,10 @@ Loop = Annotated[
     Literal["replay", "track", "replan"] | None,
     typer.Option(
         help="replay: drone and camera do what was planned; track: the camera follows what is seen; "
-        "replan: the drone does, too, and plans its next seconds anew [replay]."
+        "replan: the drone follows, too, and plans its next seconds anew [replay]."
     ),
 ]
-ReplannerName = Annotated[str, typer.Option("--replanner", metavar="NAME", help="Who plans anew.")]
+ReplannerName = Annotated[str, typer.Option("--replanner", metavar="NAME", help="What plans anew.")]
 Seeds = Annotated[
     int | None, typer.Option(min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}].")
 ]
@@ -70,7 +70,7 @@ VehicleOption = Annotated[
 ]
 Bias = Annotated[
     float,
-    typer.Option(min=-FARTHEST, max=FARTHEST, help="What all satellite positions are off to the East, m."),
+    typer.Option(min=-FARTHEST, max=FARTHEST, help="Error of all satellite positions to the East, m."),
 ]
 Lost = Annotated[
     list[str] | None,
@@ -79,7 +79,9 @@ Lost = Annotated[
 Wander = Annotated[
     float | None,
     typer.Option(
-        min=0.0, max=FARTHEST, help="Standard deviation of how far what moves is off its track, m [0]."
+        min=0.0,
+        max=FARTHEST,
+        help="Standard deviation of the distance of moving targets from their tracks, m [0].",
     ),
 ]
 TruthFiles = Annotated[
@@ -93,7 +95,7 @@ Output = Annotated[
     Path | None,
     typer.Option("-o", "--output", help="Folder for the files [that of the plan, or out/MISSION]."),
 ]
-FormatOption = Annotated[CertificateFormat, typer.Option("--format", help="How to print what came of it.")]
+FormatOption = Annotated[CertificateFormat, typer.Option("--format", help="How to print the result.")]
 
 
 def simulate(
@@ -118,16 +120,16 @@ def simulate(
 ) -> None:
     """Fly a mission in simulation, many times, and judge the runs.
 
-    Drones lag behind their plan, the wind pushes them, receivers and cameras err, and subjects may leave
-    their track. The report tells what the cameras show (share of frames with the whole target, distance on
-    screen from where it is to be), how far drones stray, and how near they come to anything. What the mission
-    asks of rehearsals (`rehearse: {gusts: 1 m/s, require: {in_frame: 95 %, of: 99 %}}`) is judged: the exit
-    status is 1 where too few runs keep it, or where a drone touches something. A simulation proves nothing;
+    Drones lag behind their plan, the wind pushes them, receivers and cameras have errors, and subjects may
+    leave their track. The report gives what the cameras show (share of frames with the whole target, distance
+    from its place on screen), how far drones are from their plan, and how near they come to anything. A
+    mission can set pass marks (`rehearse: {gusts: 1 m/s, require: {in_frame: 95 %, of: 99 %}}`): the exit
+    status is 1 if too few runs reach them, or if a drone touches something. A simulation proves nothing;
     `plan` and `verify` do.
 
-    Written are simulate.json (every run), flight.csv (the worst run, instant by instant), simulate.png
+    The command writes simulate.json (every run), flight.csv (the worst run, instant by instant), simulate.png
     (distributions), simulate.rrd (the worst run beside the plan, for the rerun viewer) and
-    MISSION-report.html (what is proved, and what came of the runs, for authorities). Examples:
+    MISSION-report.html (the proof and the results of the runs, for authorities). Examples:
 
         shotc simulate tower.yaml --wind 5 --from 270 --gusts 1
         shotc simulate out/tower --loop track --gps plain --seeds 100

@@ -42,31 +42,30 @@ TargetOption = Annotated[
         help="Let cameras follow where a target really is: positions as JSON or MAVLink come to this port.",
     ),
 ]
-Arm = Annotated[
-    bool, typer.Option("--arm", help="Mean it: arm the vehicles and fly. Without it nothing moves.")
-]
+Arm = Annotated[bool, typer.Option("--arm", help="Arm the vehicles and fly. Without it nothing moves.")]
 
 
 def stream(plan: PlanPath, to: To = None, target: TargetOption = None, arm: Arm = False) -> None:
     """Send a proved plan to PX4 or ArduPilot over MAVLink: 50 setpoints a second a drone, on one clock.
 
-    Without --arm it is a dry run: it connects to every vehicle, reads what has to be known, judges it, says
-    what it would do, and sends nothing that moves anything. Try it first, on the pads.
+    Without --arm it is a dry run: it connects to every vehicle, reads its state, judges it, prints what the
+    flight would be, and sends nothing that moves anything. Do this first, on the pads.
 
     Before anything is armed, every vehicle has to be the autopilot that the plan is for, disarmed and ready,
-    with its home within 1 m of its pad in the plan, a gimbal that reaches what the plan looks at, and
-    parameters by which it holds, returns or lands when the link is lost. What is not so is said, with what to
-    do about it.
+    with its home within 1 m of its pad in the plan, a gimbal with the reach that the plan needs, and
+    parameters by which it holds, returns or lands when the link is lost. Every fault is reported with a
+    remedy.
 
     With --arm each drone gets ready a few seconds before its lift-off, follows the plan in OFFBOARD (PX4) or
     GUIDED (ArduPilot), records its shots, and lands on its pad. If anything goes wrong, or at Ctrl-C, every
     drone in the air is told to hold (PX4: HOLD, ArduPilot: BRAKE): be ready to take over.
 
-    With --target cameras follow where a target is, at the place on screen that the plan gives it; drones keep
-    to the plan. A datagram is `{"x": 3.1, "y": -2, "z": 0.9}` in the mission's frame,
+    With --target cameras follow the real place of a target, and keep it at its planned place on screen;
+    drones keep to the plan. A datagram is `{"x": 3.1, "y": -2, "z": 0.9}` in the mission's frame,
     `{"lat": .., "lon": .., "alt": ..}`, or the GLOBAL_POSITION_INT of another vehicle.
 
-    Examples
+    For example:
+
         shotc stream out/tower --to udp:14540
 
         shotc stream out/runner --to near=udp:14540 --to far=udp:14541 --target runner=udp:14600 --arm

@@ -68,25 +68,26 @@ def verify(
 ) -> None:
     """Prove a plan again, or prove a flight that any tool may have written.
 
-    Of a plan.json nothing is trusted but its trajectory and the text of its mission. The exit status is 1 if
-    a claim is broken, if the plan says something else than its mission or its proof, or with --against if it
-    is not the plan of that file.
+    A plan: verify trusts only the trajectory and the mission's text in plan.json. The exit status is 1 if a
+    claim is broken, if the plan differs from its mission or its proof, or, with --against, if it is not the
+    plan of that mission file.
 
-    Other files are held against a mission: its ground, zones, buildings, limits, drones and promises. These
-    are read: .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz (DJI WPML), .csv (Litchi, or rows of
-    trajectories in the columns of our own trajectory.csv), .skyc and zipped CSV (Skybrush). Each flight is
-    rebuilt as its machine flies it, on every curve that the machine may take, and proved between its places.
-    What a file cannot tell, as waypoints have no clock, is named and not judged.
+    A flight of another tool: verify proves it against a mission (--against), that is its ground, zones,
+    buildings, limits, drones and promises. It reads .plan (QGroundControl), .waypoints (QGC WPL 110), .kmz
+    (DJI WPML), .csv (Litchi, or trajectories in the columns of trajectory.csv), .skyc and zipped CSV
+    (Skybrush). Each flight is rebuilt as its machine flies it, on every curve that the machine may take, and
+    proved between its points. What a file does not contain is named and not judged; for example, waypoints
+    have no clock.
 
-    Tables and shows name their drones. A file of waypoints is of the drone that it is named after
-    (`cam1.kmz`; `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or of the one that --drone says.
+    Tables and shows name their drones. A file of waypoints belongs to the drone in its name (`cam1.kmz`;
+    `cam1-1.kmz`, `cam1-2.kmz` are parts of one flight), or to the one of --drone.
 
-    With --abort-every 1s a show can be called off at every second: all drones of a fleet brake along their
-    common way, go over their pads, any of them, and land. Each of these returns is proved as the plan is:
-    separation, limits, zones, ground and endurance. The exit status is 1 where some second has no return.
+    --abort-every 1s proves that a show can be aborted at every second: all drones of a fleet brake along
+    their common way, fly over their pads, any of them, and land. Each return is proved as the plan is:
+    separation, limits, zones, ground and endurance. The exit status is 1 if some second has no return.
 
-    Prints the certificate: for every claim what was asked, the worst that happens, when, and how that is
-    known. Of a plan, and of a flight from elsewhere:
+    The certificate that is printed has for every claim the limit, the worst value, its time, and how it is
+    known. Examples:
 
         shotc verify out/tower/plan.json --against tower.yaml
 

@@ -29,7 +29,7 @@ What = Annotated[str, typer.Argument(metavar="SPEC|PLAN", help="A mission, a pla
 def view(what: What) -> None:
     """Show a plan in the rerun viewer: the world, the camera's own view, the plots, on one clock.
 
-    A mission is planned first, and nothing is written. Example:
+    A mission is planned first; nothing is written. Example:
 
         shotc view out/tower
     """

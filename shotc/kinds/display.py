@@ -62,7 +62,7 @@ class DisplayShot(ShotBase):
     viewpoint: Position | None = Field(default=None, description="where the audience is")
     viewpoint_weight: Annotated[float, WeightType()] | None = Field(
         default=None,
-        description="0 for the best picture from the viewpoint, .inf for the best volume; 0.5 if silent",
+        description="0 for the best picture from the viewpoint, .inf for the best volume; 0.5 by default",
     )
     pyro: tuple[PyroSpec, ...] = Field(
         default=(), max_length=MOST_CUES, description="products that burn on its drones, and when"

@@ -33,7 +33,7 @@ class DollyZoomShot(ShotBase):
     distance: PositiveLengthSpan = Field(description="horizontal distance from the target's axis, [from, to]")
     altitude: CameraAltitude = Field(description="height of the camera over the target's foot")
     hfov: FieldOfView | None = Field(
-        default=None, description="field of view at the beginning; the camera's own if silent"
+        default=None, description="field of view at the beginning; the camera's own by default"
     )
 
 

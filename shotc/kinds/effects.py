@@ -40,7 +40,7 @@ class RampSpec(Model):
         min_length=2, max_length=MOST_COLORS, description="two colours or more, in order"
     )
     at: tuple[Share, ...] | None = Field(
-        default=None, description="where each colour is, from 0 to 1; evenly spread if silent"
+        default=None, description="where each colour is, from 0 to 1; evenly spread by default"
     )
     along: RampWay = Field(
         default="up",
@@ -48,10 +48,10 @@ class RampSpec(Model):
         "by the drones' numbers (index), or by the time",
     )
     center: Position | None = Field(
-        default=None, description="from where `out` and `in` count; the picture's middle if silent"
+        default=None, description="from where `out` and `in` count; the picture's middle by default"
     )
     period: Period | None = Field(
-        default=None, description="time in which the colours go once past every light; they stand if silent"
+        default=None, description="time in which the colours go once past every light; they stand by default"
     )
 
 
@@ -61,7 +61,7 @@ class ChaseSpec(Model):
     color: LightColor = Field(default=(255, 255, 255), description="of the band")
     along: Way = Field(default="right", description="where it goes, as of a ramp")
     center: Position | None = Field(
-        default=None, description="from where `out` and `in` count; the picture's middle if silent"
+        default=None, description="from where `out` and `in` count; the picture's middle by default"
     )
     period: Period = Field(description="time in which it goes once through the picture")
     length: PositiveShare = Field(default=0.25, description="of the band, as a share of the picture")
@@ -84,7 +84,7 @@ class ImageSpec(Model):
         description="it covers all lights, all of it lies within them (contain), or both (stretch)",
     )
     period: Period | None = Field(
-        default=None, description="time of all frames of a GIF, over and over; as the file says if silent"
+        default=None, description="time of all frames of a GIF, over and over; as the file says by default"
     )
 
 
@@ -145,8 +145,8 @@ class DisplayEffectSpec(EffectSpec):
     """One effect over all pictures of a display."""
 
     from_: MarkSpec | None = Field(
-        default=None, alias="from", description="when it begins: seconds, or {frame: 2}; at once if silent"
+        default=None, alias="from", description="when it begins: seconds, or {frame: 2}; at once by default"
     )
     until: MarkSpec | None = Field(
-        default=None, description="when it ends: seconds, or {frame: 3}; with the display if silent"
+        default=None, description="when it ends: seconds, or {frame: 3}; with the display by default"
     )

@@ -88,7 +88,7 @@ class FilesSpec(Model):
     files: RelativePath = Field(description="PLY, OBJ, STL or GLB: one file, or a pattern such as walk/*.ply")
     period: Duration | None = Field(default=None, description="time from frame to frame, of several")
     center: Position | None = Field(
-        default=None, description="where the middle of the first frame goes; where it is if silent"
+        default=None, description="where the middle of the first frame goes; where it is by default"
     )
     height: PositiveLength | None = Field(
         default=None, description="height to which the first frame is scaled, whatever the units of the file"
@@ -97,7 +97,7 @@ class FilesSpec(Model):
         default=None, description="length of one unit of the files; GLB files are in metres"
     )
     up: Literal["x", "y", "z"] | None = Field(
-        default=None, description="axis of the files that points up; y of OBJ and GLB, z of others if silent"
+        default=None, description="axis of the files that points up; y of OBJ and GLB, z of others by default"
     )
     heading: Angle = Field(default=0.0, description="compass bearing to which all are turned")
 
@@ -117,7 +117,7 @@ class WaveSpec(QuantityModel):
         default="goal", description="places that it goes through: those of this picture, or those before it"
     )
     center: Position | None = Field(
-        default=None, description="from where `out` and `in` count; the picture's middle if silent"
+        default=None, description="from where `out` and `in` count; the picture's middle by default"
     )
 
 
@@ -135,12 +135,12 @@ class TransitionSpec(QuantityModel):
     SHORT: ClassVar = ("duration", Quantity("Duration", "duration", SMALLEST["duration"]))
 
     duration: Duration | None = Field(
-        default=None, description="how long it takes; as fast as the pace allows if silent"
+        default=None, description="how long it takes; as fast as the pace allows by default"
     )
     path: Literal["auto", "straight", "arc"] = Field(
         default="auto",
         description="straight lines, or arcs on which pictures may be as dense as the separation allows; "
-        "straight where that is proved if silent",
+        "straight where that is proved by default",
     )
     easing: Easing = Field(
         default="ease-in-out",
@@ -148,7 +148,8 @@ class TransitionSpec(QuantityModel):
         "(linear), slow at its beginning (ease-in) or at its end (ease-out)",
     )
     wave: WaveSpec | None = Field(
-        default=None, description="drones set out one after another, on straight lines; all at once if silent"
+        default=None,
+        description="drones set out one after another, on straight lines; all at once by default",
     )
 
 
@@ -167,14 +168,14 @@ class PictureSpec(Model):
     model: FilesSpec | None = Field(default=None, description="meshes or point clouds, one or many")
     fill: Literal["volume", "surface", "outline"] | None = Field(
         default=None,
-        description="where the drones stand: all of its inside, its surface, or edges of it; "
-        "its inside if silent, of a text the edges where they read better",
+        description="where the drones stand: all of its inside, its surface, or edges of it; its inside by "
+        "default, of a text the edges where they read better",
     )
     layers: Layers = Field(
         default=1, description="layers in depth of a text or a drawing: 2 look 1.4 times as dense, 4 twice"
     )
     color: LightColor | None = Field(
-        default=None, description="of all lights; the file's, or white, if silent"
+        default=None, description="of all lights; the file's, or white by default"
     )
     transition: TransitionSpec | None = Field(
         default=None, description="how drones come to it from the picture before: a time, or more of it"
@@ -189,7 +190,8 @@ class PictureSpec(Model):
     size: Size3 | None = Field(
         default=None,
         description="width, depth and height of the box about it that cameras frame, the depth along its "
-        "heading; where it is named, and no sphere, cube or torus, which have their own if silent",
+        "heading; where it is named, and no sphere, cube or torus, which have their own by "
+        "default",
     )
     effects: tuple[FrameEffectSpec, ...] = Field(
         default=(), max_length=MOST_EFFECTS, description="of its lights, the last on top"

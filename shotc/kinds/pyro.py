@@ -34,7 +34,7 @@ class PyroSpec(Model):
     )
     prefire: NonNegativeDuration = Field(default=0.0, description="from its ignition to when it is seen")
     pan: Angle = Field(default=0.0, description="where it points, clockwise from the nose of the drone")
-    tilt: Pitch = Field(default=-pi / 2, description="where it points, up positive; straight down if silent")
+    tilt: Pitch = Field(default=-pi / 2, description="where it points, up positive; straight down by default")
 
 
 class Cues(NamedTuple):

@@ -84,10 +84,10 @@ class LimitsSpec(Model):
     yaw_rate: AngularRate | None = Field(default=None, description="turning rate of the body")
     yaw_acceleration: AngularAcceleration | None = Field(default=None, description="its rate of change")
     tilt: Tilt | None = Field(
-        default=None, description="angle of the rotors' thrust from the vertical; not limited if silent"
+        default=None, description="angle of the rotors' thrust from the vertical; not limited by default"
     )
     thrust_to_weight: ThrustToWeight | None = Field(
-        default=None, description="thrust over weight, above 1; not limited if silent"
+        default=None, description="thrust over weight, above 1; not limited by default"
     )
 
 
@@ -106,10 +106,10 @@ class CameraSpec(Model):
     zoom: LengthRange | None = Field(
         default=None,
         description="[shortest, longest] focal length of a zoom lens, such as [24 mm, 70 mm]: on the "
-        "`sensor`, or on a frame 36 mm wide if silent",
+        "`sensor`, or on a frame 36 mm wide by default",
     )
     zoom_rate: AngularRate | None = Field(
-        default=None, description="how fast the field of view changes at most; 10 deg/s if silent"
+        default=None, description="how fast the field of view changes at most; 10 deg/s by default"
     )
     aperture: Annotated[float, ApertureType()] | None = Field(
         default=None, description="f-number of the lens, such as f/2.8: with it the depth of field is told"
@@ -117,13 +117,13 @@ class CameraSpec(Model):
     circle_of_confusion: Circle | None = Field(
         default=None,
         description="diameter on the sensor up to which a point counts as sharp; 0.03 mm of a sensor 36 mm "
-        "wide, and as much less as the sensor is narrower, if silent",
+        "wide, and as much less as the sensor is narrower by default",
     )
     shutter: Annotated[float, ShutterType()] | None = Field(
         default=None, description="time of exposure, such as 1/50 s: with it the motion blur is told"
     )
     pixels: Annotated[int, Integer("Pixels", 100, 20_000)] | None = Field(
-        default=None, description="width of the picture that motion blur is counted in; 3840 if silent"
+        default=None, description="width of the picture that motion blur is counted in; 3840 by default"
     )
     aspect: Aspect | None = Field(default=None, description='frame width over height, such as "16:9"')
 
@@ -259,7 +259,7 @@ class SafetySpec(Model):
     """What a drone does when something goes wrong."""
 
     link_lost: Literal["return", "hover", "land", "continue"] | None = Field(
-        default=None, description="what it does when its link is lost; the machine's own if silent"
+        default=None, description="what it does when its link is lost; the machine's own by default"
     )
     return_height: PositiveLength | None = Field(
         default=None, description="height above home at which it returns, over all that stands there"
@@ -282,7 +282,7 @@ class DroneSpec(Model):
     camera: CameraSpec = section("what its camera sees")
     radius: PositiveLength | None = Field(default=None, description="radius of the sphere round its body")
     endurance: Duration | None = Field(
-        default=None, description="longest time in the air; if silent, by the energy where power is known"
+        default=None, description="longest time in the air; by default, by the energy where power is known"
     )
     power: PowerSpec | None = Field(
         default=None, description="battery, mass and rotors, by which flights are held to their energy"

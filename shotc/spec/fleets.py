@@ -55,7 +55,7 @@ class SeparationSpec(QuantityModel):
 
     horizontal: PositiveLength = Field(description="least distance side by side")
     vertical: PositiveLength | None = Field(
-        default=None, description="least distance one above the other; the horizontal one if silent"
+        default=None, description="least distance one above the other; the horizontal one by default"
     )
     shape: Literal["ellipsoid", "cylinder"] = Field(
         default="ellipsoid", description="the volume that they keep free: round, or as strict at its rim"
@@ -75,7 +75,7 @@ class FleetSpec(Model):
     radius: PositiveLength | None = Field(default=None, description="radius of the sphere round each body")
     endurance: Duration | None = Field(default=None, description="longest time in the air")
     separation: SeparationSpec | None = Field(
-        default=None, description="how far apart they stay, one distance or several; the rules' if silent"
+        default=None, description="how far apart they stay, one distance or several; the rules' by default"
     )
     return_: Literal["any", "own"] = Field(
         default="any", alias="return", description="to which pad each comes home: any, or its own"

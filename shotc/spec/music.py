@@ -60,7 +60,7 @@ class MusicSpec(Model):
     start: NonNegativeDuration = Field(default=0.0, description="when it begins on the mission's clock")
     tempo: Tempo | None = Field(default=None, description="beats a minute, where they are even")
     first_beat: NonNegativeDuration | None = Field(
-        default=None, description="when the first of even beats falls in the song; 0 if silent"
+        default=None, description="when the first of even beats falls in the song; 0 by default"
     )
     beats: tuple[NonNegativeDuration, ...] = Field(
         default=(), max_length=MOST_BEATS, description="when every beat falls in the song, in order"

@@ -90,8 +90,8 @@ class Geodetic(OnMap):
 
     height: Annotated[float | AboveGround, HEIGHT] = Field(
         default=STANDING,
-        description="height over the plane through the origin, or {above: ground, height: ...}; "
-        "on the ground if silent",
+        description="height over the plane through the origin, or {above: ground, height: ...}; on the "
+        "ground by default",
     )
 
 

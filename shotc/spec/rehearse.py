@@ -29,7 +29,7 @@ class WindSpec(QuantityModel):
 
     speed: NonNegativeSpeed = Field(default=0.0, description="how fast it blows")
     from_: Heading | None = Field(
-        default=None, alias="from", description="compass bearing it comes from; any, if silent"
+        default=None, alias="from", description="compass bearing it comes from; any by default"
     )
 
 
@@ -48,7 +48,7 @@ class RehearsalPromiseSpec(Model):
     )
     clearance: NonNegativeLength | None = Field(
         default=None,
-        description="least distance from a drone's body to all else; 0 if silent: nothing is touched",
+        description="least distance from a drone's body to all else; 0 by default: nothing is touched",
     )
     stray: PositiveLength | None = Field(
         default=None, description="largest distance of a drone from where the plan has it"
@@ -59,7 +59,7 @@ class RehearsalPromiseSpec(Model):
 class RehearseSpec(Model):
     """How `shotc simulate` flies the mission, and what it asks of the runs; nothing else reads it."""
 
-    wind: WindSpec | None = Field(default=None, description="wind; that of the world if silent")
+    wind: WindSpec | None = Field(default=None, description="wind; that of the world by default")
     gusts: NonNegativeSpeed = Field(default=0.0, description="standard deviation of gusts, on each axis")
     gps: Literal["rtk", "plain"] = Field(
         default="rtk", description="satellite receivers of drones and targets: with corrections, or without"

@@ -25,7 +25,7 @@ class MutualVisibilitySpec(Model):
     """Whether the drones keep out of each other's pictures."""
 
     half_angle: Annotated[float, _HALF_ANGLE] | None = Field(
-        default=None, description="half the opening of the cone to keep free; the frame itself if silent"
+        default=None, description="half the opening of the cone to keep free; the frame itself by default"
     )
     strength: Literal["require", "prefer", "off"] = Field(default="require", description="how strictly")
 
@@ -35,13 +35,11 @@ class TransitClearanceSpec(Model):
 
     filmed: NonNegativeLength | None = Field(
         default=None,
-        description="least distance from a drone's body to a target that the mission films; "
-        f"{presets.TRANSIT_FILMED:g} m where there is room, if silent",
+        description=" m where there is room by default",
     )
     other: NonNegativeLength | None = Field(
         default=None,
-        description="least distance from a drone's body to any other target and to keep-out zones; "
-        f"{presets.TRANSIT_OTHER:g} m where there is room, if silent",
+        description=" m where there is room by default",
     )
 
 
@@ -61,7 +59,7 @@ class RulesSpec(Model):
     )
     max_height: Annotated[float, _MAX_HEIGHT] | None = Field(
         default=None,
-        description="greatest height of a drone above the ground, or off; a warning above 120 m if silent",
+        description="greatest height of a drone above the ground, or off; a warning above 120 m by default",
     )
     target_clearance: NonNegativeLength = Field(
         default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
@@ -73,16 +71,16 @@ class RulesSpec(Model):
     look_ahead: Annotated[float, _LOOK_AHEAD] | None = Field(
         default=None,
         description="largest angle between a drone's nose and the way it flies, between shots and in shots "
-        "that leave the heading free; not judged if silent",
+        "that leave the heading free; not judged by default",
     )
     transit_clearance: TransitClearanceSpec | None = Field(
         default=None,
         description="distances from a drone's body to targets and keep-out zones between shots: required "
-        "where written, kept where there is room if silent",
+        "where written, kept where there is room by default",
     )
     mutual_visibility: MutualVisibilitySpec | None = Field(
         default=None,
-        description="whether drones keep out of each other's pictures; prefer, by the frame, if silent",
+        description="whether drones keep out of each other's pictures; prefer, by the frame, is the default",
     )
     pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
     smoothing: Smoothing = Field(
@@ -100,9 +98,9 @@ class RulesSpec(Model):
 class OutputSpec(Model):
     """What is written out."""
 
-    rate: Frequency | None = Field(default=None, description="samples a second; 50, for shows 5, if silent")
+    rate: Frequency | None = Field(default=None, description="samples a second; 50, for shows 5 by default")
     emit: tuple[Name, ...] | None = Field(
         default=None,
         description=f"emitters to run; {', '.join(presets.EMIT)}, for shows {', '.join(presets.SHOW_EMIT)},"
-        " if silent; for machines of DJI `dji` or `litchi` instead of `mavlink`",
+        " by default; for machines of DJI `dji` or `litchi` instead of `mavlink`",
     )

@@ -151,12 +151,13 @@ class ShotBase(Model):
     focus: Annotated[str | float, FocusType()] | None = Field(
         default=None,
         description="name of the target that the lens is focused on, or a distance, for cameras with an "
-        "aperture; the target that is framed if silent",
+        "aperture; the target that is framed by default",
     )
     composition: CompositionSet | None = Field(
         default=None,
         description="where on screen the target may be: a set, a named point or [[u, v], ...]; the rules' "
-        "if silent; thirds includes the centre: to force a side, name a point such as left-third",
+        "by default; thirds includes the centre: to force a side, name a point such as "
+        "left-third",
     )
     pace: Pace | None = Field(default=None, description="share of the limits used where timing is auto")
     smoothing: Smoothing | None = Field(
@@ -194,7 +195,7 @@ class KeyframeSpec(Model):
     pitch: Pitch | None = Field(default=None, description="elevation of the camera, positive up")
     look_at: LookAt | None = Field(default=None, description="target or position to look at")
     target: Name | None = Field(
-        default=None, description="name of the target in this picture; the shot's if silent"
+        default=None, description="name of the target in this picture; the shot's by default"
     )
     box: BoxOnScreen | None = Field(
         default=None,
@@ -205,7 +206,7 @@ class KeyframeSpec(Model):
         default=None, description="where on screen the target goes; overrides composition"
     )
     hfov: FieldOfView | None = Field(
-        default=None, description="horizontal field of view; the drone's if silent"
+        default=None, description="horizontal field of view; the drone's by default"
     )
     hold: NonNegativeDuration = Field(default=0.0, description="how long the camera rests here")
     time: NonNegativeDuration | None = Field(

@@ -103,8 +103,8 @@ class TrackSpec(Model):
     lift: Lift | None = Field(
         default=None,
         description="height of the target's centre over the places of the track, or over the ground where "
-        "they have no height: half its own there if silent, else 0; {above: ground, height} leaves their "
-        "heights out",
+        "they have no height: half its own there by default, else 0; {above: ground, height} "
+        "leaves their heights out",
     )
     begins: NonNegativeDuration | None = Field(
         default=None,
@@ -151,7 +151,7 @@ class TargetSpec(Model):
         description="[length, width, height] of its box: along the way that it faces, across it, up",
     )
     heading: Angle | None = Field(
-        default=None, description="compass bearing of the length of a box that stands; 0 if silent"
+        default=None, description="compass bearing of the length of a box that stands; 0 by default"
     )
     parts: tuple[Name, ...] | None = Field(
         default=None,
@@ -166,7 +166,7 @@ class TargetSpec(Model):
     )
     top_speed: Speed | None = Field(
         default=None,
-        description="speed that it never exceeds: a track that does is a fault; 70 m/s if silent",
+        description="speed that it never exceeds: a track that does is a fault; 70 m/s by default",
     )
 
     @property
@@ -203,7 +203,7 @@ class SceneSpec(Model):
         description="compass bearing of the file's north: of its y axis, or where y is up, of minus z",
     )
     up: Literal["y", "z"] | None = Field(
-        default=None, description="the file's axis that points up; y in .glb and .obj, z in others, if silent"
+        default=None, description="the file's axis that points up; y in .glb and .obj, z in others by default"
     )
     units: Literal["m", "cm", "mm", "km", "ft", "in"] | None = Field(
         default=None, description="unit of the file's coordinates; .glb is in metres, others do not say it"
@@ -249,7 +249,7 @@ class WorldSpec(Model):
         default=None, description="footprints of buildings; drones keep clear of them"
     )
     terrain: TerrainSpec | None = Field(
-        default=None, description="ground that rises; the plane z = 0 if silent"
+        default=None, description="ground that rises; the plane z = 0 by default"
     )
     wind: WindSpec = section("wind; drones' speed counts through the air")
     zones: dict[Name, ZoneSpec] = Field(default={}, description="named volumes to keep in or out of")
