@@ -36,7 +36,7 @@ def test_the_plan_of_the_file_holds(run: Run, plan: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("40.0, 0.0, 20]", "40.0, 25.0, 20]", "keyframe 3, at is (40, 0, 20) in the plan, but (40, 25, 20) in"),
+        ("40.0, 0.0, 20]", "40.0, 25.0, 20]", "keyframe 3, at is (40, 0, 20) in the plan, but (40, 25, 20)"),
         ("endurance: 20 min", "endurance: 15 min", "endurance is 1200 in the plan, but 900 in the mission"),
         ("in_frame: 100 %", "in_frame: 90 %", "in_frame is 1 in the plan, but 0.9 in the mission"),
         ("radius: 3,", "radius: 2,", "zone `tree`, solid, radius is 3 in the plan, but 2 in the mission"),

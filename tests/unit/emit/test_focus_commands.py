@@ -39,9 +39,8 @@ def test_px4_focuses_in_metres_before_it_films_and_as_often_as_sharpness_asks() 
     assert {p[0] for p in told} == {3}
     # The tower is 60 m to the North, and so is where the camera looks: that is its depth all along.
     assert [p[1] for p in told] == [pytest.approx(60.0, abs=0.1)]
-    assert (
-        emission.notes[-2] == "px4 cam1: set by hand on the camera, as no file holds it: aperture f/0.95, shutter 1/50 s"
-    )
+    by_hand = "set by hand on the camera, as no file holds it"
+    assert emission.notes[-2] == f"px4 cam1: {by_hand}: aperture f/0.95, shutter 1/50 s"
 
 
 def test_a_depth_that_changes_is_followed_so_that_no_disc_is_half_of_what_is_sharp() -> None:

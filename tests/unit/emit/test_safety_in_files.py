@@ -63,7 +63,7 @@ def test_without_a_height_rally_points_are_as_high_as_the_flight() -> None:
 def test_vehicles_are_told_what_is_to_be_set_in_them(autopilot, asked, words) -> None:
     safety = None if asked is None else Safety(asked, 45.0, ())
     note = MAVLINK.emit(plan(straight(), autopilot=autopilot, safety=safety)).notes[-1]
-    assert note.startswith(f"{autopilot} cam1: the vehicle's own settings decide what happens when the link is lost")
+    assert note.startswith(f"{autopilot} cam1: the vehicle's own settings decide what happens when the link")
     assert words in note
 
 

@@ -43,7 +43,7 @@ def test_thirty_degrees_or_half_as_large_again(azimuth: float, distance: float, 
 def test_the_numbers_are_told() -> None:
     text = mission(still("a", 0, 20), still("b", 20, 16)).replace("rules: {", "rules: {ground_clearance: 0, ")
     (said,) = grammar(text)
-    assert "20 deg round it, which is then 1.2 times as large" in said.notes[0] or "1.3 times" in said.notes[0]
+    assert "20 deg round it, which is then 1.2 times as" in said.notes[0] or "1.3 times" in said.notes[0]
     assert said.help.startswith("begin `b` at [8.")
 
 

@@ -283,7 +283,7 @@ def _together(mission: MissionIR, course: StartedFraming) -> Iterator[Diagnostic
             f"{what} shot `{shot.id}` cannot all {'be had' if near else 'appear as asked'} at once",
             tuple(labels),
             tuple(notes),
-            "leave out what matters least, or write `require` for what matters most",
+            "leave out what matters least, or make what matters most a promise by `require`",
         )
 
 

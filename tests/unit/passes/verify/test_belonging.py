@@ -58,7 +58,7 @@ def without(index: int) -> Edit:
 
 EDITS: dict[str, tuple[Edit, str]] = {
     "a keyframe is moved": (both(2, at=[40.0, 25.0, 20.0]), "keyframe 3, at is (40, 25, 20) in the plan"),
-    "a keyframe is not placed": (both(1, placed=False), "placed is false in the plan, but true in the mission"),
+    "a keyframe is not placed": (both(1, placed=False), "placed is false in the plan, but true"),
     "a keyframe is left out": (without(2), "the plan has 4, the mission asks for 5"),
     "a hold is asked": (both(2, hold=3.0), "hold is 3 in the plan, but 0 in the mission"),
     "a time is asked": (both(2, time=15.0), "time is 15 in the plan, but nothing in the mission"),
@@ -70,7 +70,7 @@ EDITS: dict[str, tuple[Edit, str]] = {
     "no zone": (lambda d: d["mission"]["zones"].pop(0), "zones: `tree` is left out"),
     "an easier promise": (lambda d: shot(d)["promise"].update(in_frame=0.1), "in_frame is 0.1 in the plan"),
     "no promise": (lambda d: shot(d).update(promise=dict.fromkeys(shot(d)["promise"])), "screen_error is no"),
-    "no time": (lambda d: shot(d)["timing"].update(duration=None), "duration is nothing in the plan, but 30 in"),
+    "no time": (lambda d: shot(d)["timing"].update(duration=None), "duration is nothing in the plan, but 30"),
     "another lane": (lambda d: d["mission"]["origin"].update(lat_deg=10.0), "lat_deg is 10 in the plan"),
     "another text": (lambda d: d["source"].update(sha256="0" * 64), "source_sha256 is"),
     "another drone": (
