@@ -102,7 +102,10 @@ def _shot_findings(root: Mapping[str, Any], kinds: list[str]) -> list[Finding]:
 
 
 def _unknown_kind(path: KeyPath, kind: str, kinds: Iterable[str]) -> Finding:
-    return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", nearest(kind, kinds))
+    help_ = nearest(kind, kinds)
+    if "did you mean" not in help_:
+        help_ += "; `shotc list kinds` says what each does"
+    return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", help_)
 
 
 def _diagnostics(

@@ -7,7 +7,8 @@ from difflib import get_close_matches
 
 _LONGEST_WORD = 80
 _SHORTEST_PART = 3  # letters; shorter words are parts of too many others
-# What a key, or a name, is called elsewhere, where no likeness of letters would tell.
+# What a key, a kind or a name is called elsewhere, where no likeness of letters would tell. Of several
+# meanings the first that is known at the place counts.
 _MEANT = {
     "alt": "height",
     "altitude": "height",
@@ -22,7 +23,7 @@ _MEANT = {
     "name": "id",
     "type": "kind",
     "subject": "target",
-    "circle": "torus",
+    "circle": "torus orbit",
     "ring": "torus",
     "ball": "sphere",
     "box": "cube",
@@ -32,6 +33,22 @@ _MEANT = {
     "wide": "long",
     "american": "medium-full",
     "cowboy": "medium-full",
+    "around": "orbit",
+    "arc": "orbit",
+    "helix": "spiral",
+    "pedestal": "elevator",
+    "ascend": "elevator",
+    "boom": "crane",
+    "jib": "crane",
+    "truck": "lateral",
+    "follow": "chase",
+    "tracking": "chase",
+    "vertigo": "dolly-zoom",
+    "overhead": "top-down",
+    "hover": "static",
+    "waypoints": "keyframes",
+    "route": "follow-path",
+    "show": "display",
 }
 # Keys that people look for in a place where the language does not have them.
 _ELSEWHERE = {
@@ -51,8 +68,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     words = list(known)
     if slip := get_close_matches(word, words, n=1, cutoff=0.9):
         return slip[0]
-    if _MEANT.get(word) in words:
-        return _MEANT[word]
+    if meant := next((each for each in _MEANT.get(word, "").split() if each in words), None):
+        return meant
     if part := _in_full(word, words):
         return part
     close = get_close_matches(word, words, n=1, cutoff=0.6)

@@ -84,10 +84,22 @@ def test_the_help_names_what_was_meant(right, wrong, message, help_, loads):
         ("subject", ["target", "id"], "target"),
         ("subject", ["target", "subjects"], "subjects"),
         ("circle", ["sphere", "cube", "torus"], "torus"),
+        ("circle", ["orbit", "spiral"], "orbit"),
+        ("pedestal", ["crane", "elevator"], "elevator"),
     ],
 )
 def test_the_closest_word(word, known, meant):
     assert closest(word, known) == meant
+
+
+@pytest.mark.parametrize(
+    ("kind", "help_"),
+    [("follow", "did you mean `chase`?"), ("reveal", "`shotc list kinds` says what each does")],
+)
+def test_an_unknown_kind_of_shot_is_led_to_a_known_one_or_to_the_list(kind, help_, loads):
+    (found,) = loads(MISSION.replace("kind: orbit", f"kind: {kind}")).diagnostics
+    assert found.code == "S010"
+    assert found.help.endswith(help_)
 
 
 def test_a_value_behind_a_comment_sign_is_quoted_by_the_help(loads):
