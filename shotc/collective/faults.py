@@ -49,8 +49,8 @@ def _told(mission: MissionIR, row: Sequence[tuple[Return, Claim]]) -> Diagnostic
         (
             f"the nearest to one, from {found.time:g} s, breaks {claim.constraint}: {reached}, {needed} is "
             f"{'allowed' if claim.upper else 'needed'}{who}{at}",
-            "tried were the way over the pads from where it brakes, the one from its next stop, and the way "
-            "that it came",
+            "three ways were tried: over the pads from where it brakes, the same from its next stop, and "
+            "back as it came",
         ),
         _help(claim),
     )

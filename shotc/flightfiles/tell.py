@@ -98,9 +98,9 @@ def models(courses: Sequence[UntimedFlight]) -> Iterator[str]:
             yield f"{name}: speeds are judged on straight legs; nobody has published them on curves"
         slow = sum(leg.speed is None for leg in course.legs if leg.phase == "transit" and leg.within)
         if slow:
-            yield f"{name}: not judged is the speed of {slow} legs, for which the file has none"
+            yield f"{name}: not judged: the speed of {slow} legs, for which the file has none"
         if course.plan.ending:
-            yield f"{name}: not judged is what comes after the last waypoint: {course.plan.ending}"
+            yield f"{name}: not judged: what comes after the last waypoint: {course.plan.ending}"
 
 
 def rebuilt(films: Sequence[ClockedFlight], swarms: Sequence[Swarm]) -> Iterator[str]:
@@ -122,7 +122,7 @@ def rebuilt(films: Sequence[ClockedFlight], swarms: Sequence[Swarm]) -> Iterator
         between = max(flight.leeway.between for flight in flights)
         yield f"{name}: between its rows a flight within its limits is within {measure(between, 'm')} of that"
         if straight:
-            yield f"{name}: not judged is the acceleration, for want of the columns {', '.join(VELOCITY)}"
+            yield f"{name}: not judged: the acceleration, for want of the columns {', '.join(VELOCITY)}"
 
 
 def unjudged(mission: MissionIR, courses: Sequence[UntimedFlight], swarms: Sequence[Swarm]) -> Iterator[str]:

@@ -173,7 +173,7 @@ def test_an_output_that_this_plan_cannot_have_is_an_error_with_its_reason(run: R
     done = run("emit", str(plan), "--emit", "skyc,csv", "-o", "tables")
     assert done.code == 1
     assert "error[E114]: output `skyc` has no file for this plan" in done.err
-    assert "it holds the show of a fleet, here is none" in done.err
+    assert "it holds the show of a fleet, and the mission has none" in done.err
     assert {path.name for path in Path("tables").iterdir()} == {"trajectory.csv", "framing.csv"}
 
 

@@ -27,8 +27,8 @@ FORMAT = FileFormat(
 
 
 COPIED = (
-    "dji-fly: take off from the pad, heights count from there; the file takes the place of one that DJI Fly"
-    " has saved on the controller (shotc/docs/flying.md)"
+    "dji-fly: take off from the pad, heights count from there; the file replaces one that DJI Fly has "
+    "saved on the controller (shotc/docs/flying.md)"
 )
 
 

@@ -31,7 +31,7 @@ UNKNOWN_LENS = (
     " view of the drone"
 )
 OTHER_LENS = "film the shot with the field of view of the drone, or zoom by hand"
-UNPROMISED = ", and take its `require` out: no file can promise what a hand does"
+UNPROMISED = ", and remove its `require`: no file can promise a zoom by hand"
 TURN_LEAST = np.radians(1.0)  # of a camera on a drone that stands
 FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
 """What the files of an emitter are called."""
@@ -176,7 +176,7 @@ def beyond(
                 f" {at_least(max(each.worst, each.edge), 3)} half frames beside the plan",
                 (mission.origins.key(shot.path),),
                 (
-                    f"worst at t = {each.time:.1f} s, {at_least(each.mean, 3)} on average; meant are at most"
+                    f"worst at t = {each.time:.1f} s, {at_least(each.mean, 3)} on average; the aim is at most"
                     f" {WORST} and {MEAN} under every flight model",
                     reason,
                 ),

@@ -169,8 +169,8 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Lac
         f"{fleet.words} swells into {what} {to}: {metres} m are missing",
         (where, beside),
         (
-            "on arcs a fleet is up to 1.42 times as wide half-way as its wider picture; it was led over and "
-            "past what stands there, in vain",
+            "on arcs a fleet is up to 1.42 times as wide half-way as its wider picture; it was led over "
+            "and past what stands there, without success",
             f"straight ways need no such room: goals and pads {at_least(far)} m apart on a level, "
             f"{at_least(far / stretch(fleet.apart))} m upright, before and after, allow them",
         ),
@@ -188,7 +188,7 @@ def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tri
     if stretch(fleet.apart) != 1.0:
         apart += f", heights counted {stretch(fleet.apart):.2f} times"
     if tried.wider is not None:
-        apart += f"; {at_least(tried.wider)} times that would do"
+        apart += f"; {at_least(tried.wider)} times that would be enough"
     fewer = "larger pictures or fewer drones have them farther apart"
     if tried.longest > 0.0:
         help_ = f"write `{key[-1]}: {tried.longest:.2f} s`, the longest found that keeps them apart; {fewer}"
@@ -196,8 +196,8 @@ def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tri
         help_ = f"leave `wave` out; {fewer}"
     return Diagnostic(
         "D141",
-        f"in this wave two drones of `{fleet.name}` come within {near.attained:.2f} m of each other, and "
-        f"{fleet.apart.across:.2f} m is the least",
+        f"in this wave two drones of `{fleet.name}` come within {near.attained:.2f} m of each other; "
+        f"the separation is {fleet.apart.across:.2f} m",
         (
             mission.origins.value(key),
             mission.origins.value((*fleet.path, "separation"), "the separation"),
@@ -230,7 +230,7 @@ def never_seen(mission: MissionIR, effect: Effect, why: str) -> Diagnostic:
     label = mission.origins.value(effect.path)
     whole = effect.over == "display"
     help_ = "begin it earlier" if whole else "write `over: both`, or give the picture that time"
-    return Diagnostic("D099", "nobody will see this effect", (label,), (why,), help_)
+    return Diagnostic("D099", "this effect is never seen", (label,), (why,), help_)
 
 
 def bad_image(mission: MissionIR, effect: Effect, name: str, fault: FileFault) -> Diagnostic:

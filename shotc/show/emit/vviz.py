@@ -48,7 +48,9 @@ class VvizEmitter:
         """Return the file; nothing where no fleet flies."""
         mission, drones = plan.trajectory.keyframes.mission, count(plan)
         if drones == 0:
-            return Emission((), notes=("no .vviz is written: it holds the show of a fleet, here is none",))
+            return Emission(
+                (), notes=("no .vviz is written: it holds the show of a fleet, and the mission has none",)
+            )
         parts, large = partial(_parts, plan), drones > MANY_DRONES
         whole = b"" if large else b"".join(parts())
         file = Artifact(f"{file_name(mission.name)}.vviz", whole, parts if large else None)

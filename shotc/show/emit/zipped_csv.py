@@ -38,7 +38,9 @@ class ZippedCsv:
         """Return the archive; nothing where no fleet flies."""
         mission, drones = plan.trajectory.keyframes.mission, count(plan)
         if drones == 0:
-            return Emission((), notes=("no tables are zipped: they hold the show of a fleet, here is none",))
+            return Emission(
+                (), notes=("no tables are zipped: they hold the show of a fleet, and the mission has none",)
+            )
         parts = partial(archive_parts, _Members(plan))
         large = drones > MANY_DRONES
         whole = b"" if large else b"".join(parts())

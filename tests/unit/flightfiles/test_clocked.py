@@ -83,7 +83,7 @@ def test_rows_without_velocities_are_straight_lines() -> None:
     assert claims(report, "acceleration") == []
     notes = " ".join(report.notes)
     assert "straight from row to row" in notes
-    assert "not judged is the acceleration" in notes
+    assert "not judged: the acceleration" in notes
     assert codes(verified(("flight.csv", text.replace("15,60", "10,60").encode()), text=TEXT)) == ["V001"]
 
 

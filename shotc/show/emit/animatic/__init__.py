@@ -24,7 +24,9 @@ class AnimaticEmitter:
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return animatic.gif, nothing where no fleet shows anything; the same plan gives the same bytes."""
         if not any(flight.shown for flight in plan.trajectory.fleets):
-            return Emission((), notes=("animatic.gif is left out: it shows fleets, here is none",))
+            return Emission(
+                (), notes=("animatic.gif is left out: it shows fleets, and the mission has none",)
+            )
         from shotc.show.emit.animatic.film import film
 
         return Emission((Artifact("animatic.gif", film(plan)),))

@@ -26,7 +26,9 @@ class ContactSheetEmitter:
     def emit(self, plan: VerifiedIR) -> Emission:
         """Return contact-sheet.png, nothing where no fleet flies; the same plan gives the same bytes."""
         if not plan.trajectory.fleets:
-            return Emission((), notes=("contact-sheet.png is left out: it shows fleets, here is none",))
+            return Emission(
+                (), notes=("contact-sheet.png is left out: it shows fleets, and the mission has none",)
+            )
         from shotc.show.emit.contact_sheet.page import draw_page
 
         return Emission((Artifact("contact-sheet.png", draw_page(plan, DPI)),))

@@ -26,7 +26,9 @@ class SkycEmitter:
         mission = plan.trajectory.keyframes.mission
         count = sum(len(flight.coef) for flight in plan.trajectory.fleets)
         if count == 0:
-            return Emission((), notes=("no .skyc is written: it holds the show of a fleet, here is none",))
+            return Emission(
+                (), notes=("no .skyc is written: it holds the show of a fleet, and the mission has none",)
+            )
         if count > MOST_DRONES:
             return Emission((), (too_large(mission, count),))
         show = show_of(plan)

@@ -33,7 +33,7 @@ def no_origin(mission: MissionIR) -> Diagnostic:
         "E111",
         "the show file has no place on the globe: the mission has no world.origin",
         (mission.origins.key(("world",)),),
-        ("Skybrush shows it all the same, and asks for its place before it is flown",),
+        ("Skybrush plays it without a place, and asks for the place before the flight",),
         "add world.origin: {lat: ..., lon: ..., alt: ...}",
     )
 

@@ -28,7 +28,9 @@ def song_of(mission: MissionIR) -> Song:
     data = dict(mission.files).get(music.file)
     if not music.file.lower().endswith(".mp3"):
         return Song(
-            faults=(_not_carried(mission, "it is no MP3, which alone they play", "export it as MP3"),)
+            faults=(
+                _not_carried(mission, "it is no MP3, the only format that they play", "export it as MP3"),
+            )
         )
     if data is None:
         note = "a plan does not hold it, and the file was not at hand"

@@ -126,7 +126,7 @@ def test_what_is_planned_is_as_far_apart_as_it_has_to_be_and_what_is_refused_is_
         waves.faults.clear()
         assert least_sampled(ends, waves, again) >= APART.across - 1e-6
         assert not waves.faults
-    if " times that would do" in fault.notes[1]:
+    if " times that would be enough" in fault.notes[1]:
         factor = float(fault.notes[1].rsplit(" times that", 1)[0].rsplit(" ", 1)[1])
         middles = [0.5 * (at.min(axis=0) + at.max(axis=0)) for at in ends]
         before, after = (m + factor * (at - m) for m, at in zip(middles, ends, strict=True))
