@@ -68,7 +68,7 @@ class DisplayShot(ShotBase):
         default=(), max_length=MOST_CUES, description="products that burn on its drones, and when"
     )
     effects: tuple[DisplayEffectSpec, ...] = Field(
-        default=(), max_length=MOST_EFFECTS, description="of all its lights, over those of its frames"
+        default=(), max_length=MOST_EFFECTS, description="effects on all its lights, over those of its frames"
     )
 
 

@@ -51,27 +51,27 @@ class RampSpec(Model):
         default=None, description="from where `out` and `in` count; the picture's middle by default"
     )
     period: Period | None = Field(
-        default=None, description="time in which the colours go once past every light; they stand by default"
+        default=None, description="time in which the colours move once past every light; still by default"
     )
 
 
 class ChaseSpec(Model):
     """A band of light that goes through the picture, over and over."""
 
-    color: LightColor = Field(default=(255, 255, 255), description="of the band")
-    along: Way = Field(default="right", description="where it goes, as of a ramp")
+    color: LightColor = Field(default=(255, 255, 255), description="colour of the band")
+    along: Way = Field(default="right", description="where it goes, as in a ramp")
     center: Position | None = Field(
         default=None, description="from where `out` and `in` count; the picture's middle by default"
     )
     period: Period = Field(description="time in which it goes once through the picture")
-    length: PositiveShare = Field(default=0.25, description="of the band, as a share of the picture")
+    length: PositiveShare = Field(default=0.25, description="length of the band, as a share of the picture")
 
 
 class SparkleSpec(Model):
     """Lights that light up by chance, and go out again."""
 
-    color: LightColor = Field(default=(255, 255, 255), description="of a sparkle")
-    share: PositiveShare = Field(default=0.2, description="of the lights that do at any moment")
+    color: LightColor = Field(default=(255, 255, 255), description="colour of a sparkle")
+    share: PositiveShare = Field(default=0.2, description="share of the lights that sparkle at any moment")
     period: Period = Field(default=0.8, description="how long one takes to come and go")
 
 
@@ -81,7 +81,7 @@ class ImageSpec(Model):
     file: RelativePath = Field(description="a PNG or GIF file")
     fit: Fit = Field(
         default="cover",
-        description="it covers all lights, all of it lies within them (contain), or both (stretch)",
+        description="cover all lights, lie whole within them (contain), or both (stretch)",
     )
     period: Period | None = Field(
         default=None, description="time of all frames of a GIF, over and over; as the file says by default"
@@ -124,7 +124,8 @@ class EffectSpec(Model):
     sparkle: SparkleSpec | None = Field(default=None, description="lights that light up by chance")
     image: ImageSpec | None = Field(default=None, description="a PNG, or a GIF that moves")
     blend: Blend = Field(
-        default="mix", description="how it goes with what is below it: in its place, or channel by channel"
+        default="mix",
+        description="how it combines with what is below it: in its place, or channel by channel",
     )
     opacity: Share = Field(default=1.0, description="how much of it is seen")
     fade_in: NonNegativeDuration = Field(default=0.0, description="time in which it comes")
@@ -137,7 +138,7 @@ class FrameEffectSpec(EffectSpec):
     over: Literal["both", "hold", "transition"] = Field(
         default="both",
         description="while the picture stands, on the way to it, or with its colours, which come and go on "
-        "the ways to it and from it",
+        "the ways",
     )
 
 

@@ -67,7 +67,7 @@ class TextSpec(Model):
     text: Letters = Field(description="what it says, one line")
     center: Position = Field(description="middle of the text")
     height: PositiveLength = Field(description="height of its capitals")
-    heading: Angle = Field(default=0.0, description="the way one looks who reads it, compass bearing")
+    heading: Angle = Field(default=0.0, description="direction in which a reader looks, compass bearing")
     font: RelativePath | None = Field(
         default=None, description="a font file (.ttf, .otf), or the name of a font of the system"
     )
@@ -79,7 +79,7 @@ class DrawingSpec(Model):
     file: RelativePath = Field(description="an SVG file")
     center: Position = Field(description="middle of the drawing")
     height: PositiveLength = Field(description="height of the whole drawing")
-    heading: Angle = Field(default=0.0, description="the way one looks at it, compass bearing")
+    heading: Angle = Field(default=0.0, description="direction in which one looks at it, compass bearing")
 
 
 class FilesSpec(Model):
@@ -88,7 +88,7 @@ class FilesSpec(Model):
     files: RelativePath = Field(description="PLY, OBJ, STL or GLB: one file, or a pattern such as walk/*.ply")
     period: Duration | None = Field(default=None, description="time from frame to frame, of several")
     center: Position | None = Field(
-        default=None, description="where the middle of the first frame goes; where it is by default"
+        default=None, description="place of the middle of the first frame; unchanged by default"
     )
     height: PositiveLength | None = Field(
         default=None, description="height to which the first frame is scaled, whatever the units of the file"
@@ -175,7 +175,7 @@ class PictureSpec(Model):
         default=1, description="layers in depth of a text or a drawing: 2 look 1.4 times as dense, 4 twice"
     )
     color: LightColor | None = Field(
-        default=None, description="of all lights; the file's, or white by default"
+        default=None, description="colour of all lights; the file's, or white by default"
     )
     transition: TransitionSpec | None = Field(
         default=None, description="how drones come to it from the picture before: a time, or more of it"
@@ -186,7 +186,7 @@ class PictureSpec(Model):
         "the way to it begins",
     )
     hold: NonNegativeDuration = Field(default=0.0, description="how long its last frame stands")
-    name: Name | None = Field(default=None, description="what shots of cameras call it that film it")
+    name: Name | None = Field(default=None, description="name by which shots of cameras refer to it")
     size: Size3 | None = Field(
         default=None,
         description="width, depth and height of the box about it that cameras frame, the depth along its "
@@ -194,7 +194,7 @@ class PictureSpec(Model):
         "default",
     )
     effects: tuple[FrameEffectSpec, ...] = Field(
-        default=(), max_length=MOST_EFFECTS, description="of its lights, the last on top"
+        default=(), max_length=MOST_EFFECTS, description="effects on its lights, the last on top"
     )
 
 

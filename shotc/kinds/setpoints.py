@@ -15,7 +15,7 @@ WHAT = {"frame": "place on screen", "size": "size", "azimuth": "bearing", "eleva
 
 
 class ViewSpec(Model):
-    """The side from which a subject is seen; what is silent is free."""
+    """The side from which a subject is seen; a key that is not given is free."""
 
     azimuth: Angle | None = Field(default=None, description="compass bearing from the subject to the camera")
     elevation: Pitch | None = Field(default=None, description="how high the camera stands above the subject")
@@ -27,7 +27,7 @@ class ViewSpec(Model):
 
 
 class SetpointSpec(Model):
-    """How a subject is to appear from a time of the shot on; what is silent stays."""
+    """How a subject is to appear from a time of the shot on; a key that is not given stays."""
 
     time: Duration = Field(description="when it appears so, from the shot's start")
     frame: ScreenPoint | None = Field(default=None, description="where on screen its centre is then")

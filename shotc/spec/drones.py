@@ -112,7 +112,7 @@ class CameraSpec(Model):
         default=None, description="how fast the field of view changes at most; 10 deg/s by default"
     )
     aperture: Annotated[float, ApertureType()] | None = Field(
-        default=None, description="f-number of the lens, such as f/2.8: with it the depth of field is told"
+        default=None, description="f-number of the lens, such as f/2.8: gives the depth of field"
     )
     circle_of_confusion: Circle | None = Field(
         default=None,
@@ -120,7 +120,7 @@ class CameraSpec(Model):
         "wide, and as much less as the sensor is narrower by default",
     )
     shutter: Annotated[float, ShutterType()] | None = Field(
-        default=None, description="time of exposure, such as 1/50 s: with it the motion blur is told"
+        default=None, description="time of exposure, such as 1/50 s: gives the motion blur"
     )
     pixels: Annotated[int, Integer("Pixels", 100, 20_000)] | None = Field(
         default=None, description="width of the picture that motion blur is counted in; 3840 by default"
@@ -285,7 +285,7 @@ class DroneSpec(Model):
         default=None, description="longest time in the air; by default, by the energy where power is known"
     )
     power: PowerSpec | None = Field(
-        default=None, description="battery, mass and rotors, by which flights are held to their energy"
+        default=None, description="battery, mass and rotors, from which the energy of flights is proved"
     )
     safety: SafetySpec | None = Field(
         default=None, description="what it does when its link is lost, and where it may land"

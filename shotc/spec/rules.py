@@ -35,11 +35,13 @@ class TransitClearanceSpec(Model):
 
     filmed: NonNegativeLength | None = Field(
         default=None,
-        description=" m where there is room by default",
+        description="least distance from a drone's body to a target that the mission films; "
+        f"{presets.TRANSIT_FILMED:g} m where there is room by default",
     )
     other: NonNegativeLength | None = Field(
         default=None,
-        description=" m where there is room by default",
+        description="least distance from a drone's body to any other target and to keep-out zones; "
+        f"{presets.TRANSIT_OTHER:g} m where there is room by default",
     )
 
 
@@ -85,12 +87,11 @@ class RulesSpec(Model):
     pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
     smoothing: Smoothing = Field(
         default=presets.SMOOTHING,
-        description="how calm cameras are flown, against how near to what is asked: shorter movements are "
-        "smoothed away",
+        description="calm cameras against closeness to the ideal: shorter movements are smoothed away",
     )
     allow: Allowed = Field(
         default=(),
-        description="warnings of film grammar that are not told, by name, or hidden-subject, "
+        description="warnings of film grammar to accept, by name, or hidden-subject, "
         "soft-subject, motion-blur",
     )
 

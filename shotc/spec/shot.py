@@ -128,7 +128,7 @@ class RefineSpec(Model):
     """How refinement is used on a shot."""
 
     optional: Switch = Field(
-        default=False, description="whether the unrefined path will do where refinement fails"
+        default=False, description="whether the unrefined path is flown if refinement fails"
     )
 
 
@@ -162,8 +162,7 @@ class ShotBase(Model):
     pace: Pace | None = Field(default=None, description="share of the limits used where timing is auto")
     smoothing: Smoothing | None = Field(
         default=None,
-        description="how calm the camera is flown, against how near to what is asked: shorter movements are "
-        "smoothed away",
+        description="calm camera against closeness to the ideal: shorter movements are smoothed away",
     )
     size: ShotSize | None = Field(
         default=None,
@@ -177,7 +176,7 @@ class ShotBase(Model):
     )
     allow: Allowed = Field(
         default=(),
-        description="warnings of film grammar that are not told of this shot, by name, or hidden-subject, "
+        description="warnings of film grammar to accept in this shot, by name, or hidden-subject, "
         "soft-subject, motion-blur",
     )
 
