@@ -1,7 +1,8 @@
-"""Which headings are free: where ``rules.look_ahead`` can be kept while a shot is filmed.
+"""The headings to which ``rules.look_ahead`` applies while a shot is filmed.
 
-A camera that films nobody, and to which no heading is written, looks the way its path goes: it is led to look
-ahead with its body. Where a camera is bound by what it films, the body is free as far as the gimbal pans.
+A camera without a target and without a written heading looks along its path, and the rule applies to the
+camera. A camera with a target is bound by it; then the rule applies to the body, which is free within the
+gimbal's yaw range.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ from shotc.ir.mission import Shot
 
 
 def looks_along(shot: Shot) -> bool:
-    """Tell whether nothing but its path says where a shot's camera heads."""
+    """Return whether the path alone determines the heading of a shot's camera."""
     return (
         shot.ideal is None
         and len(shot.keyframes) > 1
@@ -25,7 +26,8 @@ def looks_along(shot: Shot) -> bool:
 
 
 def least_off_course(drone: Drone, aside: Array) -> Array:
-    """Return the least angle between a course and where the body may head, rad, of the shape of ``aside``.
+    """Return the least angle between the course and an admissible body heading, rad, in the shape of
+    ``aside``.
 
     aside : camera yaw less the course, rad, any winding
     """

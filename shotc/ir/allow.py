@@ -1,4 +1,4 @@
-"""Names by which a shot says that it does something on purpose (``Shot.allow``), as planning asks for."""
+"""Names of ``Shot.allow`` that planning reads: what a shot does on purpose."""
 
 from shotc.ir.mission import Shot
 
@@ -9,5 +9,5 @@ BLURRED = "motion-blur"
 
 
 def hidden_on_purpose(shot: Shot) -> bool:
-    """Tell whether a shot's target may be hidden: by its own word, or because it is to be revealed."""
+    """Return whether a shot's target may be hidden: the shot allows it, or it promises a reveal."""
     return HIDDEN in shot.allow or shot.promise.reveal is not None

@@ -1,4 +1,4 @@
-"""When a shot can begin, as far as the mission alone says so. Plain Python."""
+"""The earliest starts of shots, as far as they follow from the mission alone. Plain Python."""
 
 from functools import lru_cache
 
@@ -9,10 +9,10 @@ from shotc.ir.mission import MissionIR, Shot
 
 
 def known_start(mission: MissionIR, shot: Shot) -> float | None:
-    """Return the earliest mission time at which a shot can begin, seconds, or None where that is not known.
+    """Return the earliest mission time at which a shot can start, seconds, or None if it is unknown.
 
-    That is its `start`, or else the end of what it comes after: the shot that it waits for, and the one that
-    its drone flies before. An end is known where the beginning and the duration are.
+    It is the shot's `start`. Without one it is the end of the shots before it: the one that it waits for, and
+    the previous one of its drone. An end is known if the start and the duration are.
     """
     if shot.timing.start is not None:
         return shot.timing.start
@@ -20,7 +20,7 @@ def known_start(mission: MissionIR, shot: Shot) -> float | None:
 
 
 def first_start(mission: MissionIR, shot: Shot) -> float:
-    """Return when a shot begins, or where that is not known, when it may at the earliest."""
+    """Return the start of a shot, or if it is unknown a lower bound on it, seconds."""
     if shot.timing.start is not None:
         return shot.timing.start
     tracks = (mission.target(name).track for name in carriers(shot))
@@ -29,7 +29,7 @@ def first_start(mission: MissionIR, shot: Shot) -> float:
 
 
 def film_end(mission: MissionIR) -> float:
-    """Return when the last shot has ended, or if that is not known the longest time in the air, seconds."""
+    """Return the end of the last shot, or if it is unknown the longest endurance, seconds."""
     ends: list[float] = []
     for shot in mission.shots:
         begin, duration = known_start(mission, shot), shot.timing.duration
@@ -41,7 +41,7 @@ def film_end(mission: MissionIR) -> float:
 
 @lru_cache(maxsize=8)
 def _starts(shots: Same[tuple[Shot, ...]]) -> dict[str, float | None]:
-    """Return when each shot can begin, by id; asked for many times in a mission, and the same each time."""
+    """Return the earliest start of each shot by id; cached, because many parts use it."""
     starts: dict[str, float | None] = {}
     ends: dict[str, float | None] = {}
     last: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""Targets as solids, and where they and drones are over mission time."""
+"""Positions and shapes of targets over mission time, and positions of drones."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from shotc.ir.target import Target
 
 
 def moved(target: Target, t: Array) -> Array:
-    """Return by how much a target is away from its centre at mission time 0, shape (M, 3)."""
+    """Return the displacement of a target since mission time 0, metres, at times (M,), shape (M, 3)."""
     if target.track is None:
         return np.zeros((len(t), 3))
     return np.asarray(places(target.track, t) - np.array(target.centre))
 
 
 def parts_of_one(a: Target, b: Target, t: Array) -> Mask:
-    """Tell when two targets overlap or touch, at mission times of shape (M,).
+    """Return whether two targets overlap or touch at mission times (M,), shape (M,).
 
-    They are parts of one thing then, as a lantern and its tower, and neither hides the other.
+    Such targets are parts of one thing, as a lantern and its tower, and neither hides the other.
     """
     x, y, z = (np.array(a.centre) + moved(a, t) - np.array(b.centre) - moved(b, t)).T
     one = np.zeros(len(t), dtype=np.bool_)
@@ -33,7 +33,9 @@ def parts_of_one(a: Target, b: Target, t: Array) -> Mask:
 
 
 def shapes(target: Target, t: Array) -> TargetShape:
-    """Return the shape of a target at mission times of shape (M,); its course is an array where it turns."""
+    """Return the shape of a target at mission times (M,); if it turns, the shape holds its course as
+    arrays.
+    """
     if target.track is None or not target.shape.turns:
         return target.shape
     yaw = headings(target.track, t)
@@ -41,7 +43,9 @@ def shapes(target: Target, t: Array) -> TargetShape:
 
 
 def beside_body(target: Target, points: Array, t: Array) -> Array:
-    """Return places at mission times, (M, 3), as they are to a target's body at mission time 0."""
+    """Return points (M, 3) at mission times (M,) relative to the moving target, put beside the target as it
+    is at mission time 0, shape (M, 3).
+    """
     away = np.asarray(points - moved(target, t))
     if target.track is None or not target.shape.turns:
         return away
@@ -52,7 +56,7 @@ def beside_body(target: Target, points: Array, t: Array) -> Array:
 
 
 def from_body(target: Target, points: Array, t: Array) -> Array:
-    """Return places in W at mission times, (M, 3), that are given as ``beside_body`` does."""
+    """Return the points in W at mission times (M,), shape (M, 3): the inverse of ``beside_body``."""
     if target.track is None:
         return points
     if target.shape.turns:
@@ -64,10 +68,12 @@ def from_body(target: Target, points: Array, t: Array) -> Array:
 
 
 def standing_at(place: Array, times: Array) -> Array:
-    """Return the place of what stands, at times; shape (M, 3)."""
+    """Return the position of a standing body, shape (3,), repeated at times (M,), shape (M, 3)."""
     return np.tile(place, (len(times), 1))
 
 
 def flying(curve: Piecewise, times: Array) -> Array:
-    """Return where a drone is at times, before and after its flight on its pad; shape (M, 3)."""
+    """Return the position of a drone at times (M,), shape (M, 3); before and after its flight it is on its
+    pad.
+    """
     return np.asarray(curve(np.clip(times, curve.start, curve.end))[:, :3])

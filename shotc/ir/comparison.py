@@ -1,4 +1,4 @@
-"""A mission under several refiners: what each of them shows, in numbers and as motion."""
+"""Records of one mission under several refiners: the motion of each, and its measures."""
 
 from __future__ import annotations
 
@@ -13,18 +13,17 @@ from shotc.ir.trajectory import VerifiedIR
 
 
 class Score(NamedTuple):
-    """What one shot, or all, of one refiner are worth.
+    """The measures of one shot, or of all shots, under one refiner.
 
-    frames : how many samples of a target the shares are of
-    error_... : to the wanted place on screen, half frames: the mean, what 95 % of the frames do not exceed,
-        and the largest; infinite where it counts frames with the target behind the camera; None where
-        nothing is wanted
+    frames : number of samples of a target; the shares refer to it
+    error_... : distance on screen from the reference, half frames: mean, 95th percentile and maximum;
+        infinite if it includes frames with the target behind the camera; None without a reference
     in_frame, in_frame_four_points : share of frames with the whole target in the frame, by its exact
         silhouette and by the four points of Gebhardt and Hilliges; None without frames
-    visible : least share of a target's outline that nothing covers, in any frame; None without frames
-    jerk_rms : over the time filmed, m/s^3; turn_jerk_rms : of the camera's yaw and pitch together, rad/s^3
-    off_place : mean distance from where the shot would have the camera, metres; None where nothing says
-    duration : time filmed, seconds
+    visible : least free share of a target's outline in any frame; None without frames
+    jerk_rms : over the filmed time, m/s^3; turn_jerk_rms : of the camera's yaw and pitch together, rad/s^3
+    off_place : mean distance of the camera from its ideal, metres; None without an ideal
+    duration : filmed time, seconds
     """
 
     frames: int
@@ -44,10 +43,10 @@ class Score(NamedTuple):
 class Trace:
     """One target over one shot, every array of shape (M,).
 
-    times : seconds of mission time; share : how much of the shot's time is over, 0 to 1
-    error : half frames, infinite behind the camera, NaN where no place is wanted
-    margin : how far inside the frame's nearest edge the whole target lies, metres
-    points : whether its four points are in the frame; covered : share of its outline that something covers
+    times : mission time, seconds; share : elapsed share of the shot's time, 0 to 1
+    error : distance on screen from the reference, half frames; infinite behind the camera, NaN without one
+    margin : distance of the whole target from the frame's nearest edge, metres, positive inside
+    points : whether its four points are in the frame; covered : covered share of its outline
     """
 
     target: str
@@ -60,10 +59,11 @@ class Trace:
 
 
 class MotionMeasures(NamedTuple):
-    """How a camera moves over the time filmed, as integrals over it.
+    """Measures of a camera's motion as integrals over the filmed time.
 
-    jerk : of its square, m^2/s^5; turn_jerk : of that of its yaw and pitch, rad^2/s^5
-    off_place : of the distance from where the shot would have the camera, m s, over ``placed`` seconds
+    jerk : of the squared jerk, m^2/s^5; turn_jerk : of that of its yaw and pitch, rad^2/s^5
+    off_place : of the distance from the ideal, m s, over ``placed`` seconds
+    duration : filmed time, seconds
     """
 
     jerk: float
@@ -75,10 +75,10 @@ class MotionMeasures(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FlownShot:
-    """One shot as one refiner has it flown.
+    """One shot as planned by one refiner.
 
     start, end : seconds of mission time
-    rounds : how often the refiner solved it, None where it does not say
+    rounds : number of solves by the refiner, None if it does not report it
     """
 
     id: str
@@ -95,11 +95,11 @@ class FlownShot:
 class Condition:
     """A mission under one refiner, with one smoothing.
 
-    smoothing : seconds, of all its shots, where it is not the mission's
-    plan : None where the refiner gives none that may be flown, and then ``faults`` say why; it is held to
-        every limit, but not to what shots promise
-    broken : promises that it breaks; convex : warnings of shots that fly the convex path instead
-    seconds : that the refiner took, by the clock
+    smoothing : seconds, for all shots, if it replaces the mission's
+    plan : None if the refiner gives no plan that may be flown; then ``faults`` say why. The plan keeps every
+        limit, but need not keep the promises of shots
+    broken : the promises that it breaks; convex : warnings about shots that fly the convex path instead
+    seconds : wall time of the refiner
     """
 
     refiner: str
@@ -115,18 +115,19 @@ class Condition:
 
     @property
     def name(self) -> str:
-        """What it is called: its refiner, and the smoothing that it is tried with."""
+        """The name of the refiner, with the smoothing if there is one."""
         return (
             self.refiner if self.smoothing is None else f"{self.refiner}, smoothing {written(self.smoothing)}"
         )
 
 
 class Difference(NamedTuple):
-    """How a shot under one condition differs from the same one under another.
+    """The difference of a shot between two conditions.
 
-    mean : over the shot, of the metres between the cameras plus the degrees between where they look
-    time, other_time : of the frames at which that sum is largest, seconds of mission time
-    metres, degrees : there
+    mean : mean over the shot of the distance between the cameras in metres plus the angle between their axes
+        in degrees
+    time, other_time : mission times of the frames at which that sum is largest, seconds
+    metres, degrees : the two terms there
     """
 
     shot: str
@@ -141,9 +142,9 @@ class Difference(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Comparison:
-    """One mission under several refiners, in the order they were asked for.
+    """One mission under several refiners, in the order of the request.
 
-    differences : of each condition from the last one with a plan, its shots with the greatest first
+    differences : of each condition from the last condition with a plan, the greatest first
     """
 
     mission: MissionIR

@@ -1,8 +1,8 @@
-"""How much of a target's outline is covered, instant by instant, and by what.
+"""The covered share of a target's outline, frame by frame, and the things that cover it.
 
-The outline is all that the camera sees of the target, whether that is in the picture or beyond its edge: how
-much of it the frame cuts off is another question (``Frames.in_frame``). What covers it are the things that
-``ir.occlusion`` names; those that touch the target at that instant are parts of one thing with it.
+The outline is the whole silhouette of the target, inside and outside the frame; ``Frames.in_frame`` tells
+what the frame cuts off. The occluders are those of ``ir.occlusion``. An occluder that touches the target at
+that instant is a part of the same thing and covers nothing.
 """
 
 from __future__ import annotations
@@ -40,17 +40,17 @@ from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 
 FRAMES_AT_ONCE = 512
-"""Frames whose rays fit the cache."""
+"""Frames that are processed together, so that their rays fit the processor's cache."""
 
 HALF_SHARE = 0.5
-"""Of an outline: in a frame that leaves less of it free the target is hidden."""
+"""Share of the outline: a target with a smaller free share counts as hidden in that frame."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coverage:
-    """How much of a target's outline is covered in M frames.
+    """The covered share of a target's outline in M frames.
 
-    share : of the outline, by anything, 0 to 1, shape (M,); by : the same by each thing, by sort and name
+    share : covered by anything, 0 to 1, shape (M,); by : the same for each occluder, with its sort and name
     """
 
     share: Array
@@ -60,9 +60,10 @@ class Coverage:
 def coverage(
     mission: MissionIR, others: Sequence[DroneTrajectory], target: str, eyes: Array, t: Array
 ) -> Coverage:
-    """Return how much of a target's outline is covered from eyes (M, 3) at mission times (M,).
+    """Return the covered share of a target's outline from eyes (M, 3), metres, at mission times (M,),
+    seconds.
 
-    others : flights of the drones that count
+    others : flights of the drones that count as occluders
     """
     filmed = mission.target(target)
     if _alone(mission, others):
@@ -77,7 +78,10 @@ def coverage(
 
 
 def covered_by_parts(mission: MissionIR, before: NamedParts, target: str, eyes: Array, t: Array) -> Coverage:
-    """Return how much of a target's outline a mesh covers, and each of its parts by name, as ``coverage``."""
+    """Return the share of a target's outline that a mesh covers, and that each of its named parts covers.
+
+    Arguments as in ``coverage``; before : the mesh without the target's own triangles
+    """
     filmed = mission.target(target)
     own = outline_boards(filmed.shape, filmed.centre, beside_body(filmed, eyes, t))
     rays = outline_rays(filmed.shape, filmed.centre, own).mapped(partial(from_body, filmed, t=t))
@@ -94,16 +98,16 @@ def covered_by_parts(mission: MissionIR, before: NamedParts, target: str, eyes: 
 
 
 def _alone(mission: MissionIR, others: Sequence[DroneTrajectory]) -> bool:
-    """Tell whether a mission has nothing that could cover its only target."""
+    """Return whether a mission has nothing that could cover its only target."""
     around = mission.opaque_zones or others or mission.meshes or mission.terrain
     return not (around or len(mission.targets) > 1)
 
 
 class _Thing(NamedTuple):
-    """What may cover a target, by sort and name.
+    """A possible occluder of a target, with its sort and name.
 
-    may    : in which frames a ray may come to it, shape (F,)
-    covers : tells which of some rays it is in the way of; given them, and in which frames they are, (F,)
+    may    : the frames in which it may cover a ray, shape (F,)
+    covers : returns which rays it covers, from the rays and the mask (F,) of the frames that they belong to
     """
 
     name: str
@@ -117,7 +121,7 @@ def _part(
     beside = outline_boards(filmed.shape, filmed.centre, beside_body(filmed, eyes, t))
     boards = beside.boards.mapped(partial(from_body, filmed, t=t))
     things = list(_things(mission, others, filmed, boards, t))
-    # Most frames have nothing in the way: no rays are drawn there.
+    # Most frames have no occluder near. They need no rays.
     some = np.any([np.zeros(len(t), dtype=bool), *(thing.may for thing in things)], axis=0)
     own = outline_rays(filmed.shape, filmed.centre, beside.pick(some))
     rays = own.mapped(partial(from_body, filmed, t=t[some]))
@@ -130,7 +134,7 @@ def _part(
 
 
 def _over(some: Mask, shares: Array) -> Array:
-    """Return shares of some frames as those of all, (F,): 0 in the others."""
+    """Return the shares of all frames, (F,), from those of some frames; the others have 0."""
     out = np.zeros(len(some))
     out[some] = shares
     return out
@@ -139,7 +143,9 @@ def _over(some: Mask, shares: Array) -> Array:
 def _things(
     mission: MissionIR, others: Sequence[DroneTrajectory], filmed: Target, boards: Billboards, t: Array
 ) -> Iterator[_Thing]:
-    """Yield what may cover a target; boards : what its outline is within in each frame."""
+    """Yield the possible occluders of a target; boards : the bounding rectangle of its outline in each
+    frame.
+    """
     for zone in mission.opaque_zones:
         yield _Thing(f"zone {zone.name}", near_solid(boards, zone.solid), partial(_by_solid, zone.solid))
     one = mission.one_with(filmed.name)
@@ -163,7 +169,7 @@ def _by_ball(ball: Array, radius: float, rays: OutlineRays, some: Mask) -> Mask:
 
 
 def _beside(name: str, surface: Surface, boards: Billboards) -> _Thing:
-    """Return a surface as what may cover a target."""
+    """Return a surface as a possible occluder."""
     pairs = in_the_way(surface, boards, CELLS)
     may = np.zeros(len(boards), dtype=bool)
     may[pairs.item] = True
@@ -176,7 +182,7 @@ def _beside(name: str, surface: Surface, boards: Billboards) -> _Thing:
 
 
 def _before(filmed: Target, other: Target, boards: Billboards, t: Array) -> _Thing:
-    """Return another target as what may cover one."""
+    """Return another target as a possible occluder."""
     apart = ~parts_of_one(filmed, other, t)
     beside = boards.mapped(partial(beside_body, other, t=t))
     may = [near_solid(beside, solid) for solid in _solids(other)]
@@ -196,7 +202,7 @@ def _covered_by_target(rays: OutlineRays, other: Target, t: Array) -> Mask:
 
 
 def _solids(target: Target) -> Iterator[Solid]:
-    """Yield the bodies of a target as they stand at mission time 0."""
+    """Yield the bodies of a target at mission time 0."""
     for body in bodies_of(target.shape):
         x, y, z = (np.array(target.centre) + np.array(body.offset)).tolist()
         yield body.shape.solid((x, y, z))

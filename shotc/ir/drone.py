@@ -1,4 +1,4 @@
-"""A drone with its camera, as planning takes it. Plain Python."""
+"""A drone and its camera as resolved for planning. Plain Python."""
 
 from math import radians
 from typing import Literal, NamedTuple
@@ -10,11 +10,11 @@ from shotc.ir.power import Power
 from shotc.ir.source import ZOOM_COMMANDS, Autopilot
 
 SAME_LENS_RAD = radians(0.01)
-"""By how much a field of view may be beyond those of a lens: it is rounding."""
+"""Tolerance of a field of view beyond the ends of a lens, for rounding."""
 
 
 class Gimbal(NamedTuple):
-    """Camera angles the gimbal reaches: pitch against the horizon, yaw against the body.
+    """The angles that the gimbal reaches: pitch from the horizon, yaw from the body.
 
     pitch, yaw : (lowest, highest), rad; rate, acceleration : per axis, rad/s, rad/s^2
     """
@@ -25,16 +25,16 @@ class Gimbal(NamedTuple):
     acceleration: float
 
     def reaches(self, pitch: float) -> bool:
-        """Tell whether the camera comes to a pitch, rad."""
+        """Return whether the camera reaches a pitch, rad."""
         return reaches(self.pitch, pitch)
 
 
 class LensRange(NamedTuple):
-    """What a camera's lens shows.
+    """The fields of view of a camera's lens.
 
-    longest, widest : horizontal fields of view at its ends, rad; of a fixed lens both are the same
-    rate : how fast the field of view changes at most, rad/s; 0 of a fixed lens
-    frame : width of the picture that its focal lengths count on, m
+    longest, widest : horizontal fields of view at its ends, rad; equal for a fixed lens
+    rate : largest rate of the field of view, rad/s; 0 for a fixed lens
+    frame : width of the picture to which its focal lengths refer, m
     """
 
     longest: float
@@ -44,26 +44,26 @@ class LensRange(NamedTuple):
 
     @property
     def zooms(self) -> bool:
-        """Tell whether it has more than one field of view."""
+        """Whether it has more than one field of view."""
         return self.longest < self.widest
 
     def shows(self, hfov: float) -> bool:
-        """Tell whether it has this field of view, rad, to a hundredth of a degree."""
+        """Return whether it has this field of view, rad, to a hundredth of a degree."""
         return self.longest - SAME_LENS_RAD <= hfov <= self.widest + SAME_LENS_RAD
 
     def focal(self, hfov: float) -> float:
-        """Return the focal length, m, at which it has a field of view, rad."""
+        """Return the focal length, m, of a field of view, rad."""
         return focal_length(hfov, self.frame)
 
 
 class Optics(NamedTuple):
-    """What a camera exposes with, where the mission says it.
+    """The sensor, aperture and shutter of a camera, as far as the mission states them.
 
-    sensor : width of the area that takes the picture, m; None where nobody says: a full frame is taken then
-    aperture : f-number, None where the mission is silent: no depth of field is told then
-    circle : diameter of the disc on the sensor up to which a point counts as sharp, m
-    shutter : time of exposure, s, None where the mission is silent: no motion blur is told then
-    pixels : of the picture's width
+    sensor : width of the exposed area, m; None if unknown, then a full frame is assumed
+    aperture : f-number; None if unknown, then no depth of field is computed
+    circle : diameter of the circle of confusion on the sensor, m
+    shutter : exposure time, s; None if unknown, then no motion blur is computed
+    pixels : width of the picture in pixels
     """
 
     sensor: float | None
@@ -74,7 +74,7 @@ class Optics(NamedTuple):
 
     @property
     def width(self) -> float:
-        """Width of the sensor, or of the full frame that is taken for it, m."""
+        """Width of the sensor, or of a full frame if it is unknown, m."""
         return self.sensor or FULL_FRAME_M
 
 
@@ -82,9 +82,9 @@ LinkLost = Literal["return", "hover", "land", "continue"]
 
 
 class Safety(NamedTuple):
-    """What a drone does when something goes wrong, as far as the mission says it.
+    """What a drone does on a failure, as far as the mission states it.
 
-    return_height : above its home, m; rally : places of W where it may land instead of there
+    return_height : above its home, m; rally : places of W where it may land instead of at home
     """
 
     link_lost: LinkLost | None
@@ -96,12 +96,12 @@ class Drone(NamedTuple):
     """A drone with its presets filled in.
 
     home : p_WB at rest on its pad
-    hfov : horizontal field of view, rad, where a shot asks for no other; aspect : width / height
-    radius : of the body sphere, m; endurance : s, of a drone whose battery is known what that hovers
-    power : its battery and rotors, None where nobody knows them
-    lens : None where nobody says what the camera carries
-    optics : None where the mission says neither aperture nor shutter
-    safety : None where the mission is silent
+    hfov : horizontal field of view of shots that state none, rad; aspect : width / height
+    radius : of the body sphere, m; endurance : s; the time of hovering if the battery is known
+    power : battery and rotors, None if unknown
+    lens : None if unknown
+    optics : None if the mission states neither aperture nor shutter
+    safety : None if the mission states none
     """
 
     name: str
@@ -124,17 +124,19 @@ class Drone(NamedTuple):
 
     @property
     def zooms(self) -> bool:
-        """Tell whether its lens is known to zoom, so that a file may command its field of view."""
+        """Whether its lens is known to zoom, so that a file may command its field of view."""
         return self.lens is not None and self.lens.zooms
 
     @property
     def zooms_unasked(self) -> bool:
-        """Tell whether a plan may zoom where the mission asks for one field of view: its files carry that."""
+        """Whether a plan may zoom in a shot of one field of view: the files of its autopilot can command
+        it.
+        """
         return self.zooms and self.autopilot in ZOOM_COMMANDS
 
     @property
     def lasts(self) -> str:
-        """How long it can stay in the air, in words, and by what."""
+        """Its endurance in words, with the energy and the power that it follows from."""
         if self.power is None:
             return f"{self.endurance:.1f} s"
         usable, kept = self.power.usable / 3600.0, 100 * self.power.reserve

@@ -1,7 +1,7 @@
-"""Effects of lights as a mission asks for them, resolved. Plain Python, no numpy; part of MissionIR.
+"""Light effects of a mission, resolved. Plain Python, no numpy; part of MissionIR.
 
-An effect gives every light a colour and a weight at every moment, by where it is, by its number or by the
-time, and is laid over what is below it in its stack.
+An effect gives every light a colour and a weight at every time, as a function of the drone's position, its
+number or the time. It is blended over what is below it in its stack.
 """
 
 from typing import Literal, NamedTuple
@@ -12,32 +12,32 @@ from shotc.ir.origin import KeyPath
 Color = tuple[int, int, int]
 
 LIGHT_RATE = 25.0
-"""Moments a second at which effects are evaluated, Hz; between two of them lights change evenly."""
+"""Rate at which effects are evaluated, Hz; lights are linear between two samples."""
 
 LEAST_PERIOD = 5.0 / LIGHT_RATE
-"""Seconds of the shortest cycle of an effect: below it too few moments show it."""
+"""Shortest cycle of an effect, seconds; a shorter one has too few samples."""
 
 LEAST_PASS = 2.0 / LIGHT_RATE
-"""Seconds for which a band of light lies on a light, at least: else some moments miss it."""
+"""Least time for which a band of light covers a drone, seconds; with less, samples can miss it."""
 
 Way = Literal[
     "up", "down", "east", "west", "north", "south", "right", "left", "away", "near", "out", "in", "index"
 ]
-"""Where an effect goes: along an axis, as the audience sees it, from a middle, or by the drones' numbers."""
+"""The direction of an effect: along an axis, as the audience sees it, from a centre, or by drone numbers."""
 
 RampWay = Literal[Way, "time"]
 
 Blend = Literal["mix", "add", "multiply", "screen", "lighten", "darken"]
 
 Over = Literal["both", "hold", "transition", "display"]
-"""When an effect of a picture counts: with its colours, while it stands, or on the way to it; or that it is
-one of a whole display."""
+"""When an effect of a picture applies: hold and transition, the hold alone, or the transition alone.
+"display" is an effect of a whole display."""
 
 Fit = Literal["cover", "contain", "stretch"]
 
 
 class Fade(NamedTuple):
-    """All lights change to a colour, or from it; seconds : how long it takes, None for as long as it can."""
+    """All lights change to a colour, or from it; seconds : duration, None for the longest possible."""
 
     color: Color
     to: bool
@@ -45,10 +45,10 @@ class Fade(NamedTuple):
 
 
 class Ramp(NamedTuple):
-    """Colours that run into each other; at : where each of them is, from 0 to 1, rising.
+    """A colour gradient; at : position of each colour, from 0 to 1, rising.
 
-    along : None by the time; center : p_W from which `out` and `in` count, None for the picture's middle
-    period : seconds in which the colours go once past a light, over and over, or None
+    along : direction in space, None for time; center : p_W for `out` and `in`, None for the picture's middle
+    period : seconds in which the gradient passes a light once, repeated, or None
     """
 
     colors: tuple[Color, ...]
@@ -59,7 +59,9 @@ class Ramp(NamedTuple):
 
 
 class Chase(NamedTuple):
-    """A band of light that goes through the picture once a period; length : of it, as a share of the way."""
+    """A band of light that crosses the picture once a period; length : of the band, as a share of the
+    picture.
+    """
 
     color: Color
     along: Way
@@ -69,7 +71,7 @@ class Chase(NamedTuple):
 
 
 class Sparkle(NamedTuple):
-    """Lights that light up by chance; share : of them that do at any moment; period : seconds of one."""
+    """Lights that flash at random; share : of the lights that flash at any time; period : of one flash, s."""
 
     color: Color
     share: float
@@ -77,8 +79,8 @@ class Sparkle(NamedTuple):
 
 
 class Image(NamedTuple):
-    """A picture file thrown onto the lights from where the audience is; period : seconds of all its frames,
-    None as the file says.
+    """A picture file projected onto the lights from the audience; period : seconds of all its frames, None
+    for the times in the file.
     """
 
     file: str
@@ -90,9 +92,9 @@ Paint = Fade | Ramp | Chase | Sparkle | Image
 
 
 class Mark(NamedTuple):
-    """A moment of a display: seconds after its first picture stands, a picture of it, from 0, or a time, s.
+    """A time of a display: seconds after its first picture stands, the index of a picture, or ``time``.
 
-    time : on the mission's clock, where a beat of the music says it
+    time : mission time, s, if a beat of the music determines it
     """
 
     seconds: float | None
@@ -103,8 +105,8 @@ class Mark(NamedTuple):
 class Effect(NamedTuple):
     """One effect of a stack.
 
-    opacity : how much of it is seen, 0 to 1; fade_in, fade_out : seconds in which it comes and goes
-    since, until : of one over a display; None for the whole display
+    opacity : 0 to 1; fade_in, fade_out : durations of the fades, seconds
+    since, until : bounds of an effect over a display; None for the whole display
     """
 
     paint: Paint

@@ -1,4 +1,4 @@
-"""What lies between a fleet's pictures and its flight: GoalIR, ShowIR, and the flight itself.
+"""The representations between a fleet's pictures and its flight (GoalIR, ShowIR), and the flight itself.
 
 World frame W, metres, seconds; n drones in the order of their numbers (``Fleet.pads``).
 """
@@ -21,11 +21,11 @@ Colors = NDArray[np.uint8]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frame:
-    """A goal set: where the drones are to be for one frame of a picture, in no order yet.
+    """A goal set: the positions of the drones for one frame of a picture, not yet assigned to drones.
 
-    points : shape (n, 3); colors : shape (n, 3), red, green, blue
+    points : shape (n, 3), metres; colors : shape (n, 3), red, green, blue
     display : id of the shot; picture : index in it; index : of the frame in the picture
-    spare : how many of the goals, the last ones, are for drones that stay dark
+    spare : number of goals, at the end, for drones that stay dark
     """
 
     display: str
@@ -38,7 +38,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """When a frame stands: from ``start`` to ``end``, seconds, which are the same in an animation."""
+    """The time for which a frame stands: ``start`` to ``end``, seconds; they are equal in an animation."""
 
     display: str
     picture: int
@@ -49,11 +49,11 @@ class Shown:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lights:
-    """The drones' lights, linear between times and constant beyond; times (T,), colors (n, T, 3).
+    """The drones' lights: colors (n, T, 3) at times (T,), linear between them and constant beyond.
 
-    looks : what is laid over the colours of each picture; of : which of them holds at each time, -1 for none
-    over : effects that are laid over all of that, the last on top
-    Of a fleet without effects all three are empty.
+    looks : the effects over the colours of each picture; of : index of the look at each time, -1 for none
+    over : effects over all of that, the last on top
+    All three are empty for a fleet without effects.
     """
 
     times: Array
@@ -65,11 +65,11 @@ class Lights:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recorded:
-    """The flight of a display that another tool made, on a clock of its own, from 0 s.
+    """The flight of a display that another tool made, on its own clock from 0 s.
 
-    breaks : shape (P + 1,); coef : shape (n, P + 3, 3), as of FleetTrajectory, from a stop to a stop
-    up, down : when all have taken off, and when all begin to land; None where they do that by themselves
-    lights : by its clock; shown : the times of its frames
+    breaks : shape (P + 1,); coef : shape (n, P + 3, 3), as in FleetTrajectory, from rest to rest
+    up, down : times when all have taken off and when all begin to land; None where the plan adds these phases
+    lights : on its clock; shown : the times of its frames
     """
 
     display: str
@@ -83,9 +83,9 @@ class Recorded:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetGoals:
-    """The frames of all displays of one fleet, in the order they are shown.
+    """The frames of all displays of one fleet, in the order of the show.
 
-    recorded : those of its displays that are recorded flights
+    recorded : the displays that are recorded flights
     """
 
     fleet: str
@@ -107,7 +107,7 @@ class FleetTrajectory:
     """The flight of a fleet, from its pads to its pads, on one clock.
 
     breaks : shape (P + 1,), seconds from 0; coef : shape (n, P + 3, 3), as in geom.fleet_spline
-    phases : of all its drones, in order, without gaps
+    phases : of the whole fleet, in order, without gaps
     """
 
     fleet: str
@@ -120,9 +120,9 @@ class FleetTrajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShowIR:
-    """Fleets with their flights as far as they are planned.
+    """Fleets with the current state of their flights.
 
-    wanted : for each fleet the control points that its goals ask for, before limits and separation
+    wanted : for each fleet the control points that follow from its goals, before limits and separation
     """
 
     goals: GoalIR
@@ -132,7 +132,7 @@ class ShowIR:
 
 
 def standing(mission: MissionIR, fleets: tuple[FleetTrajectory, ...], name: str | None) -> Shown | None:
-    """Return when the picture of a name stands, its last frame of several; None where no picture has it."""
+    """Return when the picture of that name stands (the last frame of an animation); None if there is none."""
     named = {(d.id, k) for d in mission.displays for k, p in enumerate(d.pictures) if name and p.name == name}
     stands = (s for fleet in fleets for s in reversed(fleet.shown) if (s.display, s.picture) in named)
     return next(stands, None)

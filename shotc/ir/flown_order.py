@@ -9,11 +9,10 @@ from shotc.ir.mission import Shot
 
 
 def flown_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
-    """Return the shots in flown order; the shots of one drone stand in the order it flies them.
+    """Return the shots in flown order; those of one drone are in the order in which it flies them.
 
-    Shots of one drone with a `start` exchange their places so that starts rise; a shot comes after
-    the one it waits for; all else stays as written. Where waits run in a circle (resolve rejects
-    that) the circle stays as written.
+    Shots of one drone with a `start` are sorted by it, within the positions of such shots. A shot comes after
+    the one that it waits for. Everything else stays as written, also a cycle of waits, which resolve rejects.
     """
     left = _by_start(shots)
     waits = waits_for({shot.id: shot.timing for shot in shots})
@@ -28,7 +27,7 @@ def flown_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
 
 
 def waits_for(timings: Mapping[str, Timing]) -> dict[str, str | None]:
-    """Return the shot that each shot waits for, by id; None where it waits for none that exists."""
+    """Return the id of the shot that each shot waits for, by id; None if it waits for no known shot."""
     return {id_: t.after if t.after in timings else None for id_, t in timings.items()}
 
 

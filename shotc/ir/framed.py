@@ -1,16 +1,16 @@
-"""The ideal of a framing: from where its subjects appear as asked, over the time of the shot. Plain Python.
+"""The ideal of a framing shot: the camera course from which the subjects appear as required. Plain Python.
 
-One subject is a closed form: the camera goes along with it at one offset, or at one for every knot where
-setpoints change what is asked. Several are a least-squares course, knot after knot, each begun where the last
-one ended. What is silent is free, and is settled by rule:
+For one subject there is a closed form: the camera keeps one offset from it, or one offset a knot if setpoints
+change the requirements. For several subjects the course is a least-squares solution knot by knot, each
+started from the one before. Rules determine what the mission does not state:
 
-- a bearing: the one from which the drone comes, else the nearest to it from which nothing stands before the
-  subjects and the camera has room, over the whole shot;
-- an elevation: level with the subject, or as little above as the ground clearance asks;
-- a size: ``viewpoint.LONG``, where no subject has one; of one subject the largest up to that with which it is
-  whole, if it is wider than the frame is then;
-- a place on screen: of one subject, the place of its composition nearest to the middle where it is whole; of
-  several, each place of the composition once.
+- bearing: the one from which the drone comes. If an occluder or an obstacle is in the way during the shot, it
+  is the nearest bearing that is clear;
+- elevation: level with the subject, or as little above it as the ground clearance needs;
+- size: ``viewpoint.WHOLE_SIZE``, where no subject has one; for one subject the largest size up to that at
+  which it is whole, where it is wider than the frame;
+- place on screen: for one subject, the place of its composition nearest to the middle at which it is whole;
+  for several, each place of the composition once.
 """
 
 from collections.abc import Sequence
@@ -38,23 +38,23 @@ from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
-TURN = pi / 36  # between bearings that are tried for one subject
-WIDE = pi / 6  # and for several
-NEARLY = 0.02  # of cost by which another bearing is as good
-BRISK = 0.8  # of the drone's speed that a course asks for, where its subjects do not go faster themselves
-BEST = 4  # of the bearings that serve as well, the nearest to the drone's, that are followed if one is clear
-RAISED = 4  # times that a camera over terrain is put over the ground that is below it
-AGAIN = 5  # times that a first pose is begun again at most
+TURN = pi / 36  # rad between the bearings that are tried for one subject
+WIDE = pi / 6  # rad between those for several subjects
+NEARLY = 0.02  # cost difference of equally good bearings; relative fall of the cost that ends polishing
+BRISK = 0.8  # share of the drone's speed that a course may use, unless the subjects are faster
+BEST = 4  # equally good bearings whose course is computed before the first clear one is taken
+RAISED = 4  # iterations of the camera's height over terrain
+AGAIN = 5  # most restarts of the first pose
 SAME = 1e-6  # seconds
 SMALLER = tuple(WHOLE_SIZE * 0.95**k for k in range(60))
-"""Sizes of one subject that is asked none: the first with which it is whole."""
+"""Sizes that are tried for one subject without a required size; the first at which it is whole is taken."""
 
 
 class StartedFraming(NamedTuple):
-    """A framing as it begins at one time.
+    """The course of a framing for one start time.
 
-    shot : with its ideal and its subjects' places on screen; times, poses : along it
-    blocked, hidden : the share of it at which the camera has no room, and how much of a subject is hidden
+    shot : with its ideal and its subjects' places on screen; times, poses : of the course
+    blocked, hidden : share of the course at which the camera lacks a clearance; hidden share of a subject
     """
 
     shot: Shot
@@ -65,7 +65,9 @@ class StartedFraming(NamedTuple):
 
 
 def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
-    """Return a shot as it is where its first frame is at ``start``; framings and keyframes depend on that."""
+    """Return a shot resolved for its first frame at ``start``, seconds: framings and keyframes depend on
+    it.
+    """
     if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
         return shot
     if is_keyed(shot):
@@ -76,20 +78,22 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
 
 
 def course_of(mission: MissionIR, shot: Shot, start: float) -> StartedFraming:
-    """Return the course of a framing whose first frame is at ``start``."""
+    """Return the course of a framing whose first frame is at ``start``, seconds."""
     scene = FramedScene(mission, shot, start)
     return _alone(scene) if len(shot.subjects) == 1 and scene.near is None else _several(scene)
 
 
 def places_of(composition: Composition) -> list[Vec2]:
-    """Return the places of a composition, the nearest to the middle first; of a line the nearest one."""
+    """Return the places (u, v) of a composition, the nearest to the middle first; a line gives its
+    nearest.
+    """
     points = [*composition.points, *((c, 0.0) for c in composition.u_lines)]
     points += [(0.0, c) for c in composition.v_lines]
     return sorted(points, key=lambda p: hypot(*p)) or [(0.0, 0.0)]
 
 
 def _alone(scene: FramedScene) -> StartedFraming:
-    """Return the course of one subject: an offset from it, which stays where nothing changes."""
+    """Return the course for one subject: an offset from it, constant unless setpoints change it."""
     subject = scene.shot.subjects[0]
     target = scene.mission.target(subject.target)
     lowest = min((target.at(t) for t in scene.looks), key=lambda c: c[2])
@@ -111,10 +115,10 @@ def _alone(scene: FramedScene) -> StartedFraming:
 
 
 class _Beside:
-    """A camera that goes along with one subject, which at first it shows at a place on screen in a size.
+    """A camera that keeps an offset from one subject, with a place on screen and a size at the first frame.
 
-    wanted : the subject as it is to appear at the knots of the course, where it is lowest; at the first alone
-        where nothing changes
+    wanted : the subject at its lowest position with its required appearance at each knot of the course; one
+        entry if nothing changes
     """
 
     def __init__(self, scene: FramedScene, lowest: Vec3, uv: Vec2, size: float) -> None:
@@ -129,7 +133,7 @@ class _Beside:
         return self.subject.asked(t - self.scene.start).place or self.uv
 
     def is_whole(self) -> bool:
-        """Tell whether all of the subject is in the frame wherever it is to be."""
+        """Return whether the whole subject is in the frame at every knot."""
         lens = self.scene.lens
         return all(
             not w.whole or whole(_aimed(w.centre, _stood(self.scene, w, 0.0), w.uv or self.uv, lens), lens, w)
@@ -137,12 +141,12 @@ class _Beside:
         )
 
     def points(self, azimuth: float) -> OffsetPoints:
-        """Return the camera's offsets as of ``Ideal``; azimuth : its bearing where none is asked."""
+        """Return the camera's offsets as in ``Ideal``; azimuth : its bearing where none is required, rad."""
         offsets = tuple(_stood(self.scene, wanted, azimuth) for wanted in self.wanted)
         return _evenly(offsets * 2 if len(offsets) == 1 else offsets)
 
     def turned(self, points: OffsetPoints, azimuth: float) -> OffsetPoints:
-        """Return offsets, given to the North, on another bearing."""
+        """Return offsets, given for bearing 0 (North), at bearing ``azimuth``, rad."""
         if self.scene.mission.terrain is not None:
             return self.points(azimuth)
         away = [(share, hypot(x, y), z) for share, (x, y, z) in points]
@@ -154,20 +158,20 @@ def _evenly(offsets: Sequence[Vec3]) -> OffsetPoints:
 
 
 def _stood(scene: FramedScene, wanted: Wanted, bearing: float) -> Vec3:
-    """Return the camera's offset from a subject; bearing : the camera's, where none is asked."""
+    """Return the camera's offset from a subject; bearing : the camera's where none is required, rad."""
     azimuth, size = bearing if wanted.azimuth is None else wanted.azimuth, wanted.size or WHOLE_SIZE
     offset = stand(wanted, scene.lens, scene.room, azimuth, size)
     if scene.mission.terrain is None:
         return offset
     target = scene.mission.target(scene.shot.subjects[0].target)
-    for _ in range(RAISED):  # higher up it is nearer in the plan, where the ground is another
+    for _ in range(RAISED):  # a higher camera is nearer in the plan, over other ground
         room = scene.room_beside(target, wanted.centre, offset)
         offset = stand(wanted, scene.lens, room, azimuth, size)
     return offset
 
 
 def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> OffsetPoints:
-    """Return the offsets on the bearing nearest to the drone's that is clear."""
+    """Return the offsets at the clear bearing nearest to the drone's."""
     first, north = scene.comes_from(target.at(scene.start)), beside.points(0.0)
     best, least = beside.turned(north, 0.0), (2.0, 2.0)
     for k in range(round(2 * pi / TURN)):
@@ -181,7 +185,7 @@ def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> Offse
 
 
 def _several(scene: FramedScene) -> StartedFraming:
-    """Return the course of several subjects, or of one beside a place that the camera stays near."""
+    """Return the course for several subjects, or for one subject and a preferred pose."""
     shot, ideal = scene.shot, scene.shot.ideal
     assert ideal is not None
     first, subjects = _opening(scene)
@@ -194,9 +198,9 @@ def _several(scene: FramedScene) -> StartedFraming:
 
 
 def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
-    """Return the first pose of several subjects, and the subjects with their places on screen.
+    """Return the first pose for several subjects, and the subjects with their places on screen.
 
-    Bearings all round are tried; of those that serve as well, the one that is clear, then the nearest to
+    Bearings all round are tried. Among the equally good ones a clear one is preferred, then the nearest to
     the drone's.
     """
     subjects = scene.shot.subjects
@@ -230,7 +234,9 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
 
 
 def _score(scene: FramedScene, first: Pose, subjects: tuple[Subject, ...]) -> tuple[float, float]:
-    """Return the share of a course at which there is no room, and how much of its subjects is hidden."""
+    """Return the share of a course at which the camera lacks a clearance, and the hidden share of its
+    subjects.
+    """
     times = scene.times[:: max(1, len(scene.times) // 6)]
     poses = _follow(scene, subjects, first, times)
     eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
@@ -240,7 +246,7 @@ def _score(scene: FramedScene, first: Pose, subjects: tuple[Subject, ...]) -> tu
 def _polished(
     scene: FramedScene, found: tuple[float, Pose, tuple[Subject, ...]]
 ) -> tuple[Pose, tuple[Subject, ...]]:
-    """Return an opening, begun again from where it ended until that changes nothing."""
+    """Return an opening, solved again from its result until the cost hardly falls."""
     cost, pose, subjects = found
     wanted = scene.wanted(subjects, scene.start)
     for _ in range(AGAIN):
@@ -254,7 +260,9 @@ def _polished(
 def _follow(
     scene: FramedScene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
 ) -> tuple[Pose, ...]:
-    """Return the poses at times, each found from the one before, carried along with the subjects."""
+    """Return the poses at times; the initial guess of each is the one before, moved along with the
+    subjects.
+    """
     poses = [first]
     middle, before = middle_of(scene.wanted(subjects, times[0])), times[0]
     for t in times[1:]:
@@ -276,9 +284,10 @@ def _follow(
 def _assigned(
     subjects: tuple[Subject, ...], wanted: Sequence[Wanted], pose: Pose, lens: Lens
 ) -> tuple[Subject, ...]:
-    """Give each subject that has no place of its own one of its composition, each place once.
+    """Assign places of the composition to the subjects without a place of their own, each place once.
 
-    The places are those nearest to where the subjects are without; who finds none is only kept in the frame.
+    The assignment minimises the distances from where the subjects appear without one. A subject that gets no
+    place is only kept in the frame.
     """
     silent = [i for i, w in enumerate(wanted) if w.uv is None and not subjects[i].composition.watches]
     if not silent:

@@ -1,4 +1,4 @@
-"""What the course of a framing is made of: times, lens, room, and what is hidden. Plain Python."""
+"""The inputs for the course of a framing: times, lens, place bounds, and occlusion. Plain Python."""
 
 from collections.abc import Sequence
 from math import atan2, ceil, hypot
@@ -14,14 +14,14 @@ from shotc.ir.mission import MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
 KNOT = 0.5  # seconds between the knots of a course
-CHANGING_KNOT = 0.25  # and where what is asked changes over the shot
-FEWEST, MOST = 8, 240  # stretches of a course
-LOOKS = 24  # stretches at which a bearing is looked at
-LIFT = 0.1  # metres over the ground clearance that a free elevation is raised to
+CHANGING_KNOT = 0.25  # the same where setpoints change the requirements
+FEWEST, MOST = 8, 240  # pieces of a course
+LOOKS = 24  # pieces at whose ends a bearing is judged
+LIFT = 0.1  # metres above the ground clearance, for a free elevation
 
 
 def wanted_at(mission: MissionIR, subject: Subject, start: float, t: float) -> Wanted:
-    """Return a subject and how it is to appear, at a mission time; start : of its shot's first frame."""
+    """Return a subject with its required appearance at mission time t; start : time of the first frame."""
     target, asked = mission.target(subject.target), subject.asked(t - start)
     azimuth, elevation = asked.view or (None, None)
     return Wanted(target.at(t), target.shape_at(t), asked.place, asked.size, azimuth, elevation)
@@ -33,13 +33,13 @@ def lens_of(drone: Drone) -> Lens:
 
 
 def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> PlaceBounds:
-    """Return where a drone's camera may be; ground : its height there, metres of W."""
+    """Return the bounds on a drone's camera; ground : z of the ground there, metres."""
     rules = mission.rules
     return PlaceBounds(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
 
 
 class FramedScene:
-    """What the course of one framing is made of."""
+    """The inputs for the course of one framing."""
 
     def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
         duration = shot.timing.duration or 0.0
@@ -53,23 +53,23 @@ class FramedScene:
         self.near = None if shot.ideal is None else shot.ideal.near
 
     def _ground(self) -> float:
-        """Return the highest ground below the subjects, metres of W."""
+        """Return the largest z of the ground below the subjects, metres."""
         if self.mission.terrain is None:
             return 0.0
         places = (self.mission.target(s.target).at(t) for s in self.shot.subjects for t in self.looks)
         return max(self.mission.ground(x, y) for x, y, _ in places)
 
     def room_at(self, t: float) -> PlaceBounds:
-        """Return where the camera may be at a mission time, and what it stays near then."""
+        """Return the bounds on the camera at a mission time, with its preferred pose."""
         if self.near is None:
             return self.room
         drawn = PreferredPose(near_at(self.mission, self.near, t), self.near.yaw, self.near.pitch)
         return self.room._replace(drawn=drawn)
 
     def room_beside(self, target: Target, lowest: Vec3, offset: Vec3) -> PlaceBounds:
-        """Return where a camera may be that goes along beside a target, for where that is lowest.
+        """Return the bounds on a camera that keeps an offset from a target, for the target's lowest position.
 
-        The camera is over the ground at every place that it comes to, by the height of the target there.
+        With them the camera keeps the ground clearance everywhere along the target's course.
         """
         need = []
         for t in self.looks:
@@ -78,32 +78,36 @@ class FramedScene:
         return room_of(self.mission, self.drone, max(need) + lowest[2])
 
     def along(self, points: OffsetPoints, t: float) -> Vec3:
-        """Return the offset that is at a mission time, of offsets over the shot."""
+        """Return the offset at a mission time, interpolated in the offsets over the shot."""
         return offset_at(points, (t - self.start) / max(self.times[-1] - self.start, 1e-9))
 
     def wanted(self, subjects: Sequence[Subject], t: float) -> tuple[Wanted, ...]:
-        """Return all subjects as they are wanted at a time."""
+        """Return all subjects with their required appearance at a mission time."""
         return tuple(wanted_at(self.mission, s, self.start, t) for s in subjects)
 
     def comes_from(self, subject: Vec3) -> float:
-        """Return the bearing from a subject to where the drone was before the shot."""
+        """Return the bearing from a subject to the drone's position before the shot, rad."""
         x, y, _ = _before(self.mission, self.shot)
         return atan2(x - subject[0], y - subject[1]) if hypot(x - subject[0], y - subject[1]) > 1e-3 else 0.0
 
     def shares(self, eyes: Sequence[tuple[float, Vec3]]) -> tuple[float, float]:
-        """Return the share of places at which there is no room, and how much is hidden from them, 0 to 1.
+        """Return the share of places without the clearances, and the hidden share of subjects, 0 to 1.
 
-        A solid before a subject's middle or one of its sides counts as all of it, a surface by its share.
+        A solid before a subject's middle or one of its sides hides it entirely; a surface counts by its
+        share.
+        eyes : mission times and positions
         """
         hidden = [float(self._stands_before(eye)) for eye in eyes]
         return self.blocked(eyes), sum(map(max, hidden, self._by_surfaces(eyes))) / len(eyes)
 
     def blocked(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
-        """Return the share of places at which there is no room."""
+        """Return the share of places at which the drone lacks a clearance."""
         return sum(without_room(self.mission, self.drone, eyes)) / len(eyes)
 
     def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
-        """Return how much of the subjects is hidden from places, 0 to 1: half of that by their middles."""
+        """Return the hidden share of the subjects, 0 to 1: their middles count one half, each side one
+        quarter.
+        """
         weights = (0.5, 0.25, 0.25)
         hidden = 0.0
         for s in self.shot.subjects:
@@ -115,7 +119,7 @@ class FramedScene:
         return hidden / (len(eyes) * len(self.shot.subjects))
 
     def _stands_before(self, eye: tuple[float, Vec3]) -> bool:
-        """Tell whether a solid is before the middle or a side of a subject."""
+        """Return whether a solid is before the middle or a side of a subject."""
         return any(
             found is not None
             for s in self.shot.subjects
@@ -123,13 +127,13 @@ class FramedScene:
         )
 
     def _by_surfaces(self, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
-        """Return the most that surfaces hide of a subject from each place."""
+        """Return the largest share of a subject that surfaces hide from each place."""
         found = (hidden_by_surfaces(self.mission, s.target, eyes) for s in self.shot.subjects)
         return [max(shares) for shares in zip(*found, strict=True)]
 
 
 def _before(mission: MissionIR, shot: Shot) -> Vec3:
-    """Return where a drone is before a shot: at the end of its shot before, as written, or at home."""
+    """Return the drone's position before a shot: the end of its previous shot, as written, or its home."""
     last: Shot | None = None
     for other in mission.shots:
         if other.id == shot.id:

@@ -1,5 +1,5 @@
-"""What stands in a camera's place, and between it and what it films. Plain Python, but for missions with
-terrain, scenes or buildings.
+"""Obstacles at a camera's position, and occluders between it and its target. Plain Python, except for
+missions with terrain, scenes or buildings.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ ROUNDING_M = 1e-6
 
 
 def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple[Owner, float]]:
-    """Yield the owner of everything that a drone is too near to, and by how much, metres."""
+    """Yield every owner that a drone at p, metres, is too near to at time t, and the lack, metres."""
     yield from _lacks_of_solids(mission, drone, p, t)
     if mission.terrain is not None:
         lack = mission.lowest(p, drone.radius) - p[2]
@@ -31,7 +31,7 @@ def lacks(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Iterator[tuple
 
 
 def without_room(mission: MissionIR, drone: Drone, eyes: Sequence[tuple[float, Vec3]]) -> list[bool]:
-    """Tell at which times and places a drone is too near to anything."""
+    """Return for each time and place whether a drone is too near to anything there."""
     found = [any(True for _ in _lacks_of_solids(mission, drone, eye, t)) for t, eye in eyes]
     places = [eye for _, eye in eyes]
     if mission.terrain is not None:
@@ -59,9 +59,9 @@ def _lacks_of_solids(mission: MissionIR, drone: Drone, p: Vec3, t: float) -> Ite
 
 
 def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
-    """Return what stands between a camera and a target's middle or one of its sides, or None.
+    """Return the name of an occluder between a camera and a target's middle or one of its sides, or None.
 
-    Of terrain, scenes and buildings it is what hides any of the places that ``hidden_by_surfaces`` counts.
+    Terrain, scenes and buildings count if they hide any of the points of ``hidden_by_surfaces``.
     """
     solid = next((found for found in standing_before(mission, name, eye, t) if found is not None), None)
     if solid is not None:
@@ -70,9 +70,10 @@ def hides(mission: MissionIR, name: str, eye: Vec3, t: float) -> str | None:
 
 
 def hidden_by_surfaces(mission: MissionIR, name: str, eyes: Sequence[tuple[float, Vec3]]) -> list[float]:
-    """Return the share of a target that terrain, scenes and buildings hide from places at times.
+    """Return the share of a target that terrain, scenes and buildings hide, for each time and place.
 
-    It is the most that one of them hides of the upright rectangle that planning leads shots by.
+    It is the largest share that one of them hides of the upright rectangle that stands in for the target in
+    planning.
     """
     most = [0.0] * len(eyes)
     for _, shares in _by_surfaces(mission, name, eyes):
@@ -83,7 +84,7 @@ def hidden_by_surfaces(mission: MissionIR, name: str, eyes: Sequence[tuple[float
 def _by_surfaces(
     mission: MissionIR, name: str, eyes: Sequence[tuple[float, Vec3]]
 ) -> Iterator[tuple[str, Sequence[float]]]:
-    """Yield what may hide a target, by sort and name, and the share of it that is hidden from each place."""
+    """Yield the surfaces that may hide a target, with sort and name, and the hidden share from each place."""
     if not (mission.meshes or mission.terrain):
         return
     from shotc.ir.hiding_surfaces import shares_hidden_by
@@ -92,9 +93,9 @@ def _by_surfaces(
 
 
 def standing_before(mission: MissionIR, name: str, eye: Vec3, t: float) -> Iterator[str | None]:
-    """Yield the solid between a camera and a target's middle, its left and its right side, or None.
+    """Yield the name of the solid, or None, before a target's middle, one side and the other side.
 
-    What overlaps or touches the target is a part of the same thing, and hides nothing of it.
+    A target that overlaps or touches this one is a part of the same thing and hides nothing of it.
     """
     target = mission.target(name)
     x, y, z = target.at(t)

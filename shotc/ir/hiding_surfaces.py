@@ -1,7 +1,7 @@
-"""The surfaces that may hide a target: terrain, scenes and buildings, without what of them is the target.
+"""The surfaces that may hide a target: terrain, scenes and buildings, without the target's own triangles.
 
-A building that is filmed, or a statue that is scanned, is a part of a mesh and a target at once. What of a
-mesh lies within the bodies of a standing target, or OWN_M about them, is its own, and hides nothing of it.
+A filmed building or a scanned statue is a part of a mesh and a target at once. Triangles of a mesh within the
+bodies of a standing target, or within OWN_M of them, are its own and hide nothing of it.
 """
 
 from __future__ import annotations
@@ -29,22 +29,23 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.obstacle_mesh import ObstacleMesh
 
 OWN_M = 0.5
-"""Metres about a target's bodies: footprints and scans are rarely as exact as the author's numbers."""
+"""Distance from a target's bodies up to which triangles are its own, metres: footprints and scans are rarely
+as exact as the author's numbers."""
 
 DISC_SPACINGS = 4.0
-"""Radius of the discs that stand for a cloud's points, in halves of their spacing: few rays slip through."""
+"""Radius of the discs that stand for a cloud's points, in halves of their spacing; few rays pass between."""
 
 MOST_DISCS = 200_000
-"""Of a cloud; where there would be more they are larger, and fewer."""
+"""Most discs of a cloud; beyond it they get larger and fewer."""
 
 RAYS = 3
-"""Along each side of what stands in for a target where viewpoints are chosen."""
+"""Rays along each side of the rectangle that stands in for a target in the choice of viewpoints."""
 
 
 class NamedParts(NamedTuple):
-    """The surface of a mesh of several parts, without what of it is a target.
+    """The surface of a mesh of several parts, without the triangles of a target.
 
-    mesh : what it is of; part : shape (N,), of each of its triangles, the number of what it belongs to
+    mesh : the whole mesh; part : shape (N,), the number of the part that each triangle belongs to
     """
 
     mesh: ObstacleMesh
@@ -53,7 +54,7 @@ class NamedParts(NamedTuple):
 
 
 def surfaces_before(mission: MissionIR, target: str) -> tuple[tuple[str, Surface], ...]:
-    """Return, by sort and name, the surfaces that may hide a target; name : of the target."""
+    """Return the surfaces that may hide a target, each with its sort and name; target : its name."""
     own = _bodies(mission, target)
     found = [(_called(mesh), _without(mesh, own).surface) for mesh in mission.meshes]
     if mission.terrain is not None:
@@ -62,7 +63,9 @@ def surfaces_before(mission: MissionIR, target: str) -> tuple[tuple[str, Surface
 
 
 def parts_before(mission: MissionIR, target: str) -> dict[str, NamedParts]:
-    """Return, by sort and name as in ``surfaces_before``, the meshes of several parts."""
+    """Return the meshes of several parts that may hide a target, by sort and name as in
+    ``surfaces_before``.
+    """
     own = _bodies(mission, target)
     return {_called(mesh): _without(mesh, own) for mesh in mission.meshes if len(mesh.names) > 1}
 
@@ -72,23 +75,26 @@ def _called(mesh: ObstacleMesh) -> str:
 
 
 def _bodies(mission: MissionIR, target: str) -> tuple[Solid, ...]:
-    """Return the bodies of a target, and of what is one with it, that stand."""
+    """Return the standing bodies of a target and of its group."""
     one = mission.one_with(target)
     return tuple(body.solid for body in mission.targets if body.name in one and body.track is None)
 
 
 def share_hidden(surface: Surface, eyes: Array, centres: Array, radius: float, height: float) -> Array:
-    """Return the share that a surface hides of upright cylinders about centres (N, 3) from eyes (N, 3); (N,).
+    """Return the share that a surface hides of upright cylinders about centres (N, 3) from eyes (N, 3), (N,).
 
-    It is judged by rays to upright rectangles before the cylinders: what stands within its own radius is part
-    of it.
+    Rays lead to upright rectangles in front of the cylinders, so that what stands within the radius of a
+    cylinder counts as a part of it.
+    radius, height : of the cylinders, metres
     """
     boards = upright(eyes, centres, radius, height)
     return np.asarray(hidden(surface, boards, RAYS).mean(axis=(1, 2)))
 
 
 def share_behind(solids: Sequence[Solid], eyes: Array, centres: Array, radius: float, height: float) -> Array:
-    """Return the share that solids hide of such cylinders, by the same rays; as ``share_hidden``."""
+    """Return the share that solids hide of such cylinders, by the same rays, shape (N,); as
+    ``share_hidden``.
+    """
     cells = cells_of(upright(eyes, centres, radius, height), RAYS)
     behind = behind_any(np.repeat(eyes, RAYS * RAYS, axis=0), cells, solids)
     return np.asarray(behind.reshape(len(eyes), -1).mean(axis=1))
@@ -97,9 +103,9 @@ def share_behind(solids: Sequence[Solid], eyes: Array, centres: Array, radius: f
 def shares_hidden_by(
     mission: MissionIR, target: str, eyes: Sequence[tuple[float, Vec3]]
 ) -> Iterator[tuple[str, list[float]]]:
-    """Yield surfaces that may hide a target, by sort and name, and the share of it that each hides.
+    """Yield the surfaces that may hide a target, with sort and name, and the share that each hides.
 
-    eyes : mission times, seconds, and the camera's places then, metres of W; a share for each
+    eyes : mission times, seconds, and the camera's positions then, metres of W; there is a share for each
     """
     of = mission.target(target)
     places, centres = np.array([eye for _, eye in eyes]), np.array([of.at(t) for t, _ in eyes])
@@ -109,7 +115,7 @@ def shares_hidden_by(
 
 @lru_cache(maxsize=16)
 def _without(mesh: ObstacleMesh, own: tuple[Solid, ...]) -> NamedParts:
-    """Return a mesh without triangles all of whose corners are in solids, or next to them."""
+    """Return a mesh without the triangles all of whose corners are in or near the solids ``own``."""
     corners, part = mesh.surface.triangles.reshape(-1, 3), mesh.part[mesh.surface.source]
     beside = np.zeros(len(corners), dtype=bool)
     for solid in own:
@@ -124,7 +130,7 @@ def _without(mesh: ObstacleMesh, own: tuple[Solid, ...]) -> NamedParts:
 
 
 def _of_discs(mesh: ObstacleMesh, which: Mask) -> NamedParts:
-    """Return those triangles of a mesh with loose points, and the discs that stand for the points."""
+    """Return the selected triangles of a mesh with loose points; discs stand for the points."""
     triangles, part = mesh.surface.triangles[which], mesh.part[mesh.surface.source][which]
     loose = without_size(triangles)
     disc = DISC_SPACINGS * mesh.spacing

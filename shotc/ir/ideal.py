@@ -1,4 +1,4 @@
-"""Where the camera of a shot on its own clock would be: its ideal, put into the world. Plain Python."""
+"""The ideal of a shot on its own clock, evaluated in W. Plain Python."""
 
 from bisect import bisect_right
 from math import cos, sin
@@ -8,11 +8,13 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot
 
 TO_CATCH_UP = 1.25
-"""Times the speed of a place that goes on, with which a drone that is behind comes to it in good time."""
+"""Factor on the speed of a moving place; with this speed a drone that is behind catches up in acceptable
+time."""
 
 
 def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
-    """Return the place at a mission time, metres; before and after the shot its ends are carried on.
+    """Return the ideal position at a mission time, metres; before and after the shot the end offsets are
+    held.
 
     start : mission time of the shot's first frame
     """
@@ -38,7 +40,7 @@ def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
 
 
 def offset_at(points: OffsetPoints, share: float) -> Vec3:
-    """Return the offset at a share of a shot's time, even between two points."""
+    """Return the offset at a share of a shot's time, linear between two points."""
     i = min(bisect_right([s for s, _ in points], share), len(points) - 1)
     (low, a), (high, b) = points[max(i - 1, 0)], points[i]
     x = (share - low) / (high - low) if high > low else 0.0

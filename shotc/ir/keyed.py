@@ -1,9 +1,9 @@
-"""Shots on their own clock told by keyframes: when each is reached, and the way between. Plain Python.
+"""Keyframes of shots on their own clock: their times, and the ideal between them. Plain Python.
 
-Every keyframe's place is carried along by the target that it counts from, all through the shot. The way
-is the mean of these places, each weighed by how near its time is: cubic Hermite polynomials over time, which
-rest at holds. So the way between keyframes beside one target is smooth as the target sees it, that between
-places of the world is smooth there, and from the one to the other it passes smoothly.
+The place of a keyframe moves with the target that it is relative to, during the whole shot. The ideal is a
+weighted mean of these places. The weights are cubic Hermite polynomials over time that rest at holds. So the
+ideal is smooth relative to the target between two keyframes beside it, smooth in W between two places of W,
+and blends smoothly between the two cases.
 """
 
 from bisect import bisect_right
@@ -18,32 +18,32 @@ from shotc.geom.vec import Vec3
 from shotc.ir.drone import LensRange
 from shotc.ir.mission import Beside, Ideal, Keyframe, MissionIR, Near, Shot
 
-ROUNDS = 5  # in which times and the lengths of ways that depend on them are settled
-LEAST = 0.1  # of the mean way between keyframes: a shorter one, where the camera turns, counts as long
+ROUNDS = 5  # iterations of times and of the lengths that depend on them
+LEAST = 0.1  # share of the mean length between keyframes that a shorter one counts as (turns on the spot)
 SAME_PLACE_M = 1e-3
-NEVER = 1e-9  # seconds of a stretch that has no time
-NEARLY = 1.0 - 1e-6  # of a rate: what is left is rounding
+NEVER = 1e-9  # seconds, for an interval without time
+NEARLY = 1.0 - 1e-6  # share of a rate, for rounding
 
 
 class Weight(NamedTuple):
-    """How much the place of one keyframe counts in the way of the camera; number : its index."""
+    """The weight of one keyframe's place in the ideal; number : its index."""
 
     number: int
     share: float
 
 
 def is_keyed(shot: Shot) -> bool:
-    """Tell whether a shot on its own clock is told by keyframes."""
+    """Return whether keyframes describe a shot on its own clock."""
     return shot.ideal is not None and shot.ideal.frame == "keyframes"
 
 
 def place_of(mission: MissionIR, keyframe: Keyframe, t: float) -> Vec3:
-    """Return a keyframe's place at a mission time, metres: of one beside a target, as that is then."""
+    """Return a keyframe's position at a mission time, metres; one beside a target moves with it."""
     return keyframe.at if keyframe.beside is None else _beside(mission, keyframe.beside, t)
 
 
 def near_at(mission: MissionIR, near: Near, t: float) -> Vec3:
-    """Return the place that a framing's camera stays near at a mission time, metres."""
+    """Return the position that a framing's camera stays near at a mission time, metres."""
     return near.at if near.beside is None else _beside(mission, near.beside, t)
 
 
@@ -60,30 +60,32 @@ def _beside(mission: MissionIR, beside: Beside, t: float) -> Vec3:
 
 
 def stays(a: Keyframe, b: Keyframe) -> bool:
-    """Tell whether the camera stays in its place, in the world or beside a target, to the next keyframe."""
+    """Return whether the camera keeps its position, in W or relative to a target, up to the next keyframe."""
     if a.beside is None or b.beside is None:
         return a.beside is b.beside and dist(a.at, b.at) <= SAME_PLACE_M
     return a.beside == b.beside
 
 
 def keeps_a_place(shot: Shot) -> bool:
-    """Tell whether keyframes keep a camera in one place for a while, besides holds in the world."""
+    """Return whether keyframes keep a camera in one place for some time, other than by holds in W."""
     rests = any(k.hold > 0 and k.beside is not None for k in shot.keyframes)
     return rests or any(stays(a, b) for a, b in pairwise(shot.keyframes))
 
 
 def carriers(shot: Shot) -> tuple[str, ...]:
-    """Return the targets that a shot on its own clock counts its places from, or films."""
+    """Return the targets that the places of a shot on its own clock are relative to, and those that it
+    films.
+    """
     ideal = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
     beside = (k.beside.target for k in shot.keyframes if k.beside is not None)
     return tuple(dict.fromkeys([*ideal, *beside, *(s.target for s in shot.subjects)]))
 
 
 def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
-    """Return a shot told by keyframes as it is where its first frame is at a mission time, seconds.
+    """Return a shot with keyframes, resolved for its first frame at mission time ``start``, seconds.
 
-    Its keyframes are where they are then. A keyframe without a time of its own is reached when the length of
-    the way says so, between those that have one.
+    Its keyframes get their positions at their times. A keyframe without a time gets one in proportion to the
+    length of the way, between its neighbours with times.
     """
     ideal, duration = shot.ideal, shot.timing.duration
     assert ideal is not None
@@ -108,9 +110,10 @@ def arrivals(shot: Shot) -> tuple[float, ...]:
 
 
 def zoom_parts(shot: Shot, lens: LensRange | None) -> tuple[int | None, ...]:
-    """Return the parts of ``geom.ease`` in which a lens zooms from each keyframe to the next in its rate.
+    """Return the parts of ``geom.ease`` with which a lens zooms from each keyframe to the next within its
+    rate.
 
-    None where it is too slow for the time between; a lens of which nothing is known is never that.
+    None where it is too slow for the time between; an unknown lens is never too slow.
     """
     arrive, parts = arrivals(shot), list[int | None]()
     for i, (a, b) in enumerate(pairwise(shot.keyframes)):
@@ -122,7 +125,8 @@ def zoom_parts(shot: Shot, lens: LensRange | None) -> tuple[int | None, ...]:
 
 
 def way_at(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
-    """Return where the camera is at a mission time; beyond the first and the last keyframe it stays there.
+    """Return the ideal position at a mission time, metres; before the first keyframe and after the last it
+    keeps their places.
 
     start : mission time of the shot's first frame
     """
@@ -134,9 +138,9 @@ def way_at(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
 
 
 class _Bends(NamedTuple):
-    """When each keyframe is reached and left, seconds, and the slope of the way there.
+    """The times at which each keyframe is reached and left, seconds, and the slope of the ideal there.
 
-    slopes : by how much the places of the keyframe before, this one and the one after count in it, 1/s
+    slopes : weights of the places of the keyframe before, this one and the one after, 1/s
     """
 
     arrive: tuple[float, ...]
@@ -150,7 +154,7 @@ def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
     leave = tuple(t + k.hold for t, k in zip(arrive, keyframes, strict=True))
     speeds: list[tuple[float, float]] = []
     for i in _gaps(shot.it):
-        # Times that leave none for the way are refused (K001, K003), and planning may look on for a number.
+        # K001 and K003 refuse keyframes without time between them. Planning may still evaluate the ideal.
         seconds = max(arrive[i + 1] - leave[i], NEVER)
         way = _way(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
         speeds.append((way / seconds, seconds))
@@ -161,9 +165,10 @@ def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
 
 
 def _slope(speeds: list[tuple[float, float]], i: int, *, rests: bool) -> Vec3:
-    """Return the slope at a keyframe; speeds : of every way, m/s, and how many seconds it takes.
+    """Return the slope at a keyframe; speeds : speed, m/s, and duration, seconds, of every way.
 
-    The mean velocity of the slower way counts more, so that none is left by far (Fritsch and Butland, 1984).
+    The mean velocity of the slower way has the larger weight, which limits overshoot (Fritsch and Butland,
+    1984).
     """
     if rests:
         return (0.0, 0.0, 0.0)
@@ -178,7 +183,9 @@ def _slope(speeds: list[tuple[float, float]], i: int, *, rests: bool) -> Vec3:
 
 
 def _weights(bends: _Bends, t: float) -> tuple[Weight, ...]:
-    """Return how much each keyframe counts at a time, seconds from the shot's start; together they are 1."""
+    """Return the weight of each keyframe at a time, seconds from the shot's start; the weights add up to
+    1.
+    """
     i = bisect_right(bends.arrive, t) - 1
     if i < 0:
         return (Weight(0, 1.0),)
@@ -198,9 +205,10 @@ def _gaps(shot: Shot) -> range:
 
 
 def _way(mission: MissionIR, keyframes: tuple[Keyframe, ...], i: int, times: tuple[float, float]) -> float:
-    """Return how far the camera goes from a keyframe to the next one; beside one target, as that sees it.
+    """Return the distance from a keyframe to the next; relative to the target if both are beside the same
+    one.
 
-    times : at which it leaves the one and reaches the other, mission time
+    times : mission times at which the first is left and the second is reached
     """
     a, b = keyframes[i], keyframes[i + 1]
     leave, reach = times
@@ -214,7 +222,7 @@ def _even(keyframes: tuple[Keyframe, ...], duration: float) -> tuple[float, ...]
 
 
 def _by_length(keyframes: tuple[Keyframe, ...], duration: float, ways: list[float]) -> tuple[float, ...]:
-    """Return the times of all keyframes; between two that are known they are shared out by length."""
+    """Return the times of all keyframes; between two known times they are in proportion to length."""
     last = len(keyframes) - 1
     known = {i: k.time for i, k in enumerate(keyframes) if k.time is not None}
     known.setdefault(0, 0.0)
@@ -233,11 +241,11 @@ def _by_length(keyframes: tuple[Keyframe, ...], duration: float, ways: list[floa
 
 
 def in_order(shot: Shot) -> bool:
-    """Tell whether every keyframe has time to be left before the next one is reached."""
+    """Return whether every keyframe is left before the next one is reached."""
     arrive = arrivals(shot)
     pairs = zip(shot.keyframes, pairwise(arrive), strict=False)
     return all(reach - leave - k.hold > NEVER for k, (leave, reach) in pairs)
 
 
 KEYED = Ideal("keyframes", None, (), placed=True)
-"""The ideal of a shot before its keyframes are settled, whose ways its kind gives."""
+"""The ideal of a shot before its keyframes have times; its kind gives the ways between them."""

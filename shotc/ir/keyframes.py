@@ -9,15 +9,15 @@ from shotc.ir.setpoints import Asked, Setpoint, ViewAngles, asked_at
 
 
 class PlacedKeyframe(NamedTuple):
-    """A camera pose with the screen position its target is to have there.
+    """A camera pose with the reference of its target on screen.
 
     at : p_WC; yaw : camera yaw in (-pi, pi], rad; pitch : rad, up positive; hfov : rad
     target : the subject, or None for a keyframe that frames nothing
     reference : (u, v) of the target's centre, or None
-    asked : (u, v) that the user's own framing gave, or None
+    asked : (u, v) by the user's own framing, or None
     hold, time, placed : as in Keyframe
-    turn : rad by which the camera's yaw turns from the keyframe before to this one, where the author
-        says how often it goes round; None where that is free
+    turn : change of camera yaw from the keyframe before, rad, if the author states the number of turns; None
+        if it is free
     """
 
     at: Vec3
@@ -34,14 +34,16 @@ class PlacedKeyframe(NamedTuple):
     turn: float | None = None
 
     def asks_for_lens(self, own: float) -> bool:
-        """Tell whether its field of view is a wish: the author's, or other than the camera's own, rad."""
+        """Return whether its field of view is required: by the author, or because it differs from ``own``,
+        rad.
+        """
         return self.placed or self.hfov != own
 
 
 class PlacedSubject(NamedTuple):
-    """A subject of a shot on its own clock, with the screen position it is to have.
+    """A subject of a shot on its own clock, with its reference on screen.
 
-    target : its name; reference : (u, v) of its centre at the first frame, or None where it is only watched
+    target : its name; reference : (u, v) of its centre at the first frame, or None without a composition
     size, view, setpoints : as in Subject
     """
 
@@ -53,14 +55,14 @@ class PlacedSubject(NamedTuple):
     setpoints: tuple[Setpoint, ...] = ()
 
     def asked(self, time: float) -> Asked:
-        """Return how it is to appear at a time of its shot, seconds from the first frame."""
+        """Return its required appearance at a time of its shot, seconds from the first frame."""
         return asked_at(Asked(self.reference, self.size, self.view), self.setpoints, time)
 
 
 class PlacedShot(NamedTuple):
-    """A shot and its placed keyframes: at least one, and one alone is a still camera.
+    """A shot and its placed keyframes; a single keyframe is a still camera.
 
-    subjects : of a shot on its own clock, which has no keyframes
+    subjects : of a shot on its own clock, which has no placed keyframes
     """
 
     shot: Shot

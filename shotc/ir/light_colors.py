@@ -1,8 +1,8 @@
-"""The colours of a fleet's lights at any time: those of its pictures, and the effects laid over them.
+"""The colours of a fleet's lights at any time: those of its pictures, and the effects over them.
 
-A light without effects changes evenly between the times of its plan. With effects all is evaluated at
-moments 1/25 s apart, rounded to whole levels, and changes evenly between two of these. An effect is a pure
-function of a drone's number, its place and the time, so that any drones at any times can be asked for.
+A light without effects is linear between the times of its plan. A light with effects is evaluated every
+1/25 s, rounded to whole levels, and is linear between these samples. An effect is a pure function of a
+drone's number, its position and the time, so colours can be evaluated for any drones at any times.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from shotc.ir.light_layers import Layer
 from shotc.ir.light_paints import Levels, Spots, blended, painted
 
 BLOCK = 400_000
-"""Lights times moments that are evaluated at once: some 40 MB."""
+"""Product of lights and samples that are evaluated at once: about 40 MB."""
 
 
 class _Rows(NamedTuple):
-    """Rows of a plan's colours about each time: the one before, the one after, and the share of that."""
+    """Indices of a plan's times before and after each time, and the weight of the later one."""
 
     before: NDArray[np.intp]
     after: NDArray[np.intp]
@@ -31,14 +31,14 @@ class _Rows(NamedTuple):
 
 
 def light_colors(flight: FleetTrajectory, t: Array, some: slice = slice(None)) -> Colors:
-    """Return the colours of lights at times (T,), to the nearest whole; shape (n, T, 3).
+    """Return the colours of lights at times (T,), rounded to whole levels, shape (n, T, 3).
 
-    some : of the fleet's drones, by their numbers
+    some : slice of the fleet's drones
     """
     if not flight.lights.looks:
         return faded_colors(flight.lights, t, some)
     at = np.maximum(np.asarray(t, dtype=np.float64), 0.0) * LIGHT_RATE
-    # A time that is meant to be a moment is one.
+    # A time that is a sample but for rounding becomes one.
     at = np.where(np.abs(at - np.rint(at)) < 1e-6, np.rint(at), at)
     first = np.floor(at).astype(np.intp)
     share = (at - first).astype(np.float32)
@@ -52,7 +52,7 @@ def light_colors(flight: FleetTrajectory, t: Array, some: slice = slice(None)) -
 
 
 def tick_colors(flight: FleetTrajectory, ticks: NDArray[np.intp], some: slice = slice(None)) -> Colors:
-    """Return the colours of lights with effects at moments, numbers of ``LIGHT_RATE``; shape (n, T, 3)."""
+    """Return the colours of lights with effects at ticks (T,) of ``LIGHT_RATE``, shape (n, T, 3)."""
     numbers = np.arange(len(flight.coef))[some]
     found = np.empty((len(numbers), len(ticks), 3), dtype=np.uint8)
     step = max(1, BLOCK // max(len(ticks), 1))
@@ -70,7 +70,7 @@ def faded_colors(lights: Lights, t: Array, some: slice = slice(None)) -> Colors:
 
 
 def shown_share(lights: Lights, t: Array, some: slice = slice(None)) -> Levels:
-    """Return how far each light belongs to a picture at times (T,), shape (n, T), 0 to 1.
+    """Return the share with which each light belongs to a picture at times (T,), shape (n, T), 0 to 1.
 
     It is 0 for a drone that a picture leaves dark, and before and after all pictures.
     """
@@ -85,9 +85,9 @@ def shown_share(lights: Lights, t: Array, some: slice = slice(None)) -> Levels:
 
 
 def lit_drones(flight: FleetTrajectory, t: Array) -> NDArray[np.bool_]:
-    """Tell which drones show a picture at times (T,), or come to it or from it; shape (n, T).
+    """Return whether each drone shows a picture, or moves to or from one, at times (T,), shape (n, T).
 
-    Without effects they are those whose light is not black. Effects may darken a light for a moment.
+    Without effects these are the drones whose light is not black. Effects may darken a light temporarily.
     """
     if flight.lights.looks:
         return shown_share(flight.lights, t) > 0.0
@@ -102,7 +102,9 @@ def _rows(lights: Lights, t: Array) -> _Rows:
 
 
 def _stacked(lights: Lights, spots: Spots) -> Levels:
-    """Return the colours of spots, (n, T, 3): each picture's with its effects, faded; then those over all."""
+    """Return the colours of spots, (n, T, 3): pictures with their effects, cross-faded, then the overall
+    effects.
+    """
     before, after, share = _rows(lights, spots.times)
     of = np.array(lights.of)
     found = np.zeros((len(spots.numbers), len(spots.times), 3), dtype=np.float32)
@@ -130,7 +132,7 @@ def _stacked(lights: Lights, spots: Spots) -> Levels:
 
 
 def _over(colors: Levels, layer: Layer, spots: Spots, lit: Levels | None) -> Levels:
-    """Return colours with a layer on them; lit : how far each light takes part, all if None."""
+    """Return colours with a layer over them; lit : weight of each light, 1 if None."""
     paint, weight = painted(layer.paint, spots)
     weight = weight * (layer.opacity * _time_weight(layer, spots.times))
     if lit is not None:

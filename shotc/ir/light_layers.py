@@ -1,7 +1,7 @@
-"""Effects of lights as a plan holds them: put into space and time, so that colours are a function of both.
+"""Light effects as a plan stores them: with positions and times, so that colours are a function of both.
 
-Plain values: a plan's lights are evaluated where they are wanted (``ir.light_colors``), never stored moment
-by moment. World frame W, metres; seconds of mission time.
+A plan stores these records and no samples; ``ir.light_colors`` evaluates them. World frame W, metres;
+seconds of mission time.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from shotc.ir.limits import Vec3
 
 
 class Axis(NamedTuple):
-    """From 0 to 1 along a direction, of length 1: where ``direction . p`` is low, and where it is high."""
+    """A coordinate along a unit vector: 0 where ``direction . p`` is ``low``, 1 where it is ``high``."""
 
     direction: Vec3
     low: float
@@ -21,7 +21,9 @@ class Axis(NamedTuple):
 
 
 class Radius(NamedTuple):
-    """From 0 at a centre to 1 at a distance of ``reach`` metres from it; inward : the other way round."""
+    """A coordinate: 0 at a centre, 1 at ``reach`` metres from it; inward : 1 at the centre, 0 at
+    ``reach``.
+    """
 
     centre: Vec3
     reach: float
@@ -29,7 +31,7 @@ class Radius(NamedTuple):
 
 
 class Order(NamedTuple):
-    """From 0 for the first drone of ``drones`` to 1 for the last."""
+    """A coordinate by drone number: 0 for the first of ``drones``, 1 for the last."""
 
     drones: int
 
@@ -44,10 +46,11 @@ class Tint(NamedTuple):
 
 
 class Gradient(NamedTuple):
-    """Colours at places from 0 to 1, linear between them and constant beyond.
+    """Colours at coordinates from 0 to 1, linear between them and constant beyond.
 
-    A light's place is where it is ``along``, 0 for None, less ``rate`` (1/s) times the time since ``origin``
-    cyclic : whether 1 is 0 again
+    The coordinate of a light is that of ``along`` (0 for None) minus ``rate`` (1/s) times the time since
+    ``origin``.
+    cyclic : whether coordinates repeat with period 1
     """
 
     colors: tuple[Color, ...]
@@ -59,9 +62,10 @@ class Gradient(NamedTuple):
 
 
 class Band(NamedTuple):
-    """A colour whose weight rises from the head of a band to 1 over a quarter of its length, and falls to 0.
+    """A band of one colour: behind its head the weight rises to 1 over a quarter of its length, then falls to
+    0.
 
-    The head is at 0 at ``origin``, goes at ``rate`` (1/s), and begins anew at 1.
+    The head is at coordinate 0 at time ``origin``, moves at ``rate`` (1/s), and restarts at 0 from 1.
     """
 
     color: Color
@@ -72,7 +76,7 @@ class Band(NamedTuple):
 
 
 class Glints(NamedTuple):
-    """A colour on a share of the lights, drawn anew for each light every period, s; it rises and falls."""
+    """A colour that flashes on a random share of the lights, drawn again for each light every period, s."""
 
     color: Color
     share: float
@@ -81,9 +85,9 @@ class Glints(NamedTuple):
 
 
 class Screen(NamedTuple):
-    """Where an image is: seen from an eye, by three axes of length 1, as tangents of angles.
+    """The position of an image as seen from an eye with three unit axes; sizes are tangents of angles.
 
-    left, bottom, width, height : of the image, of those that are seen along ``forward``
+    left, bottom, width, height : of the image, in the plane at distance 1 along ``forward``
     """
 
     eye: Vec3
@@ -97,10 +101,10 @@ class Screen(NamedTuple):
 
 
 class Footage(NamedTuple):
-    """An image, or several that follow each other and begin anew, on a screen.
+    """An image, or a repeated sequence of images, on a screen.
 
     rgba : bytes of shape (frames, rows, columns, 4), compressed by zlib, in base64
-    ends : when each frame ends, seconds after the first began at ``origin``
+    ends : end of each frame, seconds after ``origin``, at which the first one begins
     """
 
     rgba: str
@@ -115,10 +119,11 @@ Painted = Tint | Gradient | Band | Glints | Footage
 
 
 class Layer(NamedTuple):
-    """One effect of a stack; its weight is its paint's times opacity times that of the time.
+    """One effect of a stack; its weight is the product of the paint's weight, the opacity and a weight of
+    time.
 
-    span : four times; the weight rises from 0 at the first to 1 at the second, and falls from the third on
-    to 0 at the last; it is 0 before and after
+    span : four times; the weight of time rises from 0 at the first to 1 at the second, and falls from 1 at
+        the third to 0 at the last; it is 0 before and after
     """
 
     paint: Painted
@@ -128,7 +133,7 @@ class Layer(NamedTuple):
 
 
 class Look(NamedTuple):
-    """What is laid over the colours of a picture; spare : numbers of drones that it leaves dark, from 0."""
+    """The effects over the colours of a picture; spare : indices of drones that it leaves dark, from 0."""
 
     layers: tuple[Layer, ...]
     spare: tuple[int, ...]

@@ -1,4 +1,4 @@
-"""What one effect paints: a colour and a weight for every light at every moment, and how colours blend."""
+"""The colour and the weight of one effect for every light at every time, and the blending of colours."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ ALL: Levels = np.ones((1, 1), dtype=np.float32)
 
 
 class Spots:
-    """Lights at moments: numbers (n,) of drones, times (T,), and where they are, evaluated when asked for."""
+    """Lights at times: numbers (n,) of drones, times (T,), and positions, which are evaluated on first
+    use.
+    """
 
     def __init__(self, numbers: NDArray[np.intp], times: Array, breaks: Array, coef: Array) -> None:
         self.numbers, self.times = numbers, times
@@ -30,7 +32,7 @@ class Spots:
         self._places: Array | None = None
 
     def at(self, when: NDArray[np.intp]) -> Spots:
-        """Return the same lights at some of the moments."""
+        """Return the same lights at the times with the indices ``when``."""
         if len(when) == len(self.times):
             return self
         some = Spots(self.numbers, self.times[when], self._breaks, self._coef)
@@ -46,7 +48,7 @@ class Spots:
 
 
 def painted(paint: Painted, spots: Spots) -> tuple[Levels, Levels]:
-    """Return the colours of a paint, 0 to 255, and its weights, 0 to 1; both fit (n, T)."""
+    """Return the colours of a paint, 0 to 255, and its weights, 0 to 1; both broadcast to (n, T)."""
     if isinstance(paint, Tint):
         return _color(paint.color), ALL
     if isinstance(paint, Gradient):
@@ -72,14 +74,14 @@ def blended(blend: Blend, below: Levels, above: Levels) -> Levels:
 
 
 def along(of: Along, spots: Spots) -> Levels:
-    """Return where lights are along something, 0 to 1 within what it goes through; shape (n, T) or (n, 1)."""
+    """Return the coordinates of lights, 0 to 1 within the extent of ``of``, shape (n, T) or (n, 1)."""
     if isinstance(of, Order):
         return np.asarray(spots.numbers[:, None] / max(of.drones - 1, 1), dtype=np.float32)
     return np.asarray(reached(of, spots.places), dtype=np.float32)
 
 
 def reached(of: Axis | Radius, places: Array) -> Array:
-    """Return where places (..., 3) are along something, 0 to 1 within what it goes through."""
+    """Return the coordinates (...) of places (..., 3), metres, 0 to 1 within the extent of ``of``."""
     if isinstance(of, Axis):
         return np.asarray((places @ np.array(of.direction) - of.low) / (of.high - of.low))
     share = np.linalg.norm(places - np.array(of.centre), axis=-1) / of.reach
@@ -106,7 +108,7 @@ def _band(paint: Band, spots: Spots) -> Levels:
 
 
 def _glints(paint: Glints, spots: Spots) -> Levels:
-    """Every light has turns of its own, a period long; chance tells in which of them it lights up."""
+    """Every light has its own sequence of periods; a random number decides in which of them it flashes."""
     drones = spots.numbers.astype(np.uint64)[:, None]
     start = chance(drones, np.zeros((1, 1), dtype=np.uint64), 2 * paint.seed)
     turn = spots.times / paint.period + start
@@ -117,7 +119,7 @@ def _glints(paint: Glints, spots: Spots) -> Levels:
 
 
 def chance(one: NDArray[np.uint64], other: NDArray[np.uint64], seed: int) -> Array:
-    """Return numbers from 0 to 1 that two whole numbers and a seed determine (SplitMix64, Steele 2014)."""
+    """Return pseudo-random numbers from 0 to 1 by two integers and a seed (SplitMix64, Steele 2014)."""
     step = np.uint64(0x9E3779B97F4A7C15)
     mixed = _mixed(_mixed(_mixed(np.array([[seed]], dtype=np.uint64) * step + step) ^ one) + other * step)
     return np.asarray((mixed >> np.uint64(11)) * 2.0**-53)
@@ -130,7 +132,9 @@ def _mixed(value: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 
 def pixels(footage: Footage) -> NDArray[np.uint8]:
-    """Return the frames of an image, shape (frames, rows, columns, 4); ValueError where they are damaged."""
+    """Return the frames of an image, shape (frames, rows, columns, 4); raise ValueError if the data is
+    damaged.
+    """
     return _unpacked(footage.rgba, (len(footage.ends), footage.rows, footage.columns, 4))
 
 
@@ -138,7 +142,7 @@ def pixels(footage: Footage) -> NDArray[np.uint8]:
 def _unpacked(rgba: str, shape: tuple[int, int, int, int]) -> NDArray[np.uint8]:
     size = int(np.prod(shape))
     try:
-        # No more than is expected, whatever a plan holds.
+        # Decompress no more than expected, whatever a plan holds.
         data = zlib.decompressobj().decompress(b64decode(rgba, validate=True), size + 1)
     except zlib.error as fault:
         raise ValueError(str(fault)) from None
@@ -150,7 +154,7 @@ def _unpacked(rgba: str, shape: tuple[int, int, int, int]) -> NDArray[np.uint8]:
 
 
 def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
-    """Return what a projector at the eye throws onto every light: pixels, linear between their middles."""
+    """Return the projection of an image from the eye onto every light, bilinear between pixel centres."""
     screen, frames = paint.screen, pixels(paint)
     away = spots.places - np.array(screen.eye)
     depth = away @ np.array(screen.forward)
@@ -170,7 +174,9 @@ def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
 
 
 def _between(share: Array, count: int) -> tuple[NDArray[np.intp], Levels]:
-    """Return the pixel whose middle is at or before a share of an image, and how far it is to the next."""
+    """Return the pixel whose centre is at or before a share of an image, and the share of the way to the
+    next.
+    """
     at = np.clip(share * count - 0.5, 0.0, count - 1.0)
     first = np.floor(at).astype(np.intp)
     return first, (at - first).astype(np.float32)

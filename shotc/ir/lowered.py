@@ -1,4 +1,4 @@
-"""What comes of lowering a mission as far as that goes without a solver. Plain Python."""
+"""The result of the front passes, which need no solver. Plain Python."""
 
 from typing import NamedTuple
 
@@ -8,9 +8,9 @@ from shotc.source.file import SourceFile
 
 
 class Lowered(NamedTuple):
-    """What a mission asks for, or what keeps it from being lowered.
+    """The lowered mission, or the diagnostics that stopped its lowering.
 
-    file : its text, which the diagnostics point into
+    file : its text, which the diagnostics refer to
     """
 
     keyframes: KeyframeIR | None

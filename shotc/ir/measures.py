@@ -1,4 +1,4 @@
-"""Numbers of claims as people read them: degrees for radians, percent for shares, digits that tell apart."""
+"""Values of claims as text: degrees for radians, percent for shares, and enough digits to differ."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from shotc.ir.trajectory import Claim
 from shotc.rounding import away
 
 DIGITS = 4
-"""Digits that a value is shown with where nothing needs more."""
+"""Default number of digits."""
 
 SHARES = frozenset({"of samples", "of its outline"})
-"""Units of shares, which people read in percent."""
+"""Units of shares, which are shown in percent."""
 
 MOST_DIGITS = 12
-"""Digits beyond which two values are the same."""
+"""Number of digits at which two values that still look alike count as the same."""
 
 
 def measure(value: float, unit: str, digits: int = DIGITS) -> str:
-    """Return a value with its unit as people read it; lengths to the millimetre."""
+    """Return a value with its unit as text; lengths to the millimetre."""
     if not isfinite(value):
         return "unlimited"
     number, sign = _as_read(value, unit)
@@ -28,7 +28,7 @@ def measure(value: float, unit: str, digits: int = DIGITS) -> str:
 
 
 def told_apart(first: float, second: float, unit: str) -> tuple[str, str]:
-    """Return two values as ``measure`` shows them, with as many digits as it takes to see which is which."""
+    """Return two values as text by ``measure``, with enough digits to differ."""
     for digits in range(DIGITS, MOST_DIGITS):
         shown = measure(first, unit, digits), measure(second, unit, digits)
         if shown[0] != shown[1]:
@@ -37,7 +37,7 @@ def told_apart(first: float, second: float, unit: str) -> tuple[str, str]:
 
 
 def enough(claim: Claim) -> str:
-    """Return the worst value as a limit that it keeps, rounded away from it to four digits."""
+    """Return a limit that the claim's worst value keeps, as text: the value rounded away to four digits."""
     number, unit = _as_read(claim.worst, claim.unit)
     return f"{away(number, upper=claim.upper, digits=DIGITS):.{DIGITS}g} {unit}".strip()
 

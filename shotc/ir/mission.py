@@ -21,7 +21,7 @@ from shotc.ir.smoothing import NORMAL_S
 from shotc.ir.source import MissionSource
 from shotc.ir.target import Target
 
-if TYPE_CHECKING:  # a mission of cameras loads none of it
+if TYPE_CHECKING:  # a mission without fleets, meshes and terrain does not load them
     from shotc.ir.obstacle_mesh import ObstacleMesh
     from shotc.ir.show import Display, Fleet
     from shotc.ir.terrain import Terrain
@@ -29,13 +29,13 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 ELSEWHERE_IN_PLANS = frozenset(
     {"origins", "files", "source", "terrain", "meshes", "wind_toward", "rehearsal", "music"}
 )
-"""Fields of a mission that a plan does not hold as such: they are made of its text and its files."""
+"""Fields of a mission that a plan does not store: they follow from its text and its files."""
 
 OffsetPoints = tuple[tuple[float, Vec3], ...]  # (share of the shot's time, metres)
 
 
 class GeoOrigin(NamedTuple):
-    """The WGS84 place of W's origin.
+    """The WGS84 position of W's origin.
 
     lat_deg, lon_deg : degrees
     alt : metres above mean sea level
@@ -47,7 +47,7 @@ class GeoOrigin(NamedTuple):
 
 
 class Zone(NamedTuple):
-    """A named volume that the body sphere stays out of, or inside."""
+    """A named volume; the body sphere stays outside or inside of it."""
 
     name: str
     keep: Literal["in", "out"]
@@ -56,13 +56,14 @@ class Zone(NamedTuple):
 
 
 class Composition(NamedTuple):
-    """Screen positions a target may take: points, lines, or wherever the user put it (``keep``).
+    """The admissible places of a target on screen: points, lines, or the place by the user's angles
+    (``keep``).
 
-    Without any of them the camera keeps its own angles and the target is only watched.
+    Without any of them the camera keeps its own angles and the target has no reference.
 
     points : (u, v) in [-1, 1]^2, u right, v up
     u_lines, v_lines : vertical lines u = c, horizontal lines v = c
-    last : points that are taken only where the whole target fits at no other place of the set
+    last : points that are used only if the whole target fits at no other place of the set
     """
 
     name: str
@@ -74,16 +75,17 @@ class Composition(NamedTuple):
 
     @property
     def watches(self) -> bool:
-        """Whether nothing is asked of where the target is."""
+        """Whether the target may be anywhere on screen."""
         return not (self.points or self.u_lines or self.v_lines or self.keep)
 
 
 class Beside(NamedTuple):
-    """A place that counts from a target.
+    """A place relative to a target.
 
-    offset : from its foot, the lowest point of its axis, metres: East, North and Up, or, where it turns with
-        the way that the target goes, ahead of it, to the left of it and up
-    above : what Up counts from
+    offset : from the target's foot (the lowest point of its axis), metres: East, North and Up, or, if
+        ``turns``, ahead, left and up relative to the target's heading
+    turns : whether it turns with the target's heading
+    above : reference of Up
     """
 
     target: str
@@ -93,7 +95,7 @@ class Beside(NamedTuple):
 
 
 class DrawnBox(NamedTuple):
-    """A box that an author drew on the screen, half frames: u to the right, v up."""
+    """A box that the author drew on the screen, half frames: u to the right, v up."""
 
     u_min: float
     u_max: float
@@ -102,18 +104,18 @@ class DrawnBox(NamedTuple):
 
 
 class Keyframe(NamedTuple):
-    """Where the camera is to be and what it looks at, before composition.
+    """The position of the camera and its aim, before composition.
 
-    at : p_WC; where it counts from a target that moves, as that is for a shot that begins as early as it may
+    at : p_WC; beside a moving target, that for the earliest possible start of the shot
     aim : (yaw, pitch) as the user wrote them, rad, camera yaw counter-clockwise from East; a point
         of W to look at; or None to look at ``target``
     target : name of the subject that is framed here, if any
-    composition : the set this keyframe's target is placed on (shot's or own)
+    composition : the set of places for this keyframe's target (the shot's or its own)
     hold : seconds at rest; time : seconds from the shot's start, if fixed
-    placed : True where the user gave the position (it binds), False where a kind generated it
-    heading : compass heading as the user wrote it, rad, whole turns included; None where none is written
-    beside : what the place counts from, or None for a place of W
-    box : on screen, as the author framed it, round what is meant; None where none is drawn
+    placed : True if the user gave the position (it must be met), False if a kind generated it
+    heading : compass heading as the user wrote it, rad, with whole turns; None if none is written
+    beside : the target that the place is relative to, or None for a place of W
+    box : drawn on screen round the intended subject; None without one
     """
 
     at: Vec3
@@ -131,15 +133,15 @@ class Keyframe(NamedTuple):
 
     @property
     def unidentified(self) -> bool:
-        """Whether a box shows what is meant, and nobody has said what that is."""
+        """Whether it has a box but no named target yet."""
         return self.box is not None and self.target is None
 
 
 class Near(NamedTuple):
-    """A pose that the camera of a framing stays near as far as the picture lets it (viewpoint Eq. 10).
+    """The preferred pose of a framing's camera, kept as far as the picture allows (viewpoint Eq. 10).
 
-    at : place of W, as of ``Keyframe``; beside : the moving target that it counts from, or None
-    yaw, pitch : of the camera, rad, each None where it is free
+    at : p_WC, as in ``Keyframe``; beside : the moving target that it is relative to, or None
+    yaw, pitch : of the camera, rad, each None if it is free
     """
 
     at: Vec3
@@ -149,22 +151,21 @@ class Near(NamedTuple):
 
 
 class Ideal(NamedTuple):
-    """Where the camera of a shot on its own clock would be, if nothing stood against it.
+    """The position of the camera of a shot on its own clock, without limits and obstacles.
 
-    frame : what offsets count from. "world": W's origin. "target": the target's axis, East and North of
-        it, and up from what ``above`` says. "heading": the same, ahead of the way the target faces and to
-        the left of it.
-        "about": the target's centre, along W's axes. "keyframes": points are the places of the shot's
-        keyframes and when they are reached, and ``ir.keyed`` says where the camera is between them
-    target : its name, None in the world and of keyframes
-    points : (share of the shot's time, offset in metres), shares rising from 0 to 1; even between them
-    placed : True where the user gave the positions, False where a kind generated them; of keyframes, whether
-        the ways between them are given
-    aim : (yaw, pitch) that the camera keeps, rad, or None where it follows the shot's subjects
-    framed : True where the points are found from how the subjects are to appear (``ir.framed``), for the
-        time at which the shot begins, as far as that is known
-    above : what up counts from in the frames "target" and "heading"
-    near : the pose near which a framing's camera stays
+    frame : origin and axes of the offsets. "world": W. "target": the target's axis, East and North of it, and
+        up from ``above``. "heading": the same, ahead and to the left relative to the target's heading.
+        "about": the target's centre, along W's axes. "keyframes": points are the places and times of the
+        shot's keyframes, and ``ir.keyed`` interpolates them
+    target : its name; None in the frames "world" and "keyframes"
+    points : (share of the shot's time, offset in metres), shares rising from 0 to 1; linear between them
+    placed : True if the user gave the positions, False if a kind generated them; for keyframes, whether the
+        ways between them are given
+    aim : constant (yaw, pitch) of the camera, rad, or None if it follows the shot's subjects
+    framed : True if the points follow from the required appearance of the subjects (``ir.framed``), for the
+        start of the shot as far as it is known
+    above : reference of up in the frames "target" and "heading"
+    near : the preferred pose of a framing's camera
     """
 
     frame: Literal["world", "target", "heading", "about", "keyframes"]
@@ -178,13 +179,13 @@ class Ideal(NamedTuple):
 
 
 class Subject(NamedTuple):
-    """A target that a shot on its own clock frames, the first one foremost.
+    """A target that a shot on its own clock frames; the first subject of a shot is the most important.
 
-    composition : the set of places its centre may have on screen
-    size : projected height over frame height to aim for, above 1 where it is to be cropped; or None
-    view : (azimuth as a compass bearing from it to the camera, elevation), rad, each None where it is free,
-        or None
-    setpoints : what of these changes over the shot, in the order of their times
+    composition : the set of admissible places of its centre on screen
+    size : required projected height over frame height, above 1 if it is to be cropped; or None
+    view : (azimuth as a compass bearing from it to the camera, elevation), rad, each None if it is free; or
+        None
+    setpoints : changes of these over the shot, in the order of their times
     """
 
     target: str
@@ -195,26 +196,26 @@ class Subject(NamedTuple):
     setpoints: tuple[Setpoint, ...] = ()
 
     def asked(self, time: float) -> Asked:
-        """Return how it is to appear at a time of its shot, seconds from the first frame."""
+        """Return its required appearance at a time of its shot, seconds from the first frame."""
         points = self.composition.points
         first = Asked(points[0] if len(points) == 1 else None, self.size, self.view)
         return asked_at(first, self.setpoints, time)
 
 
 class Shot(NamedTuple):
-    """One shot of one drone: keyframes, or an ideal where its targets move.
+    """One shot of one drone, with keyframes, or with an ideal if its targets move.
 
-    pace : share of the limits used where the duration is not given, 0 to 1
+    pace : share of the limits that is used if the duration is free, 0 to 1
     subject : the target as the shot names it, or None
-    ideal : of a shot on its own clock, whose timing has a duration; it has no keyframes then, unless they are
-        what the ideal is made of
-    subjects : whom it frames then
-    size : that its target is to have, as in Subject, or None
-    allow : what of ``spec.allow`` it may do untold, by name, by its own word or by that of the rules
-    above : what the altitude of its camera counts from; None where it has none
+    ideal : of a shot on its own clock, whose timing has a duration; such a shot has keyframes only if they
+        define the ideal
+    subjects : framed targets of a shot on its own clock
+    size : required size of its target, as in Subject, or None
+    allow : names of ``spec.allow`` that the shot or the rules allow without a warning
+    above : reference of the altitude of its camera; None if it has none
     smoothing : seconds; see ``ir.smoothing``
-    focus : name of the target that the lens is focused on, or a depth, m; None for the one that is framed
-    photos : taken in place of a film, or None
+    focus : name of the target that the lens is focused on, or a depth, m; None for the framed target
+    photos : taken instead of a film, or None
     """
 
     id: str
@@ -245,7 +246,7 @@ class Shot(NamedTuple):
 class Deferred(NamedTuple):
     """A part of the language that is checked but cannot be planned yet.
 
-    help : what the author does instead
+    help : advice to the author
     """
 
     feature: str
@@ -256,20 +257,20 @@ class Deferred(NamedTuple):
 class MissionIR(NamedTuple):
     """The whole mission.
 
-    shots : in the order they are written
+    shots : in the order of the text
     rate : output samples a second, Hz
-    emit : emitters the mission asks for
+    emit : names of the requested emitters
     source_sha256 : of the mission file's bytes, hexadecimal
-    deferred : what only a later version can plan; planning refuses it, checking does not
-    displays : the shots of fleets, in the order they are written
-    files : (name, bytes) of the files that displays draw; no plan carries them
-    terrain : the ground where it is not the plane z = 0; a plan carries the file that it is made of
-    meshes : scenes and buildings, which stand
-    groups : targets that are several bodies in one picture; these are among the targets
-    source : what the mission was lowered from
-    wind : its speed, m/s; wind_toward : yaw of the direction in which it blows, rad, None where nobody says
-    rehearsal : what rehearsals are asked; no pass reads it
-    music : what a show is flown to, or None
+    deferred : parts that this version cannot plan; planning refuses them, checking does not
+    displays : the shots of fleets, in the order of the text
+    files : (name, bytes) of the files that displays draw; a plan does not store them
+    terrain : the ground if it is not the plane z = 0; a plan stores the file that it is made of
+    meshes : scenes and buildings
+    groups : targets of several bodies in one picture; the bodies are in ``targets``
+    source : the inputs of the lowering
+    wind : its speed, m/s; wind_toward : yaw of the direction in which it blows, rad, None if unknown
+    rehearsal : requirements on rehearsals; no pass reads them
+    music : of a show, or None
     """
 
     name: str
@@ -298,41 +299,44 @@ class MissionIR(NamedTuple):
 
     @property
     def parked(self) -> tuple[Drone, ...]:
-        """The drones that film nothing: they stand on their pads all the time."""
+        """The drones without shots; they stand on their pads all the time."""
         filming = {shot.drone for shot in self.shots}
         return tuple(drone for drone in self.drones if drone.name not in filming)
 
     @property
     def opaque_zones(self) -> tuple[Zone, ...]:
-        """The keep-out zones that hide what is behind them: those of the world.
+        """The keep-out zones that are occluders: those of the world.
 
-        The airspace of a show, which cameras know as zones of the fleet, is air, and holds what they film.
+        The airspace of a show is a zone of a fleet for its cameras. It is transparent, because the cameras
+        film what is in it.
         """
         return tuple(zone for zone in self.zones if zone.keep == "out" and zone.path[0] == "world")
 
     @property
     def wind_taken(self) -> float:
-        """The speed, m/s, that a wind from any side takes off what drones fly; 0 where it is known whence."""
+        """The speed of a wind of unknown direction, m/s, which reduces all airspeeds; 0 if it is known."""
         return self.wind if self.wind_toward is None else 0.0
 
     def ground(self, x: float, y: float) -> float:
-        """Return z of the ground at a place, metres; beyond terrain it is taken for the plane z = 0."""
+        """Return z of the ground at a place, metres; beyond the terrain it is 0."""
         return flat(x, y) if self.terrain is None else self.terrain.z(x, y)
 
     def lowest(self, place: Vec3, radius: float) -> float:
-        """Return the least z of the centre of a body over a place, metres; radius : of the body."""
+        """Return the least z of a body's centre over a place, metres; radius : of the body, metres."""
         return self.ground(place[0], place[1]) + self.rules.over_ground(radius)
 
     def base(self, above: Above, place: Vec2, target: Target, t: float) -> float:
-        """Return z of what heights at a place count from where a target is at a mission time, metres."""
+        """Return z of the reference of heights at a place, for the target's position at a mission time,
+        metres.
+        """
         return counted_from(above, self.ground, place, target.foot_at(t)[2])
 
     def drone(self, name: str) -> Drone:
-        """Return the drone of that name; KeyError if there is none."""
+        """Return the drone of that name; raise KeyError if there is none."""
         return next_named(self.drones, name)
 
     def target(self, name: str) -> Target:
-        """Return the target of that name, be it one body or a group; KeyError if there is none."""
+        """Return the target of that name, one body or a group; raise KeyError if there is none."""
         return next_named(self.every_target, name)
 
     @property
@@ -341,27 +345,27 @@ class MissionIR(NamedTuple):
         return (*self.targets, *self.groups)
 
     def one_with(self, name: str) -> frozenset[str]:
-        """Return the names of the bodies that make one picture with a target, its own among them."""
+        """Return the names of the bodies that are in one group with a target, its own included."""
         own = self.parts_of(name)
         return frozenset(own).union(*(g.parts for g in self.groups if not set(own).isdisjoint(g.parts)))
 
     def parts_of(self, name: str) -> tuple[str, ...]:
-        """Return the names of the bodies of a target: its own, or those of a group."""
+        """Return the names of the bodies of a target: its own, or those of the group."""
         return self.target(name).parts or (name,)
 
     def shot(self, name: str | None) -> "Shot":
-        """Return the shot of that id; KeyError if there is none."""
+        """Return the shot of that id; raise KeyError if there is none."""
         for shot in self.shots:
             if shot.id == name:
                 return shot
         raise KeyError(name)
 
     def fleet(self, name: str) -> "Fleet":
-        """Return the fleet of that name; KeyError if there is none."""
+        """Return the fleet of that name; raise KeyError if there is none."""
         return next_named(self.fleets, name)
 
     def display(self, name: str) -> "Display":
-        """Return the display of that id; KeyError if there is none."""
+        """Return the display of that id; raise KeyError if there is none."""
         for display in self.displays:
             if display.id == name:
                 return display
@@ -369,7 +373,7 @@ class MissionIR(NamedTuple):
 
 
 def frozen(mission: MissionIR, time: float) -> MissionIR:
-    """Return the mission with every target standing where it is at a time, for pictures of that moment."""
+    """Return the mission with every target standing at its position at a time, for pictures of that time."""
     if all(target.track is None for target in mission.targets):
         return mission
     return mission._replace(
@@ -384,7 +388,7 @@ _Named = TypeVar("_Named", Drone, Target, "Fleet")
 
 
 def next_named(items: tuple[_Named, ...], name: str) -> _Named:
-    """Return the first item called ``name``; KeyError if there is none."""
+    """Return the first item of that name; raise KeyError if there is none."""
     for item in items:
         if item.name == name:
             return item

@@ -1,4 +1,4 @@
-"""The music of a show, and when its beats fall. Plain Python, no numpy; part of MissionIR."""
+"""The music of a show and the times of its beats. Plain Python, no numpy; part of MissionIR."""
 
 from math import ceil, floor
 from typing import NamedTuple
@@ -6,18 +6,18 @@ from typing import NamedTuple
 from shotc.ir.origin import KeyPath
 
 SAME_BEAT = 1e-6
-"""Share of a beat by which one may be missed."""
+"""Tolerance at a beat, as a share of a beat."""
 
 
 class Music(NamedTuple):
     """A song on the mission's clock, its beats counted from 1.
 
-    file : of the song, or None where only its beats are known
-    start : when it begins on the mission's clock, s
-    listed : times of its beats in the song, s, rising; empty where they are even
-    first, period : of even beats, s in the song; period None where nothing is known of beats
+    file : of the song, None if only its beats are known
+    start : its mission time, s
+    listed : times of its beats in the song, s, rising; empty for even beats
+    first, period : of even beats, s in the song; period is None if beats are unknown
     per_bar : beats in a bar
-    unread : whether its beats cannot be used: what stands on them is not judged
+    unread : whether its beats are unusable; then nothing that depends on them is judged
     """
 
     file: str | None
@@ -31,13 +31,13 @@ class Music(NamedTuple):
 
     @property
     def has_beats(self) -> bool:
-        """Tell whether times of beats are known."""
+        """Whether the times of beats are known."""
         return bool(self.listed) or self.period is not None
 
     def time(self, beat: float) -> float | None:
-        """Return when a beat falls on the mission's clock, s, or None before the first and after the last.
+        """Return the mission time of a beat, s, or None before the first and after the last.
 
-        A part of a beat is a part of the time from one beat to the next.
+        Fractions of a beat are linear in the time from one beat to the next.
         """
         if beat < 1.0 or not self.has_beats:
             return None
@@ -52,7 +52,7 @@ class Music(NamedTuple):
         return self.start + here + part * way
 
     def next_beat(self, time: float) -> int | None:
-        """Return the first whole beat at a time of the mission's clock or after it, or None without one."""
+        """Return the number of the first beat at or after a mission time, s; None if there is none."""
         if self.period is not None:
             passed = ceil((time - self.start - self.first) / self.period - SAME_BEAT)
             return max(1, 1 + passed)
@@ -61,5 +61,5 @@ class Music(NamedTuple):
 
 
 def beat_of_bar(bar: float, beat: float, per_bar: int) -> float:
-    """Return the number of a beat from that of its bar and its own in the bar, all counted from 1."""
+    """Return the number of a beat from the number of its bar and its number in the bar, all from 1."""
     return (bar - 1.0) * per_bar + beat

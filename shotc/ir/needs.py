@@ -1,7 +1,7 @@
-"""What time shots need to be refined, where a mission leaves it free and others were planned beside them.
+"""The duration that a shot needs for its refinement, if the mission leaves it free.
 
-Then a refined shot keeps the time of its convex path. One that cannot says so, and the mission's paths are
-planned again with that shot as long as it needs.
+A refined shot keeps the duration of its convex path if other shots are planned beside it. If it cannot, the
+refiner notes the duration that it needs, and all paths of the mission are planned again with it.
 """
 
 from __future__ import annotations
@@ -10,17 +10,17 @@ from dataclasses import replace
 
 from shotc.ir.path import PathIR
 
-NEEDS = ".needs"  # of a statistic's name, after the shot's
-MORE = 1.02  # times what was needed, for the way is another again
+NEEDS = ".needs"  # suffix of the statistic's name, after the shot's id
+MORE = 1.02  # factor on the needed duration, because the new path differs again
 
 
 def with_need(path: PathIR, shot: str, seconds: float) -> PathIR:
-    """Return the path with a note that a shot, were it refined, would take so long."""
+    """Return the path with a note of the duration, seconds, that the refinement of a shot needs."""
     return replace(path, stats=(*path.stats, (f"{shot}{NEEDS}", seconds)))
 
 
 def needed(path: PathIR) -> dict[str, float]:
-    """Return the durations with which shots of a refined path could be refined that are not, by id."""
+    """Return by id the durations, seconds, with which the unrefined shots of a path could be refined."""
     mission, needs = path.keyframes.mission, {}
     for name, value in path.stats:
         shot = name.removesuffix(NEEDS)

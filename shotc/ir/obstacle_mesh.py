@@ -1,4 +1,4 @@
-"""Meshes, clouds and buildings that stand in a mission's world, of triangles."""
+"""Meshes, point clouds and buildings of a mission's world, as triangles."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath
 
 LEAST_M = 0.5
-"""Metres that a body is wide and high at least, to be looked past."""
+"""Least width and height of a body that counts as an occluder, metres."""
 
 
 class NearPart(NamedTuple):
-    """What of a mesh is nearest to a place: the name of its part, how far it is, metres, and its place."""
+    """The point of a mesh nearest to a place: the name of its part, its distance, metres, and the point."""
 
     name: str
     distance: float
@@ -35,17 +35,17 @@ class NearPart(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ObstacleMesh:
-    """What drones keep clear of and what hides that which is behind it: the triangles of one file.
+    """The triangles of one file: an obstacle and an occluder.
 
     kind    : the key of ``world`` that names the file
     file    : its name, as the mission writes it
     surface : the triangles, metres of W, and the tree of boxes round them
-    part    : shape (n,), of each triangle that the surface was made of, the number of what it belongs to
-    names   : of those parts: a building's name or id, a node of a scene
-    body    : shape (n,), likewise the number of the connected body that each belongs to
+    part    : shape (n,), for each triangle that the surface was made of, the number of its part
+    names   : of the parts: a building's name or id, a node of a scene
+    body    : shape (n,), likewise the number of the connected body of each triangle
     closed  : which of those bodies have an inside
-    spacing : metres that every triangle stands for beyond itself: half the spacing of a cloud's points; 0 of
-        meshes and buildings. Every clearance is that much larger.
+    spacing : half the spacing of a cloud's points, metres, by which every clearance is larger; 0 for meshes
+        and buildings
     """
 
     kind: Literal["scene", "buildings"]
@@ -59,46 +59,48 @@ class ObstacleMesh:
 
     @property
     def path(self) -> KeyPath:
-        """Where the mission names the file."""
+        """Key path of the file's name in the mission."""
         return ("world", self.kind, "file")
 
     def holds(self, p: Array) -> Mask:
-        """Tell which points (K, 3) of W are inside of a closed body; (K,)."""
+        """Return which points (K, 3) of W are inside a closed body, shape (K,)."""
         return inside(self.surface, self.body, self.closed, p)
 
     def signed_distance(self, p: Array, limit: float = inf) -> Array:
-        """Return how far points (K, 3) are, metres, negative inside of a closed body; (K,).
+        """Return the distances of points (K, 3), metres, negative inside a closed body, shape (K,).
 
-        limit : beyond it a distance is infinite, or inside the limit itself
+        limit : larger distances are infinite outside, and minus the limit inside
         """
         distance = nearest(self.surface, p, limit).distance
         return np.where(self.holds(p), -np.minimum(distance, limit), distance)
 
     def nearest_part(self, place: Vec3) -> NearPart:
-        """Return what is nearest to a place of W."""
+        """Return the nearest point to a place of W."""
         found = nearest(self.surface, np.array([place]))
         x, y, z = found.point[0]
         name = self.name_at(int(self.surface.source[found.triangle[0]]))
         return NearPart(name, float(found.distance[0]), (float(x), float(y), float(z)))
 
     def block(self, part: int) -> UprightPrism:
-        """Return the upright prism about a part: over the hull of its corners, as high as they are."""
+        """Return the upright prism about a part: the convex hull of its corners in the plan, with their
+        heights.
+        """
         corners = self.surface.triangles[self.part[self.surface.source] == part].reshape(-1, 3)
         plan = np.unique(corners[:, :2], axis=0).tolist()
         low, high = float(corners[:, 2].min()), float(corners[:, 2].max())
         return UprightPrism(convex_hull(tuple((x, y) for x, y in plan)), low, high)
 
     def lacks(self, places: Sequence[Vec3], clearance: float) -> list[float]:
-        """Return by how much places lack the distance that a body's centre keeps from surfaces, metres.
+        """Return the lack of each place in the clearance of a body's centre, metres.
 
-        clearance : that distance, without the spacing; what is farther than it lacks minus infinity
+        clearance : metres, without the spacing; places that are farther have minus infinity
         """
         need = clearance + self.spacing
         found: list[float] = (need - self.signed_distance(np.array(places), need)).tolist()
         return found
 
     def name_at(self, triangle: int) -> str:
-        """Return the name of what a triangle belongs to; triangle : of those that the surface was made of."""
+        """Return the name of a triangle's part; triangle : index among those that the surface was made of."""
         return self.names[int(self.part[triangle])]
 
 
@@ -109,7 +111,7 @@ def obstacle_mesh(
     parts: tuple[IntArray, tuple[str, ...]],
     spacing: float = 0.0,
 ) -> ObstacleMesh:
-    """Return triangles (n, 3, 3), metres of W, with their tree; parts : of each triangle, and their names."""
+    """Return the mesh of triangles (n, 3, 3), metres of W; parts : part numbers (n,), and names of parts."""
     part, names = parts
     made = bodies(triangles)
     return ObstacleMesh(kind, file, surface_of(triangles), part, names, made.body, made.closed, spacing)
@@ -117,7 +119,7 @@ def obstacle_mesh(
 
 @lru_cache(maxsize=4)
 def body_prisms(mesh: ObstacleMesh) -> tuple[Prism, ...]:
-    """Return upright convex prisms round the bodies of a mesh, but for those too small to be looked past."""
+    """Return upright convex prisms round the bodies of a mesh, without those too small to be occluders."""
     surface = mesh.surface
     order = np.argsort(mesh.body[surface.source], kind="stable")
     of = mesh.body[surface.source][order]

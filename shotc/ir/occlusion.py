@@ -1,8 +1,8 @@
-"""What stands before a target, instant by instant: zones, terrain, scenes, other targets and drones.
+"""The occluders on the line of sight to a target, frame by frame: zones, terrain, scenes, targets, drones.
 
-A sight line goes from the camera to the target's centre; where that is within a zone, the zone hides it.
-Targets whose bodies overlap or touch at that instant are parts of one thing and do not hide each other, nor
-do the parts of a group. A drone is a ball of its radius, in flight and on its pad.
+A line of sight goes from the camera to the target's centre. A zone that contains the centre hides it. Targets
+whose bodies overlap or touch at that instant are parts of one thing and do not hide each other; nor do the
+parts of a group. A drone is a ball of its radius, in flight and on its pad.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ from shotc.ir.trajectory import DroneTrajectory
 def hiders(
     mission: MissionIR, others: Sequence[DroneTrajectory], target: str, eyes: Array, t: Array
 ) -> Iterator[tuple[str, Mask]]:
-    """Yield what may hide a target, by sort and name, and when it does, shape (M,).
+    """Yield each possible occluder of a target, with sort and name, and whether it hides it, shape (M,).
 
-    others : flights of the drones that count; eyes : p_W of the camera at times t, (M, 3)
+    others : flights of the drones that count; eyes : p_W of the camera at times t (M,), shape (M, 3), metres
     """
     filmed = mission.target(target)
     centres = np.array(filmed.centre) + moved(filmed, t)
@@ -53,14 +53,14 @@ def others_of(flights: Sequence[DroneTrajectory], drone: str) -> tuple[DroneTraj
 
 
 def _met(filmed: Target, eyes: Array, centres: Array, t: Array) -> Array:
-    """Return where sight lines enter a target, (M, 3): a building that is filmed does not hide itself."""
+    """Return where lines of sight enter a target, (M, 3); so a filmed building does not hide itself."""
     start, end = beside_body(filmed, eyes, t), beside_body(filmed, centres, t)
     share = np.minimum(entering(filmed.shape, filmed.centre, start, end - start), 1.0)
     return np.asarray(eyes + share[:, None] * (centres - eyes))
 
 
 def _behind(eyes: Array, points: Array, ball: Array, radius: float) -> Mask:
-    """Tell which sight lines run through a ball that holds neither of their ends."""
+    """Return which lines of sight cross a ball that contains neither of their ends, shape (M,)."""
     along, away = points - eyes, ball - eyes
     square = np.maximum(np.einsum("md,md->m", along, along), 1e-300)
     share = np.clip(np.einsum("md,md->m", away, along) / square, 0.0, 1.0)

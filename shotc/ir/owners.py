@@ -1,4 +1,4 @@
-"""Who sets a limit on where a drone may be, and where the mission writes it down. Plain Python."""
+"""Owners of obstacles and limits: the part of the mission that they come from. Plain Python."""
 
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -8,19 +8,18 @@ from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.origin import KeyPath
 from shotc.ir.target import Target
 
-if TYPE_CHECKING:  # a mission without any loads no arrays
+if TYPE_CHECKING:  # a mission without meshes loads no arrays
     from shotc.ir.obstacle_mesh import ObstacleMesh
 
 OwnerKind = Literal["zone", "target", "drone", "ground", "ceiling", "scene", "buildings", "fleet"]
 
 
 class Owner(NamedTuple):
-    """What an obstacle, a half-space or a moving body belongs to: a zone, a target, a drone, the ground, or
-    the greatest height above it.
+    """The part of the mission that an obstacle, a half-space or a moving body belongs to.
 
-    name : of a scene or of buildings that of the part which is meant, empty for all of them
-    path : of its key in the mission; of the ground and the ceiling it is that of the rule for it
-    As text it is how plans name it: `zone tree`, `ground`, `building Town hall`.
+    name : for a scene or buildings that of the part, empty for all parts
+    path : its key path in the mission; for the ground and the ceiling that of their rule
+    Its text is its name in plans: `zone tree`, `ground`, `building Town hall`.
     """
 
     kind: OwnerKind
@@ -32,7 +31,7 @@ class Owner(NamedTuple):
 
     @property
     def words(self) -> str:
-        """How diagnostics name it."""
+        """Its name in diagnostics."""
         if not self.name:
             return f"the {self.kind}"
         if self.kind == "scene":
@@ -49,7 +48,7 @@ CEILING = Owner("ceiling", "", ("rules", "max_height"))
 
 
 def zone_owner(zone: Zone) -> Owner:
-    """Return the owner of what a zone forbids."""
+    """Return the owner of a zone."""
     return Owner("zone", zone.name, zone.path)
 
 
@@ -69,12 +68,12 @@ def mesh_owner(mesh: "ObstacleMesh") -> Owner:
 
 
 def part_owner(mesh: "ObstacleMesh", place: Vec3) -> Owner:
-    """Return the owner of what is nearest to a place of W, by the name of its part."""
+    """Return the owner of the part of a mesh that is nearest to a place of W."""
     return mesh_owner(mesh)._replace(name=mesh.nearest_part(place).name)
 
 
 def owner_of(mission: MissionIR, text: str) -> Owner | None:
-    """Return the owner that a plan names by a text; None for a text that names none."""
+    """Return the owner with that text; None if there is none."""
     known = (
         GROUND,
         CEILING,
@@ -87,7 +86,7 @@ def owner_of(mission: MissionIR, text: str) -> Owner | None:
 
 
 def _part_called(mission: MissionIR, text: str) -> Owner | None:
-    """Return the owner of a part of a scene or of buildings by its text."""
+    """Return the owner of the part of a scene or of buildings with that text; None if there is none."""
     for mesh in mission.meshes:
         parts = (mesh_owner(mesh)._replace(name=name) for name in mesh.names)
         found = next((part for part in parts if str(part) == text), None)

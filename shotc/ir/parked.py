@@ -1,4 +1,4 @@
-"""Drones that a plan does not fly: bodies on their pads from the first second to the last."""
+"""Drones that a plan does not fly: they stand on their pads all the time."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from shotc.ir.show import Fleet
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 
 ON_PAD = 1.0
-"""Seconds that the curve of a parked drone lasts; it stands before and after as any drone does."""
+"""Duration of a parked drone's curve, seconds; like every drone it stands before and after."""
 
 
 def parked(ir: TrajectoryIR) -> tuple[DroneTrajectory, ...]:
-    """Return the drones of the mission that have no flight in a plan, standing: no phases, no framing."""
+    """Return the drones of the mission without a flight in a plan, as standing: no phases, no framing."""
     flown = {track.drone for track in ir.drones}
     return tuple(_standing(drone) for drone in ir.keyframes.mission.drones if drone.name not in flown)
 
 
 def parked_fleets(ir: TrajectoryIR) -> tuple[Fleet, ...]:
-    """Return the fleets of the mission that have no flight in a plan; their drones stand on their pads."""
+    """Return the fleets of the mission without a flight in a plan; their drones stand on their pads."""
     flown = {track.fleet for track in ir.fleets}
     return tuple(fleet for fleet in ir.keyframes.mission.fleets if fleet.name not in flown)
 
 
 def bodies(ir: TrajectoryIR) -> tuple[DroneTrajectory, ...]:
-    """Return all drones of the mission, those that fly first."""
+    """Return all drones of the mission, the flying ones first."""
     return (*ir.drones, *parked(ir))
 
 

@@ -1,4 +1,4 @@
-"""What a pass is: a value with a name that turns one IR into the next, or says why it cannot."""
+"""The interface of passes: a named value that lowers one IR to the next, or returns diagnostics."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeVar
@@ -12,14 +12,14 @@ Value_co = TypeVar("Value_co", covariant=True)
 
 
 def silent(_message: str) -> None:
-    """Report progress to nobody."""
+    """Ignore a progress message."""
 
 
 class PassContext(NamedTuple):
-    """What every pass may read besides its input.
+    """The inputs of every pass besides its IR.
 
-    seed : for anything random; progress : call with a short text on long work
-    headings : how the turns of a camera that follows nothing are chosen, of ``solvers.headings.METHODS``;
+    seed : for random numbers; progress : called with a short text during long work
+    headings : method of ``solvers.headings.METHODS`` that chooses the turns of a camera without a target;
         None means its ``DEFAULT``
     """
 
@@ -29,24 +29,24 @@ class PassContext(NamedTuple):
 
 
 class Outcome(NamedTuple, Generic[Value_co]):
-    """What a pass gives: the next IR, or None where an error stopped it, and its diagnostics."""
+    """The result of a pass: the next IR, or None after an error, and its diagnostics."""
 
     value: Value_co | None
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class Refiner(Protocol):
-    """What sits in the refiner seat (entry-point group ``shotc.refiners``)."""
+    """The interface of refiners (entry-point group ``shotc.refiners``)."""
 
     name: ClassVar[str]
     summary: ClassVar[str]
     api: ClassVar[int]
 
     def refine(self, path: "PathIR", ctx: PassContext) -> Outcome["PathIR"]:
-        """Return a better path, or errors that say why there is none.
+        """Return a better path, or the errors that prevent it.
 
-        An error that labels the key of a shot is about that shot alone: return it together with a path
-        that has the shot's convex leg, and the other shots stay refined where the mission allows it.
+        An error that labels the key of a shot concerns that shot alone. Return it together with a path that
+        keeps the shot's convex leg; then the other shots stay refined if the mission allows it.
         """
         ...
 

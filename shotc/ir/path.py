@@ -1,8 +1,8 @@
-"""PathIR: the geometry of every leg as q(s), before time.
+"""PathIR: the geometry of every leg as a curve q(s), before it gets its time.
 
-s is path length in metres (turns on the spot count as length too); it is never a time. A shot on its
-own clock is a ``ClockLeg``, the one kind of leg that is a curve over mission time already. A camera that
-stands still has a ``HoldLeg`` and no curve.
+s is path length in metres, and never a time; turns on the spot count as length too. A shot on its own clock
+is a ``ClockLeg``, the only leg that is already a curve over mission time. A shot of a camera that stands
+still is a ``HoldLeg``, without a curve.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from shotc.ir.origin import KeyPath
 from shotc.ir.phases import KeyframeTime, PhaseName, Reference
 
 Pose = tuple[float, ...]
-"""The channels of a camera at one moment, as CHANNELS."""
+"""The values of CHANNELS at one time."""
 
 CHANNELS = ("x", "y", "z", "cam_yaw", "cam_pitch", "body_yaw", "hfov")
 X, Y, Z, CAM_YAW, CAM_PITCH, BODY_YAW, HFOV = range(7)
@@ -27,7 +27,7 @@ X, Y, Z, CAM_YAW, CAM_PITCH, BODY_YAW, HFOV = range(7)
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A place where the drone comes to rest: at path parameter s, for ``hold`` seconds."""
+    """A rest of the drone at path parameter s, metres, for ``hold`` seconds."""
 
     s: float
     hold: float
@@ -37,9 +37,9 @@ class Stop:
 class Mark:
     """A keyframe on the path.
 
-    s : its path parameter
+    s : its path parameter, metres
     time : seconds from the shot's start, if the mission fixes it
-    index : among the shot's keyframes
+    index : its index among the shot's keyframes
     """
 
     s: float
@@ -50,11 +50,12 @@ class Mark:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FramingSpan:
-    """A stretch of the path on which one target is framed.
+    """A part of the path on which one target is framed.
 
     target : its name
-    reference : (u, v) wanted of its centre, curve over s; breaks[0] and breaks[-1] are the stretch;
-        or None where the target is only watched (no composition asked)
+    start, end : path parameters, metres
+    reference : reference (u, v) of its centre, a curve over s from ``start`` to ``end``; None without a
+        composition
     """
 
     target: str
@@ -64,7 +65,7 @@ class FramingSpan:
 
 
 class _OnCurve:
-    """A leg that begins and ends at rest where its curve does."""
+    """A leg that starts and ends at rest at the ends of its curve."""
 
     __slots__ = ()
     curve: Piecewise
@@ -76,19 +77,19 @@ class _OnCurve:
 
     @property
     def end_pose(self) -> Pose:
-        """Channels at its end, at rest."""
+        """Channels at the end of the leg, at rest."""
         return tuple(map(float, self.curve.ctrl[-1, -1]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MovingLeg(_OnCurve):
-    """One stretch of flight from rest to rest along a path.
+    """A part of the flight from rest to rest along a path.
 
     curve : q(s), channels CHANNELS, piecewise quintic, at least C2
-    stops : where it rests, in order of s; the first is at curve.start, the last at curve.end
+    stops : rests in order of s; the first is at curve.start, the last at curve.end
     marks : keyframes (shots only)
-    pace  : share of the limits, where the duration is free; smoother : smoothing over the normal one
-    duration : seconds asked for the whole leg including holds, or None
+    pace  : share of the limits if the duration is free; smoother : smoothing over the normal one
+    duration : required duration of the whole leg with its holds, seconds, or None
     start : earliest mission time of its first frame, or None
     """
 
@@ -109,8 +110,8 @@ class MovingLeg(_OnCurve):
 class HoldLeg:
     """A shot of a camera that stands still.
 
-    pose : channels CHANNELS, all through the leg
-    hold : seconds that its keyframes are held, where ``duration`` is None
+    pose : channels CHANNELS, constant
+    hold : sum of the holds of its keyframes, seconds, if ``duration`` is None
     marks, framing : as in MovingLeg, at s = 0; duration, start : as there
     """
 
@@ -127,17 +128,17 @@ class HoldLeg:
 
     @property
     def end_pose(self) -> Pose:
-        """Channels at its end."""
+        """Channels at the end of the leg."""
         return self.pose
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClockLeg(_OnCurve):
-    """A shot on its own clock, with the way into its motion and out of it, from rest to rest.
+    """A shot on its own clock with its run-up and run-out, from rest to rest.
 
     curve : channels CHANNELS over mission time, piecewise quintic, at least C2
     start, end : mission time of the first and the last filmed frame, seconds
-    framing, keyframes : what is framed, and when keyframes are reached
+    framing, keyframes : references of the framed targets, and times of keyframes
     """
 
     shot: str
@@ -150,13 +151,13 @@ class ClockLeg(_OnCurve):
 
 
 PathLeg = MovingLeg | HoldLeg
-"""A leg that no clock binds."""
+"""A leg that is not on the clock."""
 Leg = PathLeg | ClockLeg
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DronePath:
-    """All legs of one drone, in the order they are flown; each starts where the last one ended."""
+    """All legs of one drone in the order of flight; each starts where the one before ended."""
 
     drone: str
     legs: tuple[PathLeg, ...]
@@ -164,7 +165,7 @@ class DronePath:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TimedPath:
-    """All legs of one drone that films something on its own clock, joined as in DronePath."""
+    """All legs of one drone whose legs are laid on the clock, joined as in DronePath."""
 
     drone: str
     legs: tuple[Leg, ...]
@@ -172,7 +173,7 @@ class TimedPath:
 
 @dataclass(frozen=True, slots=True)
 class PathDeviation:
-    """How far a shot on a path left its ideal: ``distance`` metres, at path parameter s, and why."""
+    """The largest deviation of a shot on a path: ``distance`` metres at path parameter s, and its cause."""
 
     shot: str
     distance: float
@@ -182,7 +183,9 @@ class PathDeviation:
 
 @dataclass(frozen=True, slots=True)
 class ClockDeviation:
-    """How far a shot on its own clock left its ideal: ``distance`` metres, at mission time t, and why."""
+    """The largest deviation of a shot on its own clock: ``distance`` metres at mission time t, and its
+    cause.
+    """
 
     shot: str
     distance: float
@@ -196,13 +199,13 @@ _Deviation = TypeVar("_Deviation", PathDeviation, ClockDeviation, Deviation)
 
 LIMITS, CALM = "the drone's limits", "a calmer camera, and the drone's limits"
 SIGHT = "what would hide the subject"
-"""Causes that are neither a thing in the way nor a picture."""
+"""Causes that are neither an obstacle nor another drone's picture."""
 
 
 def from_what_was_asked(mission: MissionIR, deviations: Iterable[_Deviation]) -> tuple[_Deviation, ...]:
-    """Return the deviations from places that somebody asked for.
+    """Return the deviations from positions that the mission requires.
 
-    Nobody did between the keyframes of a shot on its own clock: only what stands in the way counts there.
+    Between the keyframes of a shot on its own clock it requires none, so only obstacles count there.
     """
     return tuple(d for d in deviations if not (is_keyed(mission.shot(d.shot)) and d.cause in (LIMITS, CALM)))
 
@@ -211,8 +214,8 @@ def from_what_was_asked(mission: MissionIR, deviations: Iterable[_Deviation]) ->
 class PathIR:
     """The mission's geometry.
 
-    drones : those that film what stands, and nothing else; timed : the others
-    stats : (name, value) pairs of what the solvers reported, in a fixed order
+    drones : the drones that film only standing targets; timed : those whose legs are laid on the clock
+    stats : (name, value) pairs from the solvers, in a fixed order
     """
 
     keyframes: KeyframeIR
@@ -239,7 +242,7 @@ class PathIR:
 
 
 def leg_of(path: PathIR, shot: str) -> MovingLeg:
-    """Return the leg on which a camera that moves along a path films a shot; KeyError if there is none."""
+    """Return the leg of a shot that moves along a path; raise KeyError if there is none."""
     leg = filmed(path, shot)
     if not isinstance(leg, MovingLeg):
         raise KeyError(shot)
@@ -247,7 +250,7 @@ def leg_of(path: PathIR, shot: str) -> MovingLeg:
 
 
 def filmed(path: PathIR, shot: str) -> Leg:
-    """Return the leg that films a shot, whatever it is a curve over; KeyError if there is none."""
+    """Return the leg of a shot, of any type; raise KeyError if there is none."""
     every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
     for drone in every:
         for leg in drone.legs:

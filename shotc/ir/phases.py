@@ -1,4 +1,4 @@
-"""What a drone, or a fleet, does when: phases, keyframes and framings over mission time."""
+"""Phases, keyframes and framings of a drone or a fleet over mission time."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from shotc.geom.bernstein import Piecewise
 PhaseName = Literal["takeoff", "transit", "shot", "return", "land"]
 
 UPRIGHT: tuple[PhaseName, PhaseName] = ("takeoff", "land")
-"""Phases straight over a pad: no clearances apply there, nor the floors of keep-in zones."""
+"""Vertical phases over a pad; no clearances apply there, nor the floors of keep-in zones."""
 
 
 @dataclass(frozen=True, slots=True)
 class Phase:
-    """A stretch of mission time, seconds; ``shot`` is set where phase is "shot"."""
+    """An interval of mission time, seconds; ``shot`` is set if the name is "shot"."""
 
     name: PhaseName
     shot: str | None
@@ -25,7 +25,7 @@ class Phase:
 
 @dataclass(frozen=True, slots=True)
 class KeyframeTime:
-    """When a shot's keyframe is reached (the start of its hold), seconds of mission time."""
+    """The mission time at which a shot's keyframe is reached (its hold starts), seconds."""
 
     shot: str
     index: int
@@ -34,9 +34,9 @@ class KeyframeTime:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reference:
-    """A stretch of a shot on which one target is framed.
+    """A part of a shot in which one target is framed, from mission time ``start`` to ``end``, seconds.
 
-    reference : (u, v) wanted of the target's centre, curve over t, or None
+    reference : reference (u, v) of the target's centre, a curve over t, or None
     """
 
     shot: str

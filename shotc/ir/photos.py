@@ -1,10 +1,10 @@
-"""Photos that are taken in place of a film. Plain Python."""
+"""Photos that a shot takes instead of a film. Plain Python."""
 
 from typing import NamedTuple
 
 
 class Photos(NamedTuple):
-    """How far they are apart: seconds, or metres on the way; the other one is None."""
+    """The interval of photos: in seconds, or in metres of the path; the other one is None."""
 
     seconds: float | None = None
     metres: float | None = None

@@ -1,10 +1,10 @@
-"""What flying costs a multirotor, and what its battery holds. Plain Python.
+"""The power of a multirotor and the energy of its battery. Plain Python.
 
 Momentum theory of a rotor (Leishman, Principles of Helicopter Aerodynamics, 2006, Ch. 2): n rotors of radius
-R that push T move air down at v_h = sqrt(T / (2 rho n pi R^2)), and hovering costs T v_h. Climbing at v_c
-costs T (v_c / 2 + sqrt(v_c^2 / 4 + v_h^2)), to first order T (v_h + v_c / 2). One efficiency stands for all
-that blades, motors and wires lose. Neither the drag of the air nor what a rotor gains from flying ahead is
-counted.
+R with thrust T move air down at v_h = sqrt(T / (2 rho n pi R^2)), and hovering takes the power T v_h.
+Climbing at v_c takes T (v_c / 2 + sqrt(v_c^2 / 4 + v_h^2)), to first order T (v_h + v_c / 2). One efficiency
+accounts for the losses of blades, motors and wires. Air drag and the translational lift of forward flight are
+neglected.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ SEA_LEVEL_KG_M3 = 1.225
 class Power(NamedTuple):
     """A drone's battery and rotors.
 
-    mass : as it flies, kg; battery : full, J; rotors : how many; radius : of a rotor, m
-    efficiency : ideal power of hovering over what the battery gives; reserve : share of the battery left at
-        landing; density : of the air, kg/m^3
+    mass : at take-off, kg; battery : full, J; rotors : their number; radius : of a rotor, m
+    efficiency : ideal power of hovering over the power from the battery
+    reserve : share of the battery that is left at landing; density : of the air, kg/m^3
     """
 
     mass: float
@@ -36,12 +36,12 @@ class Power(NamedTuple):
 
     @property
     def hover(self) -> float:
-        """Power that hovering takes from the battery, W."""
+        """Power from the battery for hovering, W."""
         return self.ideal / self.efficiency
 
     @property
     def ideal(self) -> float:
-        """Power that hovering needs by momentum theory, W."""
+        """Power for hovering by momentum theory, W."""
         disc = self.rotors * pi * self.radius**2
         weight = self.mass * G_M_S2
         return weight * sqrt(weight) / sqrt(2.0 * self.density * disc)
@@ -53,21 +53,21 @@ class Power(NamedTuple):
 
     @property
     def endurance(self) -> float:
-        """Seconds that it hovers; no flight that begins and ends at rest at one height lasts longer.
+        """Time of hovering, s. No flight from rest to rest at one height lasts longer.
 
-        The mean of its acceleration is 0, and power a convex function of it (Jensen's inequality).
+        The mean acceleration of such a flight is 0, and power is convex in it (Jensen's inequality).
         """
         return self.usable / self.hover
 
     def hovering_for(self, seconds: float) -> Power:
-        """Return the same with the efficiency by which a full battery hovers so long."""
+        """Return the same with the efficiency at which a full battery hovers for so many seconds."""
         return self._replace(efficiency=self.ideal * seconds / self.battery)
 
 
 def density_at(altitude: float) -> float:
-    """Return the density of the standard atmosphere at an altitude above the sea, metres, in kg/m^3.
+    """Return the density of the standard atmosphere, kg/m^3, at an altitude above the sea, metres.
 
-    ISO 2533, up to 11 km; beyond, and below the Dead Sea, what it is there.
+    ISO 2533, for -450 m to 11 km; constant beyond.
     """
     height = min(max(altitude, -450.0), 11e3)
     ratio: float = (1.0 - 0.0065 * height / 288.15) ** 4.25588

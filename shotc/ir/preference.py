@@ -1,8 +1,8 @@
-"""What a preference may cost: the one rule for all that a mission prefers and does not require.
+"""The cost that a preference may have: one rule for everything that a mission prefers but does not require.
 
-A preference moves a camera, from where it would be without it, by at most a share of its distance from
-what it films, and crops nothing. Where that does not suffice it is given up for the whole shot, which is
-planned as if it were off. Plain Python.
+A preference may move a camera by at most a share of its distance from its target, and may crop nothing. If
+that does not suffice, the preference is given up for the whole shot, which is then planned without it. Plain
+Python.
 """
 
 from collections.abc import Iterable
@@ -11,28 +11,28 @@ from typing import NamedTuple
 from shotc.ir.mission import MissionIR
 
 MOST_MOVED = 0.2
-"""Share of its distance from what it films that a preference moves a camera by.
+"""Largest displacement of a camera by a preference, as a share of its distance from its target.
 
-The subject is then at most a fourth larger or a sixth smaller, and the view of it turns by at most
-asin(0.2), 11.5 deg: less than what reads as another shot.
+The subject is then at most a fourth larger or a sixth smaller, and its view turns by at most asin(0.2) =
+11.5 deg. A viewer still sees the same shot.
 """
 
 UNWATCHED = 10.0
-"""Metres that count as the distance where a shot films nothing that has a name."""
+"""Distance that counts for a shot without a named target, metres."""
 
 LONGEST_WAIT = 10.0
-"""Seconds that a drone waits for a preference with an unfilmed way, where that makes what follows later."""
+"""Longest wait with a transfer for a preference, if it delays the next leg, seconds."""
 
 GIVEN_UP, SHARE, SUFFICES = "preference_given_up", "preference_share", "preference_suffices"
-"""The statistics ``SHOT.name`` of a preference that a shot gives up, as in ``Price``."""
+"""Names of the statistics ``SHOT.name`` of a preference that a shot gives up; fields as in ``Price``."""
 
 
 class Price(NamedTuple):
-    """What a preference that a shot gives up would have cost.
+    """The cost of a preference that a shot gives up.
 
-    moved : metres from the place without it, where that is the largest share of what it may be
-    share : the same over the distance from what the shot films
-    suffices : whether it would have been met then
+    moved : displacement that it would need, metres, where it is the largest share of the distance
+    share : the same over the distance from the target
+    suffices : whether this displacement would meet the preference
     """
 
     moved: float
@@ -41,12 +41,14 @@ class Price(NamedTuple):
 
 
 def prefers_free_pictures(mission: MissionIR) -> bool:
-    """Tell whether drones keep out of each other's pictures only as far as the rule goes."""
+    """Return whether free pictures of other drones are a preference, not a requirement."""
     return mission.rules.visibility == "prefer"
 
 
 def given_up(stats: Iterable[tuple[str, float | str]], shot: str) -> Price | None:
-    """Return by the statistics of a plan what a shot gives up, None where nothing."""
+    """Return the cost of the preference that a shot gives up, from a plan's statistics; None if it gives up
+    none.
+    """
     by_name = dict(stats)
     values = [by_name.get(f"{shot}.{name}") for name in (GIVEN_UP, SHARE, SUFFICES)]
     if not all(isinstance(value, float) for value in values):
@@ -56,6 +58,6 @@ def given_up(stats: Iterable[tuple[str, float | str]], shot: str) -> Price | Non
 
 
 def noted(shot: str, price: Price) -> tuple[tuple[str, float | str], ...]:
-    """Return a price as statistics of a plan."""
+    """Return a price as statistics of a plan; ``given_up`` reads them."""
     values = ((GIVEN_UP, price.moved), (SHARE, price.share), (SUFFICES, float(price.suffices)))
     return tuple((f"{shot}.{name}", value) for name, value in values)

@@ -1,4 +1,4 @@
-"""What a shot promises of its picture. Plain Python."""
+"""The promises of a shot about its picture. Plain Python."""
 
 from typing import NamedTuple
 
@@ -6,13 +6,14 @@ from shotc.ir.limits import Range
 
 
 class Promise(NamedTuple):
-    """What a shot promises and verification holds it to (``require``); None promises nothing.
+    """The promises of a shot (``require``), which verification checks; None promises nothing.
 
     in_frame : share of samples with the whole target in frame, 0 to 1
     screen_error : largest distance to the reference on screen, (u, v) units
     size : (lowest, highest) projected height over frame height
-    visible : least share of the target's outline that nothing covers, in any frame, 0 to 1
-    reveal : the same in the first frame and in the last: of the smaller at most, of the larger at least
+    visible : least free share of the target's outline in any frame, 0 to 1
+    reveal : bounds on the free share in the first and the last frame: at most the smaller bound where the
+        target is hidden, at least the larger one where it is shown
     """
 
     in_frame: float | None = None

@@ -1,4 +1,4 @@
-"""The fields of an IR's records, which are named tuples or, where they hold arrays, dataclasses."""
+"""The field names of IR records: named tuples, or dataclasses if they hold arrays."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def field_names(record: Any) -> tuple[str, ...]:
-    """Return the names of the fields of a record or of its type, in their order; of anything else, none."""
+    """Return the field names of a record or of its type, in order; empty for anything else."""
     if is_dataclass(record):
         return tuple(field.name for field in fields(record))
     kind = record if isinstance(record, type) else type(record)

@@ -1,6 +1,6 @@
-"""What a mission asks of its rehearsals, and under which conditions they are flown. Plain Python.
+"""The requirements of a mission on its rehearsals, and the conditions of their runs. Plain Python.
 
-`simulate` alone reads it: no plan depends on it, and no proof.
+Only `simulate` reads it. No plan and no proof depends on it.
 """
 
 from typing import Literal, NamedTuple
@@ -15,8 +15,8 @@ Receiver = Literal["rtk", "plain"]
 class Wind(NamedTuple):
     """Wind over the whole mission.
 
-    speed : m/s; toward : yaw of the direction in which it blows, rad counter-clockwise from East; None where
-        the mission does not say
+    speed : m/s; toward : yaw of the direction in which it blows, rad counter-clockwise from East; None if
+        unknown
     """
 
     speed: float
@@ -24,14 +24,14 @@ class Wind(NamedTuple):
 
 
 class RehearsalPromise(NamedTuple):
-    """What has to hold in a share of the runs; None asks for nothing.
+    """The requirements that must hold in a share of the runs; None requires nothing.
 
-    in_frame : least share of the frames of each shot with the whole target in them, 0 to 1
-    in_sight : least share of the instants of each shot at which half of the target's outline or more is free
-    mean_error : largest mean over the frames of a shot of the distance on screen between target and reference
-    clearance : least distance from a drone's body to all else, metres; of fleets, from drone to drone
-    stray : largest distance of a drone from where the plan has it at the same time, metres
-    of : the share of the runs, 0 to 1
+    in_frame : least share of frames with the whole target in them, for each shot, 0 to 1
+    in_sight : least share of samples with at least half of the target's outline free, for each shot
+    mean_error : largest mean distance on screen between target and reference, for each shot
+    clearance : least distance from a drone's body to everything else, metres; for fleets, between drones
+    stray : largest distance of a drone from its planned position at the same time, metres
+    of : share of the runs, 0 to 1
     """
 
     in_frame: float | None = None
@@ -43,11 +43,11 @@ class RehearsalPromise(NamedTuple):
 
 
 class Rehearsal(NamedTuple):
-    """A rehearsal as the mission asks for it.
+    """A rehearsal as the mission requires it.
 
-    runs : how many; wind : None where it is that of the world; gusts : standard deviation of each axis, m/s
-    gps : the receivers of drones and targets; wander : standard deviation of how far what moves is off its
-        track, metres
+    runs : their number; wind : None for that of the world; gusts : standard deviation of each axis, m/s
+    gps : the receivers of drones and targets; wander : standard deviation of a moving target's distance from
+        its track, metres
     """
 
     promise: RehearsalPromise

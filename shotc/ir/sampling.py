@@ -1,6 +1,6 @@
-"""A plan at the ticks of its output clock: which phase, which subjects, what the camera sees.
+"""Samples of a plan at the ticks of its output clock: phase, subjects, and the camera's view of them.
 
-Verification and the tables read the same samples, so that what is written is what was judged.
+Verification and the tables use the same samples, so that the written values are those that were judged.
 """
 
 from __future__ import annotations
@@ -25,23 +25,25 @@ from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 
 SAME_TIME = 1e-9
-"""Seconds within which a tick counts as being on a boundary."""
+"""Tolerance within which a tick is on a boundary, seconds."""
 
 
 def clock(rate: float, end: float) -> Array:
-    """Return the ticks k / rate from 0 to the first one at or after ``end``, seconds."""
+    """Return the ticks k / rate from 0 to the first one at or after ``end``, seconds; rate : Hz."""
     return np.arange(ceil((end - SAME_TIME) * rate) + 1) / rate
 
 
 def ticks(rate: float, start: float, end: float) -> Array:
-    """Return the ticks k / rate between two times, seconds, and both of these."""
+    """Return two times, seconds, and the ticks k / rate between them."""
     times = clock(rate, end)
     inside = times[(times > start + SAME_TIME) & (times < end - SAME_TIME)]
     return np.concatenate([[start], inside, [end]])
 
 
 def phase_index(phases: tuple[Phase, ...], t: Array) -> NDArray[np.intp]:
-    """Return the index of the phase at each time; a boundary belongs to the phase that begins there."""
+    """Return the index of the phase at times t (M,), shape (M,); a boundary belongs to the phase that starts
+    there.
+    """
     starts = np.array([phase.start for phase in phases[1:]])
     return np.asarray(np.searchsorted(starts, t + SAME_TIME, side="right"))
 
@@ -53,7 +55,7 @@ def subjects(mission: MissionIR, drone: DroneTrajectory, shot: str) -> tuple[str
 
 
 def framed(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Mask:
-    """Tell at which times the shot frames the target."""
+    """Return whether the shot frames the target at times t (M,), shape (M,)."""
     inside = np.zeros(len(t), dtype=bool)
     for span in drone.framing:
         if span.shot == shot and span.target == target:
@@ -62,7 +64,7 @@ def framed(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Mask:
 
 
 def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Array:
-    """Return the (u, v) that is wanted of the target at each time, shape (M, 2), NaN where none is."""
+    """Return the reference (u, v) of the target at times t (M,), shape (M, 2); NaN where there is none."""
     wanted = np.full((len(t), 2), np.nan)
     for span in drone.framing:
         if span.shot == shot and span.target == target and span.reference is not None:
@@ -72,7 +74,7 @@ def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Arra
 
 
 def projected(mission: MissionIR, drone: DroneTrajectory, target: str, t: Array) -> Frames:
-    """Look through the drone's camera at a target at times t, shape (M,), as if nothing hid it."""
+    """Return the drone's view of a target at times t, shape (M,), without occlusion."""
     filmed = mission.target(target)
     still = beside_cameras(cameras(mission, drone, t), filmed, t)
     return frames(still, filmed.centre, shapes(filmed, t))
@@ -85,7 +87,7 @@ def seen(
     t: Array,
     others: Sequence[DroneTrajectory] = (),
 ) -> Frames:
-    """Look through the drone's camera at a target at times t, shape (M,), and tell when it is hidden.
+    """Return the drone's view of a target at times t, shape (M,), with the times at which it is hidden.
 
     others : flights of the other drones, which may hide it
     """
@@ -96,12 +98,14 @@ def seen(
 
 
 def beside_cameras(eyes: Cameras, target: Target, t: Array) -> Cameras:
-    """Return cameras at times (M,) as they are where the target stands at its centre."""
+    """Return cameras at times (M,) relative to the target, for a target that stands at its centre."""
     return replace(eyes, position=eyes.position - moved(target, t))
 
 
 def beside(curve: Piecewise, target: Target) -> Piecewise:
-    """Return a curve of channels x, y, z over mission time as it is where the target stands at its centre."""
+    """Return a curve of channels x, y, z over mission time relative to the target, which stands at its
+    centre.
+    """
     if target.track is None:
         return curve
     seen_by = seen_from(curve, target.track)
@@ -109,7 +113,7 @@ def beside(curve: Piecewise, target: Target) -> Piecewise:
 
 
 def rate_beside(curve: Piecewise, target: Target) -> Piecewise:
-    """Return the derivative of ``beside``, exactly: how fast the target sees the curve move."""
+    """Return the exact derivative of ``beside``: the velocity relative to the target."""
     return curve.derivative() if target.track is None else rate_seen_from(curve, target.track)
 
 

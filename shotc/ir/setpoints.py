@@ -1,8 +1,8 @@
-"""Setpoints: how a subject is to appear at times of its shot, and in between. Plain Python.
+"""Setpoints: the required appearance of a subject at times of its shot, and between them. Plain Python.
 
-What changes goes from one setpoint to the next as a polynomial of fifth degree that rests at both (least
-jerk), so nothing overshoots. Sizes change by their logarithm, evenly as seen on screen, bearings the shorter
-way.
+A value changes from one setpoint to the next as the quintic polynomial of minimum jerk, which rests at both
+ends and does not overshoot. For sizes the polynomial is in their logarithm, so that the zoom is even on
+screen. Bearings turn the shorter way.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ _Value = TypeVar("_Value")
 
 
 class Setpoint(NamedTuple):
-    """How a subject is to appear from a time of its shot on, until the next setpoint.
+    """The required appearance of a subject at a time of its shot.
 
     time : seconds from the first frame
     place : (u, v) of its centre; size, view : as in ``mission.Subject``; None changes nothing
@@ -32,7 +32,7 @@ class Setpoint(NamedTuple):
 
 
 class Asked(NamedTuple):
-    """How a subject is to appear at one moment; None is free. place : (u, v) of its centre."""
+    """The required appearance of a subject at one time; None is free. place : (u, v) of its centre."""
 
     place: Vec2 | None
     size: float | None
@@ -40,7 +40,7 @@ class Asked(NamedTuple):
 
 
 def asked_at(first: Asked, setpoints: Sequence[Setpoint], time: float) -> Asked:
-    """Return how a subject is to appear at a time of its shot, seconds; first : at its first frame."""
+    """Return the required appearance at a time of its shot, seconds; first : that at the first frame."""
     if not setpoints:
         return first
     place = None if first.place is None else _place_at(first.place, setpoints, time)
@@ -56,7 +56,7 @@ def asked_at(first: Asked, setpoints: Sequence[Setpoint], time: float) -> Asked:
 
 
 def places_asked(first: Vec2, setpoints: Sequence[Setpoint]) -> list[tuple[float, Vec2]]:
-    """Return the times at which a subject comes to a place on screen, from 0 on, and these places."""
+    """Return the times, from 0 on, at which a subject has a required place on screen, and these places."""
     return _changes(first, setpoints, lambda setpoint: setpoint.place)
 
 
@@ -71,7 +71,7 @@ def _sizes(first: float, setpoints: Sequence[Setpoint]) -> list[tuple[float, flo
 
 
 def _angles(first: float, setpoints: Sequence[Setpoint]) -> list[tuple[float, float]]:
-    """Return bearings with whole turns added, so that each is the nearest to the one before."""
+    """Return unwrapped bearings: each is the nearest equivalent to the one before."""
     known = _changes(first, setpoints, _azimuth)
     turned = known[:1]
     for time, angle in known[1:]:
@@ -100,7 +100,7 @@ def _elevation(setpoint: Setpoint) -> float | None:
 
 
 def _eased(known: Sequence[tuple[float, float]], time: float) -> float:
-    """Return the value at a time; before the first and after the last it stays."""
+    """Return the value at a time; it is constant before the first and after the last setpoint."""
     before, value = known[0]
     for after, next_value in known[1:]:
         if time < after:

@@ -1,8 +1,7 @@
-"""How sharp a target is shown: by the depth of field, and by what moves while the shutter is open.
+"""The sharpness of a target in the picture: depth of field, and motion blur during the exposure.
 
-The lens is focused on the centre of the shot's ``focus``, or so far away, or on the target that it frames.
-During the exposure about an instant a point draws a line on the picture: motion blur is how far its ends are
-apart.
+The lens is focused on the centre of the shot's ``focus``, at its depth, or on the framed target. During the
+exposure about an instant a point draws a line on the picture; motion blur is the distance of its ends.
 """
 
 from __future__ import annotations
@@ -23,16 +22,16 @@ from shotc.ir.sampling import beside_cameras, cameras, framed, projected, subjec
 from shotc.ir.trajectory import DroneTrajectory
 
 BEHIND_M = 1e5
-"""Where the background is that no ground ends: so far away that only turning moves it."""
+"""Distance of a background without ground: so far away that only the camera's rotation moves it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sharpness:
-    """A target in M frames, every array of shape (M,); NaN where it is not known.
+    """The sharpness of a target in M frames, every array of shape (M,); NaN where it is unknown.
 
-    focus : depth at which the lens is focused, m; near, far : limits of what is sharp, m, far may be infinite
-    disc : the largest disc on the sensor as which a point of the target is shown, m
-    motion, background : motion blur of its centre, and of what stands behind that, pixels
+    focus : focused depth, m; near, far : limits of the depth of field, m; far may be infinite
+    disc : diameter of the largest blur disc of a point of the target on the sensor, m
+    motion, background : motion blur of its centre, and of the background behind it, pixels
     """
 
     focus: Array
@@ -44,7 +43,7 @@ class Sharpness:
 
 
 def sharpness(mission: MissionIR, track: DroneTrajectory, shot: str, target: str, t: Array) -> Sharpness:
-    """Return how sharp a target of a shot is shown at times (M,); the drone's camera has optics."""
+    """Return the sharpness of a target of a shot at times (M,); the drone's camera must have optics."""
     drone = mission.drone(track.drone)
     assert drone.optics is not None
     unknown = np.full(len(t), np.nan)
@@ -67,7 +66,7 @@ def sharpness(mission: MissionIR, track: DroneTrajectory, shot: str, target: str
 
 
 def focused(mission: MissionIR, track: DroneTrajectory, shot: str, t: Array) -> Array:
-    """Return the depth at which the lens is focused at times (M,), m; NaN where nothing is before it."""
+    """Return the focused depth at times (M,), m, shape (M,); NaN where the target is behind the camera."""
     chosen = mission.shot(shot).focus
     if isinstance(chosen, float):
         return np.full(len(t), chosen)
@@ -98,15 +97,15 @@ def extent(mission: MissionIR, target: str, eyes: Cameras, t: Array) -> tuple[Ar
 
 
 def _seen(mission: MissionIR, track: DroneTrajectory, target: str, t: Array) -> Array:
-    """Return where a target's centre is on screen at times (M,), half frames, (M, 2)."""
+    """Return the place of a target's centre on screen at times (M,), half frames, (M, 2)."""
     frames = projected(mission, track, target, t)
     return np.column_stack([frames.u, frames.v])
 
 
 def _behind(mission: MissionIR, track: DroneTrajectory, target: str, t: Array) -> Array:
-    """Return what stands behind a target's centre at times (M,), (M, 3): the ground, or what is far away.
+    """Return the background point behind a target's centre at times (M,), (M, 3): on the ground, or far away.
 
-    The ground is level there, as high as it is at the target's foot.
+    The ground is taken as level, at its height below the target.
     """
     filmed = mission.target(target)
     eye = track.curve(t)[:, :3]
@@ -120,7 +119,7 @@ def _behind(mission: MissionIR, track: DroneTrajectory, target: str, t: Array) -
 
 
 def _shown(eyes: Cameras, points: Array) -> Array:
-    """Return where points (M, 3) are on screen, half frames, (M, 2); NaN behind the camera."""
+    """Return the places of points (M, 3) on screen, half frames, (M, 2); NaN behind the camera."""
     camera: View = eyes.view
     with np.errstate(divide="ignore", invalid="ignore"):
         u, v, depth = camera.project(tuple((points - eyes.position).T))
@@ -128,7 +127,7 @@ def _shown(eyes: Cameras, points: Array) -> Array:
 
 
 def _drawn(drone: Drone, before: Array, after: Array) -> Array:
-    """Return how long the lines between places on screen are, half frames to pixels, (M,)."""
+    """Return the distances of two places on screen, from half frames to pixels, (M,)."""
     assert drone.optics is not None
     half = 0.5 * drone.optics.pixels * np.array([1.0, 1.0 / drone.aspect])
     return np.asarray(np.linalg.norm((after - before) * half, axis=1))

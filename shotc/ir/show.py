@@ -1,4 +1,4 @@
-"""Fleets and what they draw, resolved. Plain Python, no numpy; part of MissionIR.
+"""Fleets and their pictures, resolved. Plain Python, no numpy; part of MissionIR.
 
 World frame W, metres, radians, seconds. A fleet's drones carry a light and no camera.
 """
@@ -11,16 +11,16 @@ from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.origin import KeyPath
 
 MANY_DRONES = 2000
-"""Drones of a show beyond which tables and recordings of it are made only where they are asked for."""
+"""Number of drones above which tables and recordings of a show are made only on request."""
 
 
 class Apart(NamedTuple):
-    """How far two drones of a fleet stay apart, centre to centre, at every instant.
+    """The separation of two drones of a fleet, centre to centre, at every instant.
 
     shape : "ellipsoid": (dx^2 + dy^2) / h^2 + dz^2 / v^2 >= 1 with h, v the two distances and the margin
-        beyond each; "cylinder": at least h apart horizontally, or v vertically
-    horizontal, vertical : metres; the vertical one is the longer where rotors push air down
-    margin : metres beyond both, for how far a drone may be from where it should be
+        added to each; "cylinder": at least h apart horizontally, or v vertically
+    horizontal, vertical : metres; the vertical one is usually longer because of the downwash
+    margin : metres added to both, for the tracking error of a drone
     """
 
     shape: Literal["ellipsoid", "cylinder"]
@@ -30,26 +30,26 @@ class Apart(NamedTuple):
 
     @property
     def across(self) -> float:
-        """Horizontal distance that is kept, margin included, metres."""
+        """Horizontal separation with the margin, metres."""
         return self.horizontal + self.margin
 
     @property
     def upright(self) -> float:
-        """Vertical distance that is kept, margin included, metres."""
+        """Vertical separation with the margin, metres."""
         return self.vertical + self.margin
 
 
 def stricter(one: Apart, other: Apart) -> Apart:
-    """Return what drones of two fleets keep of each other: the more that either asks for."""
+    """Return the separation between drones of two fleets: the larger of both rules."""
     shape = one.shape if one.shape == "cylinder" else other.shape
     return Apart(shape, max(one.across, other.across), max(one.upright, other.upright), 0.0)
 
 
 class FleetGroup(NamedTuple):
-    """Which drones of a fleet draw together, where it has groups.
+    """The drones of a fleet that make one group.
 
-    of : name of the fleet; name : of the group, empty for the drones that are in none
-    numbers : of its drones in the fleet, from 1, rising; total : drones of the fleet
+    of : name of the fleet; name : of the group, empty for the drones in no group
+    numbers : of its drones in the fleet, from 1, rising; total : number of drones of the fleet
     """
 
     of: str
@@ -59,13 +59,13 @@ class FleetGroup(NamedTuple):
 
 
 class Fleet(NamedTuple):
-    """Drones of one model that draw together: a fleet, or a group of one.
+    """Drones of one model that draw together: a fleet, or a group of a fleet.
 
-    name : of a group ``fleet/group``; the drones of a fleet that are in no group have the fleet's
+    name : ``fleet/group`` for a group; the fleet's name for its drones in no group
     pads : p_WB of every drone at rest, in the order of their numbers
-    rise : metres above its pad to which each drone rises, straight up, before it goes anywhere
+    rise : height above its pad to which each drone takes off vertically, metres
     radius : of the body sphere, m; endurance : s
-    returns : to which pad each drone comes home: any of the fleet's, or its own
+    returns : the pad on which each drone lands: any of the fleet's, or its own
     """
 
     name: str
@@ -82,17 +82,17 @@ class Fleet(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """Whether it is a fleet, or the drones of one that are in no group, or a group."""
+        """The word "group" for a group, "fleet" for a fleet and for its drones in no group."""
         return "group" if self.group is not None and self.group.name else "fleet"
 
     @property
     def words(self) -> str:
-        """What messages call it."""
+        """Its name in messages."""
         return f"{self.kind} `{self.name}`"
 
     @property
     def key(self) -> KeyPath:
-        """Where the mission says which drones it has; ``path`` is where it says all else of them."""
+        """Key path of its list of drones; ``path`` is that of its other properties."""
         if self.group is None or not self.group.name:
             return self.path
         return (*self.path, "groups", self.group.name)
@@ -104,17 +104,17 @@ class Fleet(NamedTuple):
 
 
 def group_name(fleet: str, group: str | None) -> str:
-    """Return the name of a group of a fleet; names of the language have no slash."""
+    """Return the name of a group of a fleet; names in the language have no slash."""
     return fleet if group is None else f"{fleet}/{group}"
 
 
 def fleet_name(name: str) -> str:
-    """Return the name of the fleet that a group is of, or its own of a fleet."""
+    """Return the name of the fleet of a group; a fleet's name stays as it is."""
     return name.partition("/")[0]
 
 
 def whole_fleets(fleets: Iterable[Fleet]) -> tuple[Fleet, ...]:
-    """Return fleets whose groups are put together again, those of them that there are."""
+    """Return the fleets with their given groups joined."""
     parts: dict[str, list[Fleet]] = {}
     for fleet in fleets:
         parts.setdefault(fleet_name(fleet.name), []).append(fleet)
@@ -132,7 +132,7 @@ def _joined(name: str, parts: list[Fleet]) -> Fleet:
 
 
 def kept_from_cameras(separation: float, fleet: Fleet) -> float:
-    """Return how far cameras stay from every drone of a fleet, centre to centre, metres: the stricter rule.
+    """Return the separation of cameras from drones of a fleet, centre to centre, metres: the stricter rule.
 
     separation : of the mission's rules, metres
     """
@@ -147,7 +147,9 @@ class Sphere(NamedTuple):
 
 
 class Box(NamedTuple):
-    """A box; size : along its own east, north and up; heading : by which it is turned, compass sense."""
+    """A box; size : along its own east, north and up; heading : its rotation about the vertical, compass
+    sense.
+    """
 
     centre: Vec3
     size: Vec3
@@ -155,9 +157,10 @@ class Box(NamedTuple):
 
 
 class Torus(NamedTuple):
-    """A ring; radius : from its centre to the middle of the tube; tube : radius of that.
+    """A torus; radius : from its centre to the middle of the tube; tube : radius of the tube.
 
-    heading, tilt : of its axis: 0 tilt lies flat, a quarter turn stands upright, its axis along the heading
+    heading, tilt : of its axis: with tilt 0 the torus lies flat, with a quarter turn it stands upright with
+        its axis along the heading
     """
 
     centre: Vec3
@@ -168,9 +171,9 @@ class Torus(NamedTuple):
 
 
 class Lettering(NamedTuple):
-    """A text that stands upright, read by who looks along the heading; height : of its capitals, metres.
+    """An upright text, readable along the heading; height : of its capital letters, metres.
 
-    font : a file of the mission's, or the name of a font of the system's, or None
+    font : a font file of the mission, the name of an installed font, or None
     """
 
     text: str
@@ -181,7 +184,7 @@ class Lettering(NamedTuple):
 
 
 class Drawing(NamedTuple):
-    """The shapes of an SVG file, upright as lettering; height : of all of it, metres."""
+    """The shapes of an SVG file, upright like lettering; height : of the whole drawing, metres."""
 
     file: str
     centre: Vec3
@@ -192,12 +195,12 @@ class Drawing(NamedTuple):
 class Model(NamedTuple):
     """Meshes or point clouds, one a frame.
 
-    files : names, in order of the frames; period : seconds from frame to frame, of several
-    centre : where the middle of the first frame's bounding box goes, None to leave it where it is
-    height : to which the first frame is scaled, all others alike, metres, or None
-    heading : by which all are turned about the vertical through that middle, compass sense
-    unit : metres that one unit of the files is long
-    up : axis of the files that points up, None where each format's own does
+    files : names in the order of the frames; period : seconds from frame to frame, if there are several
+    centre : new centre of the first frame's bounding box, None to leave it in place
+    height : of the first frame after scaling, metres, or None; all frames get the same scale
+    heading : rotation of all frames about the vertical through that centre, compass sense
+    unit : length of one unit of the files, metres
+    up : axis of the files that points up, None for that of the format
     """
 
     files: tuple[str, ...]
@@ -210,15 +213,16 @@ class Model(NamedTuple):
 
 
 Easing = Literal["ease-in-out", "linear", "ease-in", "ease-out"]
-"""How the speed of a move runs: slow at both ends, even, slow at its beginning, or slow at its end."""
+"""The speed over a move: slow at both ends, constant, slow at its start, or slow at its end."""
 
 
 class Wave(NamedTuple):
-    """Drones that set out one after another.
+    """A move whose drones depart one after another.
 
-    time : from when the first sets out to when the last does, s
-    along : where it goes through the picture that they come to, or through the one that they leave (by)
-    center : p_W from which `out` and `in` count, None for the picture's middle
+    time : from the first departure to the last, s
+    along : direction of the wave through a picture; by : the picture that the drones fly to, or that they
+        leave
+    center : p_W for `out` and `in`, None for the picture's middle
     """
 
     time: float
@@ -228,13 +232,13 @@ class Wave(NamedTuple):
 
 
 class RecordedFlight(NamedTuple):
-    """The flight of a whole fleet as another tool made it: tracks and lights of a `.zip` or a `.skyc`."""
+    """The flight of a whole fleet by another tool: tracks and lights of a `.zip` or `.skyc` file."""
 
     file: str
 
     @property
     def centre(self) -> None:
-        """Return None: a flight stays where it was recorded."""
+        """None: a flight stays where it was recorded."""
         return
 
 
@@ -244,18 +248,18 @@ Source = Sphere | Box | Torus | Lettering | Drawing | Model | RecordedFlight
 class Picture(NamedTuple):
     """One picture, or an animation of several frames.
 
-    fill : what of it the drones stand in: all of the inside, the surface, or (flat shapes) the edges;
-        "legible" is what of a text reads best, its inside or its edges
-    color : of every light; None where the file says, white where it does not
-    transition : seconds to it from the picture before it, None for as fast as the pace allows
-    hold : seconds that its last frame stands
-    layers : in how many layers, one behind the other, a flat picture stands
+    fill : the part of the shape that the drones fill: its volume, its surface, or (flat shapes) its edges;
+        "legible" is the more readable of a text's area and edges
+    color : of every light; None for the colours of the file, or white if it has none
+    transition : duration of the move to it from the picture before, s; None for the fastest at this pace
+    hold : duration of its last frame, s
+    layers : number of layers, one behind the other, of a flat picture
     effects : of its lights, the last on top
-    transition_path : how drones come to it: on straight lines, on arcs, or "auto", straight where that is
-    proved; easing : how their speed runs; wave : in which they set out, None for all at once
-    at : when it stands on the mission's clock, s, or None where that follows from what is before it
-    name : what shots of cameras call it, or None
-    size : width, depth and height of the box about it that they frame, metres; None where its shape says that
+    transition_path : straight lines, arcs, or "auto" for straight lines if their separation is proved
+    easing : of the move; wave : of the departures, None for all at once
+    at : mission time at which it stands, s; None if it follows from the pictures before
+    name : by which shots of cameras refer to it, or None
+    size : width, depth and height of the box about it that cameras frame, metres; None for that of its shape
     """
 
     source: Source
@@ -275,12 +279,12 @@ class Picture(NamedTuple):
 
 
 class PyroCue(NamedTuple):
-    """A product that burns on drones of a fleet.
+    """A pyrotechnic product that burns on drones of a fleet.
 
-    time : when it is seen on the mission's clock, s; prefire : from its ignition to that, s
-    drones : numbers of those that carry it, from 1; product : its name
-    duration : s; clear : metres that all others stay away while it burns
-    pan : where it points, clockwise from the nose of the drone, rad; tilt : up positive, rad
+    time : mission time of its effect, s; prefire : from its ignition to its effect, s
+    drones : numbers of the drones that carry it, from 1; product : its name
+    duration : s; clear : least distance of all other drones while it burns, metres
+    pan : its direction, clockwise from the nose of the drone, rad; tilt : up positive, rad
     """
 
     time: float
@@ -295,22 +299,22 @@ class PyroCue(NamedTuple):
 
     @property
     def ignition(self) -> float:
-        """When it is lit, s."""
+        """Mission time of its ignition, s."""
         return self.time - self.prefire
 
     @property
     def end(self) -> float:
-        """When it has burnt, s."""
+        """Mission time at which it has burnt out, s."""
         return self.time + self.duration
 
 
 class Display(NamedTuple):
-    """A shot of a fleet: pictures in their order.
+    """A shot of a fleet: a sequence of pictures.
 
-    viewpoint : where the audience is, p_W, or None
+    viewpoint : p_W of the audience, or None
     weight : the paper's c-bar: 0 is the best picture from the viewpoint, infinity the best volume
-    timing : start is when its first picture stands; pace as of any shot
-    effects : of all its lights, over those of its pictures, the last on top
+    timing : its start is the time at which the first picture stands; pace : as of any shot
+    effects : of all its lights, above those of its pictures, the last on top
     """
 
     id: str
@@ -331,21 +335,21 @@ class Display(NamedTuple):
 
     @property
     def start(self) -> float | None:
-        """When its first picture is to stand on the mission's clock, s, or None where that is open."""
+        """Required mission time at which its first picture stands, s, or None if it is free."""
         at = self.pictures[0].at
         return self.timing.start if at is None else at
 
     @property
     def start_path(self) -> KeyPath:
-        """Where the mission says when it starts."""
+        """Key path of its start."""
         first = self.pictures[0]
         return (*self.path, "timing", "start") if first.at is None else (*first.path, "at")
 
 
 def drone_names(fleet: Fleet) -> tuple[str, ...]:
-    """Return the names of a fleet's drones, in the order of their numbers: ``swarm-001`` and on.
+    """Return the names of a fleet's drones in the order of their numbers: ``swarm-001`` and so on.
 
-    Those of a group have the names and the numbers of the fleet.
+    The drones of a group keep their names and numbers of the fleet.
     """
     digits = len(str(len(fleet.pads) if fleet.group is None else fleet.group.total))
     name = fleet_name(fleet.name)
@@ -353,13 +357,13 @@ def drone_names(fleet: Fleet) -> tuple[str, ...]:
 
 
 def rows_of(fleet: Fleet, cue: PyroCue) -> tuple[int, ...]:
-    """Return the rows, from 0, of the drones of a fleet or a group that a cue is for."""
+    """Return the rows, from 0, of the drones of a cue in a fleet or a group."""
     row = {number: i for i, number in enumerate(fleet.numbers)}
     return tuple(row[number] for number in cue.drones)
 
 
 def spans(numbers: Iterable[int]) -> str:
-    """Write numbers that rise as ranges: ``1-20, 75``."""
+    """Return rising numbers as text with ranges: ``1-20, 75``."""
     runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][1] + 1:

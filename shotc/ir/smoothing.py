@@ -1,7 +1,8 @@
-"""How calm a camera is flown, against how near it stays to what is asked: one time for every kind of shot.
+"""The smoothing time: the balance between a calm camera and a small deviation from the ideal.
 
-Movements of the ideal that are shorter than the smoothing time are smoothed away. In the cost of a motion a
-squared jerk weighs by its sixth power, a squared acceleration by its fourth, a squared rate by its square.
+Movements of the ideal that are shorter than the smoothing time are smoothed away. In the cost of a motion the
+squared jerk has the sixth power of this time as weight, the squared acceleration the fourth, and the squared
+rate the second. All kinds of shots use the same rule.
 """
 
 from typing import Final
@@ -13,5 +14,5 @@ SHORTEST_S, LONGEST_S = 0.1, 3.0
 
 
 def written(seconds: float) -> str:
-    """Return a smoothing as a mission writes it: by its name, or in seconds."""
+    """Return a smoothing time as mission text: its name, or seconds."""
     return next((name for name, time in SMOOTHINGS.items() if time == seconds), f"{seconds:g} s")

@@ -1,10 +1,12 @@
-"""What a mission is lowered from: its text, the files it names, and what planning chose. Plain Python."""
+"""The inputs of a mission's lowering: its text, the files that it names, and planning's choices. Plain
+Python.
+"""
 
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 Autopilot = Literal["px4", "ardupilot", "dji-fly", "pilot-2", "litchi"]
-"""What flies a drone: an autopilot that speaks MAVLink, an app of DJI's with waypoints, or Litchi's app."""
+"""The autopilot of a drone: one with MAVLink, a DJI app with waypoints, or the Litchi app."""
 
 TAKES: dict[Autopilot, tuple[str, ...]] = {
     "px4": ("mavlink",),
@@ -13,23 +15,23 @@ TAKES: dict[Autopilot, tuple[str, ...]] = {
     "pilot-2": ("dji",),
     "litchi": ("litchi",),
 }
-"""The emitters whose files each of them flies; the first is used where nothing is asked for."""
+"""The emitters whose files each autopilot flies; the first is the default."""
 
 ZOOM_COMMANDS: tuple[Autopilot, ...] = ("px4", "ardupilot", "pilot-2")
-"""Those whose mission files command the field of view of a lens that zooms."""
+"""The autopilots whose mission files command the field of view of a zoom lens."""
 
 
 def flown_by(autopilot: Autopilot, emit: tuple[str, ...]) -> tuple[str, ...]:
-    """Return emitters with those in place whose files an autopilot flies, for those that others fly."""
+    """Return the emitters with those for other autopilots replaced by the autopilot's own."""
     others = {name for names in TAKES.values() for name in names} - set(TAKES[autopilot])
     return tuple(dict.fromkeys(TAKES[autopilot][0] if name in others else name for name in emit))
 
 
 class Chosen(NamedTuple):
-    """What planning chose where the mission leaves it open.
+    """Planning's choices where the mission leaves them open.
 
-    drones : (id of a shot with `drone: auto`, its drone); autopilot : of every drone, None where each keeps
-        its own
+    drones : (id of a shot with `drone: auto`, its drone); autopilot : of every drone, None if each keeps its
+        own
     """
 
     drones: tuple[tuple[str, str], ...] = ()
@@ -37,14 +39,14 @@ class Chosen(NamedTuple):
 
 
 class MissionSource(NamedTuple):
-    """All that a mission is made from: with it, and the kinds that are installed, it is lowered again.
+    """All inputs of a mission: with them and the installed kinds it can be lowered again.
 
-    text : the bytes of the mission file, none of a mission that was made without one
+    text : the bytes of the mission file, empty for a mission without one
     tables : (name, bytes) of the tracks, paths and layouts that it names
-    drawn : (name, SHA-256, hexadecimal) of the files that its displays draw: nothing of a plan but how well a
-        picture is drawn depends on what is in them
+    drawn : (name, SHA-256, hexadecimal) of the files that its displays draw; only the quality of a picture
+        depends on their content
     linked : (name, SHA-256, hexadecimal) of files that are too large for a plan: scenes, buildings and large
-        terrain. To lower the mission again they have to be there, unchanged.
+        terrain; they must be present and unchanged to lower the mission again
     """
 
     text: bytes = b""
@@ -55,10 +57,10 @@ class MissionSource(NamedTuple):
 
 
 class KeptFiles(NamedTuple):
-    """The files of a mission that is lowered again, in place of its folder.
+    """The files of a mission that is lowered again; they replace its folder.
 
     tables : bytes by name; drawn : (name, SHA-256) of the files that displays draw
-    linked : SHA-256 by name of files that a plan does not hold; folders : where they are looked for, in turn
+    linked : SHA-256 by name of files that a plan does not hold; folders : searched for them, in order
     """
 
     tables: dict[str, bytes]
@@ -68,5 +70,5 @@ class KeptFiles(NamedTuple):
 
 
 def kept_files(source: MissionSource, folders: tuple[Path, ...] = ()) -> KeptFiles:
-    """Return the files that a source holds; folders : where those that it links to may be."""
+    """Return the files that a source holds; folders : searched for the linked ones."""
     return KeptFiles(dict(source.tables), source.drawn, dict(source.linked), folders)

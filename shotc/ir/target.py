@@ -1,4 +1,4 @@
-"""Targets: where they are, how they are shaped, and the solids that are kept clear of. Plain Python.
+"""Targets: their positions, their shapes, and the solids that clearances refer to. Plain Python.
 
 World frame W (East, North, Up, metres), radians, seconds.
 """
@@ -13,17 +13,17 @@ from shotc.geom.solids import Solid
 from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath
 
-if TYPE_CHECKING:  # a mission of what stands loads none of it
+if TYPE_CHECKING:  # a mission with standing targets only does not load it
     from shotc.geom.track import Track
 
-STRAIGHT_SINE = 2e-6  # sine of the angle that what goes one way may be off it; twice that of ``geom.track``
+STRAIGHT_SINE = 2e-6  # sine of the angle by which a straight course may vary; twice that of ``geom.track``
 
 
 class Target(NamedTuple):
-    """A camera target, of a shape about its centre.
+    """A camera target with a shape about its centre.
 
-    centre : where it stands, or is at mission time 0; track : how it moves, None where it stands
-    shape : as it is where it stands, or at mission time 0; parts : names of the bodies of a group
+    centre : where it stands, or is at mission time 0; track : its motion, None if it stands
+    shape : of the standing target, or at mission time 0; parts : names of the bodies of a group
     """
 
     name: str
@@ -35,30 +35,30 @@ class Target(NamedTuple):
 
     @property
     def radius(self) -> float:
-        """The radius of the upright cylinder about its centre that holds it, metres."""
+        """The radius of its upright bounding cylinder about its centre, metres."""
         return self.shape.radius
 
     @property
     def height(self) -> float:
-        """How high it is, metres."""
+        """Its height, metres."""
         return self.shape.height
 
     @property
     def foot(self) -> Vec3:
-        """The lowest point of its axis where it stands, or is at mission time 0."""
+        """The lowest point of its axis, standing or at mission time 0."""
         x, y, z = self.centre
         return (x, y, z - self.height / 2)
 
     @property
     def solid(self) -> Solid:
-        """Its body where it stands, or is at mission time 0."""
+        """Its body, standing or at mission time 0."""
         return _body(self.shape, self.centre)
 
     @property
     def kept_clear(self) -> Solid:
-        """The solid that clearances count from, where its centre is at mission time 0.
+        """The solid that clearances refer to, with its centre as at mission time 0.
 
-        Of a box that turns with its course it is the upright cylinder about it, however it faces.
+        For a shape that turns with its course it is the upright cylinder about it.
         """
         if self.track is None or not self.shape.turns:
             return self.solid
@@ -68,12 +68,12 @@ class Target(NamedTuple):
 
     @property
     def turns(self) -> bool:
-        """Whether it looks different in time because it turns."""
+        """Whether its shape turns over time."""
         return self.track is not None and self.shape.turns and not goes_one_way(Same(self.track))
 
     @property
     def counts_from(self) -> str:
-        """What distances from it count from, in words, where that is not its body; else empty."""
+        """A sentence about the solid of its clearances, if that is not its body; else empty."""
         if not self.turns:
             return ""
         return (
@@ -82,11 +82,11 @@ class Target(NamedTuple):
         )
 
     def kept_clear_at(self, t: float) -> Solid:
-        """Return the solid that clearances count from at a mission time."""
+        """Return the solid that clearances refer to at a mission time."""
         return self.kept_clear if self.track is None else self._replace(centre=self.at(t)).kept_clear
 
     def shape_at(self, t: float) -> TargetShape:
-        """Return its shape as it is at a mission time."""
+        """Return its shape at a mission time."""
         if self.track is None or not self.shape.turns:
             return self.shape
         yaw = self.track.heading(t)
@@ -108,7 +108,7 @@ class Target(NamedTuple):
 
 @lru_cache(maxsize=64)
 def goes_one_way(track: "Same[Track]") -> bool:
-    """Tell whether what goes along a track faces one way always, but for STRAIGHT_SINE."""
+    """Return whether the heading along a track is constant, but for STRAIGHT_SINE."""
     headings = track.it.headings
     return max(headings) == min(headings) if headings else track.it.straight
 

@@ -1,4 +1,4 @@
-"""The terrain of a mission: ground that rises, of triangles."""
+"""The terrain of a mission: ground as triangles."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 
 CLOSED_M = 1e-3
-"""Gap to which the least height of a way is found."""
+"""Tolerance of the least height of a way, metres."""
 WAYS_AT_ONCE = 4_000
 
 
@@ -35,30 +35,32 @@ class Terrain:
     path: KeyPath = ("world", "terrain", "file")
 
     def raised(self, metres: float) -> Terrain:
-        """Return the same ground that much higher."""
+        """Return the same ground, higher by some metres."""
         tree = self.ground.surface
         higher = surface_of(tree.triangles + np.array([0.0, 0.0, metres]))
         return replace(self, ground=replace(self.ground, surface=higher))
 
     def span(self, low: Vec2, high: Vec2) -> Vec2:
-        """Return the lowest and the highest z of the triangles about a box in the plan; 0 without any."""
+        """Return the lowest and the highest z of the triangles over a box in the plan, metres; 0 without
+        any.
+        """
         tree = self.ground.surface
         z = tree.triangles[in_plan(tree, np.array([low]), np.array([high])).triangle][..., 2]
         return (float(z.min()), float(z.max())) if z.size else (0.0, 0.0)
 
     def beyond(self, x: float, y: float) -> float:
-        """Return how far a place is from where the ground ends, metres."""
+        """Return the distance of a place from the edge of the ground, metres."""
         return float(nearest(self.ground.edge, np.array([[x, y, 0.0]])).distance[0])
 
     def beyond_at(self, place: Vec2, by: float) -> str:
-        """Say that a place is so far beyond the ground, metres."""
+        """Return a sentence that a place is beyond the ground by so many metres."""
         return f"at [{place[0]:.1f}, {place[1]:.1f}] it is {by:.1f} m beyond the ground of `{self.file}`"
 
     def least_over(self, times: Sequence[float], points: Sequence[Vec3]) -> Vec2 | None:
-        """Return when a way that goes straight from point to point is least above ground, and by how much.
+        """Return the time and the value of the least height of a polyline above ground.
 
-        times : seconds, rising; points : metres of W. Seconds, and metres, negative below the ground; None
-        where no part of the way is over ground
+        times : seconds, rising; points : metres of W. The height is in metres, negative below the ground. The
+        result is None if no part of the way is over ground.
         """
         t, p = np.array(times), np.array(points)
         found: list[tuple[float, float]] = []
@@ -82,7 +84,9 @@ class Terrain:
 
 
 def ground_heights(mission: MissionIR, xy: Array) -> Array:
-    """Return z of the ground at places (N, 2), metres of W, as ``mission.ground`` for one; shape (N,)."""
+    """Return z of the ground at places (N, 2), metres of W, shape (N,); ``mission.ground`` does so for
+    one.
+    """
     if mission.terrain is None:
         return np.zeros(len(xy))
     return np.nan_to_num(height_at(mission.terrain.ground, xy))

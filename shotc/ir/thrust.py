@@ -1,8 +1,8 @@
 """Thrust and tilt of a quadrotor from its acceleration (Alcantara et al., Eq. 2 and 4).
 
-The rotors push along the body's upward axis: T / m = |a + g e_z|, and that axis leans from the vertical by
-the angle of a + g e_z. Air drag is neglected, as there. In the paper's Euler angles of Eq. 4 the lean is
-arccos(cos phi cos theta), whatever the yaw.
+The thrust acts along the body's upward axis: T / m = |a + g e_z|. The tilt of this axis is the angle between
+a + g e_z and the vertical. Air drag is neglected, as there. In the paper's Euler angles of Eq. 4 the tilt is
+arccos(cos phi cos theta), independent of the yaw.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ def thrust_to_weight(acceleration: Array) -> Array:
 def lean(acceleration: Array) -> Array:
     """Return the angle between a + g e_z and the vertical, rad (...), of accelerations (..., 3), m/s^2.
 
-    A thrust that does not point up counts as pi. So all accelerations below any angle are a convex set, and
-    nothing between control points leans further than the control point that leans furthest.
+    A thrust that does not point up has the value pi. So the accelerations below any angle are a convex set,
+    and a polynomial tilts no further than the most tilted of its control points.
     """
     pushed = _pushed(acceleration)
     angle = np.arctan2(norm(pushed[..., :2]), pushed[..., 2])
@@ -32,7 +32,7 @@ def lean(acceleration: Array) -> Array:
 
 
 def hover_ratio(acceleration: Array) -> Array:
-    """Return the power of a thrust over that of hovering, (T / (m g))^1.5 (...); convex.
+    """Return the power of a thrust over the power of hovering, (T / (m g))^1.5 (...); convex.
 
     acceleration : shape (..., 3), m/s^2
     """
@@ -40,7 +40,7 @@ def hover_ratio(acceleration: Array) -> Array:
 
 
 def drawn(power: Power, velocity: Array, acceleration: Array) -> Array:
-    """Return the power that the battery gives, W (...), at velocities and accelerations (..., 3), SI."""
+    """Return the power from the battery, W (...), at velocities and accelerations (..., 3), m/s and m/s^2."""
     climbing = np.einsum("...d,...d->...", _pushed(acceleration), velocity)
     return np.asarray(
         power.hover * hover_ratio(acceleration) + 0.5 * power.mass / power.efficiency * climbing

@@ -1,4 +1,4 @@
-"""TrajectoryIR and VerifiedIR: motion over mission time t, and the proof that it may be flown."""
+"""TrajectoryIR and VerifiedIR: motion over mission time t, and the certificate of its verification."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ Method = Literal["exact", "bounded", "sampled"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DroneTrajectory:
-    """One drone from take-off to touch-down.
+    """The trajectory of one drone from take-off to touch-down.
 
-    curve : channels ir.path.CHANNELS over mission time, piecewise quintic, C2; from t = 0
+    curve : channels ir.path.CHANNELS over mission time from t = 0, piecewise quintic, C2
     phases : in order, without gaps, covering the curve
     """
 
@@ -32,7 +32,7 @@ class DroneTrajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrajectoryIR:
-    """All drones' motion on one clock, and all fleets'. stats as in PathIR."""
+    """The motion of all drones and fleets on one clock; stats : as in PathIR."""
 
     keyframes: KeyframeIR
     drones: tuple[DroneTrajectory, ...]
@@ -42,7 +42,7 @@ class TrajectoryIR:
 
     @property
     def end(self) -> float:
-        """When the last drone has landed, seconds; 0 where nobody flies."""
+        """Mission time at which the last drone has landed, seconds; 0 if none flies."""
         ends = [track.curve.end for track in self.drones] + [float(f.breaks[-1]) for f in self.fleets]
         return max(ends, default=0.0)
 
@@ -51,14 +51,14 @@ class TrajectoryIR:
 class Claim:
     """One line of the certificate.
 
-    constraint : e.g. "speed", "climb", "zone tree", "gimbal pitch", "screen error"
-    subject : drone or fleet name; shot : the shot it speaks of, or None for the whole flight
-    limit, worst : in ``unit``; upper : whether worst must stay below (True) or above the limit
-    time : seconds, where the worst value occurs; position : p_WC there, or None
+    constraint : for example "speed", "climb", "zone tree", "gimbal pitch", "screen error"
+    subject : name of the drone or fleet; shot : its id, or None for the whole flight
+    limit, worst : in ``unit``; upper : whether worst must stay below (True) or above (False) the limit
+    time : mission time of the worst value, seconds; position : p_WC there, or None
     method : exact (arithmetic), bounded (proved for all t), sampled (at the output rate)
-    hard : whether breaking it refuses the plan
-    path : the mission line that sets the limit
-    drones : of a fleet, those whose value the worst one is: one, or a pair
+    hard : whether a violation refuses the plan
+    path : key path of the limit in the mission
+    drones : for a fleet, the drone or the pair of drones with the worst value
     """
 
     constraint: str
@@ -79,9 +79,9 @@ class Claim:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CoveredShares:
-    """How much of a target is covered while one drone films it in one shot, as verification sampled it.
+    """The covered share of a target in one shot of one drone, as sampled by verification.
 
-    times : seconds, in order, shape (M,); share : of the target's outline, by anything, 0 to 1, shape (M,)
+    times : seconds, rising, shape (M,); share : covered share of the target's outline, 0 to 1, shape (M,)
     """
 
     drone: str
@@ -93,9 +93,9 @@ class CoveredShares:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VerifiedIR:
-    """A trajectory with its certificate, made by the verify pass alone; emitters take nothing else.
+    """A trajectory with its certificate. Only the verify pass makes it, and emitters take nothing else.
 
-    covered : the samples by which its claims of what is visible were judged
+    covered : the samples behind its claims of visibility
     """
 
     trajectory: TrajectoryIR

@@ -1,10 +1,10 @@
-"""Ways between shots, and what a drone keeps away from on them. Plain Python.
+"""Ways between shots, and the clearances on them. Plain Python.
 
-A way is all that a drone does between two shots, or between a shot and its pad: transits, run-ups, waits.
-On it the body keeps a clearance D from a solid. Where a shot begins or ends nearer, or the pad is nearer,
-the way may begin and end so near: at a distance s from an end of the way, as the solid sees it, at which the
-body is g away from the solid, min(D, g + s / 2) is enough (``geom.taper``). Nothing is asked that a rule of
-every phase asks for already.
+A way is everything between two shots, or between a shot and the pad: transits, run-ups, waits. On a way the
+body keeps a clearance D from a solid. If an end of the way (a shot's first or last frame, or the pad) is
+nearer, the clearance is tapered: with g the body's distance from the solid at that end, and s the distance
+from the end relative to the solid, min(D, g + s / 2) is enough (``geom.taper``). Clearances that do not
+exceed the rules of all phases are omitted.
 """
 
 from collections.abc import Sequence
@@ -16,9 +16,9 @@ from shotc.ir.phases import UPRIGHT, Phase
 
 
 class Apart(NamedTuple):
-    """What is kept from one solid on ways.
+    """The clearance from one solid on ways.
 
-    metres : from the drone's body; required : whether the mission writes it down; key : of the rule
+    metres : from the drone's body; required : whether the mission states it; key : of the rule
     """
 
     metres: float
@@ -27,7 +27,9 @@ class Apart(NamedTuple):
 
 
 class Way(NamedTuple):
-    """Seconds of mission time between two shots, or a shot and the pad; shot : that it leads to."""
+    """A way from mission time ``start`` to ``end``, seconds; shot : the one that it leads to, None for the
+    pad.
+    """
 
     start: float
     end: float
@@ -35,7 +37,7 @@ class Way(NamedTuple):
 
 
 def filmed(mission: MissionIR) -> frozenset[str]:
-    """Return the names of all bodies that a shot of the mission films."""
+    """Return the names of all bodies that the mission's shots film."""
     names = {shot.subject for shot in mission.shots} | {
         s.target for shot in mission.shots for s in shot.subjects
     }
@@ -44,7 +46,7 @@ def filmed(mission: MissionIR) -> frozenset[str]:
 
 
 def from_target(mission: MissionIR, name: str) -> Apart | None:
-    """Return what is kept from a target on ways, None where that is no more than is kept always."""
+    """Return the clearance from a target on ways, None if it does not exceed the target clearance."""
     rules = mission.rules.transits
     seen = name in filmed(mission)
     apart = (
@@ -56,13 +58,13 @@ def from_target(mission: MissionIR, name: str) -> Apart | None:
 
 
 def from_zones(mission: MissionIR) -> Apart | None:
-    """Return what is kept from keep-out zones on ways, None where that is nothing."""
+    """Return the clearance from keep-out zones on ways, None if it is 0."""
     rules = mission.rules.transits
     return Apart(rules.other, rules.other_required, "other") if rules.other > 0.0 else None
 
 
 def ways(phases: Sequence[Phase]) -> tuple[Way, ...]:
-    """Return the ways among a flight's phases; take-off and landing are none."""
+    """Return the ways of a flight, without take-off and landing."""
     transits, runs = list[Way](), list[tuple[bool, list[Phase]]]()
     for unfilmed, group in groupby(phases, lambda p: p.shot is None and p.name not in UPRIGHT):
         runs.append((unfilmed, list(group)))
