@@ -403,5 +403,5 @@ def _values(claim: Claim) -> tuple[str, str, str]:
 def mark(claim: Claim) -> str:
     """Return a word for what has become of a claim."""
     if not claim.holds:
-        return "BROKEN" if claim.hard else "lost"
+        return "BROKEN" if claim.hard else "missed"
     return "ok" if isfinite(claim.limit) else ""

@@ -87,7 +87,9 @@ def verify(
     separation, limits, zones, ground and endurance. The exit status is 1 if some second has no return.
 
     The certificate that is printed has for every claim the limit, the worst value, its time, and how it is
-    known. Examples:
+    known. A claim is ok, BROKEN (an error), or missed: a preference that is not reached, which is a warning.
+
+    For example:
 
         shotc verify out/tower/plan.json --against tower.yaml
 

@@ -187,7 +187,9 @@ def _claim(claim: Claim) -> Row:
     if not claim.holds:
         worst, limit = told_apart(claim.worst, claim.limit, claim.unit)
     asked = f"{'≤' if claim.upper else '≥'} {limit}" if isfinite(claim.limit) else "no limit"
-    state = ("holds" if isfinite(claim.limit) else "") if claim.holds else "BROKEN" if claim.hard else "lost"
+    state = (
+        ("holds" if isfinite(claim.limit) else "") if claim.holds else "BROKEN" if claim.hard else "missed"
+    )
     who = f"; {' and '.join(claim.drones)}" if claim.drones else ""
     return (
         state,
@@ -303,7 +305,7 @@ def _table(rows: Iterable[Row], head: Row = ()) -> str:
 
 
 def _row(row: Row) -> str:
-    bad = ' class="broken"' if row[0] in ("BROKEN", "lost") else ""
+    bad = ' class="broken"' if row[0] in ("BROKEN", "missed") else ""
     return f"<tr{bad}>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>"
 
 

@@ -77,7 +77,7 @@ def verdict(claim: Claim) -> str:
         return ""
     if claim.holds:
         return "ok"
-    return "**broken**" if claim.hard else "lost"
+    return "**broken**" if claim.hard else "missed"
 
 
 def quantity(value: float, unit: str) -> str:
