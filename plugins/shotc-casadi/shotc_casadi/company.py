@@ -84,7 +84,7 @@ def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[Path
             try:
                 moved = rejoined(path, {shot: refined.camera})
             except NoTransit as fault:
-                why, needs = f"refined, it cannot keep {fault}", fault.least
+                why, needs = f"the refined path cannot keep {fault}", fault.least
                 if task.leg.duration is not None:
                     break
                 task = task._replace(leg=_in_its_time(subject))
@@ -140,7 +140,7 @@ def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
     kept = _lacking(before, subject) if lacks else {}
     for owner, lack in lacks.items():
         if lack > kept.get(owner, 0.0) + PROVED_M:
-            return f"refined, it comes {lack:.2g} m too near to {owner}"
+            return f"the refined path comes {lack:.2g} m too near to {owner}"
     free = least_out(before)
     return IN_PICTURE if least_out(after) < min(OUT_M, free - DEEPER_SHARE * abs(free)) else None
 

@@ -150,7 +150,7 @@ def test_what_nothing_keeps_clear_is_told_and_flown_as_it_was(monkeypatch: pytes
     assert outcome.value is not None
     (told,) = outcome.diagnostics
     assert told.code == "R014"
-    assert "shot `fly-past` is not refined: refined, it comes" in told.message
+    assert "shot `fly-past` is not refined: the refined path comes" in told.message
     assert "too near to drone cam2" in told.message
     assert same(filmed(before, "fly-past"), filmed(outcome.value, "fly-past"))
 
@@ -181,7 +181,7 @@ def test_a_shot_that_cannot_keep_its_time_is_told_with_what_it_takes(monkeypatch
     before = path_of(LATER, "none", "solve-path-qp")
     outcome = OURS.refine(before, PassContext())
     told = [d for d in outcome.diagnostics if d.code == "R014"]
-    assert "it cannot keep the 29.550 s of its convex path" in told[0].message
+    assert "the refined path cannot keep the 29.550 s of its convex path" in told[0].message
     assert outcome.value is not None
     assert same(filmed(before, "fly-past"), filmed(outcome.value, "fly-past"))
 

@@ -180,10 +180,10 @@ CODES: tuple[CodeInfo, ...] = (
         Severity.WARNING,
         "a shot stays as the convex path has it",
         "A refiner improves the filmed legs of the convex path where it can. This shot stays as it was, "
-        "for the reason in the message: refined, it would come too near to something that moves, into "
-        "another drone's picture, or not be over in the time that the flights beside it were planned for; "
-        "what the refiner found is no better; or the refiner has nothing for shots of its kind. The plan "
-        "is verified like any other.",
+        "for the reason in the message: the refined path would come too near to something that moves or "
+        "into another drone's picture, or would take longer than the flights beside it allow; the refiner "
+        "found nothing better; or it does not refine shots of this kind. The plan is verified like any "
+        "other.",
         "",
         "",
         "other",
