@@ -145,9 +145,9 @@ def _site(mission: MissionIR, found: Volumes) -> str:
     )
     corners = _table(_corners(mission, found), ("fence", "latitude, deg", "longitude, deg"))
     about = (
-        f"<p>Margins: {OFF_ACROSS_M:g} m of position across and {OFF_UPRIGHT_M:g} m of height, "
-        f"{REACTION_S:g} s to react at the greatest speed that is allowed, and the way to stop from it. "
-        "They are proposed, and the authority decides. The geofence is the contingency volume.</p>"
+        f"<p>Margins: {OFF_ACROSS_M:g} m for the error of the position and {OFF_UPRIGHT_M:g} m for that of "
+        f"the height, {REACTION_S:g} s of reaction at the greatest allowed speed, and the stopping distance. "
+        "These are proposals; the authority decides. The geofence is the contingency volume.</p>"
     )
     return "\n".join([site_map(mission, found), legend, table, about, corners, zones])
 
@@ -203,9 +203,9 @@ def _claim(claim: Claim) -> Row:
 
 def _pairs(found: Sequence[Nearness]) -> str:
     about = (
-        "<p>How near the nearest two drones of a fleet are, as its separation counts (heights in their "
-        f"ratio), at {SAMPLES + 1} instants. That no two ever come nearer than what is kept is proved for "
-        "every instant between them, too: see separation above.</p>"
+        "<p>The distance of the nearest two drones of a fleet, in the measure of its separation (heights "
+        f"scaled by their ratio), at {SAMPLES + 1} instants. The separation is proved at every instant, also "
+        "between these: see separation above.</p>"
     )
     plots = [f"<h3>{escape(each.fleet)}</h3>\n{nearness_plot(each)}" for each in found]
     return "\n".join([about, *plots]) if plots else ""
@@ -267,13 +267,13 @@ def _wind(mission: MissionIR, simulated: Simulated | None) -> Iterator[str]:
         words = f"Planned for a wind of {mission.wind:g} m/s"
         toward = mission.wind_toward
         if toward is None:
-            yield f"{words} from any side: it is taken off the speed limits."
+            yield f"{words} from any side: it is subtracted from the speed limits."
         else:
             yield f"{words} from {(270.0 - degrees(toward)) % 360.0:.0f} deg: airspeed is judged."
     else:
         yield "The mission names no wind: speeds are over ground, in still air."
     if simulated is None:
-        yield "Not judged here: how far drones stray in wind and gusts. Run shotc simulate for that."
+        yield "Not judged here: the deviation of drones in wind and gusts. Run shotc simulate for that."
 
 
 def _flown(simulated: Simulated | None) -> str:
@@ -282,7 +282,7 @@ def _flown(simulated: Simulated | None) -> str:
         return ""
     about = (
         f"<p>Flown in simulation: {escape(simulated.flown)}. A simulation proves nothing; it shows how far "
-        "drones stray under these assumptions.</p>"
+        "drones are from their plan under these assumptions.</p>"
     )
     tables = [_table(rows[1:], rows[0]) for rows in simulated.tables]
     return "\n".join(["", about, *tables, _list(simulated.told)])
@@ -290,7 +290,7 @@ def _flown(simulated: Simulated | None) -> str:
 
 def _open(mission: MissionIR) -> Iterator[str]:
     yield "Failures of drones, of receivers and of batteries, and people who enter the site."
-    yield "That drones keep to their plan: the margins of separation and the volumes above allow for it."
+    yield "Deviations of drones from the plan: the margins of separation and the volumes allow for them."
     if mission.terrain is None:
         yield "The shape of the ground: it is taken to be flat."
 

@@ -27,7 +27,7 @@ class StoryboardEmitter:
         """Return storyboard.png, nothing where no camera flies; the same plan gives the same bytes."""
         if plan.trajectory.fleets and not plan.trajectory.drones:
             return Emission(
-                (), notes=("storyboard.png is left out: it shows what cameras see, here is none",)
+                (), notes=("storyboard.png is left out: it shows what cameras see, and the mission has none",)
             )
         from shotc.emit.storyboard.page import draw_page
 
