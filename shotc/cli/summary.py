@@ -125,7 +125,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
         )
     )
     mission, flown = plan.trajectory.keyframes.mission, plan.trajectory
-    facts += [("bent", text) for text in _bent(from_what_was_asked(mission, flown.deviations))]
+    facts += [("ideal", text) for text in _off_ideal(from_what_was_asked(mission, flown.deviations))]
     facts += [("refined", text) for text in _refined(plan)]
     facts += [("turns", text) for text in _turns(plan)]
     facts += exposed(plan)
@@ -171,7 +171,7 @@ def _turns(plan: VerifiedIR) -> list[str]:
     return [f"`{k.removesuffix(TURNS)}` {v}" for k, v in plan.trajectory.stats if k.endswith(TURNS)]
 
 
-def _bent(deviations: Iterable[Deviation]) -> list[str]:
+def _off_ideal(deviations: Iterable[Deviation]) -> list[str]:
     """Tell how far shots leave their ideals: of the stretches with one cause, the worst."""
     most: dict[tuple[str, str], float] = {}
     for d in deviations:
