@@ -31,6 +31,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.show import Apart, Fleet, Lettering, Sphere
 from shotc.show.assignment.moves import Mover
 from shotc.show.geom.lattice import Mould, lattice, widest
+from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.lettering import lettering_body
 from shotc.show.solvers.match import matched
@@ -67,7 +68,9 @@ def full(solid: str, apart: Apart, count: int, rng: np.random.Generator) -> Arra
 
 
 def written(text: str, apart: Apart, count: int, rng: np.random.Generator) -> Array:
-    """Return places of the widest lattice with so many of them in a text, (n, 3)."""
+    """Return the widest lattice of so many places in a text, made just so small that it is as dense as may
+    be, (n, 3).
+    """
     step = spacing(apart)
     height = 1.1 * sqrt(count * step**2 / stretch(apart))
     body = lettering_body(Lettering(text, (0.0, 0.0, 0.0), height, float(rng.uniform(0.0, 6.0)), None), {})
@@ -78,7 +81,7 @@ def written(text: str, apart: Apart, count: int, rng: np.random.Generator) -> Ar
     mould = Mould(cKDTree(body.flat(points) * scale), 0.25 * step, apart.shape == "cylinder")
     found = widest(mould, count, step)
     assert found is not None
-    return body.standing(found / scale)
+    return body.standing(found / scale) * (step / nearest_pair(found))
 
 
 def moves(count: int, seed: int, apart: Apart) -> Iterator[Moved]:

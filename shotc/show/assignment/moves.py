@@ -8,7 +8,7 @@ from math import inf, isfinite
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.apart import ball, stretch
+from shotc.geom.apart import stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet, Picture
@@ -16,7 +16,8 @@ from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.show.assignment.faults import no_room
 from shotc.show.assignment.score import Motion
 from shotc.show.assignment.swell import Ends, Heights, Lack, led
-from shotc.show.geom.arcs import Gaps, straight_enough
+from shotc.show.geom.arcs import Free, Gaps
+from shotc.show.geom.least_size import ROUNDING, least_size
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.goals.room import DisplaySurroundings, room_of
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
@@ -42,12 +43,12 @@ class Mover:
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
         """Return the fastest move; picture : to which, None for the way home."""
         path = "auto" if picture is None else picture.transition_path
-        least = tuple(nearest_pair(places * self._scale) for places in (here, there))
-        whole = ball(self.fleet.apart)
-        if path == "straight" or (path == "auto" and straight_enough(Gaps(*(d / whole for d in least)))):
+        ends = here, there
+        free = self._free(ends)
+        if path == "straight" or (path == "auto" and free is None):
             easing = "ease-in-out" if picture is None else picture.easing
             return fastest(there - here, self.fleet.limits, pace, easing)
-        move, lack = self._arcs((here, there), pace, picture, self._room)
+        move, lack = self._arcs(ends, free, pace, picture, self._room)
         if lack.metres > ROUNDING_M and not self.faults:
             self.faults.append(no_room(self.mission, self.fleet, picture, lack))
         return move
@@ -62,25 +63,34 @@ class Mover:
         if picture is not None and picture.transition_path == "straight":
             return None
         room = replace(self._room, obstacles=(*self._room.obstacles, *beside))
-        move, lack = self._arcs(ends, pace, picture, room)
+        move, lack = self._arcs(ends, self._free(ends), pace, picture, room)
         return move if lack.metres <= ROUNDING_M else None
 
     def _arcs(
-        self, ends: Ends, pace: float, picture: Picture | None, room: DisplaySurroundings
+        self, ends: Ends, free: Free | None, pace: float, picture: Picture | None, room: DisplaySurroundings
     ) -> tuple[ArcMove, Lack]:
         """Return the fastest arcs found that have room, or those that lack least, and what they lack."""
         easing = "ease-in-out" if picture is None else picture.easing
-        least = tuple(nearest_pair(places * self._scale) for places in ends)
-        whole = ball(self.fleet.apart)
-        kept = whole * (1.0 + MARGIN_SHARE)
-        if self.fleet.apart.shape == "ellipsoid":
-            # What stands as near as it may, such as on pads, has no share to spare.
-            kept = max(whole, min(kept, *least))
-        gaps = Gaps(*(d / kept for d in least))
-        if straight_enough(gaps):
-            gaps = Gaps(1.0, 1.0)  # asked for: a quarter of an ellipse is outside, too
+        # Asked for where straight ways do: a quarter of an ellipse is wider than they are everywhere.
+        kept = Gaps(1.0, 1.0) if free is None else free
 
         def about(pivot: Array) -> ArcMove:
-            return fastest_arc(ends, pivot, gaps, self.fleet.limits, pace, easing)
+            return fastest_arc(ends, pivot, kept, self.fleet.limits, pace, easing)
 
         return led(ends, self._heights, room, about)
+
+    def _free(self, ends: Ends) -> Free | None:
+        """Return where the two scalars of a common move may be; None where straight ways are free."""
+        apart, places = self.fleet.apart, [e * self._scale for e in ends]
+        if apart.shape == "cylinder":
+            size = least_size(*(p / (apart.across * (1.0 + MARGIN_SHARE)) for p in places))
+            return None if size.most <= 1.0 + MARGIN_SHARE + ROUNDING else size
+        least = [nearest_pair(p) for p in places]
+        if _gaps(least, apart.across).straight:
+            return None
+        # What stands as near as it may, such as on pads, has no share to spare.
+        return _gaps(least, max(apart.across, min(apart.across * (1.0 + MARGIN_SHARE), *least)))
+
+
+def _gaps(least: list[float], kept: float) -> Gaps:
+    return Gaps(*(max(1.0, d / kept) for d in least))

@@ -10,16 +10,13 @@ with d0, d1 the least distances before and after. So no two are nearer than d as
 the ellipse (a d0 / d)^2 + (b d1 / d)^2 = 1: in the coordinates (a d0 / d, b d1 / d), outside the unit circle.
 The shortest way there is straight to the circle, along it, and straight off it; it touches at acos(d / d0)
 and acos(d / d1) from the axes. Where these meet the way a + b = 1 is free: 1 / d0^2 + 1 / d1^2 <= 1 / d^2.
-
-A formation may be tighter than d where what drones keep free is no ball but lies in one, as a cylinder does.
-Its outside is star-shaped, so formations grow and shrink along the axes, where b = 0 or a = 0, and turn
-from them only outside the circle.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import acos, cos, pi, sin
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -30,78 +27,92 @@ STEPS = 1500
 WIDEST_RAD = pi / 4
 """Angle beyond which control points are not pushed out further: no way that is flown has such steps."""
 ROUNDING = 1e-9
+SAMPLES = 24
+"""Parts of a piece of a spline at whose ends it is looked at."""
+
+
+class Free(Protocol):
+    """Where (a, b) may be for no two drones to come too near."""
+
+    def ways(self) -> Iterator[Array]:
+        """Yield (a, b) along ways from (1, 0) to (0, 1), the shortest one first, evenly spaced, (N, 2)."""
+        ...
+
+    def pushed_out(self, ctrl: Array) -> Array:
+        """Return control points (..., K, 2) of (a, b) moved out, so that their splines are free, too, or
+        nearly.
+        """
+        ...
+
+    def least_share(self, ctrl: Array) -> Array:
+        """Return how near splines of control points (..., K, 2) come to 0, in shares of where it is free."""
+        ...
 
 
 class Gaps(NamedTuple):
-    """Least distances of two drones before and after a move, in shares of the distance to be kept."""
+    """Least distances of two drones before and after a move, in shares of the distance to be kept, 1 or more.
+
+    (a, b) is free outside the ellipse.
+    """
 
     before: float
     after: float
 
+    @property
+    def straight(self) -> bool:
+        """Tell whether straight ways, on which a + b = 1, keep the distance."""
+        return 1.0 / self.before**2 + 1.0 / self.after**2 <= 1.0 + ROUNDING
 
-def straight_enough(gaps: Gaps) -> bool:
-    """Tell whether straight ways, on which a + b = 1, keep the distance."""
-    return 1.0 / gaps.before**2 + 1.0 / gaps.after**2 <= 1.0 + ROUNDING
+    def ways(self) -> Iterator[Array]:
+        """Yield (a, b) along the shortest way alone, which has no corners, shape (STEPS + 1, 2)."""
+        corners = np.array([[self.before, 0.0], [0.0, self.after]])
+        if not self.straight:
+            angles = np.linspace(acos(1.0 / self.before), pi / 2.0 - acos(1.0 / self.after), STEPS)
+            corners = np.insert(corners, 1, np.column_stack([np.cos(angles), np.sin(angles)]), axis=0)
+        yield np.asarray(evenly(corners) / np.array(self))
+
+    def pushed_out(self, ctrl: Array) -> Array:
+        """Return control points (..., K, 2) of (a, b) moved out, so that their splines stay outside, too.
+
+        Each goes to 1 / cos of the larger angle to a neighbour: then the lines between neighbours do not
+        enter the circle. Those on the axes stay.
+        """
+        shares = ctrl * np.array(self)
+        angle = np.arctan2(shares[..., 1], shares[..., 0])
+        step = np.diff(angle, axis=-1)
+        wide = np.minimum(np.maximum(step[..., 1:], step[..., :-1]), WIDEST_RAD)
+        far = np.hypot(shares[..., 1:-1, 0], shares[..., 1:-1, 1])
+        turned = (shares[..., 1:-1, :] > 0.0).all(axis=-1)
+        factor = np.where(turned, np.maximum(1.0, 1.0 / (np.cos(wide) * far)), 1.0)
+        pushed = ctrl.copy()
+        pushed[..., 1:-1, :] *= factor[..., None]
+        return pushed
+
+    def least_share(self, ctrl: Array) -> Array:
+        """Return how near (a d0, b d1) comes to 0 on splines of control points (..., K, 2), in shares of the
+        distance.
+        """
+        a, b = sampled(ctrl * np.array(self), SAMPLES)
+        return np.asarray(np.hypot(a, b).min(axis=(-2, -1)))
 
 
-def way(gaps: Gaps, corner: float) -> Array:
-    """Return (a, b) along the shortest way, evenly in (a d0, b d1), shape (STEPS + 1, 2).
-
-    corner : share by which formations tighter than the distance grow beyond it, to turn outside the circle
-    """
-    if straight_enough(gaps):
-        ends = np.array([[gaps.before, 0.0], [0.0, gaps.after]])
-        return _even(ends, gaps)
-    first, last = (gap if gap >= 1.0 else 1.0 + corner for gap in gaps)
-    touching, leaving = acos(1.0 / first), pi / 2.0 - acos(1.0 / last)
-    if touching < leaving:
-        angles = np.linspace(touching, leaving, STEPS)
-        arc = np.column_stack([np.cos(angles), np.sin(angles)])
-    else:
-        arc = np.zeros((0, 2))  # the tangents of two grown formations meet before the circle
-    corners = [np.array([p]) for p in ([gaps.before, 0.0], [first, 0.0], [0.0, last], [0.0, gaps.after])]
-    return _even(np.concatenate([*corners[:2], arc, *corners[2:]]), gaps)
-
-
-def _even(line: Array, gaps: Gaps) -> Array:
+def evenly(line: Array) -> Array:
+    """Return points evenly along a polygon (M, 2), shape (STEPS + 1, 2)."""
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     at = np.linspace(0.0, length[-1], STEPS + 1)
-    return np.column_stack([np.interp(at, length, line[:, k]) / gaps[k] for k in range(2)])
+    return np.column_stack([np.interp(at, length, line[:, k]) for k in range(2)])
 
 
-def pushed_out(ctrl: Array, gaps: Gaps) -> Array:
-    """Return control points (..., K, 2) of (a, b) moved out, so that their splines stay outside, too.
+def sampled(ctrl: Array, parts: int) -> tuple[Array, Array]:
+    """Return a and b of even cubic B-splines at the ends of parts of each piece, shape (..., K - 3, parts +
+    1) each.
 
-    Each goes to 1 / cos of the larger angle to a neighbour: then the lines between neighbours do not enter
-    the circle. Those on the axes stay.
+    ctrl : control points, shape (..., K, 2)
     """
-    shares = ctrl * np.array(gaps)
-    angle = np.arctan2(shares[..., 1], shares[..., 0])
-    step = np.diff(angle, axis=-1)
-    wide = np.minimum(np.maximum(step[..., 1:], step[..., :-1]), WIDEST_RAD)
-    far = np.hypot(shares[..., 1:-1, 0], shares[..., 1:-1, 1])
-    turned = (shares[..., 1:-1, :] > 0.0).all(axis=-1)
-    factor = np.where(turned, np.maximum(1.0, 1.0 / (np.cos(wide) * far)), 1.0)
-    pushed = ctrl.copy()
-    pushed[..., 1:-1, :] *= factor[..., None]
-    return pushed
-
-
-def least_share(ctrl: Array, gaps: Gaps, samples: int = 24) -> float:
-    """Return how near (a d0, b d1) comes to 0 on a spline of control points (K, 2), in shares of the
-    distance.
-
-    On the axes a formation only grows or shrinks, which counts where it is tighter at its end than there.
-    """
-    u = np.linspace(0.0, 1.0, samples + 1)[:, None]
-    basis = np.hstack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, 3 * (u + 3 * u**2) - 3 * u**3 + 1, u**3]) / 6.0
-    windows = np.lib.stride_tricks.sliding_window_view(ctrl * np.array(gaps), 4, axis=0)
-    at = np.einsum("uk,pdk->pud", basis, windows)
-    size = np.sqrt(np.einsum("pud,pud->pu", at, at))
-    for axis in range(2):
-        still = (windows[:, 1 - axis] == 0.0).all(axis=1)
-        size[still] = np.where(at[still, :, axis] >= min(1.0, gaps[axis]) - ROUNDING, 1.0, size[still])
-    return float(size.min())
+    u = np.linspace(0.0, 1.0, parts + 1)
+    basis = np.stack([(1 - u) ** 3, 3 * u**3 - 6 * u**2 + 4, 3 * (u + u**2) - 3 * u**3 + 1, u**3]) / 6.0
+    windows = np.lib.stride_tricks.sliding_window_view(ctrl, 4, axis=-2)
+    return windows[..., 0, :] @ basis, windows[..., 1, :] @ basis
 
 
 def angles(count: int) -> Array:

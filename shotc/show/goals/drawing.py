@@ -132,8 +132,8 @@ def _name(tag: str) -> str:
 def _shapes(data: bytes) -> list[FlatPart]:
     """Return the shapes that are drawn, in the file's units, up positive."""
     from svgelements import SVG
-    from svgelements import FlatPart as Drawn
     from svgelements import Path as Curves
+    from svgelements import Shape as Drawn
 
     shapes: list[FlatPart] = []
     for element in SVG.parse(io.BytesIO(data), on_error="raise").select(lambda e: isinstance(e, Drawn)):

@@ -2,11 +2,11 @@
 be.
 
 Everybody is at c + a(t) (x_i - c) + b(t) (g_i - c). (a, b) is a cubic B-spline of even pieces whose control
-points lie on the way of ``geom.arcs``, pushed out. How far along it they are is a profile of ``solvers.move``
-over a time of its own, which runs by what the busiest drone needs there: the root of the sum of the squares
-of its share of the speeds and of the time that its acceleration takes. Velocity, acceleration and jerk of
-every drone are linear in (a, b), so differences of control points bound them at every instant, as of
-straight moves.
+points lie on a way that is free (``geom.arcs``, ``geom.least_size``), pushed out. How far along it they are
+is a profile of ``solvers.move`` over a time of its own, which runs by what the busiest drone needs there: the
+root of the sum of the squares of its share of the speeds and of the time that its acceleration takes.
+Velocity, acceleration and jerk of every drone are linear in (a, b), so differences of control points bound
+them at every instant, as of straight moves.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
-from shotc.show.geom.arcs import Gaps, angles, least_share, pushed_out, way
+from shotc.show.geom.arcs import Free, angles
 from shotc.show.solvers.move import LEAST_PIECE_S, LIMIT_SHARE, TICK_S, WORTH_RATIO, family
 
 PIECES = (12, 16, 20, 24, 32, 40)
@@ -32,9 +32,8 @@ SMOOTHED_SHARE = 0.04
 """Share of the way over which what is needed is smoothed, so that corners of it are not met in jerks."""
 DIRECTIONS = 16
 """Directions of (a, b) by which the busiest drones are told from the others."""
-CORNERS = (0.03, 0.06, 0.12, 0.25, 0.5)
-"""Shares by which tighter formations grow beyond the distance before they turn: the first that does is
-taken."""
+LACK_SHARE = 1e-4
+"""Share of the distance that a spline may lack: a fifth of the margin with which moves are asked for."""
 
 BINDS = ("speed", "climb", "descent", "acceleration", "jerk")
 
@@ -73,7 +72,7 @@ class ArcMove:
 def fastest_arc(
     ends: tuple[Array, Array],
     pivot: Array,
-    gaps: Gaps,
+    free: Free,
     limits: Limits,
     pace: float,
     easing: Easing = "ease-in-out",
@@ -81,40 +80,37 @@ def fastest_arc(
     """Return the shortest move of an easing found, every limit times ``pace`` kept by all drones.
 
     ends : places before and after, shape (n, 3) each; pivot : the point c, shape (3,)
-    gaps : least distances before and after, in the metric of the fleet
+    free : where (a, b) may be
     """
     drones = _Drones.of(ends, pivot, limits, pace)
     busy = drones.busiest()
-    found: Array | None = None
-    for corner in CORNERS:
-        found = _shortest(busy, gaps, corner, easing)
-        if min(gaps) >= 1.0 or least_share(found, gaps) >= 1.0 - 1e-9:
-            break
-    assert found is not None
-    least = least_share(found, gaps)
-    if least < 1.0 and min(gaps) >= 1.0:
+    found = _shortest(busy, free, easing)
+    least = float(free.least_share(found))
+    if least < 1.0:
         found = np.concatenate([found[:3], found[3:-3] / least, found[-3:]])
     pieces, drone, limit = drones.binding(found)
     return ArcMove(found, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
 
 
-def _shortest(busy: _Drones, gaps: Gaps, corner: float, easing: Easing) -> Array:
+def _shortest(busy: _Drones, free: Free, easing: Easing) -> Array:
     """Return the control points of (a, b), shape (K, 2), with which the drones are there first."""
-    line = way(gaps, corner)
-    at = _when(busy, line)
-    share = np.linspace(0.0, 1.0, len(line))
-    best, found = inf, np.zeros((0, 2))
-    for pieces in PIECES:
-        shapes = family(pieces, easing)[0][::EVERY]
-        if not len(shapes):
-            continue
-        along = np.interp(shapes, at, share)
-        ctrl = np.stack([np.interp(along, share, line[:, k]) for k in range(2)], axis=-1)
-        ctrl = pushed_out(ctrl, gaps)
-        least = busy.least_pieces(ctrl)
-        k = int(least.argmin())
-        if pieces * least[k] * WORTH_RATIO < best:
-            best, found = float(pieces * least[k]), ctrl[k]
+    best, found = (1.0, inf), np.zeros((0, 2))
+    for line in free.ways():
+        at = _when(busy, line)
+        share = np.linspace(0.0, 1.0, len(line))
+        for pieces in PIECES:
+            shapes = family(pieces, easing)[0][::EVERY]
+            if not len(shapes):
+                continue
+            along = np.interp(shapes, at, share)
+            ctrl = np.stack([np.interp(along, share, line[:, k]) for k in range(2)], axis=-1)
+            ctrl = free.pushed_out(ctrl)
+            seconds = pieces * busy.least_pieces(ctrl)
+            # What is not free counts only where nothing is: the one that lacks least.
+            lacks = np.maximum(1.0 - LACK_SHARE - free.least_share(ctrl), 0.0)
+            k = int(np.lexsort((seconds, lacks))[0])
+            if (lacks[k], float(seconds[k]) * WORTH_RATIO) < best:
+                best, found = (float(lacks[k]), float(seconds[k])), ctrl[k]
     return found
 
 

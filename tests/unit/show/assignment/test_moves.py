@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from shotc.geom.apart import kept
 from shotc.geom.bernstein import Array
+from shotc.geom.separation import closest
 from shotc.ir.show import Apart, Sphere
 from shotc.show.assignment.moves import Mover
 from shotc.show.solvers.arc_move import ArcMove
@@ -28,7 +30,7 @@ def sheet(step: float, z: float) -> Array:
         (2.0, 1.6, ROUND, "straight", False),
         (9.0, 9.0, ROUND, "arc", True),
         (3.0, 3.0, UPRIGHT, "auto", False),  # twice the separation, of cylinders
-        (2.9, 3.0, UPRIGHT, "auto", True),
+        (1.5, 1.6, UPRIGHT, "auto", False),  # pair by pair: sheets that only grow need no arcs
     ],
 )
 def test_the_way_is_straight_where_that_is_proved_and_nothing_else_is_asked(
@@ -40,6 +42,21 @@ def test_the_way_is_straight_where_that_is_proved_and_nothing_else_is_asked(
     move = mover.move(sheet(before, 20.0), sheet(after, 60.0), 1.0, asked)
     assert isinstance(move, ArcMove) == arc
     assert not mover.faults
+
+
+@pytest.mark.parametrize(("step", "arc"), [(1.5, True), (3.05, False)])
+def test_cylinders_take_arcs_where_a_pair_asks_for_them(step: float, arc: bool) -> None:
+    """A sheet that stands up: neighbours of a row come to be above each other."""
+    swarm = fleet(30, UPRIGHT)
+    mover = Mover(show(display(picture(Sphere((0.0, 0.0, 60.0), 5.0))), swarm).mission, swarm)
+    lying = sheet(step, 0.0)
+    standing = lying[:, [2, 1, 0]] * (1.0, 1.0, 2.5 / 1.5) + (0.0, 0.0, 60.0)
+    starts = lying + np.array([0.0, 0.0, 20.0])
+    move = mover.move(starts, standing, 1.0, None)
+    assert isinstance(move, ArcMove) == arc
+    coef = np.stack([*[starts] * 3, *move.between(starts, standing), *[standing] * 3], axis=1)
+    breaks = np.arange(coef.shape[1] - 2) * (move.duration / move.pieces)
+    assert kept(closest(breaks, coef, UPRIGHT).proven, 1.5)
 
 
 @pytest.mark.parametrize("path", ["straight", "arc"])

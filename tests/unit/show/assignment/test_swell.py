@@ -21,7 +21,8 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.verify import judge
 from shotc.show.assignment import AssignGoals
 from shotc.show.assignment.swell import Heights, led
-from shotc.show.geom.arcs import Gaps
+from shotc.show.geom.arcs import Free, Gaps
+from shotc.show.geom.least_size import least_size
 from shotc.show.goals import PlaceGoals
 from shotc.show.goals.room import DisplaySurroundings
 from shotc.show.separation import KeepApart
@@ -38,8 +39,8 @@ def ends_of(seed: int) -> tuple[Array, Array]:
     return shapes[0] + rng.normal(size=3) * 20.0, shapes[1] + rng.normal(size=3) * 20.0
 
 
-def about(ends: tuple[Array, Array], gaps: Gaps = TIGHT) -> Callable[[Array], ArcMove]:
-    return lambda pivot: fastest_arc(ends, pivot, gaps, LIMITS, 1.0)
+def about(ends: tuple[Array, Array], free: Free = TIGHT) -> Callable[[Array], ArcMove]:
+    return lambda pivot: fastest_arc(ends, pivot, free, LIMITS, 1.0)
 
 
 def sampled(ends: tuple[Array, Array], move: ArcMove) -> Array:
@@ -89,9 +90,10 @@ def test_between_low_pads_and_a_high_picture_the_swell_is_lifted_until_it_is_cle
     pads = np.array([(1.5 * (i % 4), 1.5 * (i // 4), 8.0) for i in range(12)])
     ball = rng.normal(size=(12, 3))
     ball = np.array([60.0, 30.0, 40.0]) + radius * ball / np.linalg.norm(ball, axis=1)[:, None]
-    ends, gaps = ((ball, pads), Gaps(1.2, 0.8)) if home else ((pads, ball), Gaps(0.8, 1.2))
+    ends = (ball, pads) if home else (pads, ball)
+    free = least_size(*(p * (1.0, 1.0, 0.6) / 1.5 for p in ends))
     for low in (2.25, 5.0, 7.5):
-        move, lack = led(ends, Heights(low, inf), DisplaySurroundings((), -inf), about(ends, gaps))
+        move, lack = led(ends, Heights(low, inf), DisplaySurroundings((), -inf), about(ends, free))
         assert lack.metres <= 1e-6
         assert sampled(ends, move)[..., 2].min() >= low - 1e-6
 

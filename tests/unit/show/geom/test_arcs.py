@@ -18,8 +18,9 @@ from shotc.geom.fleet_spline import knots
 from shotc.geom.separation import closest
 from shotc.ir.limits import Limits
 from shotc.ir.show import Apart
-from shotc.show.geom.arcs import Gaps, least_share, straight_enough, way
+from shotc.show.geom.arcs import Gaps, sampled
 from shotc.show.geom.lattice import lattice
+from shotc.show.geom.least_size import least_size
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from shotc.show.solvers.match import matched
 
@@ -59,10 +60,14 @@ def test_fleets_as_dense_as_the_separation_allows_keep_it(seed: int, count: int,
     starts = formation(rng, count, apart)
     goals = formation(rng, count, apart) + rng.normal(size=3) * 20.0
     goals = goals[matched(starts * scale, goals * scale)]
-    whole = apart.across * (sqrt(2.0) if shape == "cylinder" else 1.0)
-    gaps = Gaps(*(float(pdist(p * scale).min()) / whole for p in (starts, goals)))
+    ends = [p * scale / apart.across for p in (starts, goals)]
+    free = (
+        least_size(*(p / 1.0005 for p in ends))
+        if shape == "cylinder"
+        else Gaps(*(float(pdist(p).min()) for p in ends))
+    )
     pivot = rng.normal(size=3) * 10.0
-    move = fastest_arc((starts, goals), pivot, gaps, LIMITS, 1.0)
+    move = fastest_arc((starts, goals), pivot, free, LIMITS, 1.0)
     breaks, coef = flown(move, starts, goals)
     assert closest(breaks, coef, apart).proven >= apart.across * (1 - 1e-9)
     spline = BSpline(knots(breaks), np.moveaxis(coef, 1, 0), 3)
@@ -81,7 +86,7 @@ def test_fleets_as_dense_as_the_separation_allows_keep_it(seed: int, count: int,
 @given(gaps_of_balls)
 def test_the_way_is_the_shortest_outside_the_circle(gaps: Gaps) -> None:
     """Against the shortest path through a fine polygon round the circle and both ends."""
-    line = way(gaps, 0.1) * np.array(gaps)
+    line = next(gaps.ways()) * np.array(gaps)
     length = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
     angles = np.linspace(0.0, pi / 2, 181)
     round_it = np.column_stack([np.cos(angles), np.sin(angles)]) / np.cos(angles[1] / 2)
@@ -95,7 +100,7 @@ def test_the_way_is_the_shortest_outside_the_circle(gaps: Gaps) -> None:
     shortest = shortest_path(free, directed=False, indices=0)[-1]
     assert shortest * (1 - 1e-4) <= length <= shortest * (1 + 1e-6)
     assert np.linalg.norm(line, axis=1).min() >= min(1.0, hypot(*gaps) / 2) - 1e-6
-    if not straight_enough(gaps):
+    if not gaps.straight:
         closed = sum(sqrt(g * g - 1) for g in gaps) + pi / 2 - sum(acos(1 / g) for g in gaps)
         assert length == pytest.approx(closed, rel=1e-6)
 
@@ -105,17 +110,16 @@ def test_straight_ways_are_enough_exactly_where_they_stay_outside(gaps: Gaps) ->
     s = np.linspace(0.0, 1.0, 2001)
     least = float(np.hypot((1 - s) * gaps.before, s * gaps.after).min())
     if abs(least - 1.0) > 1e-5:
-        assert straight_enough(gaps) == (least > 1.0)
+        assert gaps.straight == (least > 1.0)
 
 
-@given(st.floats(sqrt(0.5), 1.0), st.floats(sqrt(0.5), 3.0))
-def test_what_is_tighter_than_the_ball_grows_before_it_turns(before: float, after: float) -> None:
-    gaps = Gaps(before, after)
-    if straight_enough(gaps):
-        return
-    a, b = way(gaps, 0.1).T * np.array(gaps)[:, None]
-    turning = (a > 1e-12) & (b > 1e-12)
-    assert np.hypot(a, b)[turning].min() >= 1.0 - 1e-6
-    assert a[b <= 1e-12].min() >= min(before, 1.0) - 1e-9
-    inside = np.array([[1.0, 0.0]] * 3 + [[0.8, 0.2], [0.2, 0.8]] + [[0.0, 1.0]] * 3)
-    assert least_share(inside, gaps) < 1.0
+@given(st.integers(0, 2**31))
+def test_splines_are_sampled_where_they_are(seed: int) -> None:
+    ctrl = np.random.default_rng(seed).uniform(-1.0, 1.0, (9, 2))
+    spline = BSpline(np.arange(-3.0, 10.0), ctrl, 3)
+    found = np.stack(sampled(ctrl, 5), axis=-1)
+    at = np.arange(6)[:, None] + np.linspace(0.0, 1.0, 6)
+    assert found == pytest.approx(spline(at), abs=1e-12)
+    assert Gaps(1.0, 1.3).least_share(ctrl) == pytest.approx(
+        np.hypot(*(np.moveaxis(spline(np.linspace(0.0, 6.0, 145)), -1, 0) * [[1.0], [1.3]])).min()
+    )
