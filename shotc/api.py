@@ -34,9 +34,9 @@ from shotc.pipeline import (
     SHOW,
     VERIFY,
     PassReport,
-    Run,
-    Setting,
-    Step,
+    PassSettings,
+    PipelineRun,
+    RouteStep,
     passes_of,
     run,
     run_refined,
@@ -138,7 +138,7 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     missing = _missing_for_choice(loaded.mission)
     if missing:
         return stopped._replace(diagnostics=(*diagnostics, *missing))
-    setting = Setting(kinds.plugins, plugins.names("emitters"))
+    setting = PassSettings(kinds.plugins, plugins.names("emitters"))
     front = run(passes_of((ASSIGN, *FRONT), setting), loaded.mission, ctx, options.stop_after)
     diagnostics += front.diagnostics
     stopped = stopped._replace(reports=front.reports, diagnostics=tuple(diagnostics))
@@ -157,7 +157,7 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
     return stopped._replace(plan=plan, reports=front.reports + back.reports, diagnostics=tuple(diagnostics))
 
 
-def _lower(checked: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
+def _lower(checked: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx: PassContext) -> PipelineRun:
     """Plan a mission that has passed the front passes: what fleets display, and what cameras film."""
     keyframes = with_autopilot(checked, options.autopilot)
     mission = checked.mission
@@ -166,7 +166,7 @@ def _lower(checked: KeyframeIR, setting: Setting, options: PlanOptions, ctx: Pas
         return _lower_show(keyframes, (*SHOW, VERIFY), setting, options, ctx)
     seat, faults = _seat(options.refiner or plugins.usual_refiner(), checked.mission)
     if seat is None or stops(faults):
-        return Run(None, faults, ())
+        return PipelineRun(None, faults, ())
     options.on_mission(mission)
     seated = setting._replace(seat=seat, deadline=options.deadline)
     if mission.displays:
@@ -175,7 +175,9 @@ def _lower(checked: KeyframeIR, setting: Setting, options: PlanOptions, ctx: Pas
     return done._replace(diagnostics=(*faults, *done.diagnostics))
 
 
-def _lower_both(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, ctx: PassContext) -> Run:
+def _lower_both(
+    keyframes: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx: PassContext
+) -> PipelineRun:
     """Plan what fleets display, then what cameras film out of their airspace; one judge over all."""
     shown = _lower_show(keyframes, SHOW, setting, options, ctx)
     if shown.value is None or options.stop_after == shown.reports[-1].name:
@@ -192,8 +194,12 @@ def _lower_both(keyframes: KeyframeIR, setting: Setting, options: PlanOptions, c
 
 
 def _lower_show(
-    keyframes: KeyframeIR, steps: Sequence[Step], setting: Setting, options: PlanOptions, ctx: PassContext
-) -> Run:
+    keyframes: KeyframeIR,
+    steps: Sequence[RouteStep],
+    setting: PassSettings,
+    options: PlanOptions,
+    ctx: PassContext,
+) -> PipelineRun:
     """Plan what fleets display, with one thread for the sums of linear algebra.
 
     They are many and short: threads cost them several times what they take, and would add up another way on
@@ -228,7 +234,7 @@ def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic,
     return None, source.diagnostics
 
 
-def crew(jobs: int | None = None) -> AbstractContextManager[emission.Crew]:
+def crew(jobs: int | None = None) -> AbstractContextManager[emission.EmitterPool]:
     """Return processes that emit side by side, this one among them; enter it before threads are started.
 
     jobs : how many; None means the cores, up to a few
@@ -244,7 +250,7 @@ def _emitter(name: str) -> Emitter | None:
 def emit_plan(
     plan: VerifiedIR,
     names: Sequence[str] | None = None,
-    crew: emission.Crew | None = None,
+    crew: emission.EmitterPool | None = None,
     *,
     saved: bool = False,
 ) -> Emitted:

@@ -11,7 +11,7 @@ from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.ir.passes import PassContext
 from shotc.ir.source import KeptFiles
-from shotc.pipeline import FRONT, Setting, passes_of, run
+from shotc.pipeline import FRONT, PassSettings, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import load
 
@@ -32,7 +32,7 @@ def check_source(data: bytes, name: str, folder: Path | KeptFiles | None) -> Che
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
     found = [*loaded.diagnostics]
     if loaded.mission is not None:
-        passes = passes_of(FRONT, Setting(kinds.plugins, plugins.names("emitters")))
+        passes = passes_of(FRONT, PassSettings(kinds.plugins, plugins.names("emitters")))
         found += run(passes, loaded.mission, PassContext()).diagnostics
     return CheckReport(tuple(found), {name: loaded.file})
 

@@ -42,7 +42,7 @@ def usual_jobs() -> int:
     return min(MOST, cores()) if sys.platform == "linux" else 1
 
 
-class Crew:
+class EmitterPool:
     """The processes that emit: this one, and the workers of the pool that ``crew`` made beside it.
 
     plans : the ends of pipes by which each worker gets its plan
@@ -89,18 +89,18 @@ class _Work(NamedTuple):
     made: Future[dict[str, Emission]]
 
 
-ALONE = Crew()
+ALONE = EmitterPool()
 
 
 @contextmanager
-def crew(jobs: int, load: Load) -> Iterator[Crew]:
+def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
     """Yield this process and ``jobs`` - 1 workers, which end with the block, however that ends.
 
     load : returns an emitter by its name, None for one that cannot be used; called in the workers, too
     There are no workers where a fork is not safe: off Linux, and in a process with several threads.
     """
     if jobs < 2 or sys.platform != "linux" or threading.active_count() > 1:
-        yield Crew(load=load)
+        yield EmitterPool(load=load)
         return
     pipes = [Pipe(duplex=False) for _ in range(jobs - 1)]
     orders, plans = [end for end, _ in pipes], [start for _, start in pipes]
@@ -110,7 +110,7 @@ def crew(jobs: int, load: Load) -> Iterator[Crew]:
                 pool.submit(os.getpid)  # it forks all its workers at the first task
             for end in orders:
                 end.close()
-            yield Crew(pool, plans, load)
+            yield EmitterPool(pool, plans, load)
     finally:
         for start in plans:
             start.close()

@@ -18,7 +18,7 @@ from shotc.ir.lowered import Lowered
 from shotc.ir.passes import PassContext
 from shotc.ir.source import Autopilot, Chosen, KeptFiles, MissionSource, flown_by, kept_files
 from shotc.passes.resolve.lower.names import AUTO
-from shotc.pipeline import FRONT, Setting, passes_of, run
+from shotc.pipeline import FRONT, PassSettings, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import LoadedMission, load
 
@@ -68,7 +68,7 @@ def lower_for_flights(
 def _placed(
     mission: LoadedMission, kinds: Mapping[str, Any], file: SourceFile, autopilot: Autopilot | None
 ) -> Lowered:
-    front = run(passes_of(FRONT, Setting(kinds)), mission, PassContext())
+    front = run(passes_of(FRONT, PassSettings(kinds)), mission, PassContext())
     if not isinstance(front.value, KeyframeIR) or has_errors(front.diagnostics):
         return _stopped(front.diagnostics, file)
     return Lowered(with_autopilot(front.value, autopilot), (), file)

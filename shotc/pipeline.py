@@ -28,7 +28,7 @@ class PassReport(NamedTuple):
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-class Run(NamedTuple):
+class PipelineRun(NamedTuple):
     """A finished run: the last IR that was reached, or None after an error, and all reports."""
 
     value: Any
@@ -36,11 +36,11 @@ class Run(NamedTuple):
     reports: tuple[PassReport, ...]
 
 
-class Step(NamedTuple):
+class RouteStep(NamedTuple):
     """One pass of a route, known before its module loads.
 
     name : as commands call it; takes, gives : what it lowers from and to
-    home : module:class; options : the fields of ``Setting`` that it is made with
+    home : module:class; options : the fields of ``PassSettings`` that it is made with
     """
 
     name: str
@@ -50,7 +50,7 @@ class Step(NamedTuple):
     options: tuple[str, ...] = ()
 
 
-class Setting(NamedTuple):
+class PassSettings(NamedTuple):
     """What passes are made with.
 
     kinds : the shot kinds by name; emitters : the names of all, None where they are not known
@@ -65,28 +65,30 @@ class Setting(NamedTuple):
     show: Any = None
 
 
-ASSIGN = Step(
+ASSIGN = RouteStep(
     "assign-drones", "LoadedMission", "LoadedMission", "shotc.passes.assign_drones:AssignDrones", ("kinds",)
 )
 FRONT = (
-    Step("resolve", "LoadedMission", "MissionIR", "shotc.passes.resolve:Resolve", ("kinds", "emitters")),
-    Step("place-keyframes", "MissionIR", "KeyframeIR", "shotc.passes.place_keyframes:PlaceKeyframes"),
+    RouteStep("resolve", "LoadedMission", "MissionIR", "shotc.passes.resolve:Resolve", ("kinds", "emitters")),
+    RouteStep("place-keyframes", "MissionIR", "KeyframeIR", "shotc.passes.place_keyframes:PlaceKeyframes"),
 )
 """What needs no solver: ``check`` runs it."""
 
-VERIFY = Step("verify", "TrajectoryIR", "VerifiedIR", "shotc.passes.verify:Verify")
+VERIFY = RouteStep("verify", "TrajectoryIR", "VerifiedIR", "shotc.passes.verify:Verify")
 FILM = (
-    Step("solve-path-qp", "KeyframeIR", "PathIR", "shotc.passes.solve_path_qp:SolvePathQp"),
-    Step("refine-path", "PathIR", "PathIR", "shotc.passes.refine_path:RefinePath", ("seat", "deadline")),
-    Step("parameterize-time", "PathIR", "TrajectoryIR", "shotc.passes.parameterize_time:ParameterizeTime"),
+    RouteStep("solve-path-qp", "KeyframeIR", "PathIR", "shotc.passes.solve_path_qp:SolvePathQp"),
+    RouteStep("refine-path", "PathIR", "PathIR", "shotc.passes.refine_path:RefinePath", ("seat", "deadline")),
+    RouteStep(
+        "parameterize-time", "PathIR", "TrajectoryIR", "shotc.passes.parameterize_time:ParameterizeTime"
+    ),
 )
 SHOW = (
-    Step("place-goals", "KeyframeIR", "GoalIR", "shotc.show.goals:PlaceGoals"),
-    Step("assign-goals", "GoalIR", "ShowIR", "shotc.show.assignment:AssignGoals"),
-    Step("bound-splines", "ShowIR", "ShowIR", "shotc.show.splines:BoundSplines"),
-    Step("keep-apart", "ShowIR", "TrajectoryIR", "shotc.show.separation:KeepApart"),
+    RouteStep("place-goals", "KeyframeIR", "GoalIR", "shotc.show.goals:PlaceGoals"),
+    RouteStep("assign-goals", "GoalIR", "ShowIR", "shotc.show.assignment:AssignGoals"),
+    RouteStep("bound-splines", "ShowIR", "ShowIR", "shotc.show.splines:BoundSplines"),
+    RouteStep("keep-apart", "ShowIR", "TrajectoryIR", "shotc.show.separation:KeepApart"),
 )
-JOIN = Step(
+JOIN = RouteStep(
     "join-flights", "TrajectoryIR", "TrajectoryIR", "shotc.show.beside_cameras:JoinFlights", ("show",)
 )
 ROUTES = {
@@ -101,7 +103,7 @@ BESIDE_SHOW = (*FILM, JOIN, VERIFY)
 PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, JOIN, VERIFY))
 
 
-def passes_of(steps: Sequence[Step], setting: Setting) -> tuple[AnyPass, ...]:
+def passes_of(steps: Sequence[RouteStep], setting: PassSettings) -> tuple[AnyPass, ...]:
     """Return the passes of a part of a route; ValueError where one does not take what the last one gives."""
     for last, step in pairwise(steps):
         if last.gives != step.takes:
@@ -109,7 +111,7 @@ def passes_of(steps: Sequence[Step], setting: Setting) -> tuple[AnyPass, ...]:
     return tuple(_made(step, setting) for step in steps)
 
 
-def _made(step: Step, setting: Setting) -> AnyPass:
+def _made(step: RouteStep, setting: PassSettings) -> AnyPass:
     module, _, name = step.home.partition(":")
     made: AnyPass = getattr(import_module(module), name)(*(getattr(setting, o) for o in step.options))
     return made
@@ -121,7 +123,7 @@ def run(
     ctx: PassContext,
     stop_after: str | None = None,
     clock: Callable[[], float] = time.perf_counter,
-) -> Run:
+) -> PipelineRun:
     """Run passes in turn until one fails or ``stop_after`` is done.
 
     An error that knows a bound only does not stop the run: a later pass has the exact number.
@@ -143,15 +145,15 @@ def run(
             value.check()
         if step.name == stop_after:
             break
-    return Run(value, tuple(diagnostics), tuple(reports))
+    return PipelineRun(value, tuple(diagnostics), tuple(reports))
 
 
 def run_refined(
     passes: Sequence[AnyPass], value: Any, ctx: PassContext, seat: Any, stop_after: str | None = None
-) -> Run:
+) -> PipelineRun:
     """Run passes, and where a refined path is refused that could be flown unrefined, blame its refiner.
 
-    seat : as in ``Setting``. Where the mission allows it, the unrefined path is flown instead. Where
+    seat : as in ``PassSettings``. Where the mission allows it, the unrefined path is flown instead. Where
     the refiner gives no path, the later passes judge the unrefined one, and its errors say what came of it.
     Where a refined shot does not fit into the time of its unrefined path, all is planned again with more.
     """
@@ -184,13 +186,13 @@ def run_refined(
     verdict = blame(seat, (convex, refined), tuple(d for d in late if has_errors([d])))
     early = tuple(d for report in done.reports[: k + 1] for d in report.diagnostics)
     if not verdict.convex:
-        return Run(None, (*early, *verdict.diagnostics), done.reports)
+        return PipelineRun(None, (*early, *verdict.diagnostics), done.reports)
     diagnostics = (*early, *verdict.diagnostics, *again.diagnostics)
-    flown = Run(again.value, diagnostics, (*done.reports[: k + 1], *again.reports))
+    flown = PipelineRun(again.value, diagnostics, (*done.reports[: k + 1], *again.reports))
     return _accounted(flown, seat, (convex, convex))
 
 
-def _with_convex(done: Run, later: Sequence[AnyPass], convex: Any, ctx: PassContext) -> Run:
+def _with_convex(done: PipelineRun, later: Sequence[AnyPass], convex: Any, ctx: PassContext) -> PipelineRun:
     """Return a run that ends at the refiner, whose errors say what becomes of the convex path."""
     from shotc.passes.refine_path import with_convex
 
@@ -198,7 +200,7 @@ def _with_convex(done: Run, later: Sequence[AnyPass], convex: Any, ctx: PassCont
     return done._replace(diagnostics=with_convex(convex, done.diagnostics, judged.diagnostics))
 
 
-def _accounted(done: Run, seat: Any, paths: tuple[Any, Any]) -> Run:
+def _accounted(done: PipelineRun, seat: Any, paths: tuple[Any, Any]) -> PipelineRun:
     """Return a run that tells of every shot whether it is refined; paths : as in ``account``."""
     from shotc.passes.refine_path import account
 

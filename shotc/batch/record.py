@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from shotc import __version__
-from shotc.batch.work import Job, Outcome, Planned
+from shotc.batch.work import Job, MissionOutcome, Planned
 from shotc.emit.base import Artifact
 from shotc.filenames import file_name
 from shotc.progress_file import ProgressFile
@@ -61,13 +61,13 @@ def key_of(job: Job) -> str:
     return sha256(told.encode() + job.data).hexdigest()
 
 
-def still_true(job: Job, entry: dict[str, Any], root: Path) -> Outcome | None:
+def still_true(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | None:
     """Return what came of a job before, or None where it has to be planned again.
 
     entry : of ``Record.done``; root : of the folders of all missions
     """
     with suppress(OSError, KeyError, TypeError, ValueError):
-        outcome = Outcome(**entry["outcome"])
+        outcome = MissionOutcome(**entry["outcome"])
         kept = [(folder_of(outcome, root), each) for each in entry["written"]]
         kept += [(job.folder, each) for each in entry["read"]]
         if all(_digest(folder / name) == digest for folder, (name, digest) in kept):
@@ -75,7 +75,7 @@ def still_true(job: Job, entry: dict[str, Any], root: Path) -> Outcome | None:
     return None
 
 
-def folder_of(outcome: Outcome, root: Path) -> Path:
+def folder_of(outcome: MissionOutcome, root: Path) -> Path:
     """Return the folder for the files of a mission; root : of the folders of all missions."""
     return root / file_name(outcome.mission or "")
 

@@ -31,7 +31,7 @@ class Job(NamedTuple):
     emitters: tuple[str, ...] | None
 
 
-class Outcome(NamedTuple):
+class MissionOutcome(NamedTuple):
     """What came of a mission, in one row.
 
     name : of its file; mission : its name, None where the file says none
@@ -53,7 +53,7 @@ class Planned(NamedTuple):
     read : (name, SHA-256, hexadecimal) of all files that it names
     """
 
-    outcome: Outcome
+    outcome: MissionOutcome
     artifacts: tuple[Artifact, ...]
     diagnostics: tuple[Diagnostic, ...]
     sources: dict[str, SourceFile]
@@ -75,9 +75,9 @@ def planned(job: Job) -> Planned:
 
 def _outcome(
     job: Job, mission: str | None, plan: VerifiedIR | None, diagnostics: tuple[Diagnostic, ...]
-) -> Outcome:
+) -> MissionOutcome:
     weights = [severity_of(each) for each in diagnostics]
-    return Outcome(
+    return MissionOutcome(
         job.name,
         mission,
         weights.count(Severity.ERROR),

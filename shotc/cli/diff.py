@@ -15,7 +15,7 @@ from shotc.cli.plans import proved
 
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import Claim
-    from shotc.planfile.compare import Comparison, FleetChange, ShotChange
+    from shotc.planfile.compare import FleetChange, PlanComparison, ShotChange
 
 Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]
 New = Annotated[Path, typer.Argument(metavar="NEW", help="The plan to compare it with.")]
@@ -35,7 +35,7 @@ def diff(old: Old, new: New) -> None:
     console.out("\n".join(_lines(comparison)))
 
 
-def _lines(comparison: Comparison) -> Iterator[str]:
+def _lines(comparison: PlanComparison) -> Iterator[str]:
     if comparison.fleets:
         yield from table([("fleet", "drones", "lasts"), *map(_fleet, comparison.fleets)])
         yield ""

@@ -12,7 +12,7 @@ from shotc.cli import console
 from shotc.diag.model import Diagnostic
 from shotc.geom.track import Track
 from shotc.ir.mission import MissionIR
-from shotc.passes.resolve.lower.files import Files, Reader
+from shotc.passes.resolve.lower.files import FileReader, Files
 from shotc.passes.resolve.lower.recordings import read_recording
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def _true_track(mission: MissionIR, sources: dict[str, SourceFile], written: str
     path, target = Path(place), mission.target(name)
     if not path.is_file():
         raise typer.BadParameter(f"there is no file `{place}`", param_hint="--truth")
-    files = Files(mission.origin, mission.origins, Reader(path.parent, mission.origins))
+    files = Files(mission.origin, mission.origins, FileReader(path.parent, mission.origins))
     read = read_recording(path.name, files, target.path)
     if isinstance(read, Diagnostic):
         console.report([read], sources)

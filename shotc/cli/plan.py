@@ -25,7 +25,7 @@ from shotc.pipeline import PASS_NAMES
 from shotc.solvers.headings import DEFAULT, METHODS
 
 if TYPE_CHECKING:
-    from shotc.emission import Crew
+    from shotc.emission import EmitterPool
     from shotc.ir.mission import MissionIR
 
 
@@ -167,7 +167,7 @@ def _finish(
     done: Compilation,
     emitters: list[str] | None,
     output: Path | None,
-    hands: Crew,
+    hands: EmitterPool,
     progress: Callable[[str], None],
 ) -> int:
     """Emit and write a plan, report everything, and return the exit status."""

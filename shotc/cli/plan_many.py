@@ -11,7 +11,7 @@ import typer
 from shotc import plugins
 from shotc.api import PlanOptions
 from shotc.batch.record import Record, folder_of, key_of, still_true
-from shotc.batch.work import Job, Outcome, Planned, planned
+from shotc.batch.work import Job, MissionOutcome, Planned, planned
 from shotc.checking import models_of
 from shotc.cli import console, refiner
 from shotc.cli.console import Progress, table
@@ -113,7 +113,7 @@ def _lines(batch: _Batch, gathered: Gathered) -> Iterator[str]:
     yield text + gathered.passed_over()
 
 
-def _row(batch: _Batch, outcome: Outcome) -> tuple[str, ...]:
+def _row(batch: _Batch, outcome: MissionOutcome) -> tuple[str, ...]:
     warnings = str(outcome.warnings) if outcome.warnings else "-"
     if outcome.errors:
         errors = "1 error" if outcome.errors == 1 else f"{outcome.errors} errors"

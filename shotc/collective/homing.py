@@ -22,7 +22,7 @@ from shotc.passes.verify.fleets.shape import landed
 from shotc.passes.verify.fleets.space import space
 from shotc.show.assignment.home import come_home
 from shotc.show.assignment.moves import Mover
-from shotc.show.assignment.score import Score
+from shotc.show.assignment.score import FlightScore
 from shotc.show.geom.windows import at_rest, windows
 
 
@@ -133,7 +133,7 @@ class Homing:
         else:
             braked = self._course.braked(time, rest, self.fleet.limits)
             if braked is not None:
-                score = Score.after(braked.breaks, braked.coef)
+                score = FlightScore.after(braked.breaks, braked.coef)
                 yield self._judged(score, float(braked.breaks[-1]))
         yield self._once(self._from_stop, stop, rest)
         yield self._once(self._as_it_came, stop, rest)
@@ -147,9 +147,9 @@ class Homing:
 
     def _from_stop(self, stop: int, time: float) -> FleetReturn:
         """Return the way home straight from a stop."""
-        return self._judged(Score(self._at_stop(stop), time), time)
+        return self._judged(FlightScore(self._at_stop(stop), time), time)
 
-    def _judged(self, score: Score, rest: float) -> FleetReturn:
+    def _judged(self, score: FlightScore, rest: float) -> FleetReturn:
         """Return the way home of a fleet that rests, with its proof."""
         come_home(score, self._mover)
         return self._proved(score, rest)
@@ -158,7 +158,7 @@ class Homing:
         """Return the way home through all that was flown up to a stop, in which nothing can be met."""
         coef, breaks = self.flight.coef, self.flight.breaks
         flown = [w for w in windows(coef) if w.last <= stop]
-        score = Score(self._at_stop(stop), time)
+        score = FlightScore(self._at_stop(stop), time)
         for k, window in reversed(list(enumerate(flown))):
             if k == 0:
                 score.phase("return")
@@ -167,7 +167,7 @@ class Homing:
         score.phase("land")
         return self._proved(score, time)
 
-    def _proved(self, score: Score, rest: float) -> FleetReturn:
+    def _proved(self, score: FlightScore, rest: float) -> FleetReturn:
         return self._claimed(score.trajectory(self.flight.fleet, self.flight.lights), rest)
 
     def _claimed(self, track: FleetTrajectory, rest: float) -> FleetReturn:

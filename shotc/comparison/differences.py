@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.ir.comparison import Condition, Difference, FlownShot
+from shotc.ir.comparison import ComparedShot, Condition, ShotDifference
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
 
@@ -19,7 +19,7 @@ STAGES = 500
 """Places of a shot at which two conditions are compared."""
 
 
-def differences(conditions: Sequence[Condition]) -> tuple[Difference, ...]:
+def differences(conditions: Sequence[Condition]) -> tuple[ShotDifference, ...]:
     """Return how each condition differs from the last one with a plan, each shot, the greatest first."""
     planned = [(each, each.plan) for each in conditions if each.plan is not None]
     if len(planned) < 2:
@@ -28,7 +28,7 @@ def differences(conditions: Sequence[Condition]) -> tuple[Difference, ...]:
     return tuple(found for one in others for found in sorted(_of(one, last), key=lambda d: -d.mean))
 
 
-def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) -> Iterator[Difference]:
+def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) -> Iterator[ShotDifference]:
     shots = {shot.id: shot for shot in other[0].shots}
     for shot in one[0].shots:
         if shot.id not in shots:
@@ -39,7 +39,7 @@ def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) 
         degrees = np.degrees(turned(here[:, 3:], then[:, 3:]))
         k = int(np.argmax(metres + degrees))
         share = k / STAGES
-        yield Difference(
+        yield ShotDifference(
             shot=shot.id,
             condition=one[0].name,
             other=other[0].name,
@@ -51,7 +51,7 @@ def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) 
         )
 
 
-def _poses(plan: VerifiedIR, shot: FlownShot) -> Array:
+def _poses(plan: VerifiedIR, shot: ComparedShot) -> Array:
     """Return x, y, z, yaw and pitch of a camera at even times of a shot, shape (STAGES + 1, 5)."""
     (track,) = (track for track in plan.trajectory.drones if track.drone == shot.drone)
     pose = track.curve(np.linspace(shot.start, shot.end, STAGES + 1))

@@ -7,7 +7,7 @@ from typing import Any
 
 from shotc import __version__
 from shotc.diag.model import Diagnostic
-from shotc.ir.comparison import Comparison, Condition, FlownShot
+from shotc.ir.comparison import ComparedShot, Comparison, Condition
 from shotc.planfile import layout
 from shotc.planfile.codec import encode
 
@@ -47,7 +47,7 @@ def _condition(each: Condition, *, seconds: bool) -> dict[str, Any]:
     } | ({"refine_seconds": each.seconds} if seconds else {})
 
 
-def _shot(shot: FlownShot) -> dict[str, Any]:
+def _shot(shot: ComparedShot) -> dict[str, Any]:
     return {"shot": shot.id, "drone": shot.drone, "start": shot.start, "rounds": shot.rounds} | _encoded(
         shot.score._asdict()
     )

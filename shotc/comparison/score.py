@@ -15,7 +15,7 @@ from shotc.geom.camera import ROUNDING_M
 from shotc.geom.framing import points_in_frame
 from shotc.geom.pieces import cut
 from shotc.ir.bodies import shapes
-from shotc.ir.comparison import FlownShot, MotionMeasures, Score, Trace
+from shotc.ir.comparison import ComparedShot, MotionMeasures, Score, Trace
 from shotc.ir.framed import at_start
 from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import MissionIR
@@ -36,7 +36,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 """Exact for the square of a quintic's third derivative, which has degree four."""
 
 
-def flown_shots(plan: VerifiedIR) -> tuple[FlownShot, ...]:
+def flown_shots(plan: VerifiedIR) -> tuple[ComparedShot, ...]:
     """Return all shots of a plan, measured, in the order they are filmed."""
     flown = [
         _flown(plan, track, phase)
@@ -47,7 +47,7 @@ def flown_shots(plan: VerifiedIR) -> tuple[FlownShot, ...]:
     return tuple(sorted(flown, key=lambda shot: (shot.start, shot.id)))
 
 
-def total(plan: VerifiedIR, shots: Sequence[FlownShot]) -> Score:
+def total(plan: VerifiedIR, shots: Sequence[ComparedShot]) -> Score:
     """Return the score of all shots together: frames count alike, and so does every second filmed."""
     motions = [shot.motion for shot in shots]
     motion = (
@@ -99,7 +99,7 @@ def squared_jerk(curve: Piecewise, start: float, end: float, *channels: int) -> 
     return float(np.einsum("p,g,pgd->", widths, _WEIGHTS, jerk**2))
 
 
-def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
+def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> ComparedShot:
     ir, shot = plan.trajectory, str(phase.shot)
     traces = tuple(
         trace
@@ -108,7 +108,9 @@ def _flown(plan: VerifiedIR, track: DroneTrajectory, phase: Phase) -> FlownShot:
     )
     motion = _motion(ir.keyframes.mission, track, phase)
     scored = score(traces, motion)
-    return FlownShot(shot, track.drone, phase.start, phase.end, traces, motion, scored, _rounds(plan, shot))
+    return ComparedShot(
+        shot, track.drone, phase.start, phase.end, traces, motion, scored, _rounds(plan, shot)
+    )
 
 
 def _motion(mission: MissionIR, track: DroneTrajectory, phase: Phase) -> MotionMeasures:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from math import degrees, isfinite
 
 from shotc.emit.screen import off_place, percent
-from shotc.ir.comparison import Comparison, Condition, Difference, FlownShot, Score
+from shotc.ir.comparison import ComparedShot, Comparison, Condition, Score, ShotDifference
 from shotc.rounding import up
 
 HEADING = (
@@ -60,7 +60,7 @@ def remarks(comparison: Comparison) -> list[str]:
     return [*lines, *map(_told, comparison.differences)]
 
 
-def _told(found: Difference) -> str:
+def _told(found: ShotDifference) -> str:
     at, there = (f"{time:.1f} s" for time in (found.time, found.other_time))
     there = "" if at == there else f" ({there} there)"
     return (
@@ -102,7 +102,7 @@ def _rows(each: Condition, *, several: bool) -> Iterator[tuple[str, ...]]:
         yield ("", shot.id, *_cells(shot.score), _rounds([shot]), "")
 
 
-def _rounds(shots: Iterable[FlownShot]) -> str:
+def _rounds(shots: Iterable[ComparedShot]) -> str:
     rounds = [shot.rounds for shot in shots if shot.rounds is not None]
     return str(sum(rounds)) if rounds else UNKNOWN
 

@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import View, view
 from shotc.geom.fleet_spline import places
-from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, RecordedFlight, Sphere
 from shotc.ir.trajectory import VerifiedIR
@@ -116,11 +116,11 @@ def picture_name(picture: Picture) -> str:
     return "sphere" if isinstance(source, Sphere) else "torus"
 
 
-def pictures_shown(flight: FleetTrajectory) -> list[Shown]:
+def pictures_shown(flight: FleetTrajectory) -> list[FrameTimes]:
     """Return of every picture of a fleet the time from its first frame to its last."""
-    found: dict[tuple[str, int], Shown] = {}
+    found: dict[tuple[str, int], FrameTimes] = {}
     for shown in flight.shown:
         key = (shown.display, shown.picture)
         first = found.get(key, shown)
-        found[key] = Shown(first.display, first.picture, first.index, first.start, shown.end)
+        found[key] = FrameTimes(first.display, first.picture, first.index, first.start, shown.end)
     return list(found.values())

@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
+class GroundMesh:
     """Corners (V, 3) and their unit normals (V, 3), W; triangles as three numbers of corners, (T, 3)."""
 
     corners: NDArray[np.float32]
@@ -19,7 +19,7 @@ class Mesh:
     faces: NDArray[np.uint32]
 
 
-def mesh_of(triangles: Array) -> Mesh:
+def mesh_of(triangles: Array) -> GroundMesh:
     """Return triangles (T, 3, 3) as a mesh; a normal is the mean of those about its corner, by area.
 
     All triangles lie counter-clockwise after this, seen from above.
@@ -36,4 +36,4 @@ def mesh_of(triangles: Array) -> Mesh:
         [np.bincount(faces.ravel(), np.repeat(across[:, i], 3), len(first)) for i in range(3)], axis=1
     )
     size = np.linalg.norm(normals, axis=1, keepdims=True)
-    return Mesh(flat[first], normals / np.where(size > 0.0, size, 1.0), faces.astype(np.uint32))
+    return GroundMesh(flat[first], normals / np.where(size > 0.0, size, 1.0), faces.astype(np.uint32))

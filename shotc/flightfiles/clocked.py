@@ -21,7 +21,7 @@ from shotc.diag.model import Label
 from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
 from shotc.geom.proof import norm
 from shotc.importers.flights.rows import PLACE, SHORTEST_S, DroneRows
-from shotc.importers.flights.skyc import Show, ShowFlight, shift
+from shotc.importers.flights.skyc import ShowFlight, SkycShow, shift
 from shotc.importers.notes import label
 from shotc.importers.xml_tree import Node
 from shotc.ir.limits import Limits
@@ -123,7 +123,7 @@ def quantum(columns: Sequence[Sequence[str]]) -> float:
     return 0.5 * 10.0 ** (ceil(log10(largest) + 1e-12) - max(digits, 1))
 
 
-def of_show(flight: ShowFlight, show: Show, file: str, origin: GeoOrigin | None) -> ClockedFlight:
+def of_show(flight: ShowFlight, show: SkycShow, file: str, origin: GeoOrigin | None) -> ClockedFlight:
     """Return the flight of a drone of a show, moved to where the show's frame stands in the mission's."""
     there = shift(show.origin, origin)
     node = Node("", 1, 1, wide=1)

@@ -21,7 +21,7 @@ from shotc.emit.waypoints.geo import Geo, GeoPosition, tie
 from shotc.emit.waypoints.models import SPLINES
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.cameras.takes import Refused
-from shotc.importers.flights.points import FAR, Pace, Point, Waypoints
+from shotc.importers.flights.points import FAR, FlightPoint, Pace, Waypoints
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase, PhaseName
@@ -38,7 +38,7 @@ CURVE_SHARE = 0.1
 """Share of a leg's time in which one of its rounded corners is flown."""
 
 
-class Leg(NamedTuple):
+class UntimedLeg(NamedTuple):
     """One part of a course.
 
     start, end : seconds at the file's speeds; to : the point that it leads to; file : that has it
@@ -48,7 +48,7 @@ class Leg(NamedTuple):
 
     start: float
     end: float
-    to: Point
+    to: FlightPoint
     file: str
     speed: float | None
     phase: PhaseName
@@ -68,7 +68,7 @@ class UntimedFlight:
     files: tuple[str, ...]
     plan: Waypoints
     ways: tuple[tuple[str, Piecewise], ...]
-    legs: tuple[Leg, ...]
+    legs: tuple[UntimedLeg, ...]
     landing: float | None
 
     @property
@@ -81,7 +81,7 @@ class UntimedFlight:
             spans[leg.phase] = Phase(leg.phase, None, start, leg.end)
         return tuple(spans.values())
 
-    def leg_at(self, time: float) -> Leg:
+    def leg_at(self, time: float) -> UntimedLeg:
         """Return the part that is flown at a time."""
         return next((leg for leg in self.legs if time < leg.end), self.legs[-1])
 
@@ -90,7 +90,7 @@ class _Part(NamedTuple):
     """A leg before it has a time: control points (k, 4, 3) of each way."""
 
     ctrl: tuple[Array, ...]
-    to: tuple[Point, str]
+    to: tuple[FlightPoint, str]
     seconds: float
     speed: float | None
     phase: PhaseName = "transit"
@@ -106,7 +106,7 @@ def course_of(
     """
     assert mission.origin is not None
     geo = tie(mission.origin, drone.home)
-    placed: list[tuple[Point, str, Array]] = []
+    placed: list[tuple[FlightPoint, str, Array]] = []
     for point, file in zip(plan.points, files, strict=True):
         at = _place(mission, geo, point, drone)
         if isinstance(at, Refused):
@@ -141,7 +141,7 @@ def course_of(
 
 
 def _landing(
-    drone: Drone, ends: tuple[Array, Array], to: tuple[Point, str], of: tuple[int, float]
+    drone: Drone, ends: tuple[Array, Array], to: tuple[FlightPoint, str], of: tuple[int, float]
 ) -> Iterator[_Part]:
     """Yield the way to above where it lands, and down from there."""
     (last, place), (count, away) = ends, of
@@ -152,7 +152,7 @@ def _landing(
     yield _straight((above, foot), to, (drone, None), count)._replace(phase="land")
 
 
-def _place(mission: MissionIR, geo: Geo, point: Point, drone: Drone) -> Array | Refused:
+def _place(mission: MissionIR, geo: Geo, point: FlightPoint, drone: Drone) -> Array | Refused:
     """Return a point in W; refuse one that is far from the pad."""
     height = point.height - (geo.home_alt if point.level == "sea" else 0.0)
     place = geo.point(GeoPosition(point.lat, point.lon, height))
@@ -168,7 +168,7 @@ def _place(mission: MissionIR, geo: Geo, point: Point, drone: Drone) -> Array | 
     return place
 
 
-def _models(points: Sequence[Point], places: Array, plan: Waypoints) -> list[tuple[str, list[Array]]]:
+def _models(points: Sequence[FlightPoint], places: Array, plan: Waypoints) -> list[tuple[str, list[Array]]]:
     """Return the ways through the points, in words, each as the control points (k, 4, 3) of its legs."""
     stops = np.array([point.stops for point in points])
     if len(points) == 1:
@@ -192,7 +192,7 @@ def _each(ctrl: Array) -> list[Array]:
     return list(ctrl[:, None])
 
 
-def _sizes(points: Sequence[Point], places: Array) -> Array:
+def _sizes(points: Sequence[FlightPoint], places: Array) -> Array:
     """Return how far from its point each corner is rounded, m; none where the machine stands still."""
     length = np.linalg.norm(np.diff(places, axis=0), axis=1)
     shorter = np.minimum(np.append(length, np.inf), np.insert(length, 0, np.inf))
@@ -202,7 +202,7 @@ def _sizes(points: Sequence[Point], places: Array) -> Array:
 
 
 def _approach(
-    drone: Drone, plan: Waypoints, to: tuple[Point, str], goal: tuple[Array, int]
+    drone: Drone, plan: Waypoints, to: tuple[FlightPoint, str], goal: tuple[Array, int]
 ) -> Iterator[_Part]:
     """Yield the climb from the pad, and the ways to the first point."""
     first, count = goal
@@ -217,7 +217,10 @@ def _approach(
 
 
 def _legs(
-    drone: Drone, plan: Waypoints, kept: Sequence[tuple[Point, str, Array]], models: Sequence[list[Array]]
+    drone: Drone,
+    plan: Waypoints,
+    kept: Sequence[tuple[FlightPoint, str, Array]],
+    models: Sequence[list[Array]],
 ) -> Iterator[_Part]:
     """Yield the legs from point to point, and the stays at points."""
     count = len(models)
@@ -234,7 +237,7 @@ def _legs(
 
 
 def _straight(
-    ends: tuple[Array, Array], to: tuple[Point, str], by: tuple[Drone, Pace | None], count: int
+    ends: tuple[Array, Array], to: tuple[FlightPoint, str], by: tuple[Drone, Pace | None], count: int
 ) -> _Part:
     a, b = ends
     share = np.linspace(0.0, 1.0, 4)[:, None]
@@ -269,12 +272,12 @@ def _lasts(way: Array, pace: Pace) -> tuple[float, float]:
     return lasts, length / lasts
 
 
-def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[Leg, ...]]:
+def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[UntimedLeg, ...]]:
     """Return the ways over the times of their parts, and the legs."""
     ends = np.cumsum([0.0, *(part.seconds for part in parts)])
     spans = list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
     legs = tuple(
-        Leg(start, end, part.to[0], part.to[1], part.speed, part.phase, part.within)
+        UntimedLeg(start, end, part.to[0], part.to[1], part.speed, part.phase, part.within)
         for (start, end), part in zip(spans, parts, strict=True)
     )
     ways = []

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Label
-from shotc.flightfiles.course import AT_HOME_M, Leg, UntimedFlight
+from shotc.flightfiles.course import AT_HOME_M, UntimedFlight, UntimedLeg
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import Pieces, join, pieces
 from shotc.geom.proof import inf_distance
@@ -59,7 +59,7 @@ def _found(course: UntimedFlight, claim: Claim, way: str = "") -> FileClaim:
     return FileClaim(claim, where, (*notes, f"on {way}, which its machine may fly") if way else notes)
 
 
-def _on(leg: Leg) -> str:
+def _on(leg: UntimedLeg) -> str:
     words = {"takeoff": "on the climb before", "land": "on the landing at"}.get(leg.phase, "on the way to")
     return f"{words} {leg.to.name}"
 

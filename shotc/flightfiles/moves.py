@@ -26,7 +26,7 @@ STEEP_STEP_S = 0.02
 """Seconds of a piece below which a show's rounding makes more acceleration than there is."""
 
 
-class Bag(NamedTuple):
+class FlightPieces(NamedTuple):
     """Pieces of many flights, and whose each is: its place among them."""
 
     pieces: Pieces
@@ -42,18 +42,18 @@ class LimitFinding(NamedTuple):
     owner: int
 
 
-def bagged(parts: Sequence[Pieces]) -> Bag:
+def bagged(parts: Sequence[Pieces]) -> FlightPieces:
     """Return the pieces of each of some flights as one bag."""
-    return Bag(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
+    return FlightPieces(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
 
 
-def bag_of(flights: Sequence[ClockedFlight]) -> Bag:
+def bag_of(flights: Sequence[ClockedFlight]) -> FlightPieces:
     """Return the pieces of all flights."""
     return bagged([pieces(flight.curve) for flight in flights])
 
 
 def speeds(
-    flights: Sequence[ClockedFlight], bag: Bag, limits: Limits, path: KeyPath
+    flights: Sequence[ClockedFlight], bag: FlightPieces, limits: Limits, path: KeyPath
 ) -> Iterator[LimitFinding]:
     """Yield the speeds of flights with the same limits, proved for every instant."""
     velocity = bag.pieces.derivative()
@@ -66,7 +66,7 @@ def speeds(
         ("descent", "descent", limits.descent, lambda v: np.asarray(-v[..., 2])),
     ):
         bound = sup_convex(velocity, value, gap(most))
-        owner = who(Bag(velocity, bag.owner), bound.at, value, upper=True)
+        owner = who(FlightPieces(velocity, bag.owner), bound.at, value, upper=True)
         yield LimitFinding(
             Limit(what, most, "m/s", (*path, "limits", key)),
             WorstValue(bound.proven, bound.at),
@@ -75,7 +75,7 @@ def speeds(
         )
 
 
-def who(bag: Bag, at: float, value: object, *, upper: bool) -> int:
+def who(bag: FlightPieces, at: float, value: object, *, upper: bool) -> int:
     """Return whose value is the worst one at a time; value : as it was bounded."""
     assert callable(value)
     inside = (bag.pieces.low <= at + 1e-9) & (bag.pieces.high >= at - 1e-9)

@@ -10,7 +10,16 @@ import numpy as np
 
 from shotc.flightfiles.clocked import ClockedFlight, leaves
 from shotc.flightfiles.judge import FileClaim, to_tolerance
-from shotc.flightfiles.moves import Bag, LimitFinding, accelerations, bag_of, bagged, beyond, speeds, who
+from shotc.flightfiles.moves import (
+    FlightPieces,
+    LimitFinding,
+    accelerations,
+    bag_of,
+    bagged,
+    beyond,
+    speeds,
+    who,
+)
 from shotc.geom.bernstein import Array
 from shotc.geom.meetings import closest_of
 from shotc.geom.pieces import Pieces, cut, join
@@ -50,9 +59,9 @@ class Swarm:
     mission: MissionIR
     fleet: Fleet
     flights: tuple[ClockedFlight, ...]
-    whole: Bag
-    free: Bag
-    upright: Bag
+    whole: FlightPieces
+    free: FlightPieces
+    upright: FlightPieces
     pads: Array
 
     @staticmethod
@@ -200,7 +209,7 @@ def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[FileClaim]:
     def above(p: Array) -> Array:
         return p[:, 2] - height_at(ground, p[:, :2])
 
-    def told(limit: Limit, found: SurfaceBound | NoGround, bag: Bag, by: float) -> FileClaim:
+    def told(limit: Limit, found: SurfaceBound | NoGround, bag: FlightPieces, by: float) -> FileClaim:
         if isinstance(found, SurfaceBound):
             return _told(swarm, limit, less(found, by), int(bag.owner[found.piece]))
         never = inf if limit.upper else -inf
@@ -255,7 +264,7 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
     worst, owner = ProvedExtreme(np.inf, np.inf, 0.0), 0
     clear = np.isin(upright.owner, np.flatnonzero(near >= radius))
     if clear.any():
-        some = Bag(upright.pieces.pick(clear), upright.owner[clear])
+        some = FlightPieces(upright.pieces.pick(clear), upright.owner[clear])
         worst = less(nearest(some.pieces, solid, gap(radius)), radius)
         owner = who(some, worst.at, away, upper=False)
     for k in np.flatnonzero(near < radius):

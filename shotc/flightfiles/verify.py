@@ -27,7 +27,7 @@ from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights.points import BROKEN, NOBODY, NOWHERE, Unread, Waypoints
 from shotc.importers.flights.read import Read, read
 from shotc.importers.flights.rows import SHOT, DroneRows
-from shotc.importers.flights.skyc import Show
+from shotc.importers.flights.skyc import SkycShow
 from shotc.importers.flights.wpml import WAYLINES
 from shotc.importers.notes import label
 from shotc.ir.keyframes import KeyframeIR
@@ -136,7 +136,7 @@ def _owned(
 
 def _clocked(mission: MissionIR, each: Read, told: str) -> list[ClockedFlight] | Diagnostic:
     """Return the flights with a clock of a file; told : whose it is, if the user says so."""
-    if isinstance(each.found, Show):
+    if isinstance(each.found, SkycShow):
         return [of_show(flight, each.found, each.file, mission.origin) for flight in each.found.flights]
     if not isinstance(each.found, tuple) or isinstance(each.found, Waypoints | Refused):
         return []

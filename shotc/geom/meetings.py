@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import held_until, restrict
-from shotc.geom.nearest_pair import Bag, Index, NearestPair
+from shotc.geom.nearest_pair import Index, NearestPair, PairMotions
 from shotc.geom.proof import norm
 from shotc.geom.separation import Nearest
 
@@ -96,11 +96,11 @@ class _Slabs:
         away = norm(self.centre[one, slab] - self.centre[other, slab])
         return np.asarray(away - self.radius[one, slab] - self.radius[other, slab])
 
-    def bag(self, pairs: Index, slab: Index) -> Bag:
+    def bag(self, pairs: Index, slab: Index) -> PairMotions:
         """Return the relative motions of pairs in slabs."""
         parts = [self._relative(int(i), int(j), int(k)) for (i, j), k in zip(pairs, slab, strict=True)]
         count = [len(ends) for ends, _ in parts]
-        return Bag(
+        return PairMotions(
             np.repeat(pairs, count, axis=0),
             np.concatenate([ends for ends, _ in parts]),
             np.concatenate([ctrl for _, ctrl in parts]),

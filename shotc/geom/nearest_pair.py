@@ -29,24 +29,26 @@ OPEN_INTERVALS_LIMIT = 200_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bag:
+class PairMotions:
     """Relative motions of pairs over intervals; ends : (M, 2), seconds; ctrl : (M, 4, 3), stretched."""
 
     pairs: Index
     ends: Array
     ctrl: Array
 
-    def pick(self, which: NDArray[np.bool_]) -> Bag:
+    def pick(self, which: NDArray[np.bool_]) -> PairMotions:
         """Return the rows where a mask is true."""
-        return Bag(self.pairs[which], self.ends[which], self.ctrl[which])
+        return PairMotions(self.pairs[which], self.ends[which], self.ctrl[which])
 
-    def halves(self) -> Bag:
+    def halves(self) -> PairMotions:
         """Return every interval cut in two."""
         left, right = split_half(self.ctrl)
         middle = self.ends.mean(axis=1)
         early = np.stack([self.ends[:, 0], middle], axis=1)
         late = np.stack([middle, self.ends[:, 1]], axis=1)
-        return Bag(np.tile(self.pairs, (2, 1)), np.concatenate([early, late]), np.concatenate([left, right]))
+        return PairMotions(
+            np.tile(self.pairs, (2, 1)), np.concatenate([early, late]), np.concatenate([left, right])
+        )
 
 
 class NearestPair:
@@ -67,7 +69,7 @@ class NearestPair:
         if apart < self.best:
             self.best, self.pair, self.time = apart, pair, time
 
-    def close(self, bag: Bag) -> None:
+    def close(self, bag: PairMotions) -> None:
         """Halve intervals until none could be nearer than the nearest found."""
         for _ in range(ROUNDS):
             if not len(bag.ends):
@@ -101,11 +103,11 @@ class NearestPair:
         return np.asarray(np.maximum(least_along(ctrl[:, :, :2], middle[:, :2]), upright))
 
 
-def joined(bags: Sequence[Bag]) -> Bag:
+def joined(bags: Sequence[PairMotions]) -> PairMotions:
     """Put bags into one."""
     if not bags:
-        return Bag(np.zeros((0, 2), dtype=np.intp), np.zeros((0, 2)), np.zeros((0, 4, 3)))
-    return Bag(
+        return PairMotions(np.zeros((0, 2), dtype=np.intp), np.zeros((0, 2)), np.zeros((0, 4, 3)))
+    return PairMotions(
         np.concatenate([bag.pairs for bag in bags]),
         np.concatenate([bag.ends for bag in bags]),
         np.concatenate([bag.ctrl for bag in bags]),

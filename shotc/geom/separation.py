@@ -23,7 +23,7 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import pieces
-from shotc.geom.nearest_pair import Bag, Index, NearestPair, joined, midway
+from shotc.geom.nearest_pair import Index, NearestPair, PairMotions, joined, midway
 from shotc.geom.proof import norm
 
 REACH_SHARE = 0.4
@@ -155,7 +155,7 @@ class _Search(NearestPair):
         slabs = self._slabs()
         for low, high in slabs[:: max(1, len(slabs) // SAMPLE_SLABS)]:
             self._sample(low, high)
-        bags: list[Bag] = []
+        bags: list[PairMotions] = []
         for bag in (bag for slab in slabs for bag in self._open(*slab)):
             bags.append(bag)
             if sum(len(bag.ends) for bag in bags) > BLOCK_PAIRS:
@@ -215,7 +215,7 @@ class _Search(NearestPair):
         pair = (first, second) if rows is None else (int(rows[first]), int(rows[second]))
         self.note(apart, pair, 0.5 * (low + high))
 
-    def _open(self, low: float, high: float) -> Iterator[Bag]:
+    def _open(self, low: float, high: float) -> Iterator[PairMotions]:
         """Give the pairs of a slab that could be nearer than the nearest found so far."""
         ctrl, rows = self._counted(low, high)
         ctrl = _steady(ctrl)
@@ -230,7 +230,7 @@ class _Search(NearestPair):
             near = norm(centre[first] - centre[second]) - radius[first] - radius[second] < far
             relative = ctrl[first[near]] - ctrl[second[near]]
             named = pairs[near] if rows is None else rows[pairs[near]]
-            bag = Bag(named, np.broadcast_to([low, high], (len(relative), 2)), relative)
+            bag = PairMotions(named, np.broadcast_to([low, high], (len(relative), 2)), relative)
             yield bag.pick(self.least(relative) < self.best - self.gap())
 
     def _candidates(self, centre: Array, reach: float) -> Index:

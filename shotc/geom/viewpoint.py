@@ -90,7 +90,7 @@ class Since(NamedTuple):
     way: float
 
 
-class Seen(NamedTuple):
+class Appearance(NamedTuple):
     """How a subject appears, against what was wanted.
 
     screen : distance from its place, half frames; size : over the frame's height
@@ -188,7 +188,7 @@ def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: f
     return at(high)
 
 
-def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Seen | None:
+def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Appearance | None:
     """Return how a subject appears from a pose; None where it reaches behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
@@ -199,7 +199,7 @@ def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Seen | None:
     screen = 0.0 if wanted.uv is None else hypot(u - wanted.uv[0], v - wanted.uv[1])
     chord = hypot(*_off_view(wanted, offset))
     out = max(0.0, -left - 1.0, right - 1.0, -low - 1.0, high - 1.0) if wanted.whole else 0.0
-    return Seen(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
+    return Appearance(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
 
 
 def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:

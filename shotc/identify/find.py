@@ -20,7 +20,7 @@ from shotc.identify.clusters import LOOSE, NOBODY, Points, clusters
 from shotc.identify.complete import hidden_corners
 from shotc.identify.cylinders import Upright, enclosing
 from shotc.identify.owners import owners_of
-from shotc.identify.views import GROUND, SKY, TILE_RAYS, CameraPose, Seen, look
+from shotc.identify.views import GROUND, SKY, TILE_RAYS, CameraPose, RayHits, look
 from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import ground_heights
 
@@ -48,7 +48,7 @@ class Clustered(NamedTuple):
     hit : mesh and triangle of each point, shape (P,) each
     """
 
-    seen: tuple[Seen, ...]
+    seen: tuple[RayHits, ...]
     points: Points
     cluster: IntArray
     hit: tuple[IntArray, IntArray]
@@ -59,7 +59,7 @@ class Clustered(NamedTuple):
         return int(self.cluster.max(initial=LOOSE)) + 1
 
 
-class Target(NamedTuple):
+class ClusterTarget(NamedTuple):
     """A cluster that glances mean.
 
     glances : their numbers; name : that the file gives to what it is a part of, None without
@@ -80,7 +80,7 @@ class SearchResult(NamedTuple):
 
     clustered: Clustered
     choices: tuple[Choice | None, ...]
-    targets: tuple[Target, ...]
+    targets: tuple[ClusterTarget, ...]
 
 
 def find(mission: MissionIR, glances: Sequence[Glance]) -> SearchResult:
@@ -98,7 +98,7 @@ def _target(
     made: Clustered,
     glances: Sequence[Glance],
     meant: tuple[Sequence[Choice | None], int],
-) -> Target:
+) -> ClusterTarget:
     """Return what some glances mean; meant : the choice of each, and the cluster."""
     choices, cluster = meant
     numbers = tuple(i for i, choice in enumerate(choices) if choice is not None and choice.cluster == cluster)
@@ -109,7 +109,7 @@ def _target(
     cylinder = cylinder_about(mission, np.concatenate([made.points.point[shaping], behind]))
     # What stands before a building hides its foot.
     cylinder = cylinder._replace(bottom=min(cylinder.bottom, float(made.points.foot[shaping].min())))
-    return Target(cluster, numbers, cylinder, _name(mission, _parts(mission, hit)))
+    return ClusterTarget(cluster, numbers, cylinder, _name(mission, _parts(mission, hit)))
 
 
 def cylinder_about(mission: MissionIR, points: Array) -> Upright:
@@ -132,7 +132,7 @@ def _grown(box: ScreenBox) -> ScreenBox:
     return ScreenBox(u - du, u + du, v - dv, v + dv)
 
 
-def _points(mission: MissionIR, seen: Sequence[Seen]) -> Points:
+def _points(mission: MissionIR, seen: Sequence[RayHits]) -> Points:
     owner, foot = _owned(mission, seen)
     middle = ((np.arange(RAYS) + 0.5) / RAYS * 2.0 - 1.0) * GROWN
     v, u = np.meshgrid(middle, middle, indexing="ij")
@@ -147,7 +147,7 @@ def _points(mission: MissionIR, seen: Sequence[Seen]) -> Points:
     )
 
 
-def _hit(seen: Sequence[Seen]) -> tuple[IntArray, IntArray]:
+def _hit(seen: Sequence[RayHits]) -> tuple[IntArray, IntArray]:
     """Return mesh and triangle of every point, shape (P,) each."""
     none = [np.zeros(0, dtype=np.intp)]
     return (
@@ -156,7 +156,7 @@ def _hit(seen: Sequence[Seen]) -> tuple[IntArray, IntArray]:
     )
 
 
-def _owned(mission: MissionIR, seen: Sequence[Seen]) -> tuple[IntArray, Array]:
+def _owned(mission: MissionIR, seen: Sequence[RayHits]) -> tuple[IntArray, Array]:
     """Return the building that each point belongs to, and the lowest z of that; shape (P,) each."""
     mesh, triangle = _hit(seen)
     owner, foot = np.full(len(mesh), NOBODY), np.full(len(mesh), np.inf)
@@ -201,7 +201,7 @@ class RayShares(NamedTuple):
     scene: float
 
 
-def held(seen: Seen) -> RayShares:
+def held(seen: RayHits) -> RayShares:
     """Return what a box holds; seen : it, and what is about it."""
     aside = (RAYS - BOX_RAYS) // 2
     mesh = seen.mesh[aside : RAYS - aside, aside : RAYS - aside]

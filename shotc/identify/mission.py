@@ -31,7 +31,7 @@ from shotc.identify.tasks import (
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
-from shotc.pipeline import ASSIGN, FRONT, Setting, passes_of, run
+from shotc.pipeline import ASSIGN, FRONT, PassSettings, passes_of, run
 from shotc.source.file import SourceFile
 from shotc.spec.load import load
 
@@ -88,7 +88,7 @@ def identify_source(
     stopped = Identification(None, (), (), (), loaded.diagnostics, {of.name: loaded.file})
     if loaded.mission is None:
         return stopped
-    setting = Setting(kinds.plugins, plugins.names("emitters"))
+    setting = PassSettings(kinds.plugins, plugins.names("emitters"))
     front = run(passes_of((ASSIGN, *FRONT), setting), loaded.mission, PassContext())
     if not isinstance(front.value, KeyframeIR) or has_errors(front.diagnostics):
         return stopped._replace(diagnostics=(*loaded.diagnostics, *front.diagnostics))

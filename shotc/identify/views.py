@@ -48,7 +48,7 @@ class CameraPose:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Seen:
+class RayHits:
     """What rays through the middles of the cells of a box on screen meet first.
 
     All of shape (rows, columns), the lowest row and the left column first.
@@ -72,7 +72,7 @@ class Seen:
         return np.asarray(self.mesh >= 0)
 
 
-def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | tuple[int, int]) -> Seen:
+def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | tuple[int, int]) -> RayHits:
     """Return what a camera sees of a mission's meshes and ground through a box on its screen.
 
     tiles : of TILE_RAYS x TILE_RAYS rays, across and up
@@ -92,7 +92,7 @@ def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | t
     size = _cell(camera, box, (TILE_RAYS * across, TILE_RAYS * up))
     length = np.linalg.norm(ways, axis=-1) * np.linalg.norm(first.normal, axis=-1)
     shade = np.abs((first.normal * ways).sum(axis=-1)) / np.where(length > 0.0, length, 1.0)
-    return Seen(point, mesh, first.triangle, np.where(met, first.depth, 0.0) * size, shade)
+    return RayHits(point, mesh, first.triangle, np.where(met, first.depth, 0.0) * size, shade)
 
 
 def _cell(camera: CameraPose, box: ScreenBox, cells: tuple[int, int]) -> float:

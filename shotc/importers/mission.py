@@ -8,7 +8,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.importers.cameras import blender, kml, litchi, qgc
-from shotc.importers.cameras.takes import Footage, ImportOptions, Refused
+from shotc.importers.cameras.takes import ImportedTakes, ImportOptions, Refused
 from shotc.importers.cameras.write import written
 from shotc.importers.formats import WHAT
 from shotc.importers.multidrone.frames import frame_of, without_far
@@ -56,12 +56,12 @@ def imported(format: str, data: bytes, name: str, *, strict: bool, asked: Import
 def _import_cameras(format: str, data: bytes, name: str, asked: ImportOptions, *, strict: bool) -> Imported:
     notes = Notes()
     if len(data) > LARGEST:
-        found: Footage | Refused = Refused("I001", f"it is larger than {LARGEST / 1e6:.0f} MB", START)
+        found: ImportedTakes | Refused = Refused("I001", f"it is larger than {LARGEST / 1e6:.0f} MB", START)
         text = ""
     else:
         text, found = _footage(format, data, name, asked, notes)
     sources = {name: SourceFile(name, text)}
-    if isinstance(found, Footage):
+    if isinstance(found, ImportedTakes):
         made = written(PurePath(name).stem, WHAT[format], found, asked, notes)
         if made is not None:
             said = told(name, notes, strict=strict)
@@ -76,7 +76,7 @@ def _import_cameras(format: str, data: bytes, name: str, asked: ImportOptions, *
 
 def _footage(
     format: str, data: bytes, name: str, asked: ImportOptions, notes: Notes
-) -> tuple[str, Footage | Refused]:
+) -> tuple[str, ImportedTakes | Refused]:
     """Return the text of a file of cameras, to show its lines, and what it holds."""
     if format == "qgc":
         return shown(data), qgc.footage(data, name, asked, notes)

@@ -84,7 +84,7 @@ def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> Importe
 def _show_of(found: Found | Refused) -> _Show | Refused:
     if isinstance(found, Refused):
         return found
-    if isinstance(found, skyc.Show):
+    if isinstance(found, skyc.SkycShow):
         return _Show(np.stack([flight.ctrl[0, 0] for flight in found.flights]), found.origin)
     return FOREIGN if isinstance(found, Waypoints) else _Show(np.stack([r.place[0] for r in found]), None)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from shotc.source.xml import Stop, feed
+from shotc.source.xml import StopParsing, feed
 
 LARGEST = 4_000_000  # bytes
 MOST_NODES = 100_000
@@ -110,4 +110,4 @@ class _Reader:
 
     def _stop(self, message: str) -> None:
         self.fault = XmlFault(message, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1)
-        raise Stop
+        raise StopParsing

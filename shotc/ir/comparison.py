@@ -74,7 +74,7 @@ class MotionMeasures(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FlownShot:
+class ComparedShot:
     """One shot as planned by one refiner.
 
     start, end : seconds of mission time
@@ -108,7 +108,7 @@ class Condition:
     faults: tuple[Diagnostic, ...] = ()
     broken: tuple[Diagnostic, ...] = ()
     convex: tuple[Diagnostic, ...] = ()
-    shots: tuple[FlownShot, ...] = ()
+    shots: tuple[ComparedShot, ...] = ()
     score: Score | None = None
     seconds: float | None = None
     smoothing: float | None = None
@@ -121,7 +121,7 @@ class Condition:
         )
 
 
-class Difference(NamedTuple):
+class ShotDifference(NamedTuple):
     """The difference of a shot between two conditions.
 
     mean : mean over the shot of the distance between the cameras in metres plus the angle between their axes
@@ -149,4 +149,4 @@ class Comparison:
 
     mission: MissionIR
     conditions: tuple[Condition, ...]
-    differences: tuple[Difference, ...] = ()
+    differences: tuple[ShotDifference, ...] = ()

@@ -91,7 +91,7 @@ class Image(NamedTuple):
 Paint = Fade | Ramp | Chase | Sparkle | Image
 
 
-class Mark(NamedTuple):
+class DisplayTime(NamedTuple):
     """A time of a display: seconds after its first picture stands, the index of a picture, or ``time``.
 
     time : mission time, s, if a beat of the music determines it
@@ -115,6 +115,6 @@ class Effect(NamedTuple):
     fade_in: float
     fade_out: float
     over: Over
-    since: Mark | None
-    until: Mark | None
+    since: DisplayTime | None
+    until: DisplayTime | None
     path: KeyPath

@@ -37,7 +37,7 @@ class Frame:
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class FrameTimes:
     """The time for which a frame stands: ``start`` to ``end``, seconds; they are equal in an animation."""
 
     display: str
@@ -114,7 +114,7 @@ class FleetTrajectory:
     breaks: Array
     coef: Array
     phases: tuple[Phase, ...]
-    shown: tuple[Shown, ...]
+    shown: tuple[FrameTimes, ...]
     lights: Lights
 
 
@@ -131,7 +131,7 @@ class ShowIR:
     stats: tuple[tuple[str, float | str], ...]
 
 
-def standing(mission: MissionIR, fleets: tuple[FleetTrajectory, ...], name: str | None) -> Shown | None:
+def standing(mission: MissionIR, fleets: tuple[FleetTrajectory, ...], name: str | None) -> FrameTimes | None:
     """Return when the picture of that name stands (the last frame of an animation); None if there is none."""
     named = {(d.id, k) for d in mission.displays for k, p in enumerate(d.pictures) if name and p.name == name}
     stands = (s for fleet in fleets for s in reversed(fleet.shown) if (s.display, s.picture) in named)

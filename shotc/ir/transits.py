@@ -15,7 +15,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT, Phase
 
 
-class Apart(NamedTuple):
+class TransitClearance(NamedTuple):
     """The clearance from one solid on ways.
 
     metres : from the drone's body; required : whether the mission states it; key : of the rule
@@ -26,7 +26,7 @@ class Apart(NamedTuple):
     key: str
 
 
-class Way(NamedTuple):
+class TransitInterval(NamedTuple):
     """A way from mission time ``start`` to ``end``, seconds; shot : the one that it leads to, None for the
     pad.
     """
@@ -45,31 +45,31 @@ def filmed(mission: MissionIR) -> frozenset[str]:
     return frozenset(part for name in names if name is not None for part in mission.parts_of(name))
 
 
-def from_target(mission: MissionIR, name: str) -> Apart | None:
+def from_target(mission: MissionIR, name: str) -> TransitClearance | None:
     """Return the clearance from a target on ways, None if it does not exceed the target clearance."""
     rules = mission.rules.transits
     seen = name in filmed(mission)
     apart = (
-        Apart(rules.filmed, rules.filmed_required, "filmed")
+        TransitClearance(rules.filmed, rules.filmed_required, "filmed")
         if seen
-        else Apart(rules.other, rules.other_required, "other")
+        else TransitClearance(rules.other, rules.other_required, "other")
     )
     return apart if apart.metres > mission.rules.target_clearance else None
 
 
-def from_zones(mission: MissionIR) -> Apart | None:
+def from_zones(mission: MissionIR) -> TransitClearance | None:
     """Return the clearance from keep-out zones on ways, None if it is 0."""
     rules = mission.rules.transits
-    return Apart(rules.other, rules.other_required, "other") if rules.other > 0.0 else None
+    return TransitClearance(rules.other, rules.other_required, "other") if rules.other > 0.0 else None
 
 
-def ways(phases: Sequence[Phase]) -> tuple[Way, ...]:
+def ways(phases: Sequence[Phase]) -> tuple[TransitInterval, ...]:
     """Return the ways of a flight, without take-off and landing."""
-    transits, runs = list[Way](), list[tuple[bool, list[Phase]]]()
+    transits, runs = list[TransitInterval](), list[tuple[bool, list[Phase]]]()
     for unfilmed, group in groupby(phases, lambda p: p.shot is None and p.name not in UPRIGHT):
         runs.append((unfilmed, list(group)))
     for i, (unfilmed, run) in enumerate(runs):
         if unfilmed:
             after = runs[i + 1][1][0].shot if i + 1 < len(runs) else None
-            transits.append(Way(run[0].start, run[-1].end, after))
+            transits.append(TransitInterval(run[0].start, run[-1].end, after))
     return tuple(transits)

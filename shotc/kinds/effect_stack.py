@@ -8,10 +8,10 @@ from shotc.ir.effects import (
     LEAST_PASS,
     LIGHT_RATE,
     Chase,
+    DisplayTime,
     Effect,
     Fade,
     Image,
-    Mark,
     Paint,
     Ramp,
     Sparkle,
@@ -128,27 +128,29 @@ def _of_image(spec: ImageSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnost
 
 def _span(
     spec: DisplayEffectSpec, scene: Scene, path: KeyPath, pictures: int
-) -> tuple[Mark | None, Mark | None] | list[Diagnostic]:
+) -> tuple[DisplayTime | None, DisplayTime | None] | list[Diagnostic]:
     """Return when an effect begins and ends, None where nothing says it, or all that is wrong with it."""
     written = (("from", spec.from_), ("until", spec.until))
     marks = [_mark(mark, scene, (*path, key), pictures) for key, mark in written]
     faults = [mark for mark in marks if isinstance(mark, Diagnostic)]
     faults += _backwards(spec.from_, spec.until, scene, (*path, "until"))
-    since, until = (mark if isinstance(mark, Mark) else None for mark in marks)
+    since, until = (mark if isinstance(mark, DisplayTime) else None for mark in marks)
     return faults or (since, until)
 
 
-def _mark(spec: MarkSpec | None, scene: Scene, path: KeyPath, pictures: int) -> Mark | Diagnostic | None:
+def _mark(
+    spec: MarkSpec | None, scene: Scene, path: KeyPath, pictures: int
+) -> DisplayTime | Diagnostic | None:
     """Return a moment, or what is wrong with it; None where its beats cannot be used."""
     if spec is None:
         return None
     if spec.beat is not None or spec.bar is not None:
         time = on_beat(spec.beat, spec.bar, scene, path)
-        return Mark(None, None, time) if isinstance(time, float) else time
+        return DisplayTime(None, None, time) if isinstance(time, float) else time
     if spec.frame is None:
-        return Mark(spec.seconds, None)
+        return DisplayTime(spec.seconds, None)
     if spec.frame <= pictures:
-        return Mark(None, spec.frame - 1)
+        return DisplayTime(None, spec.frame - 1)
     message = f"there is no frame {spec.frame}: the display has {pictures}"
     help_ = f"write `{path[-1]}: {{frame: {pictures}}}`, or an earlier frame"
     return Diagnostic("D097", message, (scene.origins.value(path),), help=help_)

@@ -28,7 +28,7 @@ class FileFault(NamedTuple):
     help: str = ""
 
 
-class Table(NamedTuple):
+class NumberTable(NamedTuple):
     """Rows of finite numbers under the names of their columns; lines : of the file that they begin on."""
 
     columns: tuple[str, ...]
@@ -36,7 +36,9 @@ class Table(NamedTuple):
     lines: tuple[int, ...]
 
 
-def read_table(data: bytes, layouts: Sequence[tuple[str, ...]], most: int = MOST_ROWS) -> Table | FileFault:
+def read_table(
+    data: bytes, layouts: Sequence[tuple[str, ...]], most: int = MOST_ROWS
+) -> NumberTable | FileFault:
     """Read a CSV file whose header is one of ``layouts``.
 
     A file without a header is read in the order of the first layout that has as many columns.
@@ -60,7 +62,7 @@ def read_table(data: bytes, layouts: Sequence[tuple[str, ...]], most: int = MOST
     if len(body) > most:
         return FileFault(f"the file has {len(body)} rows; at most {most} are read", help="thin it")
     rows = _rows(body, columns)
-    return rows if isinstance(rows, FileFault) else Table(columns, rows, tuple(n for n, _ in body))
+    return rows if isinstance(rows, FileFault) else NumberTable(columns, rows, tuple(n for n, _ in body))
 
 
 def _rows(

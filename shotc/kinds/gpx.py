@@ -5,13 +5,13 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Any
 
-from shotc.kinds.files import MOST_ROWS, FileFault, Table, not_xml, row_of
-from shotc.source.xml import Stop, feed
+from shotc.kinds.files import MOST_ROWS, FileFault, NumberTable, not_xml, row_of
+from shotc.source.xml import StopParsing, feed
 
 PLACE = ("lat", "lon", "ele")
 
 
-def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
+def read_gpx(data: bytes, *, timed: bool = False) -> NumberTable | FileFault:
     """Read the track points of a GPX file, or its route points if it has no track: lat, lon, ele.
 
     A document type declaration is refused, for entities could grow without bound.
@@ -32,10 +32,10 @@ def read_gpx(data: bytes, *, timed: bool = False) -> Table | FileFault:
     if level and not (timed and len(level) == len(points)):
         return FileFault("a point has no elevation", level[0], "give every point an `<ele>`")
     if not timed:
-        return Table(PLACE, tuple(point.place for point in points), lines)
+        return NumberTable(PLACE, tuple(point.place for point in points), lines)
     rows = _timed(points)
     columns = ("t", *(PLACE[:2] if level else PLACE))
-    return rows if isinstance(rows, FileFault) else Table(columns, rows, lines)
+    return rows if isinstance(rows, FileFault) else NumberTable(columns, rows, lines)
 
 
 class _Point:
@@ -126,4 +126,4 @@ class _Gpx:
 
     def _stop(self, message: str, help: str, line: int | None = None) -> None:
         self.fault = FileFault(message, line or self.parser.CurrentLineNumber, help)
-        raise Stop
+        raise StopParsing

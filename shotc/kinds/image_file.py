@@ -20,51 +20,51 @@ _GIF = (b"GIF87a", b"GIF89a")
 _EXPORT = "export it again as PNG or GIF"
 
 
-class Wrong(NamedTuple):
+class ImageFault(NamedTuple):
     """What is wrong with an image; size : whether it is too large, not damaged."""
 
     fault: FileFault
     size: bool = False
 
 
-def image_fault(data: bytes) -> Wrong | None:
+def image_fault(data: bytes) -> ImageFault | None:
     """Return why a file cannot be thrown onto lights, or None."""
     if data.startswith(_PNG):
         found = _png(data)
     elif data.startswith(_GIF):
         found = _gif(data)
     else:
-        return Wrong(FileFault("it is neither a PNG nor a GIF", None, _EXPORT))
-    return found if isinstance(found, Wrong) else _too_large(*found)
+        return ImageFault(FileFault("it is neither a PNG nor a GIF", None, _EXPORT))
+    return found if isinstance(found, ImageFault) else _too_large(*found)
 
 
-def _too_large(width: int, height: int, frames: int) -> Wrong | None:
+def _too_large(width: int, height: int, frames: int) -> ImageFault | None:
     pixels = width * height
     if not pixels or not frames:
-        return Wrong(FileFault("it has no pixels", None, _EXPORT))
+        return ImageFault(FileFault("it has no pixels", None, _EXPORT))
     if pixels > MOST_PIXELS:
         share = (MOST_PIXELS / pixels) ** 0.5
         small = f"{int(width * share)} x {int(height * share)}"
         has = f"it has {width} x {height} pixels, {pixels / 1e6:.0f} million"
         message = f"{has}; at most {MOST_PIXELS / 1e6:.0f} million are read"
         help_ = f"scale it to {small} or less; lights show no more than a pixel each"
-        return Wrong(FileFault(message, None, help_), size=True)
+        return ImageFault(FileFault(message, None, help_), size=True)
     most = min(MOST_FRAMES, MOST_DECODED // pixels)
     if frames > most:
         message = f"it has {frames} frames; of {width} x {height} pixels at most {most} are read"
         help_ = f"thin it to {most} frames, or cut it into several effects"
         if most < MOST_FRAMES:
             help_ = f"scale it down, or thin it to {most} frames"
-        return Wrong(FileFault(message, None, help_), size=True)
+        return ImageFault(FileFault(message, None, help_), size=True)
     return None
 
 
-def _cut(at: int, data: bytes) -> Wrong:
+def _cut(at: int, data: bytes) -> ImageFault:
     message = f"it is cut short, or damaged, at byte {at} of {len(data)}"
-    return Wrong(FileFault(message, None, "copy the file anew, or export it again"))
+    return ImageFault(FileFault(message, None, "copy the file anew, or export it again"))
 
 
-def _png(data: bytes) -> tuple[int, int, int] | Wrong:
+def _png(data: bytes) -> tuple[int, int, int] | ImageFault:
     """Return width, height and frames of a PNG by its chunks (PNG, Third Edition, 5.3)."""
     at, size, frames = len(_PNG), (0, 0), 1
     while at + 12 <= len(data):
@@ -82,7 +82,7 @@ def _png(data: bytes) -> tuple[int, int, int] | Wrong:
     return _cut(at, data)
 
 
-def _gif(data: bytes) -> tuple[int, int, int] | Wrong:
+def _gif(data: bytes) -> tuple[int, int, int] | ImageFault:
     """Return width, height and frames of a GIF by its blocks (GIF89a, 18 to 27)."""
     if len(data) < 13:
         return _cut(len(data), data)

@@ -6,11 +6,11 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import GeoOrigin
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.kinds.earth import stray
-from shotc.kinds.files import Table
+from shotc.kinds.files import NumberTable
 
 
 def in_world(
-    table: Table, name: str, origin: GeoOrigin | None, origins: OriginMap, path: KeyPath
+    table: NumberTable, name: str, origin: GeoOrigin | None, origins: OriginMap, path: KeyPath
 ) -> list[Vec3] | Diagnostic:
     """Return a table's places as points of W, or what keeps those on the earth from it.
 
@@ -45,10 +45,10 @@ def in_world(
     return [put((row[i], row[j], height), base) for row, height in zip(table.rows, heights, strict=True)]
 
 
-def _column(table: Table, i: int) -> list[float]:
+def _column(table: NumberTable, i: int) -> list[float]:
     return [row[i] for row in table.rows]
 
 
-def _heights(table: Table, name: str) -> list[float]:
+def _heights(table: NumberTable, name: str) -> list[float]:
     """Return a column of heights, metres; 0 of a table without."""
     return _column(table, table.columns.index(name)) if name in table.columns else [0.0] * len(table.rows)

@@ -6,7 +6,7 @@ import re
 from typing import Any, NamedTuple
 
 from shotc.kinds.files import FileFault, not_xml
-from shotc.source.xml import Stop, feed
+from shotc.source.xml import StopParsing, feed
 
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"}
 _ACTIVE = {"script": "a script", "foreignObject": "a page of another sort"}
@@ -15,14 +15,14 @@ _OUTSIDE = re.compile(r"@import|url\(\s*+['\"]?+\s*+[^#\s'\"]", re.IGNORECASE)
 _OWN = "export it as a plain SVG, with all that it draws in the file itself"
 
 
-class Wrong(NamedTuple):
+class DrawingFault(NamedTuple):
     """What is wrong with a drawing; unsafe : whether it asks for more than to be drawn."""
 
     fault: FileFault
     unsafe: bool = False
 
 
-def svg_fault(data: bytes) -> Wrong | None:
+def svg_fault(data: bytes) -> DrawingFault | None:
     """Return why a file cannot be drawn, or None.
 
     A document type declaration is refused, for entities could grow without bound; so are scripts and
@@ -31,12 +31,12 @@ def svg_fault(data: bytes) -> Wrong | None:
     reader = _Svg()
     wrong = feed(data, reader)
     if wrong is not None:
-        return Wrong(not_xml(wrong))
+        return DrawingFault(not_xml(wrong))
     if reader.wrong is not None:
         return reader.wrong
     if not reader.shapes:
         help_ = f"turn what it shows into shapes: {', '.join(sorted(SHAPES))}"
-        return Wrong(FileFault("the drawing has no shapes", None, help_))
+        return DrawingFault(FileFault("the drawing has no shapes", None, help_))
     return None
 
 
@@ -45,7 +45,7 @@ class _Svg:
 
     def __init__(self) -> None:
         self.parser: Any = None
-        self.wrong: Wrong | None = None
+        self.wrong: DrawingFault | None = None
         self.shapes = 0
         self._root = ""
         self._style = 0  # how many style elements are open
@@ -90,5 +90,5 @@ class _Svg:
             self._stop(f"it refers to `{text[found.start() : found.start() + 60]}`", _OWN)
 
     def _stop(self, message: str, help: str, *, unsafe: bool = True) -> None:
-        self.wrong = Wrong(FileFault(message, self.parser.CurrentLineNumber, help), unsafe)
-        raise Stop
+        self.wrong = DrawingFault(FileFault(message, self.parser.CurrentLineNumber, help), unsafe)
+        raise StopParsing

@@ -62,7 +62,7 @@ class FleetChange:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class PlanComparison:
     """Everything that differs; shots and fleets of the plans are listed even where they agree."""
 
     shots: tuple[ShotChange, ...]
@@ -73,10 +73,10 @@ class Comparison:
 Flown = tuple[DroneTrajectory | FleetTrajectory, Phase]
 
 
-def compare(old: VerifiedIR, new: VerifiedIR) -> Comparison:
+def compare(old: VerifiedIR, new: VerifiedIR) -> PlanComparison:
     """Compare two plans; shots and claims are matched by name."""
     claims = tuple(_claims(old.certificate, new.certificate))
-    return Comparison(tuple(_shots(old, new)), claims, tuple(_fleets(old, new)))
+    return PlanComparison(tuple(_shots(old, new)), claims, tuple(_fleets(old, new)))
 
 
 def _fleets(old: VerifiedIR, new: VerifiedIR) -> Iterator[FleetChange]:

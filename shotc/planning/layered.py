@@ -54,7 +54,7 @@ class Passing(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Watched:
+class VisibleSubject:
     """A subject that a shot should see.
 
     places : positions of its centre at the times of a course, (N, 3)
@@ -83,7 +83,7 @@ class Watched:
         most: Array = np.max(shares, axis=0).reshape(eyes.shape[:2])
         return most * self.filmed[:, None]
 
-    def at(self, which: IntArray) -> Watched:
+    def at(self, which: IntArray) -> VisibleSubject:
         """Return it at some of the times, by index."""
         return replace(self, places=self.places[which], filmed=self.filmed[which])
 
@@ -100,7 +100,7 @@ def led_round(
     space: FreeSpace,
     near: Sequence[Passing],
     course: tuple[Array, Array],
-    watched: Watched | None = None,
+    watched: VisibleSubject | None = None,
     held: Mask | None = None,
     *,
     joined: bool = True,
@@ -141,7 +141,7 @@ def _course(
     space: FreeSpace,
     near: Sequence[Passing],
     ideal: tuple[Array, Array, Mask | None],
-    watched: Watched | None,
+    watched: VisibleSubject | None,
     *,
     joined: bool,
 ) -> Array | None:

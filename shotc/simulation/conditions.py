@@ -11,7 +11,7 @@ import numpy as np
 from shotc.ir.rehearsal import Loop, VehicleName
 from shotc.simulation.sensors import RTK, Detector, Gps
 from shotc.simulation.truth import Truth
-from shotc.simulation.wind import Wind
+from shotc.simulation.wind import WindField
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Conditions:
 
     loop: Loop = "replay"
     replanner: str = "ours"
-    wind: Wind = field(default_factory=Wind)
+    wind: WindField = field(default_factory=WindField)
     vehicle: VehicleName = "lag"
     gps: Gps = RTK
     detector: Detector | None = field(default_factory=Detector)

@@ -15,7 +15,7 @@ from shotc.rounding import at_least, at_most, down, up
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
 from shotc.simulation.rehearsal import Rehearsed
-from shotc.simulation.verdict import Verdict
+from shotc.simulation.verdict import RequirementVerdict
 from shotc.spec.presets import TOP_SPEED
 
 WORDS = {
@@ -78,7 +78,7 @@ def not_kept(done: Rehearsed) -> Iterator[Diagnostic]:
         )
 
 
-def _broken(done: Rehearsed, each: Verdict) -> Diagnostic:
+def _broken(done: Rehearsed, each: RequirementVerdict) -> Diagnostic:
     total = len(done.runs)
     return Diagnostic(
         "W001",
@@ -90,7 +90,7 @@ def _broken(done: Rehearsed, each: Verdict) -> Diagnostic:
     )
 
 
-def _touches(done: Rehearsed, each: Verdict) -> Diagnostic:
+def _touches(done: Rehearsed, each: RequirementVerdict) -> Diagnostic:
     return Diagnostic(
         "W002",
         f"a drone's body is {at_least(-each.worst)} m into something in run {each.run}",
@@ -100,7 +100,7 @@ def _touches(done: Rehearsed, each: Verdict) -> Diagnostic:
     )
 
 
-def _where(run: Run, each: Verdict) -> Iterator[str]:
+def _where(run: Run, each: RequirementVerdict) -> Iterator[str]:
     if each.key in ("in_frame", "in_sight", "mean_error"):
         yield from (_picture(run, each),)
     elif each.key == "clearance":
@@ -117,7 +117,7 @@ def _where(run: Run, each: Verdict) -> Iterator[str]:
         )
 
 
-def _picture(run: Run, each: Verdict) -> str:
+def _picture(run: Run, each: RequirementVerdict) -> str:
     if each.key == "in_frame":
         shown = min(run.pictures, key=lambda p: p.in_frame)
     elif each.key == "in_sight":
@@ -128,7 +128,7 @@ def _picture(run: Run, each: Verdict) -> str:
     return f"target `{shown.target}` in shot `{shown.shot}`, worst at {shown.time:.1f} s"
 
 
-def _help(done: Rehearsed, each: Verdict) -> str:
+def _help(done: Rehearsed, each: RequirementVerdict) -> str:
     share = f"{done.needed} of {len(done.runs)} runs keep"
     if not isfinite(each.kept) or (each.unit == "share" and each.kept <= 0.0):
         return "plan for less wind, or with better receivers: in this many runs the camera looks away"
@@ -138,17 +138,17 @@ def _help(done: Rehearsed, each: Verdict) -> str:
     return f"{better}ask for what {share}: `{each.key}: {_kept(each)}`"
 
 
-def _kept(each: Verdict) -> str:
+def _kept(each: RequirementVerdict) -> str:
     if each.unit == "share":
         return f"{max(0.0, down(100 * each.kept, 1)):g} %"
     return f"{up(each.kept, 3):g}" if each.upper else f"{max(0.0, down(each.kept)):g}"
 
 
-def _words(each: Verdict, value: float) -> str:
+def _words(each: RequirementVerdict, value: float) -> str:
     return WORDS[each.key].format(_amount(each, value))
 
 
-def _amount(each: Verdict, value: float) -> str:
+def _amount(each: RequirementVerdict, value: float) -> str:
     if each.unit == "share":
         return f"{at_most(100 * value, 1)} %"
     if each.unit == "half frames":
@@ -156,7 +156,7 @@ def _amount(each: Verdict, value: float) -> str:
     return f"{at_least(value) if each.upper else at_most(value)} m"
 
 
-def _touched(done: Rehearsed, each: Verdict) -> Iterator[Label]:
+def _touched(done: Rehearsed, each: RequirementVerdict) -> Iterator[Label]:
     run, mission = done.run(each.run), done.mission
     for course in run.courses:
         if course.nearest is not None and course.nearest.distance == each.worst:

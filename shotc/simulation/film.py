@@ -12,14 +12,14 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.sampling import references, subjects
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.simulation.vehicle import STEP_S, Setpoint
+from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
 
 LEAD_S = 1.5
 """Seconds over which a camera comes to follow a target before a shot."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Framed:
+class FramedTarget:
     """A target that a drone frames.
 
     wanted : where on screen it is to be at each step, (N, 2); NaN where it is not framed
@@ -32,7 +32,7 @@ class Framed:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film:
+class PlanSamples:
     """One drone's plan at N steps of STEP_S.
 
     times : (N,), s; position, velocity, acceleration : (N, 3), W
@@ -51,18 +51,18 @@ class Film:
     yaw_rate: Array
     pitch_rate: Array
     half: Array
-    framed: tuple[Framed, ...]
+    framed: tuple[FramedTarget, ...]
 
     def step(self, time: float) -> int:
         """Return the step at a time, or the first after it."""
         return min(int(np.ceil(time / STEP_S - 1e-6)), len(self.times) - 1)
 
-    def setpoint(self, k: int) -> Setpoint:
+    def setpoint(self, k: int) -> VehicleSetpoint:
         """Return what the drone is asked for at a step."""
-        return Setpoint(self.position[k, None], self.velocity[k, None], self.acceleration[k, None])
+        return VehicleSetpoint(self.position[k, None], self.velocity[k, None], self.acceleration[k, None])
 
 
-def film_of(mission: MissionIR, track: DroneTrajectory) -> Film:
+def film_of(mission: MissionIR, track: DroneTrajectory) -> PlanSamples:
     """Sample the plan of one drone, from its first second to its landing."""
     drone = mission.drone(track.drone)
     count = int(np.ceil(track.curve.end / STEP_S)) + 1
@@ -71,7 +71,7 @@ def film_of(mission: MissionIR, track: DroneTrajectory) -> Film:
     rate, acceleration = track.curve.derivative()(times), track.curve.derivative(2)(times)
     rate[-1] = acceleration[-1] = 0.0  # it stands on its pad
     half = np.tan(pose[:, HFOV] / 2)
-    return Film(
+    return PlanSamples(
         drone=drone,
         track=track,
         times=times,
@@ -87,7 +87,7 @@ def film_of(mission: MissionIR, track: DroneTrajectory) -> Film:
     )
 
 
-def _framed(mission: MissionIR, track: DroneTrajectory, times: Array) -> tuple[Framed, ...]:
+def _framed(mission: MissionIR, track: DroneTrajectory, times: Array) -> tuple[FramedTarget, ...]:
     wanted: dict[str, Array] = {}
     for phase in track.phases:
         if phase.shot is None:
@@ -99,7 +99,7 @@ def _framed(mission: MissionIR, track: DroneTrajectory, times: Array) -> tuple[F
     return tuple(_led_in(name, uv) for name, uv in wanted.items() if np.isfinite(uv).any())
 
 
-def _led_in(name: str, wanted: Array) -> Framed:
+def _led_in(name: str, wanted: Array) -> FramedTarget:
     """Let the camera begin to follow a target LEAD_S before a shot, and leave it as slowly afterwards."""
     asked = np.isfinite(wanted[:, 0])
     steps, rows = round(LEAD_S / STEP_S), np.arange(len(wanted))
@@ -109,4 +109,4 @@ def _led_in(name: str, wanted: Array) -> Framed:
     until = np.where(after < len(at), at[np.minimum(after, len(at) - 1)] - rows, np.inf)
     nearest = np.where(since <= until, at[np.maximum(before, 0)], at[np.minimum(after, len(at) - 1)])
     share = np.clip(1.0 - np.minimum(since, until) / steps, 0.0, 1.0)
-    return Framed(name, np.where(share[:, None] > 0.0, wanted[nearest], np.nan), share)
+    return FramedTarget(name, np.where(share[:, None] > 0.0, wanted[nearest], np.nan), share)

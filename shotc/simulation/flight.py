@@ -14,13 +14,13 @@ from shotc.ir.limits import Limits
 from shotc.ir.rehearsal import VehicleName
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.aim import aimed, sight_rates
-from shotc.simulation.film import Film, film_of
+from shotc.simulation.film import PlanSamples, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
 from shotc.simulation.guidance import PERIOD_S, Guidance, Replans
-from shotc.simulation.seen import Watched, watched
+from shotc.simulation.seen import TrackedTarget, watched
 from shotc.simulation.sent import Sent
 from shotc.simulation.situations import replanned
-from shotc.simulation.vehicle import STEP_S, Lagging, Plant, State, Vehicle, steered
+from shotc.simulation.vehicle import STEP_S, Lagging, Plant, Vehicle, VehicleState, steered
 from shotc.simulation.world import World
 
 HEADROOM = 1.3
@@ -74,7 +74,7 @@ def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[DroneRuns,
     return tuple(done[track.drone] for track in tracks)
 
 
-def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> DroneRuns:
+def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> DroneRuns:
     """Fly the plan of one drone in all runs of a world.
 
     A run is the same whichever ran beside it, up to rounding; with the same beside it, to the last digit.
@@ -92,7 +92,7 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
         Vehicle(speed=HEADROOM * fastest(film.drone.limits)),
         GimbalModel(film.drone.gimbal.rate),
     )
-    state = State.at_rest(np.tile(film.position[0], (n, 1)))
+    state = VehicleState.at_rest(np.tile(film.position[0], (n, 1)))
     plant = plant_of(conditions.vehicle, vehicle, state)
     first = axes_of(np.full(n, film.yaw[0]), np.full(n, film.pitch[0]))
     attitude = Attitude(first, np.zeros((n, 3)))
@@ -112,7 +112,7 @@ def fly(world: World, film: Film, sent: tuple[Sent, ...] = (), own: Sent | None 
     return into.done(film, guidance)
 
 
-def plant_of(name: VehicleName, vehicle: Vehicle, first: State) -> Plant:
+def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:
     """Return the plant of a name; first : where drones hover at the start."""
     if name == "lag":
         return Lagging(vehicle)
@@ -126,7 +126,7 @@ def fastest(limits: Limits) -> float:
     return hypot(limits.fastest, max(limits.climb, limits.descent))
 
 
-def _watched(world: World, film: Film) -> tuple[Watched, ...]:
+def _watched(world: World, film: PlanSamples) -> tuple[TrackedTarget, ...]:
     """Return the targets that a drone follows with its camera: those that move, where the loop says so."""
     if world.conditions.loop == "replay":
         return ()
@@ -135,7 +135,7 @@ def _watched(world: World, film: Film) -> tuple[Watched, ...]:
 
 
 def _asked(
-    world: World, film: Film, k: int, drone: tuple[Array, Array], targets: tuple[Watched, ...]
+    world: World, film: PlanSamples, k: int, drone: tuple[Array, Array], targets: tuple[TrackedTarget, ...]
 ) -> tuple[Array, Array]:
     """Return the attitudes that cameras are asked for, (R, 3, 3), and their rates, (R, 3).
 
@@ -166,7 +166,7 @@ def _beyond(aim: Array, planned: Array) -> Array:
     return away
 
 
-def _known(world: World, name: str, targets: tuple[Watched, ...], time: float) -> tuple[Array, Array]:
+def _known(world: World, name: str, targets: tuple[TrackedTarget, ...], time: float) -> tuple[Array, Array]:
     """Return where a target is taken to be, and how it moves; what stands is where the mission says."""
     for target in targets:
         if target.name == name:
@@ -175,7 +175,9 @@ def _known(world: World, name: str, targets: tuple[Watched, ...], time: float) -
     return np.array([world.mission.target(name).centre]), np.zeros((1, 3))
 
 
-def _aim(film: Film, k: int, wanted: Array, drone: tuple[Array, Array], target: tuple[Array, Array]) -> Array:
+def _aim(
+    film: PlanSamples, k: int, wanted: Array, drone: tuple[Array, Array], target: tuple[Array, Array]
+) -> Array:
     """Return yaw, pitch and their rates, (R, 4), that keep a target where it is to be on screen."""
     offset, velocity = target[0] - drone[0], target[1] - drone[1]
     n = len(offset)
@@ -193,19 +195,21 @@ class _Record:
     estimated: tuple[Estimated, ...]
 
     @staticmethod
-    def of(film: Film, n: int, targets: tuple[Watched, ...]) -> _Record:
+    def of(film: PlanSamples, n: int, targets: tuple[TrackedTarget, ...]) -> _Record:
         f = (len(film.times) + EVERY - 1) // EVERY
         known = tuple(Estimated(t.name, np.empty((f, n, 3)), np.empty((f, n, 3, 3))) for t in targets)
         return _Record(np.empty((f, n, 3)), np.empty((f, n, 3)), np.empty((f, n, 3)), known)
 
-    def add(self, i: int, state: State, attitude: Attitude, targets: tuple[Watched, ...]) -> None:
+    def add(
+        self, i: int, state: VehicleState, attitude: Attitude, targets: tuple[TrackedTarget, ...]
+    ) -> None:
         self.position[i], self.velocity[i] = state.position, state.velocity
         self.angles[i] = np.stack(angles_of(attitude.axes), axis=-1)
         for target, into in zip(targets, self.estimated, strict=True):
             now = target.tracker.now(i * EVERY * STEP_S)
             into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
 
-    def done(self, film: Film, guidance: Guidance) -> DroneRuns:
+    def done(self, film: PlanSamples, guidance: Guidance) -> DroneRuns:
         yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
         times = film.times[::EVERY]
         return DroneRuns(

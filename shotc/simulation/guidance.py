@@ -15,12 +15,12 @@ from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.planning.clearances import clearances_of, from_parked
 from shotc.plugin_api.replanner import Cone, Keeping, Plan, Traffic
-from shotc.simulation.film import Film
-from shotc.simulation.seen import Watched
+from shotc.simulation.film import PlanSamples
+from shotc.simulation.seen import TrackedTarget
 from shotc.simulation.sent import Fading, Sent, SentPlans
 from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, ReplanInstant
-from shotc.simulation.time_limit import TooLate, time_limit
-from shotc.simulation.vehicle import STEP_S, Setpoint
+from shotc.simulation.time_limit import CallTimeout, time_limit
+from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
 from shotc.simulation.world import World
 
 PERIOD_S = 0.5
@@ -66,9 +66,9 @@ class Guidance:
     """
 
     world: World
-    film: Film
+    film: PlanSamples
     shots: tuple[Anew, ...]
-    targets: tuple[Watched, ...]
+    targets: tuple[TrackedTarget, ...]
     sent: tuple[Sent, ...] = ()
     own: Sent | None = None
     counts: list[Replans] = field(default_factory=list)
@@ -78,7 +78,7 @@ class Guidance:
     _active: Anew | None = None
     _course: Array | None = None
 
-    def setpoint(self, k: int, drone: tuple[Array, Array]) -> Setpoint:
+    def setpoint(self, k: int, drone: tuple[Array, Array]) -> VehicleSetpoint:
         """Return what the drone is asked for at a step.
 
         drone : where it takes itself to be, and how it moves, (R, 3) each
@@ -168,7 +168,7 @@ class Guidance:
         try:
             with time_limit(LIMIT_S):
                 done = self._planner.replan(situation, last)
-        except TooLate:
+        except CallTimeout:
             count.failed += 1
             count.reason = f"it took more than {LIMIT_S:g} s"
             return None

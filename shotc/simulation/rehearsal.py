@@ -19,7 +19,7 @@ from shotc.simulation.judge import Run
 from shotc.simulation.runs import RunBlock, Strays
 from shotc.simulation.sensors import GRADES
 from shotc.simulation.truth import Truth
-from shotc.simulation.verdict import Verdict, enough, held, verdicts
+from shotc.simulation.verdict import RequirementVerdict, enough, held, verdicts
 from shotc.spec.presets import RUNS
 
 SILENT = Rehearsal(
@@ -63,7 +63,7 @@ class Rehearsed:
     conditions: Conditions
     promise: RehearsalPromise
     runs: tuple[Run, ...]
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[RequirementVerdict, ...]
     held: int
     needed: int
     strays: Strays | None
@@ -94,7 +94,7 @@ def conditions_of(mission: MissionIR, asked: RehearsalOptions) -> Conditions:
     wind = usual.wind or Wind(mission.wind, mission.wind_toward)
     return Conditions(
         loop=asked.loop or usual.loop,
-        wind=air.Wind(
+        wind=air.WindField(
             speed=_either(asked.wind, wind.speed),
             toward=wind.toward if asked.bearing is None else yaw_of(radians(asked.bearing) + pi),
             gusts=_either(asked.gusts, usual.gusts),

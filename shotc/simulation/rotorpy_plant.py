@@ -15,7 +15,7 @@ from rotorpy.vehicles.multirotor import Multirotor
 from rotorpy.vehicles.px4_sihsim_quadx_params import quad_params
 
 from shotc.geom.bernstein import Array
-from shotc.simulation.vehicle import STEP_S, State, Vehicle
+from shotc.simulation.vehicle import STEP_S, Vehicle, VehicleState
 
 ATTITUDE_GAIN, RATE_GAIN = 60.0, 14.0
 """1/s^2 and 1/s: with RotorPy's own 3000 and 360 a motor lag of 0.05 s oscillates."""
@@ -26,7 +26,7 @@ RTOL = 1e-3
 class RotorPyPlant:
     """One multirotor for each of R runs."""
 
-    def __init__(self, vehicle: Vehicle, first: State) -> None:
+    def __init__(self, vehicle: Vehicle, first: VehicleState) -> None:
         """First : where they hover at the start."""
         mass, thrust = quad_params["mass"], quad_params["k_eta"]
         hover = sqrt(mass * 9.81 / (4 * thrust))
@@ -47,7 +47,7 @@ class RotorPyPlant:
             parameters, self._states[0], "cmd_acc", integrator_kwargs={"method": "RK23", "rtol": RTOL}
         )
 
-    def carried(self, state: State, pushed: Array, held: Array, wind: Array) -> State:
+    def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:
         """Return the state a ``STEP_S`` later (``vehicle.Plant``)."""
         up = np.array([0.0, 0.0, self._body.g])
         for r, each in enumerate(self._states):
@@ -55,4 +55,4 @@ class RotorPyPlant:
             self._states[r] = self._body.step(each, {"cmd_acc": pushed[r] + up}, STEP_S)
         position = np.array([each["x"] for each in self._states])
         velocity = np.array([each["v"] for each in self._states])
-        return State(position, velocity, (velocity - state.velocity) / STEP_S, held)
+        return VehicleState(position, velocity, (velocity - state.velocity) / STEP_S, held)

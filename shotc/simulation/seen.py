@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.conditions import Conditions
-from shotc.simulation.film import Film, Framed
+from shotc.simulation.film import FramedTarget, PlanSamples
 from shotc.simulation.gimbal import Attitude
 from shotc.simulation.kalman import Measurement, MotionModel, PictureFix, PositionFix, projection
 from shotc.simulation.tracker import Tracker
@@ -31,10 +31,10 @@ a car, if all that they may do is to be expected at all times.
 
 
 @dataclass(slots=True)
-class Watched:
+class TrackedTarget:
     """One target that moves, and what is known of it in R runs.
 
-    places : where it really is at each step, (N, R, 3); share : as of ``Framed``
+    places : where it really is at each step, (N, R, 3); share : as of ``FramedTarget``
     """
 
     name: str
@@ -47,7 +47,7 @@ class Watched:
     numbers: count[int] = field(default_factory=count)
 
     def look(
-        self, k: int, film: Film, conditions: Conditions, eyes: tuple[Array, Array], attitude: Attitude
+        self, k: int, film: PlanSamples, conditions: Conditions, eyes: tuple[Array, Array], attitude: Attitude
     ) -> None:
         """Take a picture where one is due; eyes : where the cameras are, and where they are taken to be."""
         detector = conditions.detector
@@ -67,7 +67,7 @@ class Watched:
             self.tracker.take(heappop(self.waiting)[2])
 
 
-def watched(world: World, film: Film, framed: Framed) -> Watched:
+def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTarget:
     """Return what is known at the start of a target that moves: about where it is."""
     conditions, runs, name = world.conditions, world.runs, framed.target
     gps, places = conditions.gps, world.places[name]
@@ -84,7 +84,7 @@ def watched(world: World, film: Film, framed: Framed) -> Watched:
     models = (MotionModel(agility, sqrt(2.0) * gps.bias) for agility in AGILITIES)
     tracker = Tracker.beginning(0.0, measured[0], velocity, *models)
     pictures = conditions.chances(runs, f"pictures of {name} by {film.drone.name}")
-    out = Watched(name, places, framed.share, fixes, tracker, pictures)
+    out = TrackedTarget(name, places, framed.share, fixes, tracker, pictures)
     for fix in fixes[1:]:
         heappush(out.waiting, (fix.time + gps.delay, next(out.numbers), fix))
     return out

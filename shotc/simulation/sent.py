@@ -11,8 +11,8 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.plugin_api.replanner import Plan
-from shotc.simulation.film import Film
-from shotc.simulation.vehicle import Setpoint
+from shotc.simulation.film import PlanSamples
+from shotc.simulation.vehicle import VehicleSetpoint
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -22,24 +22,24 @@ class Fading:
     off : where they are beside it: a curve of 3 R components, run by run, that ends at rest; metres, seconds
     """
 
-    film: Film
+    film: PlanSamples
     off: Piecewise
 
     @staticmethod
-    def of(film: Film, start: float, lasts: float, off: Array, rate: Array) -> Fading:
+    def of(film: PlanSamples, start: float, lasts: float, off: Array, rate: Array) -> Fading:
         """Return the way back from ``off`` metres beside the plan, and its rate there, (R, 3) each."""
         ends = np.zeros((2, off.size))
         places, rates = ends.copy(), ends.copy()
         places[0], rates[0] = off.ravel(), rate.ravel()
         return Fading(film, quintic_hermite(np.array([start, start + lasts]), places, rates, ends))
 
-    def setpoint(self, time: float) -> Setpoint:
+    def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the plan's setpoint with what is left of the way back."""
         plan = self.film.setpoint(self.film.step(time))
         if time >= self.off.end:
             return plan
         off, rate, bend = (self.off.derivative(n)(time).reshape(-1, 3) for n in range(3))
-        return Setpoint(plan.position + off, plan.velocity + rate, plan.acceleration + bend)
+        return VehicleSetpoint(plan.position + off, plan.velocity + rate, plan.acceleration + bend)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,11 +56,11 @@ class SentPlans:
         """Return the same with new plans; where there is none the last one is flown on."""
         return SentPlans(tuple(n or last for n, last in zip(new, self.plans, strict=True)), self.acceleration)
 
-    def setpoint(self, time: float) -> Setpoint:
+    def setpoint(self, time: float) -> VehicleSetpoint:
         """Return what drones are asked for, (R, 3) each."""
         rows = [self._row(plan, time) for plan in self.plans]
         position, velocity, acceleration = (np.array(part) for part in zip(*rows, strict=True))
-        return Setpoint(position, velocity, acceleration)
+        return VehicleSetpoint(position, velocity, acceleration)
 
     def _row(self, plan: Plan, time: float) -> tuple[Array, Array, Array]:
         k = int(np.searchsorted(plan.times, time, side="right")) - 1
@@ -84,7 +84,7 @@ class Sent:
     age : seconds until what is sent is known
     """
 
-    film: Film
+    film: PlanSamples
     age: float
     times: list[float] = field(default_factory=list)
     plans: list[tuple[Plan, ...]] = field(default_factory=list)

@@ -17,7 +17,7 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.fleets.fly import PERIOD_S
 from shotc.simulation.fleets.near import Across, NearestPair
-from shotc.simulation.fleets.rehearse import Rehearsal, Watch, moments
+from shotc.simulation.fleets.rehearse import FleetRehearsal, Watch, moments
 from shotc.simulation.fleets.vehicle import Gusts
 from shotc.simulation.flight import DroneRuns
 from shotc.simulation.world import at_times
@@ -28,7 +28,7 @@ class FleetCourse:
     """How a fleet kept to its plan in one run; radius : of its drones' bodies, metres."""
 
     fleet: str
-    flown: Rehearsal
+    flown: FleetRehearsal
     radius: float
 
     @property

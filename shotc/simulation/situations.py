@@ -37,7 +37,7 @@ from shotc.plugin_api.replanner import (
     Replanner,
     Traffic,
 )
-from shotc.simulation.film import Film
+from shotc.simulation.film import PlanSamples
 from shotc.simulation.kalman import Estimate
 
 STAGE_S = 0.1
@@ -68,14 +68,19 @@ class Chased:
     turns: bool
     smoother: float = 1.0
 
-    def planner(self, by: Replanner, _film: Film, keeping: Keeping) -> ChasePlanner:
+    def planner(self, by: Replanner, _film: PlanSamples, keeping: Keeping) -> ChasePlanner:
         """Return who plans it anew."""
         calm = self.smoother**2
         weights = WEIGHTS._replace(pitch=calm * WEIGHTS.pitch, yaw=calm * WEIGHTS.yaw)
         return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), keeping, weights))
 
     def situation(
-        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: ReplanInstant
+        self,
+        mission: MissionIR,
+        film: PlanSamples,
+        stages: Array,
+        drone: tuple[Array, Array],
+        of: ReplanInstant,
     ) -> ChaseSituation:
         """Return what is known of one run at the first of the stages, mission times (N + 1,).
 
@@ -105,7 +110,7 @@ class Chased:
 
 
 @dataclass(frozen=True, slots=True)
-class Composed:
+class ComposedShot:
     """A shot that is found from how its subjects are to appear.
 
     smoother : as in ``Chased``; near : the pose that its camera stays near
@@ -117,7 +122,7 @@ class Composed:
     smoother: float = 1.0
     near: Near | None = None
 
-    def planner(self, by: Replanner, film: Film, keeping: Keeping) -> FramingPlanner:
+    def planner(self, by: Replanner, film: PlanSamples, keeping: Keeping) -> FramingPlanner:
         """Return who plans it anew."""
         k = int(np.searchsorted(film.times, self.phase.start))
         half = (float(film.half[k, 0]), float(film.half[k, 1]))
@@ -126,7 +131,12 @@ class Composed:
         return by.framing(FramingProblem(Horizon(FRAMING_STAGES, STAGE_S), keeping, half, rates, weights))
 
     def situation(
-        self, mission: MissionIR, film: Film, stages: Array, drone: tuple[Array, Array], of: ReplanInstant
+        self,
+        mission: MissionIR,
+        film: PlanSamples,
+        stages: Array,
+        drone: tuple[Array, Array],
+        of: ReplanInstant,
     ) -> FramingSituation:
         """Return what is known of one run; arguments as of ``Chased``."""
         filmed = {each.target: self._asked(each, stages) for each in self.subjects}
@@ -150,7 +160,7 @@ class Composed:
         return tuple(subject.asked(t - self.phase.start) for t in stages.tolist())
 
 
-Anew = Chased | Composed
+Anew = Chased | ComposedShot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,7 +196,7 @@ def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
             continue
         if shot.ideal.framed:
             if any(mission.target(name).track is not None for name in films):
-                yield Composed(phase, shot.subjects, shot.smoother, shot.ideal.near)
+                yield ComposedShot(phase, shot.subjects, shot.smoother, shot.ideal.near)
             continue
         target = shot.ideal.target
         if target is not None and films == {target} and mission.target(target).track is not None:
@@ -216,7 +226,7 @@ def _drawn(mission: MissionIR, near: Near, stages: Array, of: ReplanInstant) -> 
     return DrawnPose(places, near.yaw, near.pitch)
 
 
-def _aim(film: Film, time: float, last: Plan) -> tuple[float, float]:
+def _aim(film: PlanSamples, time: float, last: Plan) -> tuple[float, float]:
     """Return yaw and pitch of the camera as it was last planned, rad."""
     if last.aim is None:
         pose = np.asarray(film.track.curve(time))

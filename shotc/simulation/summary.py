@@ -16,7 +16,7 @@ from shotc.simulation.judge import Run, TargetFraming, TrackingError
 from shotc.simulation.rehearsal import Rehearsed, alike
 from shotc.simulation.shows import FleetCourse, FleetPair
 from shotc.simulation.situations import replanned
-from shotc.simulation.verdict import Verdict
+from shotc.simulation.verdict import RequirementVerdict
 
 if TYPE_CHECKING:
     from shotc.ir.show import Fleet
@@ -178,7 +178,7 @@ def _fleet_row(done: Rehearsed, every: list[FleetCourse]) -> tuple[str, ...]:
     )
 
 
-def _limit(each: Verdict) -> str:
+def _limit(each: RequirementVerdict) -> str:
     if each.unit == "share":
         return f"{plain(100 * each.limit, 1)} %"
     return f"{plain(each.limit)}{' m' if each.unit == 'm' else ''}"

@@ -9,13 +9,13 @@ from contextlib import contextmanager
 from types import FrameType
 
 
-class TooLate(Exception):
+class CallTimeout(Exception):
     """A call took longer than it may."""
 
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Raise ``TooLate`` in what runs below after so many seconds.
+    """Raise ``CallTimeout`` in what runs below after so many seconds.
 
     It needs Unix and the main thread, as the processes of a simulation have; elsewhere nothing is limited.
     What does not come back to the interpreter cannot be interrupted.
@@ -33,4 +33,4 @@ def time_limit(seconds: float) -> Iterator[None]:
 
 
 def _interrupt(_number: int, _frame: FrameType | None) -> None:
-    raise TooLate
+    raise CallTimeout

@@ -43,7 +43,7 @@ class Vehicle:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class State:
+class VehicleState:
     """Where drones of R runs are; every array of shape (R, 3).
 
     velocity : over ground; acceleration : that the rotors make, less gravity; held : what the integrator asks
@@ -55,14 +55,14 @@ class State:
     held: Array
 
     @staticmethod
-    def at_rest(position: Array) -> State:
+    def at_rest(position: Array) -> VehicleState:
         """Return drones that hover at places (R, 3)."""
         still = np.zeros_like(position)
-        return State(position, still, still, still)
+        return VehicleState(position, still, still, still)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Setpoint:
+class VehicleSetpoint:
     """What drones are asked for; arrays that broadcast to (R, 3): metres, m/s, m/s^2 in W."""
 
     position: Array
@@ -73,7 +73,7 @@ class Setpoint:
 class Plant(Protocol):
     """What a drone does of what its controller asks."""
 
-    def carried(self, state: State, pushed: Array, held: Array, wind: Array) -> State:
+    def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:
         """Return the state a ``STEP_S`` later.
 
         pushed : acceleration that the rotors are asked for, less gravity; held : of the integrator; wind
@@ -88,16 +88,16 @@ class Lagging:
 
     vehicle: Vehicle
 
-    def carried(self, state: State, pushed: Array, held: Array, wind: Array) -> State:
+    def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:
         """Return the state a ``STEP_S`` later."""
         h, vehicle = STEP_S, self.vehicle
         rotors = state.acceleration + (pushed - state.acceleration) * (1.0 - exp(-h / vehicle.lag))
         velocity = state.velocity + h * (rotors + vehicle.drag * (wind - state.velocity))
-        return State(state.position + h * velocity, velocity, rotors, held)
+        return VehicleState(state.position + h * velocity, velocity, rotors, held)
 
 
 def steered(
-    vehicle: Vehicle, state: State, asked: Setpoint, error: Array | float = 0.0
+    vehicle: Vehicle, state: VehicleState, asked: VehicleSetpoint, error: Array | float = 0.0
 ) -> tuple[Array, Array]:
     """Return the acceleration that the controller asks of the rotors, and what its integrator holds, (R, 3).
 
@@ -111,7 +111,9 @@ def steered(
     return pushed, _bounded(vehicle, state.held + STEP_S * gain_i * missing)
 
 
-def moved(vehicle: Vehicle, state: State, asked: Setpoint, wind: Array, error: Array | float = 0.0) -> State:
+def moved(
+    vehicle: Vehicle, state: VehicleState, asked: VehicleSetpoint, wind: Array, error: Array | float = 0.0
+) -> VehicleState:
     """Return the state of the default plant a ``STEP_S`` later; arguments as above."""
     return Lagging(vehicle).carried(state, *steered(vehicle, state, asked, error), wind)
 

@@ -34,7 +34,7 @@ MEASURES: dict[Key, Measure] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class RequirementVerdict:
     """One thing that is asked of the runs.
 
     key : as missions write it; limit : what is asked; upper : whether values are to stay below it
@@ -57,12 +57,12 @@ class Verdict:
         return MEASURES[self.key].unit
 
 
-def verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> tuple[Verdict, ...]:
+def verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> tuple[RequirementVerdict, ...]:
     """Judge runs by what is asked of them; that nothing is touched is always asked."""
     return tuple(_verdicts(runs, promise))
 
 
-def held(runs: Sequence[Run], found: Sequence[Verdict]) -> int:
+def held(runs: Sequence[Run], found: Sequence[RequirementVerdict]) -> int:
     """Return in how many runs all of it holds."""
     return sum(all(_holds(each.key, run, each.limit) for each in found) for run in runs)
 
@@ -72,7 +72,7 @@ def enough(runs: Sequence[Run], promise: RehearsalPromise) -> int:
     return ceil(promise.of * len(runs) - 1e-9)
 
 
-def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[Verdict]:
+def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[RequirementVerdict]:
     for key, measure in MEASURES.items():
         asked = getattr(promise, key)
         if asked is None and key != "clearance":
@@ -83,7 +83,7 @@ def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[Verdic
         worst, number = ordered[-1]
         kept = ordered[enough(runs, promise) - 1][0]
         count = sum(_holds(key, run, limit) for run in runs)
-        yield Verdict(key, limit, measure.upper, count, worst, number, kept, asked is not None)
+        yield RequirementVerdict(key, limit, measure.upper, count, worst, number, kept, asked is not None)
 
 
 def _holds(key: Key, run: Run, limit: float) -> bool:

@@ -15,7 +15,7 @@ GUST_MEMORY_S = 2.0
 
 
 @dataclass(frozen=True, slots=True)
-class Wind:
+class WindField:
     """What blows in all runs.
 
     speed : of the steady part, m/s

@@ -10,7 +10,7 @@ from shotc.geom.bernstein import Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Programme:
+class AssignmentProgramme:
     """Minimise cost . x with 0 <= x <= highest, once x = 1 and rows x <= most; all shapes by N unknowns.
 
     cost, highest : (N,); once : (T, N); rows : (R, N); most : (R,)
@@ -25,7 +25,7 @@ class Programme:
     whole: int
 
 
-def least_cost(programme: Programme) -> Array | None:
+def least_cost(programme: AssignmentProgramme) -> Array | None:
     """Return the optimal x, of the shape of its cost, or None where nothing satisfies the programme."""
     from scipy.optimize import Bounds, LinearConstraint, milp
 

@@ -22,7 +22,7 @@ _LOADER = getattr(yaml, "CLoader", yaml.Loader)  # the parser in C, wherever PyY
 _TAG = r"[^ \t\r\n,\]}]*"
 
 
-class Composed(NamedTuple):
+class ComposedDocument(NamedTuple):
     """The first document of a text.
 
     root  : its tree, as far as it was read; None for an empty text
@@ -34,11 +34,11 @@ class Composed(NamedTuple):
     whole: bool
 
 
-def compose(file: SourceFile) -> Composed:
+def compose(file: SourceFile) -> ComposedDocument:
     """Return the tree of the first document in ``file`` and the faults on the way."""
     composer = _Composer(file)
     if fault := _too_many_directives(file):
-        return Composed(None, [fault], False)
+        return ComposedDocument(None, [fault], False)
     try:
         for event in yaml.parse(file.text, Loader=_LOADER):
             composer.take(event)
@@ -52,7 +52,7 @@ def compose(file: SourceFile) -> Composed:
         composer.fault(Fault("syntax", str(error.reason), file.point(start)))
         composer.whole = False
     composer.close_all()
-    return Composed(composer.root, composer.faults, composer.whole)
+    return ComposedDocument(composer.root, composer.faults, composer.whole)
 
 
 def _too_many_directives(file: SourceFile) -> Fault | None:

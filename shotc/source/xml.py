@@ -4,11 +4,11 @@ from typing import Any, NamedTuple, Protocol
 from xml.parsers import expat
 
 
-class Stop(Exception):
+class StopParsing(Exception):
     """A reader has found its first fault and leaves expat."""
 
 
-class Reader(Protocol):
+class XmlReader(Protocol):
     """Expat's handlers; ``parser`` is set before the first is called and knows the line."""
 
     parser: Any
@@ -35,7 +35,7 @@ class NotXml(NamedTuple):
     encoding: bool = False
 
 
-def feed(data: bytes, reader: Reader) -> NotXml | None:
+def feed(data: bytes, reader: XmlReader) -> NotXml | None:
     """Read bytes as XML; return None where they were read to the end, or to the reader's own fault."""
     parser = expat.ParserCreate()
     parser.buffer_text = True
@@ -47,7 +47,7 @@ def feed(data: bytes, reader: Reader) -> NotXml | None:
     reader.parser = parser
     try:
         parser.Parse(data, True)
-    except Stop:
+    except StopParsing:
         return None
     except expat.ExpatError as error:
         return NotXml(expat.ErrorString(error.code), error.lineno, error.offset + 1)

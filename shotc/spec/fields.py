@@ -12,7 +12,7 @@ from shotc.ir.smoothing import LONGEST_S, SHORTEST_S, SMOOTHINGS
 from shotc.spec.fieldtypes import Integer, NamedOr, Text, TextOrNumber
 from shotc.spec.heights import CameraAltitude, CameraAltitudeSpan, Heights
 from shotc.spec.places import NAME, TITLE, Geodetic, LookAt, OnMap, Plan, Position, Relative, Stand, Station
-from shotc.spec.quantities import Percentage, Quantity, Range, Span, Tuple
+from shotc.spec.quantities import Percentage, Quantity, QuantitySpan, Range, Tuple
 from shotc.spec.screen import Aspect, BoxOnScreen, CompositionSet, Frame, ScreenPoint
 from shotc.spec.sizes import SIZES
 from shotc.units import SMALLEST
@@ -116,8 +116,8 @@ LengthRange = Annotated[tuple[float, float], Range("LengthRange", _LENGTH, thick
 AngleRange = Annotated[tuple[float, float], Range("AngleRange", _ANGLE)]
 PitchRange = Annotated[tuple[float, float], Range("PitchRange", _PITCH)]
 ShareRange = Annotated[tuple[float, float], Range("ShareRange", _SHARE)]
-LengthSpan = Annotated[tuple[float, float], Span("LengthSpan", _LENGTH)]
-PositiveLengthSpan = Annotated[tuple[float, float], Span("PositiveLengthSpan", _POSITIVE_LENGTH)]
+LengthSpan = Annotated[tuple[float, float], QuantitySpan("LengthSpan", _LENGTH)]
+PositiveLengthSpan = Annotated[tuple[float, float], QuantitySpan("PositiveLengthSpan", _POSITIVE_LENGTH)]
 
 Point2 = Annotated[Vec2, Tuple("Point2", (_LENGTH, _LENGTH), "[x, y]")]
 Size3 = Annotated[Vec3, Tuple("Size3", (_POSITIVE_LENGTH,) * 3, "[width, depth, height]")]

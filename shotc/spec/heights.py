@@ -10,7 +10,7 @@ from shotc.ir.ground import Above
 from shotc.spec.faults import fault, read_each
 from shotc.spec.fieldtypes import FieldType
 from shotc.spec.model import Model
-from shotc.spec.quantities import Quantity, Range, Span
+from shotc.spec.quantities import Quantity, QuantitySpan, Range
 
 _LENGTH = Quantity("Length", "length")
 
@@ -164,5 +164,7 @@ HEIGHT = HeightType()
 Lift = Annotated[float | AboveGround, LiftType()]
 
 CameraAltitude = Annotated[Altitude, AltitudeType("CameraAltitude", _LENGTH)]
-CameraAltitudeSpan = Annotated[Altitude, AltitudeType("CameraAltitudeSpan", Span("LengthSpan", _LENGTH))]
+CameraAltitudeSpan = Annotated[
+    Altitude, AltitudeType("CameraAltitudeSpan", QuantitySpan("LengthSpan", _LENGTH))
+]
 Heights = Annotated[HeightRange, HeightRangeType()]

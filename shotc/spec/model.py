@@ -21,7 +21,7 @@ from shotc.units import clip, describe
 _ADVISED = 100
 
 
-class Lack(NamedTuple):
+class MissingKey(NamedTuple):
     """Something that a mapping has to have and has not.
 
     keys : any of which it may be; name : how messages call it; detail : the fault
@@ -49,17 +49,17 @@ class OneOf(NamedTuple):
         present = self._present(given)
         return [] if not present or self._fitting(present) else [self._conflict(present)]
 
-    def lacks(self, given: Mapping[str, object]) -> list[Lack]:
+    def lacks(self, given: Mapping[str, object]) -> list[MissingKey]:
         """Return what is missing beside the keys that are given."""
         present = self._present(given)
         if not present:
             every = tuple(dict.fromkeys(key for form in self.forms for key in form))
             absent = _detail((), "missing-field", f"missing {self._choice()}")
-            return [Lack(every, self._choice(), absent)] if self.required else []
+            return [MissingKey(every, self._choice(), absent)] if self.required else []
         missing = [key for form in self._fitting(present)[:1] for key in form if key not in present]
         help_ = "`{}` needs `{}` beside it"
         return [
-            Lack(
+            MissingKey(
                 (key,),
                 f"`{key}`",
                 _detail((), "missing-field", f"missing key `{key}`", help_.format(present[0], key)),
@@ -155,7 +155,7 @@ class Model(BaseModel):
 
     @classmethod
     def _explained(
-        cls, error: ValidationError, data: Mapping[str, object], lacks: list[Lack]
+        cls, error: ValidationError, data: Mapping[str, object], lacks: list[MissingKey]
     ) -> list[InitErrorDetails]:
         """Put pydantic's faults about this mapping's own keys into the language's words."""
         details, known = details_of(error), cls.keys()
@@ -222,13 +222,16 @@ def _empty(key: str, field: FieldInfo) -> InitErrorDetails:
     return _detail((key,), "empty-value", f"`{key}` has no value", help_)
 
 
-def _missing(key: str, field: FieldInfo) -> Lack:
+def _missing(key: str, field: FieldInfo) -> MissingKey:
     help_ = f"add `{key}`: {field.description}" if field.description else f"add `{key}`"
-    return Lack((key,), f"`{key}`", _detail((), "missing-field", f"missing key `{key}`", help_))
+    return MissingKey((key,), f"`{key}`", _detail((), "missing-field", f"missing key `{key}`", help_))
 
 
 def _wrong_keys(
-    unknown: list[str], lacks: list[Lack], known: Mapping[str, FieldInfo], absent: Mapping[str, FieldInfo]
+    unknown: list[str],
+    lacks: list[MissingKey],
+    known: Mapping[str, FieldInfo],
+    absent: Mapping[str, FieldInfo],
 ) -> list[InitErrorDetails]:
     """Return the faults of unknown and of missing keys; one slip of the pen is one fault, not two."""
     placed = {key: _place(key, known) for key in unknown[:_ADVISED]}
@@ -261,7 +264,7 @@ def _place(key: str, known: Mapping[str, FieldInfo]) -> str:
     return f"`{key}` belongs under {named}`{below[0]}`"
 
 
-def _instead(key: str, lack: Lack, known: Mapping[str, FieldInfo]) -> InitErrorDetails:
+def _instead(key: str, lack: MissingKey, known: Mapping[str, FieldInfo]) -> InitErrorDetails:
     """Return one fault for an unlike pair: the only unknown key, and the only missing one."""
     message = f"unknown key `{clip(key)}`, and {lack.name} is missing"
     about = known[lack.keys[0]].description if len(lack.keys) == 1 else ""

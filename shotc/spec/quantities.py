@@ -191,7 +191,7 @@ class Range(FieldType):
         return Tuple(self.label, (self.item, self.item), "[lowest, highest]")
 
 
-class Span(FieldType):
+class QuantitySpan(FieldType):
     """One value, or ``[from, to]``; kept as (from, to)."""
 
     def __init__(self, label: str, item: FieldType) -> None:

@@ -13,7 +13,7 @@ from shotc.source.fault import capped
 from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.spec.mission import VERSION, is_version
 from shotc.spec.shot import ShotBase
-from shotc.spec.translate import Finding, findings
+from shotc.spec.translate import UnplacedFault, findings
 from shotc.spec.words import nearest
 from shotc.units import clip
 
@@ -50,7 +50,7 @@ def _broken_kinds(
         yield unusable[kind]._replace(labels=(origins.value(("shots", first, "kind")),))
 
 
-def _uncovered(finding: Finding, origins: OriginMap, file: SourceFile) -> Finding:
+def _uncovered(finding: UnplacedFault, origins: OriginMap, file: SourceFile) -> UnplacedFault:
     """Say of a key without a value that its line has one behind a `#`, if so."""
     if finding.slug != "empty-value":
         return finding
@@ -69,11 +69,11 @@ def plan_given(name: str) -> Diagnostic:
     return Diagnostic(code_of("not-a-mission"), "this is a plan, not a mission", label, help=help_)
 
 
-def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
+def _version_findings(root: Mapping[str, Any]) -> list[UnplacedFault]:
     help_ = f"write `shotc: {VERSION}` as the first line"
     if "shotc" not in root:
         message = "the mission does not say its language version"
-        return [Finding((), "missing-version", message, help_, blame="key")]
+        return [UnplacedFault((), "missing-version", message, help_, blame="key")]
     value = root["shotc"]
     if is_version(value):
         return []
@@ -81,16 +81,16 @@ def _version_findings(root: Mapping[str, Any]) -> list[Finding]:
     if isinstance(value, int | float) and not isinstance(value, bool):
         message = f"language version {clip(format(value, '.6g'))} is not known"
     note = f"this version of shotc reads language version {VERSION}"
-    return [Finding(("shotc",), "unknown-version", message, help_, (note,))]
+    return [UnplacedFault(("shotc",), "unknown-version", message, help_, (note,))]
 
 
-def _shot_findings(root: Mapping[str, Any], kinds: list[str]) -> list[Finding]:
+def _shot_findings(root: Mapping[str, Any], kinds: list[str]) -> list[UnplacedFault]:
     """Return unknown kinds, and a mission without shots."""
     shots = root.get("shots", [])
     if shots == []:
         path: KeyPath = ("shots",) if "shots" in root else ()
         help_ = "add a shot, or start from a template: shotc new"
-        return [Finding(path, "no-shots", "the mission has no shots", help_, blame="key")]
+        return [UnplacedFault(path, "no-shots", "the mission has no shots", help_, blame="key")]
     if not isinstance(shots, list):
         return []
     named = [(i, shot["kind"]) for i, shot in enumerate(shots) if isinstance(shot, dict) and "kind" in shot]
@@ -101,25 +101,25 @@ def _shot_findings(root: Mapping[str, Any], kinds: list[str]) -> list[Finding]:
     ]
 
 
-def _unknown_kind(path: KeyPath, kind: str, kinds: Iterable[str]) -> Finding:
+def _unknown_kind(path: KeyPath, kind: str, kinds: Iterable[str]) -> UnplacedFault:
     help_ = nearest(kind, kinds)
     if "did you mean" not in help_:
         help_ += "; `shotc list kinds` says what each does"
-    return Finding(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", help_)
+    return UnplacedFault(path, "unknown-kind", f"unknown kind of shot `{clip(kind)}`", help_)
 
 
 def _diagnostics(
-    found: list[Finding], origins: OriginMap, others: tuple[Diagnostic, ...]
+    found: list[UnplacedFault], origins: OriginMap, others: tuple[Diagnostic, ...]
 ) -> tuple[Diagnostic, ...]:
     """Return one diagnostic per faulty place and the others, in the order of the file."""
-    first: dict[tuple[KeyPath, str], Finding] = {}
+    first: dict[tuple[KeyPath, str], UnplacedFault] = {}
     for finding in found:
         first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)
     every = [_diagnostic(f, origins) for f in first.values()]
     return capped(sorted([*every, *others], key=lambda d: d.sort_key), "this file")
 
 
-def _diagnostic(finding: Finding, origins: OriginMap) -> Diagnostic:
+def _diagnostic(finding: UnplacedFault, origins: OriginMap) -> Diagnostic:
     label = origins.value(finding.path) if finding.blame == "value" else origins.key(finding.path)
     if finding.path == ():
         label = Label(origins.file, WHOLE_FILE)

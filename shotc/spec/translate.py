@@ -14,7 +14,7 @@ from shotc.units import clip, describe
 _ON_KEY = frozenset({"unknown-field", "missing-field", "conflicting-fields", "empty-value"})
 
 
-class Finding(NamedTuple):
+class UnplacedFault(NamedTuple):
     """A fault before it has a place in the text.
 
     path : key path from the top of the mission; slug : of its code; blame : what to underline there
@@ -30,12 +30,12 @@ class Finding(NamedTuple):
     beside: KeyPath | None = None
 
 
-def findings(error: ValidationError) -> list[Finding]:
+def findings(error: ValidationError) -> list[UnplacedFault]:
     """Return what pydantic found, in its order."""
     return [_finding(item) for item in error.errors(include_url=False)]
 
 
-def _finding(item: Any) -> Finding:
+def _finding(item: Any) -> UnplacedFault:
     path, slug, ctx = tuple(item["loc"]), item["type"], item.get("ctx", {})
     on_key = slug in _ON_KEY
     if path[-1:] == ("[key]",):  # pydantic's mark for the key of a mapping of names
@@ -44,16 +44,16 @@ def _finding(item: Any) -> Finding:
         return _own_words(path, item)
     blame: Literal["key", "value"] = "key" if on_key else "value"
     beside = (*path[:-1], ctx["beside"]) if ctx["beside"] else None
-    return Finding(path, slug, ctx["message"], ctx["help"], tuple(ctx["notes"]), blame, beside)
+    return UnplacedFault(path, slug, ctx["message"], ctx["help"], tuple(ctx["notes"]), blame, beside)
 
 
-def _own_words(path: KeyPath, item: Any) -> Finding:
+def _own_words(path: KeyPath, item: Any) -> UnplacedFault:
     """Translate an error of one of pydantic's own types."""
     describe_ = _WORDS.get(item["type"])
     if describe_ is None:
-        return Finding(path, "wrong-type", clip(item["msg"], 120).rstrip(".").lower())
+        return UnplacedFault(path, "wrong-type", clip(item["msg"], 120).rstrip(".").lower())
     words = describe_(item.get("ctx", {}), item.get("input"))
-    return Finding(path, words.slug, words.message, words.help)
+    return UnplacedFault(path, words.slug, words.message, words.help)
 
 
 class _Words(NamedTuple):

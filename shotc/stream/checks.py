@@ -18,11 +18,11 @@ from shotc.ir.drone import Drone
 from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.rounding import up
 from shotc.stream.autopilots import MULTIROTORS, NAMES, Action, LossRule
-from shotc.stream.messages import Place
+from shotc.stream.messages import GlobeFix
 from shotc.stream.projection import LocalFrame
 from shotc.stream.reading import HEARTBEAT_S, READ_S, missing
 from shotc.stream.setpoints import SetpointSeries, pitch_range, speeds
-from shotc.stream.vehicle import Vehicle
+from shotc.stream.vehicle import VehicleStatus
 
 HOME_OFF_M = 1.0
 """How far a home may be from the pad that the plan begins and ends on."""
@@ -50,7 +50,7 @@ class Ready(NamedTuple):
 
     mission: MissionIR
     drone: Drone
-    vehicle: Vehicle
+    vehicle: VehicleStatus
 
     def label(self, *keys: str) -> Label:
         """Return the place of a key of the drone in the mission file."""
@@ -98,10 +98,10 @@ def frame_of(ready: Ready, origin: GeoOrigin) -> LocalFrame | None:
     return LocalFrame(vehicle.autopilot.layout, vehicle.origin, vehicle.home.alt - pad_of(ready, origin).alt)
 
 
-def pad_of(ready: Ready, origin: GeoOrigin) -> Place:
+def pad_of(ready: Ready, origin: GeoOrigin) -> GlobeFix:
     """Return where the plan begins on the globe."""
     lat, lon, alt = of_world(np.array([ready.drone.home]), origin)[0].tolist()
-    return Place(lat, lon, alt)
+    return GlobeFix(lat, lon, alt)
 
 
 def home_offset(ready: Ready, origin: GeoOrigin) -> Vec3:
@@ -110,7 +110,7 @@ def home_offset(ready: Ready, origin: GeoOrigin) -> Vec3:
     return minus(_in_world(ready.vehicle.home, origin), ready.drone.home)
 
 
-def actions_of(vehicle: Vehicle) -> dict[str, Action]:
+def actions_of(vehicle: VehicleStatus) -> dict[str, Action]:
     """Return what each parameter makes the autopilot do when its link is lost."""
     known = vehicle.parameters
     found = {
@@ -120,7 +120,7 @@ def actions_of(vehicle: Vehicle) -> dict[str, Action]:
     return {parameter: action for parameter, action in found.items() if action is not None}
 
 
-def loss_times(vehicle: Vehicle) -> dict[str, float]:
+def loss_times(vehicle: VehicleStatus) -> dict[str, float]:
     """Return after how many seconds of silence it does so, by parameter."""
     rows = vehicle.autopilot.times
     return {r.parameter: vehicle.parameters[r.parameter] for r in rows if r.parameter in vehicle.parameters}
@@ -334,11 +334,11 @@ def _speeds(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
             )
 
 
-def _said(vehicle: Vehicle) -> tuple[str, ...]:
+def _said(vehicle: VehicleStatus) -> tuple[str, ...]:
     return tuple(f"it says: {text}" for text in vehicle.texts)
 
 
-def _in_world(place: Place, origin: GeoOrigin) -> Vec3:
+def _in_world(place: GlobeFix, origin: GeoOrigin) -> Vec3:
     east, north, up = to_world(np.array([place]), origin)[0].tolist()
     return (east, north, up)
 

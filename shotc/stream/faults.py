@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shotc.diag.model import Diagnostic
-from shotc.stream.vehicle import Vehicle
+from shotc.stream.vehicle import VehicleStatus
 
 RESULTS = {
     1: "temporarily rejected",
@@ -16,7 +16,7 @@ RESULTS = {
 TAKE_OVER = "take over with the remote control or a ground station"
 
 
-def refused(vehicle: Vehicle, what: str, result: int) -> Diagnostic:
+def refused(vehicle: VehicleStatus, what: str, result: int) -> Diagnostic:
     """Return the error of a command that the vehicle does not carry out; what : as in "refuses to arm"."""
     return Diagnostic(
         "A020",
@@ -26,7 +26,7 @@ def refused(vehicle: Vehicle, what: str, result: int) -> Diagnostic:
     )
 
 
-def late(vehicle: Vehicle, what: str) -> Diagnostic:
+def late(vehicle: VehicleStatus, what: str) -> Diagnostic:
     """Return the error of a vehicle that is not ready when the plan has it lift off."""
     return Diagnostic(
         "A021",
@@ -36,7 +36,7 @@ def late(vehicle: Vehicle, what: str) -> Diagnostic:
     )
 
 
-def vanished(vehicle: Vehicle, silence: float) -> Diagnostic:
+def vanished(vehicle: VehicleStatus, silence: float) -> Diagnostic:
     """Return the error of a vehicle that is heard no more."""
     return Diagnostic(
         "A022",
@@ -46,7 +46,7 @@ def vanished(vehicle: Vehicle, silence: float) -> Diagnostic:
     )
 
 
-def mode_left(vehicle: Vehicle) -> Diagnostic:
+def mode_left(vehicle: VehicleStatus) -> Diagnostic:
     """Return the error of a vehicle that no longer follows setpoints: its pilot or a failsafe took it."""
     mode = vehicle.autopilot.flown.name
     return Diagnostic(
@@ -57,7 +57,7 @@ def mode_left(vehicle: Vehicle) -> Diagnostic:
     )
 
 
-def strayed(vehicle: Vehicle, away: float, most: float) -> Diagnostic:
+def strayed(vehicle: VehicleStatus, away: float, most: float) -> Diagnostic:
     """Return the error of a vehicle that is far from where the plan has it."""
     return Diagnostic(
         "A024",
@@ -87,7 +87,7 @@ def stale(target: str, silence: float) -> Diagnostic:
     )
 
 
-def not_recorded(vehicle: Vehicle, shot: str, *, on: bool) -> Diagnostic:
+def not_recorded(vehicle: VehicleStatus, shot: str, *, on: bool) -> Diagnostic:
     """Return the warning that the camera does not say that it records, or that it has ended."""
     did = "begins" if on else "ends"
     return Diagnostic(
@@ -98,7 +98,7 @@ def not_recorded(vehicle: Vehicle, shot: str, *, on: bool) -> Diagnostic:
     )
 
 
-def not_landed(vehicle: Vehicle, seconds: float) -> Diagnostic:
+def not_landed(vehicle: VehicleStatus, seconds: float) -> Diagnostic:
     """Return the warning that a vehicle has not disarmed after its landing."""
     return Diagnostic(
         "A028",
@@ -107,7 +107,7 @@ def not_landed(vehicle: Vehicle, seconds: float) -> Diagnostic:
     )
 
 
-def not_holding(vehicle: Vehicle, seconds: float) -> Diagnostic:
+def not_holding(vehicle: VehicleStatus, seconds: float) -> Diagnostic:
     """Return the error of a vehicle that was asked to hold and does not say that it does."""
     mode = vehicle.autopilot.hold.name
     return Diagnostic(
@@ -118,5 +118,5 @@ def not_holding(vehicle: Vehicle, seconds: float) -> Diagnostic:
     )
 
 
-def _said(vehicle: Vehicle) -> tuple[str, ...]:
+def _said(vehicle: VehicleStatus) -> tuple[str, ...]:
     return tuple(f"it says: {text}" for text in vehicle.texts)

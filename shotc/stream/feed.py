@@ -15,7 +15,7 @@ from shotc.geom.geodetic import to_world
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import GeoOrigin
 from shotc.stream.endpoint import Endpoint
-from shotc.stream.messages import GlobalPosition, Place
+from shotc.stream.messages import GlobalPosition, GlobeFix
 from shotc.stream.udp import datagrams, opened
 
 STALE_S = 1.0
@@ -74,12 +74,12 @@ class Feed:
         lat, lon = _number(told.get("lat")), _number(told.get("lon"))
         if lat is not None and lon is not None:
             alt = _number(told.get("alt"))
-            spot = self._of_place(Place(lat, lon, self._origin[2] if alt is None else alt))
+            spot = self._of_place(GlobeFix(lat, lon, self._origin[2] if alt is None else alt))
             return None if spot is None else (spot[0], spot[1], None if alt is None else spot[2])
         x, y = _number(told.get("x")), _number(told.get("y"))
         return None if x is None or y is None else _near((x, y, _number(told.get("z"))))
 
-    def _of_place(self, place: Place) -> Spot | None:
+    def _of_place(self, place: GlobeFix) -> Spot | None:
         return _near(to_world((place.lat, place.lon, place.alt), self._origin))
 
 

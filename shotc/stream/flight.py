@@ -24,7 +24,7 @@ HOLD_AGAIN_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Crew:
+class PilotedDrone:
     """Who flies: a drone's pilot, and where its camera looks."""
 
     pilot: Pilot
@@ -50,7 +50,7 @@ class StreamedFlight:
     """Sends a plan to vehicles that have passed their checks."""
 
     def __init__(
-        self, crew: Sequence[Crew], feeds: Sequence[Feed], clock: Clock, say: Callable[[str], None]
+        self, crew: Sequence[PilotedDrone], feeds: Sequence[Feed], clock: Clock, say: Callable[[str], None]
     ) -> None:
         """Say : is told what happens, a line at a time."""
         self._crew = crew

@@ -16,19 +16,19 @@ from pymavlink.dialects.v20 import common as mavlink
 from shotc.stream.autopilots import Mode
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.messages import (
-    Answer,
+    CommandResult,
     GimbalManager,
     GlobalPosition,
+    GlobeFix,
     Heartbeat,
     Home,
     LocalPosition,
     Message,
     Origin,
     Parameter,
-    Place,
-    Text,
+    StatusText,
 )
-from shotc.stream.setpoints import Aim, Setpoint
+from shotc.stream.setpoints import Aim, LocalSetpoint
 from shotc.stream.udp import datagrams, opened
 
 STATION, OURSELVES = 255, mavlink.MAV_COMP_ID_MISSIONPLANNER
@@ -140,7 +140,7 @@ class Link:
             component=gimbal.component,
         )  # fmt: skip
 
-    def setpoint(self, setpoint: Setpoint, boot_ms: int) -> None:
+    def setpoint(self, setpoint: LocalSetpoint, boot_ms: int) -> None:
         """Send position, velocity, acceleration and yaw."""
         self._send(
             self._mav.set_position_target_local_ned_encode(
@@ -223,8 +223,8 @@ def _number(raw: Any, *, bytewise: bool) -> float:
     return float(struct.unpack_from(layout, struct.pack("<f", raw.param_value))[0])
 
 
-def _place(raw: Any) -> Place:
-    return Place(raw.latitude / 1e7, raw.longitude / 1e7, raw.altitude / 1e3)
+def _place(raw: Any) -> GlobeFix:
+    return GlobeFix(raw.latitude / 1e7, raw.longitude / 1e7, raw.altitude / 1e3)
 
 
 def _gimbal(raw: Any) -> Message:
@@ -239,15 +239,15 @@ def _gimbal(raw: Any) -> Message:
 _READERS: dict[int, Callable[[Any], Message]] = {
     mavlink.MAVLINK_MSG_ID_HEARTBEAT: _heartbeat,
     mavlink.MAVLINK_MSG_ID_PARAM_VALUE: _parameter,
-    mavlink.MAVLINK_MSG_ID_COMMAND_ACK: lambda raw: Answer(raw.command, raw.result),
+    mavlink.MAVLINK_MSG_ID_COMMAND_ACK: lambda raw: CommandResult(raw.command, raw.result),
     mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN: lambda raw: Origin(_place(raw)),
     mavlink.MAVLINK_MSG_ID_HOME_POSITION: lambda raw: Home(_place(raw)),
     mavlink.MAVLINK_MSG_ID_LOCAL_POSITION_NED: lambda raw: LocalPosition((raw.x, raw.y, raw.z)),
     mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: lambda raw: GlobalPosition(
-        raw.get_srcSystem(), Place(raw.lat / 1e7, raw.lon / 1e7, raw.alt / 1e3)
+        raw.get_srcSystem(), GlobeFix(raw.lat / 1e7, raw.lon / 1e7, raw.alt / 1e3)
     ),
     mavlink.MAVLINK_MSG_ID_GIMBAL_MANAGER_INFORMATION: _gimbal,
-    mavlink.MAVLINK_MSG_ID_STATUSTEXT: lambda raw: Text(raw.severity, str(raw.text).rstrip("\x00")),
+    mavlink.MAVLINK_MSG_ID_STATUSTEXT: lambda raw: StatusText(raw.severity, str(raw.text).rstrip("\x00")),
 }
 _NUMBERS: dict[type[Message], int] = {
     Origin: mavlink.MAVLINK_MSG_ID_GPS_GLOBAL_ORIGIN,

@@ -22,7 +22,7 @@ class Heartbeat(NamedTuple):
     status: int
 
 
-class Place(NamedTuple):
+class GlobeFix(NamedTuple):
     """A place on the globe: degrees, degrees, metres above mean sea level."""
 
     lat: float
@@ -37,7 +37,7 @@ class Parameter(NamedTuple):
     value: float
 
 
-class Answer(NamedTuple):
+class CommandResult(NamedTuple):
     """What came of a command; result as MAV_RESULT."""
 
     command: int
@@ -47,13 +47,13 @@ class Answer(NamedTuple):
 class Origin(NamedTuple):
     """Where the autopilot's local frame has its origin."""
 
-    place: Place
+    place: GlobeFix
 
 
 class Home(NamedTuple):
     """Where the autopilot returns to."""
 
-    place: Place
+    place: GlobeFix
 
 
 class LocalPosition(NamedTuple):
@@ -66,7 +66,7 @@ class GlobalPosition(NamedTuple):
     """Where a vehicle is on the globe."""
 
     system: int
-    place: Place
+    place: GlobeFix
 
 
 class GimbalManager(NamedTuple):
@@ -78,7 +78,7 @@ class GimbalManager(NamedTuple):
     yaw: Vec2
 
 
-class Text(NamedTuple):
+class StatusText(NamedTuple):
     """What the autopilot says to its pilot; severity 0 is an emergency, 7 is for developers."""
 
     severity: int
@@ -86,5 +86,13 @@ class Text(NamedTuple):
 
 
 Message = (
-    Heartbeat | Parameter | Answer | Origin | Home | LocalPosition | GlobalPosition | GimbalManager | Text
+    Heartbeat
+    | Parameter
+    | CommandResult
+    | Origin
+    | Home
+    | LocalPosition
+    | GlobalPosition
+    | GimbalManager
+    | StatusText
 )

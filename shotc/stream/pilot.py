@@ -17,7 +17,7 @@ from shotc.stream.autopilots import Mode
 from shotc.stream.clock import PERIOD_S, RATE_HZ
 from shotc.stream.messages import ACCEPTED, IN_PROGRESS, REJECTED_FOR_NOW
 from shotc.stream.setpoints import Aim, SetpointSeries
-from shotc.stream.vehicle import Vehicle
+from shotc.stream.vehicle import VehicleStatus
 
 AGAIN = RATE_HZ // 2
 """Ticks after which a command that had no effect is sent again."""
@@ -64,7 +64,7 @@ DOINGS = {
 }
 
 
-class Cut(NamedTuple):
+class RecordingTick(NamedTuple):
     """A tick at which the camera begins or ends to record a shot."""
 
     tick: int
@@ -75,7 +75,9 @@ class Cut(NamedTuple):
 class Pilot:
     """Sends one drone what its course and its stage ask for."""
 
-    def __init__(self, vehicle: Vehicle, course: SetpointSeries, cuts: tuple[Cut, ...]) -> None:
+    def __init__(
+        self, vehicle: VehicleStatus, course: SetpointSeries, cuts: tuple[RecordingTick, ...]
+    ) -> None:
         self.vehicle = vehicle
         self.course = course
         self.cuts = cuts
@@ -87,7 +89,7 @@ class Pilot:
         self.events: list[str] = []
         self._asked = -(10**9)
         self._armed_since = 0
-        self._recording: Cut | None = None
+        self._recording: RecordingTick | None = None
         self._told = 0
         self._landing_since = 0
 

@@ -13,14 +13,14 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.stream.messages import Place
+from shotc.stream.messages import GlobeFix
 
 PX4_RADIUS_M = 6371000.0
 ARDUPILOT_RADIUS_M = 6378100.0
-Layout = Callable[[Array, Array, Place], tuple[Array, Array]]
+Layout = Callable[[Array, Array, GlobeFix], tuple[Array, Array]]
 
 
-def azimuthal(lat: Array, lon: Array, origin: Place) -> tuple[Array, Array]:
+def azimuthal(lat: Array, lon: Array, origin: GlobeFix) -> tuple[Array, Array]:
     """Return North and East, metres, as PX4 does: azimuthal equidistant on a sphere.
 
     lat, lon : degrees, shape (N,). PX4 ``MapProjection::project`` (lib/geo); the angle from the origin comes
@@ -35,7 +35,7 @@ def azimuthal(lat: Array, lon: Array, origin: Place) -> tuple[Array, Array]:
     return stretch * north, stretch * np.cos(phi) * np.sin(turn)
 
 
-def equirectangular(lat: Array, lon: Array, origin: Place) -> tuple[Array, Array]:
+def equirectangular(lat: Array, lon: Array, origin: GlobeFix) -> tuple[Array, Array]:
     """Return North and East, metres, as ArduPilot does: by the cosine of the mean latitude.
 
     lat, lon : degrees, shape (N,). ArduPilot ``Location::get_distance_NE``.
@@ -55,7 +55,7 @@ class LocalFrame(NamedTuple):
     """
 
     layout: Layout
-    origin: Place
+    origin: GlobeFix
     raised: float = 0.0
 
     def of_places(self, places: Array) -> Array:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from shotc.stream.clock import PERIOD_S, Clock
 from shotc.stream.messages import GimbalManager, Home, LocalPosition, Message, Origin
-from shotc.stream.vehicle import Vehicle
+from shotc.stream.vehicle import VehicleStatus
 
 HEARTBEAT_S = 10.0
 """How long a vehicle is waited for."""
@@ -27,7 +27,9 @@ ASKED: tuple[tuple[type[Message], str, str], ...] = (
 """Messages that are asked for: where a vehicle keeps what they say, and what MAVLink calls them."""
 
 
-def read(vehicles: Sequence[Vehicle], clock: Clock, note: Callable[[str], None] = lambda _: None) -> None:
+def read(
+    vehicles: Sequence[VehicleStatus], clock: Clock, note: Callable[[str], None] = lambda _: None
+) -> None:
     """Wait for all vehicles, and read what they have to say; what does not come stays unknown."""
     start = now = clock.now()
     met: dict[str, float] = {}
@@ -49,21 +51,21 @@ def read(vehicles: Sequence[Vehicle], clock: Clock, note: Callable[[str], None] 
         _take_station(vehicle)
 
 
-def missing(vehicle: Vehicle) -> Iterator[str]:
+def missing(vehicle: VehicleStatus) -> Iterator[str]:
     """Yield what a vehicle has not told, by MAVLink's names; what some versions lack is left out."""
     yield from (name for _, known, name in ASKED if known != "gimbal" and getattr(vehicle, known) is None)
     pilot = vehicle.autopilot
     yield from (n for n in pilot.parameters if n not in vehicle.parameters and not pilot.can_lack(n))
 
 
-def _meet(vehicle: Vehicle, met: dict[str, float], now: float, note: Callable[[str], None]) -> None:
+def _meet(vehicle: VehicleStatus, met: dict[str, float], now: float, note: Callable[[str], None]) -> None:
     vehicle.listen(now)
     if vehicle.heartbeat is not None and vehicle.drone not in met:
         met[vehicle.drone] = now
         note(f"{vehicle.drone}: system {vehicle.heartbeat.system} is there")
 
 
-def _take_station(vehicle: Vehicle) -> None:
+def _take_station(vehicle: VehicleStatus) -> None:
     """Speak as the ground station whose silence the autopilot minds."""
     known = vehicle.parameters
     station = next((known[name] for name in vehicle.autopilot.station if name in known), 0.0)
@@ -71,7 +73,7 @@ def _take_station(vehicle: Vehicle) -> None:
         vehicle.link.speak_as(int(station))
 
 
-def _ask(vehicle: Vehicle) -> None:
+def _ask(vehicle: VehicleStatus) -> None:
     if vehicle.heartbeat is None or vehicle.heartbeat.autopilot != vehicle.autopilot.number:
         return
     for message, known, _ in ASKED:
@@ -84,7 +86,7 @@ def _ask(vehicle: Vehicle) -> None:
             vehicle.link.ask_parameter(name)
 
 
-def _done(vehicle: Vehicle, met: float | None, start: float, now: float) -> bool:
+def _done(vehicle: VehicleStatus, met: float | None, start: float, now: float) -> bool:
     if met is None or vehicle.heartbeat is None:
         return now - start >= HEARTBEAT_S
     if vehicle.heartbeat.autopilot != vehicle.autopilot.number:

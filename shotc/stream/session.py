@@ -24,11 +24,11 @@ from shotc.stream.checks import Ready
 from shotc.stream.clock import RATE_HZ, Clock
 from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import Feed
-from shotc.stream.flight import Crew, FlightResult, StreamedFlight
-from shotc.stream.pilot import Cut, Pilot
+from shotc.stream.flight import FlightResult, PilotedDrone, StreamedFlight
+from shotc.stream.pilot import Pilot, RecordingTick
 from shotc.stream.reading import read
 from shotc.stream.setpoints import SetpointSeries, course_of
-from shotc.stream.vehicle import Vehicle
+from shotc.stream.vehicle import VehicleStatus
 
 if TYPE_CHECKING:  # the sockets come from outside, and MAVLink with them
     from shotc.stream.link import Link
@@ -67,7 +67,7 @@ class Session:
         self._note = note
         self._stack = ExitStack()
         self._feeds: list[Feed] = []
-        self.vehicles: list[Vehicle] = []
+        self.vehicles: list[VehicleStatus] = []
 
     def __enter__(self) -> Session:
         """Return itself."""
@@ -98,7 +98,7 @@ class Session:
                 found.append(_closed(f"drone `{name}`", endpoint, error, "--to"))
                 continue
             self._stack.callback(link.close)
-            self.vehicles.append(Vehicle(name, autopilot, link))
+            self.vehicles.append(VehicleStatus(name, autopilot, link))
         return [*found, *self._open_feeds(targets)]
 
     def _open_feeds(self, targets: Mapping[str, Endpoint]) -> Iterator[Diagnostic]:
@@ -123,7 +123,7 @@ class Session:
             aboard += [who] if who is not None else []
         return aboard, [*found, *self._mute_targets()]
 
-    def _judge(self, vehicle: Vehicle) -> tuple[Aboard | None, list[Diagnostic]]:
+    def _judge(self, vehicle: VehicleStatus) -> tuple[Aboard | None, list[Diagnostic]]:
         origin = self.mission.origin
         assert origin is not None
         ready = Ready(self.mission, self.mission.drone(vehicle.drone), vehicle)
@@ -161,7 +161,7 @@ class Session:
     def fly(self, aboard: Sequence[Aboard]) -> tuple[FlightResult, list[Pilot]]:
         """Arm and fly all drones on one clock."""
         crew = [
-            Crew(
+            PilotedDrone(
                 Pilot(who.ready.vehicle, who.course, cuts_of(who.track)),
                 LiveAim(self.mission, who.track, who.course, tuple(self._feeds)),
             )
@@ -171,17 +171,17 @@ class Session:
         return flown, [member.pilot for member in crew]
 
 
-def cuts_of(track: DroneTrajectory) -> tuple[Cut, ...]:
+def cuts_of(track: DroneTrajectory) -> tuple[RecordingTick, ...]:
     """Return when a drone's camera begins and ends to record, in order of time."""
-    cuts: list[Cut] = []
+    cuts: list[RecordingTick] = []
     for phase in track.phases:
         if phase.shot is not None:
             begin = ceil(phase.start * RATE_HZ - 1e-9)
             if cuts:
                 begin = max(begin, cuts[-1].tick + BETWEEN_CUTS)
             cuts += [
-                Cut(begin, phase.shot, True),
-                Cut(max(begin + 1, ceil(phase.end * RATE_HZ - 1e-9)), phase.shot, False),
+                RecordingTick(begin, phase.shot, True),
+                RecordingTick(max(begin + 1, ceil(phase.end * RATE_HZ - 1e-9)), phase.shot, False),
             ]
     return tuple(cuts)
 
@@ -282,7 +282,7 @@ def summary(who: Aboard) -> list[tuple[str, str]]:
     ]
 
 
-def left_alone(vehicle: Vehicle) -> str:
+def left_alone(vehicle: VehicleStatus) -> str:
     """Return what a vehicle in the air does when this program has ended, as the end of a sentence."""
     rule = vehicle.autopilot.alone
     action = checks.actions_of(vehicle).get(rule)

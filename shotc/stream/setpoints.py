@@ -28,7 +28,7 @@ TOGETHER_RAD = 1e-6
 STILL: Vec3 = (0.0, 0.0, 0.0)
 
 
-class Setpoint(NamedTuple):
+class LocalSetpoint(NamedTuple):
     """Where a vehicle is to be: North, East, Down of its local frame, m, m/s, m/s^2; yaw from North, rad."""
 
     position: Vec3
@@ -73,13 +73,13 @@ class SetpointSeries:
         """The last tick, at which the drone stands on its pad again."""
         return len(self.yaw) - 1
 
-    def setpoint(self, tick: int) -> Setpoint:
+    def setpoint(self, tick: int) -> LocalSetpoint:
         """Return the setpoint of a tick; before the first and after the last the drone stands there."""
         at = min(max(tick, self.first), self.last)
         if at != tick:
-            return Setpoint(_three(self.position[at]), STILL, STILL, float(self.yaw[at]))
+            return LocalSetpoint(_three(self.position[at]), STILL, STILL, float(self.yaw[at]))
         velocity, acceleration = _three(self.velocity[at]), _three(self.acceleration[at])
-        return Setpoint(_three(self.position[at]), velocity, acceleration, float(self.yaw[at]))
+        return LocalSetpoint(_three(self.position[at]), velocity, acceleration, float(self.yaw[at]))
 
     def aim(self, tick: int) -> Aim:
         """Return the gimbal's angles at a tick; before the first and after the last they do not turn."""

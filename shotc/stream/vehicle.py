@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 from shotc.geom.vec import Vec3
 from shotc.stream.autopilots import Autopilot
 from shotc.stream.messages import (
-    Answer,
+    CommandResult,
     GimbalManager,
+    GlobeFix,
     Heartbeat,
     Home,
     LocalPosition,
     Message,
     Origin,
     Parameter,
-    Place,
-    Text,
+    StatusText,
 )
 
 if TYPE_CHECKING:  # MAVLink is an extra, and a vehicle is judged without it
@@ -33,7 +33,7 @@ TEXTS_KEPT = 4
 
 
 @dataclass(slots=True)
-class Vehicle:
+class VehicleStatus:
     """What is known of one drone's vehicle.
 
     drone : its name in the plan; autopilot : the one that the plan is made for
@@ -47,8 +47,8 @@ class Vehicle:
     heartbeat: Heartbeat | None = None
     seen: float = 0.0
     camera: int = AUTOPILOT_COMPONENT
-    origin: Place | None = None
-    home: Place | None = None
+    origin: GlobeFix | None = None
+    home: GlobeFix | None = None
     position: Vec3 | None = None
     gimbal: GimbalManager | None = None
     parameters: dict[str, float] = field(default_factory=dict)
@@ -77,7 +77,7 @@ class Vehicle:
                 self._met(message, now)
             case Parameter(name, value):
                 self.parameters[name] = value
-            case Answer(command, result):
+            case CommandResult(command, result):
                 self.answers[command] = result
             case Origin(place):
                 self.origin = place
@@ -87,7 +87,7 @@ class Vehicle:
                 self.position = position
             case GimbalManager():
                 self.gimbal = message
-            case Text(severity, text) if severity <= WARNING:
+            case StatusText(severity, text) if severity <= WARNING:
                 self.texts.append(text)
 
     def _met(self, heartbeat: Heartbeat, now: float) -> None:

@@ -11,7 +11,7 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, HFOV
 from shotc.stream.aim import LiveAim
 from shotc.stream.autopilots import PX4
 from shotc.stream.clock import PERIOD_S, RATE_HZ
-from shotc.stream.messages import Place
+from shotc.stream.messages import GlobeFix
 from shotc.stream.projection import LocalFrame
 from shotc.stream.setpoints import course_of
 from tests.support.stream.plans import hop_plan
@@ -34,7 +34,7 @@ class Heard:
 def live(plan, spot):
     """Return a drone's camera with a target that is at ``spot``, its course and its track."""
     mission, (track,) = plan.trajectory.keyframes.mission, plan.trajectory.drones
-    course = course_of(track, mission.origin, LocalFrame(PX4.layout, Place(47.3769, 8.5417, 408.0)), 0.0)
+    course = course_of(track, mission.origin, LocalFrame(PX4.layout, GlobeFix(47.3769, 8.5417, 408.0)), 0.0)
     return LiveAim(mission, track, course, (Heard(spot),)), course, track
 
 

@@ -16,14 +16,14 @@ from shotc.geom.bernstein import Array
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.flight import fly_all
-from shotc.simulation.wind import Wind
+from shotc.simulation.wind import WindField
 from shotc.simulation.world import World
 
-WINDS = (Wind(), Wind(3.0, 0.0, 1.0), Wind(5.0, 1.0, 1.0))
+WINDS = (WindField(), WindField(3.0, 0.0, 1.0), WindField(5.0, 1.0, 1.0))
 PAGE = Path(__file__).parents[2] / "shotc" / "docs" / "flying.md"
 
 
-def strays(ir: TrajectoryIR, wind: Wind, vehicle: str) -> Array:
+def strays(ir: TrajectoryIR, wind: WindField, vehicle: str) -> Array:
     """Return how far the first drone of a plan is from it, every 20 ms, of two runs, metres."""
     world = World.of(ir, Conditions(vehicle=vehicle, wind=wind), (0, 1))  # type: ignore[arg-type]
     flown = fly_all(world, ir.drones[:1])[0]

@@ -16,7 +16,7 @@ from shotc.stream.endpoint import Endpoint
 from shotc.stream.feed import FARTHEST_M, Feed
 from shotc.stream.link import Link
 from shotc.stream.sockets import DOORS
-from shotc.stream.vehicle import Vehicle
+from shotc.stream.vehicle import VehicleStatus
 from tests.support.stream.worlds import free_port
 
 pytestmark = pytest.mark.slow
@@ -64,7 +64,7 @@ DATAGRAMS = st.binary(max_size=400) | FRAMES | st.lists(FRAMES, max_size=3).map(
 @given(data=st.lists(DATAGRAMS, max_size=4))
 def test_a_link_takes_any_datagram(opened, data):
     link, _, sender = opened
-    vehicle = Vehicle("cam1", PX4, link)
+    vehicle = VehicleStatus("cam1", PX4, link)
     for one in data:
         sender.sendto(one, ("127.0.0.1", link.endpoint.port))
     vehicle.listen(1.0)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
 from shotc.stream.autopilots import ARDUPILOT, PX4
 from shotc.stream.clock import RATE_HZ
-from shotc.stream.messages import Place
+from shotc.stream.messages import GlobeFix
 from shotc.stream.projection import LocalFrame
 from shotc.stream.setpoints import course_of
 from tests.support.film_plans import orbit_plan
@@ -20,7 +20,7 @@ from tests.support.stream.globe import ardupilot_place, in_world, px4_place
 from tests.support.stream.plans import hop_plan
 
 PLANS = [orbit_plan(), hop_plan(waits=0.0, pans=True)]
-ORIGINS = st.builds(Place, st.floats(47.372, 47.382), st.floats(8.534, 8.549), st.floats(350.0, 470.0))
+ORIGINS = st.builds(GlobeFix, st.floats(47.372, 47.382), st.floats(8.534, 8.549), st.floats(350.0, 470.0))
 
 
 def apart(a, b):
@@ -58,7 +58,7 @@ def test_a_setpoint_is_where_the_plan_is_at_its_tick(pilot, origin, raised, whic
 def test_all_of_a_flight_is_sent_and_nothing_after_it():
     (track,) = PLANS[0].trajectory.drones
     world = PLANS[0].trajectory.keyframes.mission.origin
-    course = course_of(track, world, LocalFrame(PX4.layout, Place(47.3769, 8.5417, 408.0)), 0.0)
+    course = course_of(track, world, LocalFrame(PX4.layout, GlobeFix(47.3769, 8.5417, 408.0)), 0.0)
     assert (course.last - 1) / RATE_HZ < track.curve.end <= course.last / RATE_HZ
     assert course.setpoint(course.last + 99).position == course.setpoint(course.last).position
     assert course.setpoint(-99).position == course.setpoint(0).position

@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from shotc.geom.track import Track, unwrapped
-from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.files import FileFault, NumberTable, read_table
 from shotc.kinds.gpx import read_gpx
 from shotc.passes.resolve.lower.recordings import LAYOUTS
 
@@ -97,8 +97,8 @@ HEADERS = st.sampled_from(
 )
 def test_any_bytes_are_a_table_or_a_fault(data: bytes) -> None:
     found = read_table(data, LAYOUTS)
-    assert isinstance(found, Table | FileFault)
-    if isinstance(found, Table):
+    assert isinstance(found, NumberTable | FileFault)
+    if isinstance(found, NumberTable):
         assert all(np.isfinite(row).all() and len(row) == len(found.columns) for row in found.rows)
         assert len(found.lines) == len(found.rows)
     elif found.line is not None:
@@ -135,7 +135,7 @@ def elements(draw: st.DrawFn, depth: int = 4) -> str:
 @example(b"</gpx>", False)
 def test_any_bytes_are_a_gpx_track_or_a_fault(data: bytes, timed: bool) -> None:
     found = read_gpx(data, timed=timed)
-    assert isinstance(found, Table | FileFault)
-    if isinstance(found, Table):
+    assert isinstance(found, NumberTable | FileFault)
+    if isinstance(found, NumberTable):
         assert all(np.isfinite(row).all() and len(row) == len(found.columns) for row in found.rows)
         assert len(found.lines) == len(found.rows)

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 from shotc_casadi import conditions
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.margins import Margins
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem
-from shotc_casadi.references import Subject, references_at
+from shotc_casadi.references import ShotContext, references_at
 from shotc_casadi.refiner import subjects
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.walls import half_spaces
@@ -27,19 +27,19 @@ from shotc.ir.trajectory import VerifiedIR
 from tests.support.path_scenes import TOWER, block, circle, mission, out, planned, shot
 
 
-def subject(made: MissionIR, shot: PlacedShot) -> Subject:
+def subject(made: MissionIR, shot: PlacedShot) -> ShotContext:
     """The one moving shot of a mission, on its convex path."""
     return subjects(planned(made, shot))[0]
 
 
 @cache
-def arc() -> Subject:
+def arc() -> ShotContext:
     """A quarter turn round a tower."""
     return subject(mission(targets=(TOWER,)), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
 
 
 @cache
-def walled() -> Subject:
+def walled() -> ShotContext:
     """The same past a wall and a tank."""
     zones = (
         out("wall", block((28.0, 34.0), (-50.0, -38.0), (0.0, 40.0))),
@@ -48,14 +48,14 @@ def walled() -> Subject:
     return subject(mission(*zones, targets=(TOWER,)), shot(circle(TOWER, 4, 45.0, 20.0, sweep=1.5)))
 
 
-def nodes_of(of: Subject, count: int | None = 24) -> Stages:
+def nodes_of(of: ShotContext, count: int | None = 24) -> Stages:
     """The nodes of a shot, few unless told."""
     return stages(of.leg, of.placed, of.drone, count)
 
 
 def task(
-    of: Subject,
-    condition: Condition = conditions.OURS,
+    of: ShotContext,
+    condition: AimCondition = conditions.OURS,
     count: int | None = 24,
     margins: Margins = Margins(),  # noqa: B008
 ) -> Problem:

@@ -7,7 +7,7 @@ from scipy.optimize import linear_sum_assignment
 
 from shotc.geom.fleet_spline import centres
 from shotc.geom.solids import Cylinder, Prism
-from shotc.ir.fleet import FleetTrajectory, Lights, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes, Lights
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing, Vec3
 from shotc.ir.mission import GeoOrigin, MissionIR, Zone
@@ -130,8 +130,8 @@ def _phases(at: list[float], shot: str, end: float) -> tuple[Phase, ...]:
     )
 
 
-def _shown(at: list[float], shot: str) -> tuple[Shown, ...]:
-    return (Shown(shot, 0, 0, at[2], at[2] + HOLD), Shown(shot, 1, 0, at[3], at[3] + HOLD))
+def _shown(at: list[float], shot: str) -> tuple[FrameTimes, ...]:
+    return (FrameTimes(shot, 0, 0, at[2], at[2] + HOLD), FrameTimes(shot, 1, 0, at[3], at[3] + HOLD))
 
 
 def _lights(n: int, at: list[float]) -> Lights:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from shotc.ir.fleet import FleetTrajectory, Lights, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes, Lights
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.limits import Limits, Timing
 from shotc.ir.mission import GeoOrigin, MissionIR
@@ -103,8 +103,8 @@ def _phases(shot: str) -> tuple[Phase, ...]:
     )
 
 
-def _shown(shot: str) -> tuple[Shown, ...]:
-    return (Shown(shot, 0, 0, 16.0, 20.0), Shown(shot, 1, 0, 26.0, 28.0))
+def _shown(shot: str) -> tuple[FrameTimes, ...]:
+    return (FrameTimes(shot, 0, 0, 16.0, 20.0), FrameTimes(shot, 1, 0, 26.0, 28.0))
 
 
 def _lights(n: int) -> Lights:

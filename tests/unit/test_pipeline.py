@@ -10,7 +10,17 @@ from shotc import plugins
 from shotc.diag.model import Diagnostic
 from shotc.ir.passes import Outcome, PassContext
 from shotc.passes.refine_path import Seat
-from shotc.pipeline import BESIDE_SHOW, FRONT, PASS_NAMES, ROUTES, VERIFY, Setting, Step, passes_of, run
+from shotc.pipeline import (
+    BESIDE_SHOW,
+    FRONT,
+    PASS_NAMES,
+    ROUTES,
+    VERIFY,
+    PassSettings,
+    RouteStep,
+    passes_of,
+    run,
+)
 
 
 @dataclass(frozen=True)
@@ -46,8 +56,8 @@ class Spell:
 
 
 @pytest.mark.parametrize("steps", [*ROUTES.values(), BESIDE_SHOW], ids=[*ROUTES, "film beside a show"])
-def test_the_passes_of_a_route_are_what_it_says_of_them(steps: Sequence[Step]) -> None:
-    passes = passes_of(steps, Setting(plugins.discover("kinds").plugins, (), Seat()))
+def test_the_passes_of_a_route_are_what_it_says_of_them(steps: Sequence[RouteStep]) -> None:
+    passes = passes_of(steps, PassSettings(plugins.discover("kinds").plugins, (), Seat()))
     for step, made in zip(steps, passes, strict=True):
         hints = get_type_hints(made.run)
         (given,) = get_args(hints["return"])
@@ -63,7 +73,7 @@ def test_a_route_leads_from_a_mission_to_a_verified_plan(route: str) -> None:
 
 def test_passes_that_do_not_fit_together_are_not_made() -> None:
     with pytest.raises(ValueError, match="resolve gives MissionIR, verify takes TrajectoryIR"):
-        passes_of((FRONT[0], VERIFY), Setting({}))
+        passes_of((FRONT[0], VERIFY), PassSettings({}))
 
 
 def test_passes_run_in_turn_and_are_timed():

@@ -31,11 +31,11 @@ from shotc.plugin_api.refiner import (
     with_need,
 )
 from shotc_casadi.clock.refiner import IN_PICTURE, OUT_M, refine_one
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.margins import REACH_M
 from shotc_casadi.messages import stats
 from shotc_casadi.proof import PROVED_M
-from shotc_casadi.references import Subject, subject_of
+from shotc_casadi.references import ShotContext, subject_of
 from shotc_casadi.report import deviation, report
 from shotc_casadi.rounds import Refined, refine_shot
 from shotc_casadi.walls import NodePlanes
@@ -46,7 +46,7 @@ DEEPER_SHARE = 0.05  # a drone that is already in a picture may come this share 
 ROOM_SHARE = 0.5  # share of the room beside a wall that is kept; moving obstacles have their own share
 
 
-def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> Outcome[PathIR]:
+def refine_in_company(path: PathIR, ctx: PassContext, condition: AimCondition) -> Outcome[PathIR]:
     """Return the path with every shot refined, drone by drone in order of priority.
 
     Shots on their own clock have no keyframes to interpolate, so only conditions that frame refine them.
@@ -70,7 +70,7 @@ def refine_in_company(path: PathIR, ctx: PassContext, condition: Condition) -> O
     return Outcome(path, tuple(diagnostics))
 
 
-def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[PathIR, list[Diagnostic]]:
+def _refined(path: PathIR, subject: ShotContext, condition: AimCondition) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with one shot on a path refined, and its diagnostics."""
     shot, task, why, needs = subject.placed.shot.id, subject, "", None
     plain: tuple[Refined, PathIR] | None = None  # the first solution that is only against a preference
@@ -103,7 +103,7 @@ def _refined(path: PathIR, subject: Subject, condition: Condition) -> tuple[Path
     return left, [unrefined(path, shot, why)]
 
 
-def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
+def _near(subject: ShotContext, refined: Refined, plain: Refined) -> bool:
     """Return whether a refined shot moved no farther from ``plain`` than a preference may move it."""
     assert refined.camera is not None
     assert plain.camera is not None
@@ -115,13 +115,13 @@ def _near(subject: Subject, refined: Refined, plain: Refined) -> bool:
     return bool((np.linalg.norm(after - before, axis=1) <= MOST_MOVED * away).all())
 
 
-def _in_its_time(subject: Subject) -> MovingLeg:
+def _in_its_time(subject: ShotContext) -> MovingLeg:
     """Return the leg with its current duration as the duration that is asked for."""
     return replace(subject.leg, duration=leg_time(subject.drone, subject.leg))
 
 
 def _told(
-    path: PathIR, moved: PathIR, refined: Refined, condition: Condition
+    path: PathIR, moved: PathIR, refined: Refined, condition: AimCondition
 ) -> tuple[PathIR, list[Diagnostic]]:
     """Return the path with a refined shot, its statistics and its diagnostics."""
     warning = report(path, refined, condition.name)
@@ -131,7 +131,7 @@ def _told(
     return whole, [] if warning is None else [warning]
 
 
-def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
+def _against(before: PathIR, after: PathIR, subject: ShotContext) -> str | None:
     """Return why a refined shot may not be flown, or None if it may.
 
     A lack that the convex path has as well does not count: verification decides on that.
@@ -145,7 +145,7 @@ def _against(before: PathIR, after: PathIR, subject: Subject) -> str | None:
     return IN_PICTURE if least_out(after) < min(OUT_M, free - DEEPER_SHARE * abs(free)) else None
 
 
-def _lacking(path: PathIR, subject: Subject) -> dict[str, float]:
+def _lacking(path: PathIR, subject: ShotContext) -> dict[str, float]:
     """Return the lack of clearance, metres, of each moving obstacle that is not proved clear."""
     flown = flown_shot(path, subject.placed.shot.id).curve
     around = surroundings(path, subject.drone, flown.breaks, standing_too=False)
@@ -162,7 +162,7 @@ class _Passing:
     """The moving obstacles around a shot, at the times at which it passes its nodes."""
 
     path: PathIR
-    subject: Subject
+    subject: ShotContext
     flown: FlownShot
 
     def half_spaces(self, s: Array) -> NodePlanes:

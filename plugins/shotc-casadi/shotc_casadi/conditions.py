@@ -9,7 +9,7 @@ Visibility = Literal["silhouette", "points", "none"]
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
+class AimCondition:
     """One way to choose the camera between keyframes.
 
     aims : "framing" holds the target at its place on screen, "angles" interpolates the author's camera
@@ -24,12 +24,14 @@ class Condition:
     visibility: Visibility
 
 
-OURS = Condition("ours", "hold the composition, with the whole target in the frame", "framing", "silhouette")
-OURS_4PT = Condition(
+OURS = AimCondition(
+    "ours", "hold the composition, with the whole target in the frame", "framing", "silhouette"
+)
+OURS_4PT = AimCondition(
     "ours-4pt", "the same with the paper's four hull points for the target", "framing", "points"
 )
-FRAMING_ONLY = Condition(
+FRAMING_ONLY = AimCondition(
     "framing-only", "hold the composition, whether or not the target is whole", "framing", "none"
 )
-LOOK_AT = Condition("look-at", "look at points interpolated between keyframes", "look-at", "none")
-ANG = Condition("ang", "interpolate the author's camera angles between keyframes", "angles", "none")
+LOOK_AT = AimCondition("look-at", "look at points interpolated between keyframes", "look-at", "none")
+ANG = AimCondition("ang", "interpolate the author's camera angles between keyframes", "angles", "none")

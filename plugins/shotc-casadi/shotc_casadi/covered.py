@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import HALF_SHARE, Array, PlacedShot, coverage, hidden_on_purpose
-from shotc_casadi.references import Subject
+from shotc_casadi.references import ShotContext
 
 GAIN_SHARE = 0.005  # of an outline, or of the frames: a smaller loss does not count
 LEAST_SHARE = 0.02  # the same for the one frame that shows least of the outline
@@ -68,7 +68,7 @@ def _short(asked: float, before: float, after: float) -> float:
     return asked - after if before >= asked else before - after - LEAST_SHARE
 
 
-def lost_on_path(subject: Subject, camera: Piecewise) -> float:
+def lost_on_path(subject: ShotContext, camera: Piecewise) -> float:
     """Return by how much a camera over s shows less of its targets than the convex path, as ``lost`` does.
 
     Moving occluders do not count: the time of each place is not known yet.
@@ -77,7 +77,7 @@ def lost_on_path(subject: Subject, camera: Piecewise) -> float:
     return 0.0 if after == Free() else lost(subject.placed, _on_path(subject, subject.leg.curve), after)
 
 
-def _on_path(subject: Subject, camera: Piecewise) -> Free:
+def _on_path(subject: ShotContext, camera: Piecewise) -> Free:
     mission, covered = subject.mission, [np.zeros(0)]
     standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
     s = np.linspace(camera.start, camera.end, SAMPLES)

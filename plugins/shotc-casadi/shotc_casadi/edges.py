@@ -14,14 +14,14 @@ from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
 from shotc_casadi.frames import LEAST_HALF_FRAMES, insides
-from shotc_casadi.references import LENS, Subject, fields_of_view, references_at
+from shotc_casadi.references import LENS, ShotContext, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
 STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame: the step of a difference quotient
 SLIGHT_HALF_FRAMES = 1e-7  # a loss that counts as none: half frames, over a way as long as the distance
 
 
-def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Given) -> Given:
+def level_beside(subject: ShotContext, nodes: Stages, camera: Piecewise, given: Given) -> Given:
     """Return ``given`` with the slopes of the camera at keyframes where its target touches an edge.
 
     If the camera would crop the target beside such a keyframe, the slopes change as little as possible,
@@ -47,14 +47,14 @@ def level_beside(subject: Subject, nodes: Stages, camera: Piecewise, given: Give
     return given._replace(through=s[found], slopes=rate[found])
 
 
-def _along(subject: Subject, camera: Piecewise, s: float, step: float) -> Array:
+def _along(subject: ShotContext, camera: Piecewise, s: float, step: float) -> Array:
     """Return by how much per metre of path the target moves inwards from each edge, half frames, (4,)."""
     at = np.clip(np.array([s - step, s + step]), camera.start, camera.end)
     before, after = insides(subject, references_at(subject, OURS, at), at, camera(at))
     return np.asarray((after - before) / (at[1] - at[0]))
 
 
-def _by_pose(subject: Subject, s: float, q: Array, steps: Array) -> Array:
+def _by_pose(subject: ShotContext, s: float, q: Array, steps: Array) -> Array:
     """Return by how much the target moves inwards from each edge for each step of the pose, (4, K)."""
     poses = np.concatenate([q + np.diag(steps), q - np.diag(steps)])
     at = np.full(len(poses), s)

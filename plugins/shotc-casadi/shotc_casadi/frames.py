@@ -26,7 +26,7 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.conditions import OURS
 from shotc_casadi.extents import EXTENT, Extent
-from shotc_casadi.references import References, Subject, fields_of_view, references_at
+from shotc_casadi.references import References, ShotContext, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
 SAMPLES_PER_PIECE = 6
@@ -36,7 +36,7 @@ OPENING_HALF_FRAMES = 0.1  # margin gained per length of path over the distance,
 MOST_HALF_FRAMES = 0.5  # largest margin that is asked for
 
 
-def insides(subject: Subject, references: References, s: Array, q: Array) -> Array:
+def insides(subject: ShotContext, references: References, s: Array, q: Array) -> Array:
     """Return how far inside each edge of the frame the whole target is, half frames, shape (M, 4).
 
     The order is left, right, bottom, top; negative is cropped. It is the distance from the frustum's plane
@@ -66,12 +66,12 @@ def _bodies(references: References, offset: Array) -> Iterator[tuple[tuple[Array
         yield (x, y, z), body
 
 
-def asked_at_first(subject: Subject, nodes: Stages, references: References) -> References:
+def asked_at_first(subject: ShotContext, nodes: Stages, references: References) -> References:
     """Return the references with the margins to the edges for the first solve."""
     return replace(references, inside=np.minimum(INSIDE_HALF_FRAMES, _allowed(subject, nodes, nodes.s)))
 
 
-def asked_again(subject: Subject, nodes: Stages, references: References, camera: Piecewise) -> References:
+def asked_again(subject: ShotContext, nodes: Stages, references: References, camera: Piecewise) -> References:
     """Return the references with the margins to the edges for the next solve.
 
     This is the method of multipliers (Hestenes 1969, Powell 1969) for the hinge: if the target is too near to
@@ -90,7 +90,7 @@ def asked_again(subject: Subject, nodes: Stages, references: References, camera:
     )
 
 
-def cropped(subject: Subject, camera: Piecewise) -> float:
+def cropped(subject: ShotContext, camera: Piecewise) -> float:
     """Return by how much the target is outside the frame at most, half frames; 0 if it is whole."""
     _, inside, whole = between_nodes(subject, camera)
     return float(max(0.0, -inside[whole].min(initial=0.0)))
@@ -109,14 +109,14 @@ class Looked(NamedTuple):
     whole: Mask
 
 
-def between_nodes(subject: Subject, camera: Piecewise) -> Looked:
+def between_nodes(subject: ShotContext, camera: Piecewise) -> Looked:
     """Return how the camera shows its target at dense places between the nodes."""
     s: Array = subdivide(camera.breaks, SAMPLES_PER_PIECE)
     references = references_at(subject, OURS, s)
     return Looked(s, insides(subject, references, s, camera(s)), references.whole > 0)
 
 
-def _allowed(subject: Subject, nodes: Stages, s: Array) -> Array:
+def _allowed(subject: ShotContext, nodes: Stages, s: Array) -> Array:
     """Return how far inside the keyframes allow the target to be at s, shape (M, 4).
 
     The camera passes a keyframe exactly, even if its target is near to the edge of the frame there. Beside it

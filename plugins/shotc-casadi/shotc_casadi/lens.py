@@ -13,9 +13,9 @@ from math import log
 import numpy as np
 
 from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, HFOV, Array, Drone
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.frames import insides
-from shotc_casadi.references import References, Subject, keys_of, progress_at
+from shotc_casadi.references import References, ShotContext, keys_of, progress_at
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import LENS_FIELDS, LENS_STATES
 
@@ -25,7 +25,7 @@ SAME_SHARE = 1e-9  # of a field of view: lenses that differ by less are the same
 LEAST_SHARE = 2e-3  # of a field of view: a lens that leaves its given one by less keeps that
 
 
-def is_free(subject: Subject, condition: Condition, stages: Stages, references: References) -> bool:
+def is_free(subject: ShotContext, condition: AimCondition, stages: Stages, references: References) -> bool:
     """Return whether the lens of a shot is part of its problem.
 
     It is, if the lens zooms, the condition frames targets, no keyframe that the compiler added asks for a
@@ -53,14 +53,14 @@ def lens_bounds(drone: Drone, given: Array) -> tuple[float, float]:
     return min(drone.lens.longest, float(given.min())), max(drone.lens.widest, float(given.max()))
 
 
-def lens_guess(subject: Subject, stages: Stages) -> tuple[Array, Array]:
+def lens_guess(subject: ShotContext, stages: Stages) -> tuple[Array, Array]:
     """Return states and inputs of the lens along the convex path, shapes (N + 1, 2) and (N, 1)."""
     given = subject.leg.curve(stages.s)[:, HFOV]
     rate = np.gradient(given, stages.t)
     return np.column_stack([given, rate]), (np.diff(rate) / np.diff(stages.t))[:, None]
 
 
-def lens_state_bounds(subject: Subject, stages: Stages, pace: float) -> tuple[Array, Array]:
+def lens_state_bounds(subject: ShotContext, stages: Stages, pace: float) -> tuple[Array, Array]:
     """Return the bounds of the lens states, two of shape (N + 1, 2); pace : share of its rate to use."""
     assert subject.drone.lens is not None
     low, high = lens_bounds(subject.drone, subject.leg.curve(stages.s)[:, HFOV])
@@ -69,7 +69,7 @@ def lens_state_bounds(subject: Subject, stages: Stages, pace: float) -> tuple[Ar
     return rows * [low, -rate], rows * [high, rate]
 
 
-def lens_parameters(subject: Subject, stages: Stages, off: float, pin: float, still: float) -> Array:
+def lens_parameters(subject: ShotContext, stages: Stages, off: float, pin: float, still: float) -> Array:
     """Return the LENS_FIELDS of all nodes, shape (N + 1, sum of their sizes).
 
     off : weight of a squared share of the field of view
@@ -97,7 +97,7 @@ def lens_parameters(subject: Subject, stages: Stages, off: float, pin: float, st
     return np.column_stack([values[name] for name in LENS_FIELDS])
 
 
-def _spread(subject: Subject, s: Array) -> tuple[Array, Array]:
+def _spread(subject: ShotContext, s: Array) -> tuple[Array, Array]:
     """Return log of half the picture's width at the target (metres) and a mask of where it is asked for.
 
     s : path parameters, shape (N + 1,); both results have this shape

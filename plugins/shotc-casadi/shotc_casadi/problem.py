@@ -9,12 +9,12 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from shotc.plugin_api.refiner import CAM_PITCH, CAM_YAW, Array
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.due import due
 from shotc_casadi.lens import is_free, lens_guess, lens_parameters, lens_state_bounds
 from shotc_casadi.margins import Margins
 from shotc_casadi.program import Problem
-from shotc_casadi.references import References, Subject, fields_of_view
+from shotc_casadi.references import References, ShotContext, fields_of_view
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import (
     ACCELERATION,
@@ -60,8 +60,8 @@ SLOWEST, FASTEST = 5.0, 0.2  # bounds of a stage's length over that of the initi
 
 
 def problem(
-    subject: Subject,
-    condition: Condition,
+    subject: ShotContext,
+    condition: AimCondition,
     stages: Stages,
     references: References,
     walls: Array,
@@ -105,12 +105,12 @@ def _beside(first: tuple[Array, Array], second: tuple[Array, Array]) -> tuple[Ar
     return np.column_stack([first[0], second[0]]), np.column_stack([first[1], second[1]])
 
 
-def _pace(subject: Subject, margins: Margins) -> float:
+def _pace(subject: ShotContext, margins: Margins) -> float:
     return margins.limits * (1.0 if due(subject.leg) else subject.leg.pace)
 
 
 def _guess(
-    subject: Subject, stages: Stages, references: References, condition: Condition
+    subject: ShotContext, stages: Stages, references: References, condition: AimCondition
 ) -> tuple[Array, Array]:
     curve = subject.leg.curve
     assert curve is not None
@@ -140,7 +140,7 @@ def _guess(
 
 
 def _parameters(
-    subject: Subject, stages: Stages, references: References, walls: Array, margins: Margins, guess: Array
+    subject: ShotContext, stages: Stages, references: References, walls: Array, margins: Margins, guess: Array
 ) -> Array:
     n, total, drone = len(stages.s) - 1, float(stages.t[-1]), subject.drone
     wide, tall = fields_of_view(subject, stages.s)
@@ -178,7 +178,7 @@ def _parameters(
     return whole
 
 
-def _wind(subject: Subject, stages: Stages, margins: Margins) -> Array:
+def _wind(subject: ShotContext, stages: Stages, margins: Margins) -> Array:
     """Return the wind parameters, shape (N + 1, 2), or (N + 1, 0) without wind."""
     nodes, wind = len(stages.s), np.array(subject.drone.limits.wind)
     return np.tile(_pace(subject, margins) * wind, (nodes, 1)) if wind.any() else np.zeros((nodes, 0))
@@ -206,7 +206,7 @@ def _planes(walls: Array, margins: Margins) -> Array:
 
 
 def _pinned(
-    subject: Subject, stages: Stages, references: References, margins: Margins, guess: Array
+    subject: ShotContext, stages: Stages, references: References, margins: Margins, guess: Array
 ) -> tuple[Array, Array]:
     """Return reference states and their weights: convex path, keyframes, rests, ends, times."""
     value = guess.copy()
@@ -233,7 +233,7 @@ def _pinned(
     return value, weight
 
 
-def _shares(subject: Subject) -> Array:
+def _shares(subject: ShotContext) -> Array:
     """Return one over the limit of every rate and acceleration of the state, 0 for the other entries."""
     limits, shares = subject.drone.limits, np.zeros(STATES)
     shares[VELOCITY], shares[ACCELERATION] = 1.0 / limits.speed, 1.0 / limits.usable_acceleration
@@ -246,7 +246,7 @@ def _among(s: float, places: list[float]) -> bool:
     return any(abs(s - p) < 1e-9 * max(1.0, abs(s)) for p in places)
 
 
-def _state_bounds(subject: Subject, nodes: int, margins: Margins) -> tuple[Array, Array]:
+def _state_bounds(subject: ShotContext, nodes: int, margins: Margins) -> tuple[Array, Array]:
     limits, gimbal = subject.drone.limits, subject.drone.gimbal
     pace = _pace(subject, margins)
     low, high = np.full((nodes, STATES), -inf), np.full((nodes, STATES), inf)
@@ -257,7 +257,7 @@ def _state_bounds(subject: Subject, nodes: int, margins: Margins) -> tuple[Array
     return low, high
 
 
-def _turning(subject: Subject) -> dict[int, float]:
+def _turning(subject: ShotContext) -> dict[int, float]:
     """Return the limits of the camera's rates and accelerations by state index."""
     limits, gimbal = subject.drone.limits, subject.drone.gimbal
     # The camera turns with the body and on its gimbal; with "follow-camera" only the body turns.
@@ -277,7 +277,7 @@ def _input_bounds(inputs: Array) -> tuple[Array, Array]:
     return low, high
 
 
-def _held(subject: Subject, walls: Array, margins: Margins) -> tuple[Array, Array]:
+def _held(subject: ShotContext, walls: Array, margins: Margins) -> tuple[Array, Array]:
     limits = subject.drone.limits
     pace = _pace(subject, margins)
     planes = walls.shape[1]

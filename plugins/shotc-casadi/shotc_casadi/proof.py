@@ -10,19 +10,19 @@ from shotc.plugin_api.refiner import (
     shortfall,
     with_camera,
 )
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.covered import lost_on_path
 from shotc_casadi.due import due
 from shotc_casadi.frames import cropped
 from shotc_casadi.margins import Check
-from shotc_casadi.references import Subject
+from shotc_casadi.references import ShotContext
 
 PROVED_M = 1e-6  # lack of clearance that a proof allows, metres
 HOPELESS_RATIO = 1.1  # of the time asked for: a rough profile this slow cannot be saved by a bend of the path
 AMPLE_SHARE = 0.8  # of the time asked for: a rough profile this fast needs no closer look
 
 
-def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
+def checked(subject: ShotContext, condition: AimCondition, camera: Piecewise) -> Check:
     """Return the errors of a camera: unproved clearance, lateness, hidden and cropped targets."""
     lack = float(shortfall(subject.space, camera.ctrl[:, :, :3]).max())
     looks = condition.visibility == "silhouette"
@@ -31,13 +31,13 @@ def checked(subject: Subject, condition: Condition, camera: Piecewise) -> Check:
     return Check(max(lack, 0.0), _late(subject, camera), hidden, out)
 
 
-def hopeless(subject: Subject) -> bool:
+def hopeless(subject: ShotContext) -> bool:
     """Return whether a shot's convex path is far too slow for the times asked for."""
     leg = subject.leg
     return due(leg).lateness(*rough_times(subject.drone, leg, 1.0)) > HOPELESS_RATIO - 1.0
 
 
-def _late(subject: Subject, camera: Piecewise) -> float:
+def _late(subject: ShotContext, camera: Piecewise) -> float:
     """Return by which share the fastest flight of this camera misses a time asked for."""
     drone, ahead = subject.drone, ahead_in(subject.mission, subject.placed.shot)
     leg = with_camera(drone, subject.leg, camera, ahead)

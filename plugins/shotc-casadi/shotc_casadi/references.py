@@ -29,7 +29,7 @@ from shotc.plugin_api.refiner import (
     minimum_jerk,
     steady,
 )
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.extents import EXTENT, between, count_of, extents_of
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
@@ -64,7 +64,7 @@ Beside = Callable[[Array], NodePlanes]
 """Half-spaces for nodes at path parameters s, shape (N + 1,)."""
 
 
-class Subject(NamedTuple):
+class ShotContext(NamedTuple):
     """A shot to refine: the mission, its drone, the free space, its keyframes and its leg.
 
     beside : half-spaces that keep it clear of moving obstacles, None if there are none
@@ -78,15 +78,15 @@ class Subject(NamedTuple):
     beside: Beside | None = None
 
 
-def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> Subject:
+def subject_of(path: PathIR, drone: str, leg: MovingLeg) -> ShotContext:
     """Return the subject of a leg; drone : the name of its drone."""
     mission = path.keyframes.mission
     flown_by = mission.drone(drone)
     (placed,) = (p for p in path.keyframes.shots if p.shot.id == leg.shot)
-    return Subject(mission, flown_by, flight_space(mission, flown_by), placed, leg)
+    return ShotContext(mission, flown_by, flight_space(mission, flown_by), placed, leg)
 
 
-def references_at(subject: Subject, condition: Condition, s: Array) -> References:
+def references_at(subject: ShotContext, condition: AimCondition, s: Array) -> References:
     """Return the references of a condition at path parameters s, shape (N + 1,)."""
     if condition.aims == "framing":
         return _framed(subject, s)
@@ -109,7 +109,7 @@ def references_at(subject: Subject, condition: Condition, s: Array) -> Reference
     return replace(own, centre=looked_at, aim=aim, framed=np.ones(len(s)))
 
 
-def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float]:
+def own_angles(subject: ShotContext, keyframe: PlacedKeyframe) -> tuple[float, float]:
     """Return camera yaw and pitch of the author's keyframe, before the composition."""
     if keyframe.target is None or keyframe.asked is None:
         return keyframe.yaw, keyframe.pitch
@@ -119,7 +119,7 @@ def own_angles(subject: Subject, keyframe: PlacedKeyframe) -> tuple[float, float
     return own or (keyframe.yaw, keyframe.pitch)
 
 
-def _framed(subject: Subject, s: Array) -> References:
+def _framed(subject: ShotContext, s: Array) -> References:
     made = _unframed(subject, s)
     keys = keys_of(subject)
     x, i = progress_at(np.array([at for at, _ in keys]), s)
@@ -140,7 +140,7 @@ def _framed(subject: Subject, s: Array) -> References:
     return made
 
 
-def _unframed(subject: Subject, s: Array) -> References:
+def _unframed(subject: ShotContext, s: Array) -> References:
     """Return references with the convex path's angles and no framed target."""
     curve = subject.leg.curve
     assert curve is not None
@@ -163,13 +163,13 @@ def _unframed(subject: Subject, s: Array) -> References:
     )
 
 
-def _bodies(subject: Subject) -> int:
+def _bodies(subject: ShotContext) -> int:
     """Return the number of extents of the targets of a shot."""
     names = {k.target for k in subject.placed.keyframes if k.target is not None}
     return count_of([subject.mission.target(name).shape for name in names])
 
 
-def keys_of(subject: Subject) -> list[tuple[float, PlacedKeyframe]]:
+def keys_of(subject: ShotContext) -> list[tuple[float, PlacedKeyframe]]:
     """Return the keyframes with their path parameters; each place occurs once."""
     keys: list[tuple[float, PlacedKeyframe]] = []
     for mark in subject.leg.marks:
@@ -201,11 +201,11 @@ def _towards(d: Array, near: Array) -> Array:
     return np.column_stack([yaw, np.arctan2(d[:, 2], np.hypot(d[:, 0], d[:, 1]))])
 
 
-def _position(subject: Subject, s: Array) -> Array:
+def _position(subject: ShotContext, s: Array) -> Array:
     return np.asarray(subject.leg.curve(s)[:, :3])
 
 
-def fields_of_view(subject: Subject, s: Array, q: Array | None = None) -> tuple[Array, Array]:
+def fields_of_view(subject: ShotContext, s: Array, q: Array | None = None) -> tuple[Array, Array]:
     """Return tan of half the horizontal and vertical fields of view at s, shape (M,) each.
 
     q : x, y, z, yaw, pitch of a camera there, and its field of view if it is not the convex path's

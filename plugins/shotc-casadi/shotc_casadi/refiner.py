@@ -9,18 +9,18 @@ from shotc.plugin_api import Diagnostic, Outcome, PassContext, PathIR, Piecewise
 from shotc.plugin_api.refiner import MovingLeg, NoTransit, rejoined
 from shotc_casadi import conditions
 from shotc_casadi.company import refine_in_company
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.messages import stats
-from shotc_casadi.references import Subject, subject_of
+from shotc_casadi.references import ShotContext, subject_of
 from shotc_casadi.report import deviation, report, state_of
 from shotc_casadi.rounds import Refined, refine_shot
 
 
 @dataclass(frozen=True, slots=True)
-class Refiner:
+class ConditionRefiner:
     """A refiner that applies one condition."""
 
-    condition: Condition
+    condition: AimCondition
     api: ClassVar[int] = 1
 
     @property
@@ -80,7 +80,7 @@ class Refiner:
         return rejoined(path, kept), unreached
 
 
-def subjects(path: PathIR) -> list[Subject]:
+def subjects(path: PathIR) -> list[ShotContext]:
     """Return the shots of drones without a clock whose camera moves, in the order of flight."""
     return [
         subject_of(path, flown.drone, leg)
@@ -90,8 +90,8 @@ def subjects(path: PathIR) -> list[Subject]:
     ]
 
 
-OURS = Refiner(conditions.OURS)
-OURS_4PT = Refiner(conditions.OURS_4PT)
-FRAMING_ONLY = Refiner(conditions.FRAMING_ONLY)
-LOOK_AT = Refiner(conditions.LOOK_AT)
-ANG = Refiner(conditions.ANG)
+OURS = ConditionRefiner(conditions.OURS)
+OURS_4PT = ConditionRefiner(conditions.OURS_4PT)
+FRAMING_ONLY = ConditionRefiner(conditions.FRAMING_ONLY)
+LOOK_AT = ConditionRefiner(conditions.LOOK_AT)
+ANG = ConditionRefiner(conditions.ANG)

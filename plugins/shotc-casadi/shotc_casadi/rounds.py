@@ -12,7 +12,7 @@ import numpy as np
 from shotc.plugin_api import Piecewise
 from shotc.plugin_api.refiner import Array, NoTransit, shortfall
 from shotc_casadi.camera import Given, NoFit, camera
-from shotc_casadi.conditions import Condition
+from shotc_casadi.conditions import AimCondition
 from shotc_casadi.due import due, unhurried
 from shotc_casadi.edges import level_beside
 from shotc_casadi.frames import asked_again, asked_at_first
@@ -21,7 +21,7 @@ from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.problem import problem
 from shotc_casadi.program import Problem, solve
 from shotc_casadi.proof import checked, hopeless
-from shotc_casadi.references import References, Subject, references_at
+from shotc_casadi.references import References, ShotContext, references_at
 from shotc_casadi.solving import SOLVERS, Attempt, Solution, by_one_of
 from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW
@@ -66,7 +66,7 @@ class Refined:
     shows_less: bool = False
 
 
-def refine_shot(subject: Subject, condition: Condition, count: int | None = None) -> Refined:
+def refine_shot(subject: ShotContext, condition: AimCondition, count: int | None = None) -> Refined:
     """Return one shot refined; each round tightens what fails between the nodes.
 
     If the solver misses the deadlines, the shot is refined for the shortest time. The time pass then slows it
@@ -85,7 +85,7 @@ def refine_shot(subject: Subject, condition: Condition, count: int | None = None
 
 
 def _refine(
-    subject: Subject, condition: Condition, count: int | None, solvers: tuple[Solver, ...]
+    subject: ShotContext, condition: AimCondition, count: int | None, solvers: tuple[Solver, ...]
 ) -> tuple[Refined, Check]:
     leg = subject.leg
     assert leg.shot is not None
@@ -113,7 +113,7 @@ def _refine(
     return _result(subject, nodes, done, best), best.check
 
 
-def _walls(subject: Subject, nodes: Stages, margins: Margins) -> Array:
+def _walls(subject: ShotContext, nodes: Stages, margins: Margins) -> Array:
     """Return the half-spaces of the nodes."""
     others = None if subject.beside is None else subject.beside(nodes.s)
     return half_spaces(subject.space, subject.leg.curve, nodes, margins, others)
@@ -136,8 +136,8 @@ class _Tried(NamedTuple):
 
 
 def _tried(
-    subject: Subject,
-    condition: Condition,
+    subject: ShotContext,
+    condition: AimCondition,
     nodes: Stages,
     task: Problem,
     attempt: Attempt,
@@ -157,7 +157,9 @@ def _tried(
     return tried if not len(level.through) else _leveled(subject, condition, tried, (nodes, level))
 
 
-def _leveled(subject: Subject, condition: Condition, tried: _Tried, to: tuple[Stages, Given]) -> _Tried:
+def _leveled(
+    subject: ShotContext, condition: AimCondition, tried: _Tried, to: tuple[Stages, Given]
+) -> _Tried:
     """Return a round whose camera crops nothing beside keyframes, unless it is worse elsewhere."""
     nodes, given = to
     try:
@@ -168,7 +170,7 @@ def _leveled(subject: Subject, condition: Condition, tried: _Tried, to: tuple[St
     return tried if check > tried.check else tried._replace(camera=found, check=check)
 
 
-def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
+def _result(subject: ShotContext, nodes: Stages, done: list[_Tried], best: _Tried) -> Refined:
     """Return the best camera if it is clear, else the state of the last round."""
     leg = subject.leg
     assert leg.shot is not None
@@ -186,7 +188,7 @@ def _result(subject: Subject, nodes: Stages, done: list[_Tried], best: _Tried) -
     return Refined(*of, shows_less)
 
 
-def _widest(subject: Subject, found: Piecewise) -> UnprovedPlace:
+def _widest(subject: ShotContext, found: Piecewise) -> UnprovedPlace:
     lack = shortfall(subject.space, found.ctrl[:, :, :3])
     k = int(lack.argmax())
     return UnprovedPlace(float(found.breaks[k]), float(lack[k]))

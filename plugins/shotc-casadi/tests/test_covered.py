@@ -8,7 +8,7 @@ from shotc_casadi import conditions, refiner, rounds
 from shotc_casadi.covered import Free, broken, free_of, lost
 from shotc_casadi.margins import Check, Margins, tighter
 from shotc_casadi.proof import checked
-from shotc_casadi.references import Subject
+from shotc_casadi.references import ShotContext
 
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
@@ -41,7 +41,7 @@ def path() -> PathIR:
     return done.value
 
 
-def lower(subject: Subject, metres: float) -> Piecewise:
+def lower(subject: ShotContext, metres: float) -> Piecewise:
     """The convex camera, lower in its middle: there the tree is in the way."""
     curve = subject.leg.curve.channels(0, 1, 2, 3, 4)
     ctrl = curve.ctrl.copy()

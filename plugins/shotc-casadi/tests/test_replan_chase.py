@@ -8,7 +8,7 @@ from math import inf, nan, pi
 
 import numpy as np
 import pytest
-from shotc_casadi.replan.chase import Chase
+from shotc_casadi.replan.chase import ShotChase
 from shotc_casadi.replan.steps import Until
 
 from shotc.geom.solids import Cylinder, box
@@ -32,15 +32,15 @@ from tests.support.replans import (
 HORIZONS = (5, 20, 40, 80)
 
 
-def converged(*args, **given) -> Chase:
-    return Chase(problem(*args, **given), Until(60, 1e-7))
+def converged(*args, **given) -> ShotChase:
+    return ShotChase(problem(*args, **given), Until(60, 1e-7))
 
 
 def test_without_camera_and_zones_it_is_the_least_squares_optimum():
     n = 20
     weights = ChaseWeights(effort=0.7, pitch=0.0, yaw=0.0, height=3.0, end=5.0)
     given = situation(n, place=BESIDE - np.array([-0.5, 1.0, -0.7]), velocity=np.array([0.3, 0.2, -0.1]))
-    done = Chase(problem(n, weights=weights)).replan(given, None)
+    done = ShotChase(problem(n, weights=weights)).replan(given, None)
     # Places and velocities of all stages are linear in the accelerations.
     steps = np.arange(1, n + 1)[:, None] - np.arange(n)[None] - 0.5
     to_place, to_velocity = DT**2 * np.where(steps > 0, steps, 0.0), DT * (steps > 0)
@@ -65,7 +65,7 @@ def test_without_camera_and_zones_it_is_the_least_squares_optimum():
 
 
 def test_places_and_velocities_are_those_of_the_accelerations():
-    done = Chase(problem(40, zone(TREE))).replan(situation(40), None)
+    done = ShotChase(problem(40, zone(TREE))).replan(situation(40), None)
     plan = done.plan
     assert plan is not None
     x, v, a = plan.places, plan.velocities, plan.accelerations
@@ -130,7 +130,7 @@ def paid(states: np.ndarray, inputs: np.ndarray, task: oracle.Chase) -> float:
 
 @cache
 def flown(stages: int, seed: int | None) -> Flown:
-    return fly(Chase(problem(stages, zone(TREE))), lateral(stages, seed), 20.0)
+    return fly(ShotChase(problem(stages, zone(TREE))), lateral(stages, seed), 20.0)
 
 
 @pytest.mark.parametrize("seed", [None, 1, 2])
@@ -162,20 +162,20 @@ def test_from_the_end_of_every_plan_it_can_stop_outside(stages):
 
 
 def test_without_a_stop_half_a_second_ahead_is_too_short():
-    plain = fly(Chase(problem(5, zone(TREE), margin=0.0, reaction=-0.5)), lateral(5), 12.0)
+    plain = fly(ShotChase(problem(5, zone(TREE), margin=0.0, reaction=-0.5)), lateral(5), 12.0)
     assert plain.nearest(TREE) < 0.0  # what the two figures are for
 
 
 @pytest.mark.parametrize("stages", [5, 40])
 def test_boxes_roofs_and_notches_are_kept_clear_of(stages):
     house = box((15.0, -8.0, 1.0), (4.0, 3.0, 5.0), 0.3)
-    one = fly(Chase(problem(stages, zone(house, 0.2))), lateral(stages, 4), 12.0)
+    one = fly(ShotChase(problem(stages, zone(house, 0.2))), lateral(stages, 4), 12.0)
     assert one.nearest(house) > 0.25
 
 
 def test_it_stays_in_its_room():
     room = Cylinder((0.0, 0.0), 12.0, 0.0, 4.0)
-    one = fly(Chase(problem(20, zone(room, 0.3, inside=True), floor=1.0)), lateral(20, 5), 12.0)
+    one = fly(ShotChase(problem(20, zone(room, 0.3, inside=True), floor=1.0)), lateral(20, 5), 12.0)
     assert np.hypot(*one.places[:, :2].T).max() < 11.8
     assert one.places[:, 2].max() < 3.8
 
@@ -189,7 +189,7 @@ def test_a_lower_priority_keeps_the_separation_and_the_picture_free():
         other = WALK * t + way + [3.0 - 0.2 * t, -5.0, 3.0]
         return situation(n, t, place=p, velocity=v, traffic=beside(other))
 
-    planner = Chase(problem(n, separation=3.0, half_angle=pi / 6))
+    planner = ShotChase(problem(n, separation=3.0, half_angle=pi / 6))
     one = fly(planner, known, 12.0, state=(BESIDE - [6.0, 0.0, 0.0], WALK))
     late = one.times > 2.0  # it begins with the other one in its picture
     other = one.times[:, None] * WALK + [3.0, -5.0, 3.0] - 0.2 * one.times[:, None] * [1.0, 0.0, 0.0]
@@ -207,11 +207,11 @@ def test_it_stays_out_of_the_picture_of_another_drone():
     def known(t: float, p: np.ndarray, v: np.ndarray):
         return situation(n, t, place=p, velocity=v, traffic=Traffic(np.zeros((0, n + 1, 3)), (cone,)))
 
-    one = fly(Chase(problem(n)), known, 10.0)
+    one = fly(ShotChase(problem(n)), known, 10.0)
     d = one.places - apex
     angle = np.arccos(d @ axis / np.linalg.norm(d, axis=1))
     assert angle.min() > 0.18
-    seen = fly(Chase(problem(n)), lateral(n), 10.0).places - apex
+    seen = fly(ShotChase(problem(n)), lateral(n), 10.0).places - apex
     assert np.arccos(seen @ axis / np.linalg.norm(seen, axis=1)).min() < 0.1
 
 
@@ -229,7 +229,7 @@ def test_pitch_stays_in_its_range():
 def test_limits_hold_in_every_plan():
     slow = LIMITS._replace(speed=2.0, climb=0.5, descent=0.4, acceleration=1.5)
     given = situation(30, wanted=np.array([40.0, 20.0, 9.0]), height=None)
-    done = Chase(problem(30, limits=slow)).replan(given, None)
+    done = ShotChase(problem(30, limits=slow)).replan(given, None)
     plan = done.plan
     assert plan is not None
     assert np.linalg.norm(plan.velocities[:, :2], axis=1).max() < 2.0 + 0.02
@@ -239,7 +239,7 @@ def test_limits_hold_in_every_plan():
 
 def test_who_is_too_fast_is_told_and_brakes():
     slow = LIMITS._replace(speed=2.0, acceleration=1.5)
-    done = Chase(problem(30, limits=slow)).replan(situation(30, velocity=np.array([4.0, 0.0, 0.0])), None)
+    done = ShotChase(problem(30, limits=slow)).replan(situation(30, velocity=np.array([4.0, 0.0, 0.0])), None)
     assert done.status == "opened"
     assert done.plan is not None
     speeds = done.plan.velocities[:, 0]
@@ -254,7 +254,7 @@ NUMBERS = ("place", "velocity", "target", "target_velocity", "wanted", "wanted_v
 @pytest.mark.parametrize("bad", [nan, inf, 1e200])
 @pytest.mark.parametrize("name", NUMBERS)
 def test_what_is_no_number_fails_at_once_and_leaves_the_next_call_sound(name, bad):
-    planner = Chase(problem(20, zone(TREE)))
+    planner = ShotChase(problem(20, zone(TREE)))
     sound = situation(20)
     before = planner.replan(sound, None)
     broken = np.array(getattr(sound, name), dtype=np.float64)
@@ -273,7 +273,7 @@ def test_what_is_no_number_fails_at_once_and_leaves_the_next_call_sound(name, ba
 
 
 def test_a_plan_or_a_message_that_is_no_number_fails_too():
-    planner, sound = Chase(problem(20)), situation(20)
+    planner, sound = ShotChase(problem(20)), situation(20)
     plan = planner.replan(sound, None).plan
     assert plan is not None
     broken = replace(plan, accelerations=plan.accelerations * nan)
@@ -285,7 +285,7 @@ def test_a_plan_or_a_message_that_is_no_number_fails_too():
 
 def test_inside_a_zone_it_leads_out():
     inside = situation(20, place=np.array([14.0, -7.0, 3.0]), velocity=np.zeros(3))
-    done = Chase(problem(20, zone(TREE))).replan(inside, None)
+    done = ShotChase(problem(20, zone(TREE))).replan(inside, None)
     assert done.plan is not None
     assert done.lack > 0.5
     assert np.hypot(*(done.plan.places[-1, :2] - TREE.centre)) > TREE.radius
@@ -296,16 +296,16 @@ def test_the_same_calls_have_the_same_answers():
     states = [(0.5 * k, BESIDE + k * np.array([0.75, -0.02, 0.0]), WALK) for k in range(6)]
     situations = [known(t, p, v) for t, p, v in states]
 
-    def answers(planner: Chase):
+    def answers(planner: ShotChase):
         found, plan = [], None
         for one in situations:
             found.append(planner.replan(one, plan))
             plan = found[-1].plan
         return found
 
-    planner = Chase(problem(20, zone(TREE)))
+    planner = ShotChase(problem(20, zone(TREE)))
     first = answers(planner)
-    for again in (answers(planner), answers(Chase(problem(20, zone(TREE))))):
+    for again in (answers(planner), answers(ShotChase(problem(20, zone(TREE))))):
         assert all(same(a, b) for a, b in zip(first, again, strict=True))
     alone = planner.replan(situations[3], first[2].plan)
     assert same(alone, first[3])  # it keeps nothing between calls
@@ -323,7 +323,7 @@ def test_a_replan_takes_one_step_and_the_first_one_a_few():
 
 
 def test_a_plan_of_other_steps_is_continued_too():
-    planner, coarse = Chase(problem(20)), situation(20)
+    planner, coarse = ShotChase(problem(20)), situation(20)
     times = np.array([0.0, 0.05, 0.3, 1.0])
     braking = np.array([[-0.5, 0.0, 0.0], [-1.0, 0.0, 0.0], [-0.2, 0.0, 0.0]])
     last = Plan(times, np.zeros((4, 3)), np.zeros((4, 3)), braking)
@@ -334,7 +334,7 @@ def test_a_plan_of_other_steps_is_continued_too():
 
 
 def test_a_plan_that_has_ended_is_continued_without_acceleration():
-    planner = Chase(problem(5))
+    planner = ShotChase(problem(5))
     plan = planner.replan(situation(5), None).plan
     later = planner.replan(situation(5, 60.0), plan)
     assert later.plan is not None

@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.replan import chase, evaluation, steps
-from shotc_casadi.replan.chase import Chase
+from shotc_casadi.replan.chase import ShotChase
 
 from shotc.plugin_api.replanner import Plan
 from tests.support.replans import BESIDE, LIMITS, TREE, WALK, lateral, problem, situation, zone
@@ -14,7 +14,7 @@ from tests.support.replans import BESIDE, LIMITS, TREE, WALK, lateral, problem, 
 SLOW = LIMITS._replace(speed=2.0, acceleration=1.5)
 
 
-def iterations(planner: Chase) -> int:
+def iterations(planner: ShotChase) -> int:
     """Return how many the last programme took."""
     (solver,) = planner._flight._solvers.values()
     return int(solver._solver.result.info.iter)
@@ -22,7 +22,7 @@ def iterations(planner: Chase) -> int:
 
 def past_a_tree() -> tuple[list[Plan], list[int]]:
     """Return plans of a flight beside a tree, in which next to nothing is lacking."""
-    known, planner, plan = lateral(20, 7), Chase(problem(20, zone(TREE))), None
+    known, planner, plan = lateral(20, 7), ShotChase(problem(20, zone(TREE))), None
     plans, took = [], []
     for k in range(8):
         plan = planner.replan(known(0.5 * k, BESIDE + 0.5 * k * WALK, WALK), plan).plan
@@ -34,7 +34,7 @@ def past_a_tree() -> tuple[list[Plan], list[int]]:
 
 def too_fast(speed: float) -> tuple[Plan, int]:
     """Return the plan of a drone that is faster than it may be, and the iterations of its last step."""
-    planner = Chase(problem(30, limits=SLOW))
+    planner = ShotChase(problem(30, limits=SLOW))
     done = planner.replan(situation(30, velocity=np.array([speed, 0.0, 0.0])), None)
     assert done.status == "opened"
     assert done.plan is not None

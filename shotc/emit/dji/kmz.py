@@ -8,10 +8,10 @@ from io import BytesIO
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from shotc.emit.dji.profiles import profile_of
-from shotc.emit.dji.wpml import KML, PASS, Document
+from shotc.emit.dji.wpml import KML, PASS, WpmlMission
 from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.link import NOTHING
-from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.emit.waypoints.route import PointAction, Waypoint
 from shotc.ir.drone import Drone
 from shotc.ir.photos import Photos
 
@@ -29,7 +29,7 @@ def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
 
     It holds two files and no entries of folders: the apps find no waypoints in a file that has them.
     """
-    document = Document(points, profile_of(drone), drone.safety or NOTHING)
+    document = WpmlMission(points, profile_of(drone), drone.safety or NOTHING)
     ET.register_namespace("", KML)
     ET.register_namespace("wpml", document.profile.namespace)
     stream = BytesIO()
@@ -49,7 +49,7 @@ def read_kmz(data: bytes) -> list[Waypoint]:
         if trigger in _INTERVALS:
             photos = _INTERVALS[trigger](float(_text(group, "actionTriggerParam")))
             first, last = (int(_text(group, f"actionGroup{end}Index")) for end in ("Start", "End"))
-            start, stop = (Action(kind, photos=photos) for kind in ("start", "stop"))
+            start, stop = (PointAction(kind, photos=photos) for kind in ("start", "stop"))
             points[first] = replace(points[first], actions=(*points[first].actions, start))
             points[last] = replace(points[last], actions=(stop, *points[last].actions))
     return points
@@ -71,13 +71,13 @@ def _kind(action: ET.Element) -> str:
     return _text(action, "actionActuatorFunc")
 
 
-def _action(action: ET.Element) -> Action:
+def _action(action: ET.Element) -> PointAction:
     kind = _KINDS[_kind(action)]
     if kind == "stay":
-        return Action("stay", float(_text(action, "hoverTime")))
+        return PointAction("stay", float(_text(action, "hoverTime")))
     if kind == "zoom":
-        return Action("zoom", focal=float(_text(action, "focalLength")))
-    return Action("start" if kind == "start" else "stop")
+        return PointAction("zoom", focal=float(_text(action, "focalLength")))
+    return PointAction("start" if kind == "start" else "stop")
 
 
 def _text(parent: ET.Element, name: str) -> str:

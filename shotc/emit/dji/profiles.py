@@ -8,7 +8,7 @@ from shotc.ir.drone import Drone
 
 
 @dataclass(frozen=True, slots=True)
-class Profile:
+class AppDialect:
     """One app's dialect.
 
     namespace : of WPML; drone, payload : type and subtype numbers, payload None where the app writes none
@@ -27,8 +27,10 @@ class Profile:
 
 
 # 68 is what tools write for all machines of DJI Fly, and the app does not look at it.
-DJI_FLY = Profile("http://www.uav.com/wpmz/1.0.2", (68, 0), None, False, "parallel", "aircraft", "reachPoint")
-PILOT_2 = Profile(
+DJI_FLY = AppDialect(
+    "http://www.uav.com/wpmz/1.0.2", (68, 0), None, False, "parallel", "aircraft", "reachPoint"
+)
+PILOT_2 = AppDialect(
     "http://www.dji.com/wpmz/1.0.6", (77, 0), (66, 0), True, "sequence", "north", "betweenAdjacentPoints"
 )
 """With the numbers of a Mavic 3 Enterprise and its camera."""
@@ -36,6 +38,6 @@ PILOT_2 = Profile(
 PROFILES = {"dji-fly": DJI_FLY, "pilot-2": PILOT_2}
 
 
-def profile_of(drone: Drone) -> Profile:
+def profile_of(drone: Drone) -> AppDialect:
     """Return the dialect of the app that flies a drone."""
     return PROFILES[drone.autopilot]

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from itertools import count
 
-from shotc.emit.dji.profiles import Profile
+from shotc.emit.dji.profiles import AppDialect
 from shotc.emit.waypoints.link import DJI_ACTIONS, return_height
 from shotc.emit.waypoints.route import Waypoint
 from shotc.ir.drone import Safety
@@ -21,11 +21,11 @@ PASS = "toPointAndPassWithContinuityCurvature"
 
 
 @dataclass(frozen=True, slots=True)
-class Document:
+class WpmlMission:
     """What both files of a mission hold: its points, in an app's dialect."""
 
     points: list[Waypoint]
-    profile: Profile
+    profile: AppDialect
     safety: Safety
 
     def template(self) -> bytes:

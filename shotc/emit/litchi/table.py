@@ -8,7 +8,7 @@ from io import StringIO
 from math import ceil
 
 from shotc.emit.waypoints.geo import GeoPosition
-from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.emit.waypoints.route import PointAction, Waypoint
 from shotc.ir.photos import Photos
 
 POINTS_MOST = 99  # of a block of Litchi's
@@ -60,8 +60,8 @@ def read_table(data: bytes) -> list[Waypoint]:
     for row in rows:
         before, photos = photos, _interval(row)
         point, turned = _waypoint(row), before != photos
-        ended = [Action("stop", photos=before)] if turned and before else []
-        begun = [Action("start", photos=photos)] if turned and photos else []
+        ended = [PointAction("stop", photos=before)] if turned and before else []
+        begun = [PointAction("start", photos=photos)] if turned and photos else []
         points.append(replace(point, actions=(*ended, *point.actions, *begun)))
     last = len(points) - 1
     return [replace(p, stops=i in (0, last) or bool(p.actions)) for i, p in enumerate(points)]
@@ -104,7 +104,7 @@ def _interval(row: dict[str, str]) -> Photos | None:
     return Photos(seconds if seconds > 0 else None, metres if metres > 0 else None)
 
 
-def _pairs(action: Action) -> list[tuple[int, int]]:
+def _pairs(action: PointAction) -> list[tuple[int, int]]:
     """Return the action's type and parameter, several times where a stay is longer than one may be."""
     if action.kind != "stay":
         return [(START if action.kind == "start" else STOP, 0)]
@@ -128,5 +128,9 @@ def _waypoint(row: dict[str, str]) -> Waypoint:
     )
 
 
-def _action(kind: int, value: int) -> Action:
-    return Action("stay", value / 1000) if kind == STAY else Action("start" if kind == START else "stop")
+def _action(kind: int, value: int) -> PointAction:
+    return (
+        PointAction("stay", value / 1000)
+        if kind == STAY
+        else PointAction("start" if kind == START else "stop")
+    )

@@ -33,9 +33,9 @@ from shotc.emit.mavlink.report import (
     sidenotes,
 )
 from shotc.emit.mavlink.speed import DEFAULTS
-from shotc.emit.mavlink.steps import Step, steps_of, whole_seconds
+from shotc.emit.mavlink.steps import WaypointStep, steps_of, whole_seconds
 from shotc.emit.mavlink.style import Style, style_of
-from shotc.emit.mavlink.thin import Leg, Tolerance, thinner_of
+from shotc.emit.mavlink.thin import StraightLeg, Tolerance, thinner_of
 from shotc.emit.mavlink.wpl import read_waypoints, write_waypoints
 from shotc.emit.waypoints.clearance import Obstacle, keep_outs
 from shotc.emit.waypoints.compare import Error, compare, nearest_miss
@@ -90,8 +90,8 @@ class _Flight:
     """A flight list, and whether tolerances had to give way for it to fit."""
 
     items: list[MissionItem]
-    asked: list[Step]
-    steps: list[Step]
+    asked: list[WaypointStep]
+    steps: list[WaypointStep]
     coarser: bool
 
 
@@ -196,7 +196,7 @@ class _Job:
             low, high = (low, middle) if len(trial.items) <= self.dialect.most_items else (middle, high)
         return self._write(thinner.legs(_coarse(intended, high), even=False), coarser=True)
 
-    def _write(self, legs: list[Leg], *, coarser: bool) -> _Flight:
+    def _write(self, legs: list[StraightLeg], *, coarser: bool) -> _Flight:
         asked = steps_of(self.track, self.style, legs)
         steps = whole_seconds(asked) if self.dialect.whole_seconds else asked
         speeds = DEFAULTS[self.drone.autopilot]

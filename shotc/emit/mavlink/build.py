@@ -39,7 +39,7 @@ from shotc.emit.mavlink.items import (
     degrees_of,
 )
 from shotc.emit.mavlink.speed import Speeds, adapted, seconds
-from shotc.emit.mavlink.steps import SAME, Step
+from shotc.emit.mavlink.steps import SAME, WaypointStep
 from shotc.emit.mavlink.style import Command, Style, turns_body
 from shotc.emit.waypoints.geo import Geo, GeoPosition
 from shotc.emit.waypoints.lens import SAME_LENS, edge
@@ -79,7 +79,7 @@ class Builder:
     focus: Focus | None = None
     focused: float | None = None
 
-    def build(self, track: SampledFlight, steps: list[Step]) -> list[MissionItem]:
+    def build(self, track: SampledFlight, steps: list[WaypointStep]) -> list[MissionItem]:
         """Return the whole flight: take-off, the steps, landing."""
         places = self.geo.places(track.poses.position)
         start = float(track.poses.body_yaw[0])
@@ -105,7 +105,7 @@ class Builder:
             self.items.append(action(ROI_NONE))
             self.region = self.aimed = self.yaw = None
 
-    def _go(self, step: Step, entered: str | None, place: GeoPosition, end: Poses) -> None:
+    def _go(self, step: WaypointStep, entered: str | None, place: GeoPosition, end: Poses) -> None:
         self._pace(step)
         turned = False
         if step.region is None:
@@ -139,7 +139,7 @@ class Builder:
             return action(VIDEO_STOP)
         return action(PHOTO_DISTANCE if photos.seconds is None else PHOTO_STOP)
 
-    def _pace(self, step: Step) -> None:
+    def _pace(self, step: WaypointStep) -> None:
         if step.duration == 0:
             return
         limits = self.drone.limits if self.dialect.vertical_speeds else None
@@ -171,7 +171,7 @@ class Builder:
             self.items.append(self.dialect.zoom(lens, command.hfov))
             self.hfov = command.hfov
 
-    def _sharpen(self, step: Step) -> None:
+    def _sharpen(self, step: WaypointStep) -> None:
         part = slice(step.leg.first, step.leg.last + 1)
         if self.focus is None or step.leg.shot is None:
             return
@@ -187,7 +187,7 @@ class Builder:
         self.items.append(at(ROI_LOCATION, self.geo.place(region), 0.0, 0.0, 0.0, 0.0))
         self.region = region
 
-    def _turn(self, step: Step, yaw: float, *, force: bool) -> None:
+    def _turn(self, step: WaypointStep, yaw: float, *, force: bool) -> None:
         # A mount that cannot pan takes the body over on every mount command, so that the heading has
         # to be said again (ArduCopter, do_mount_control).
         if self.yaw is None:

@@ -7,7 +7,7 @@ from math import degrees
 from shotc.diag.model import Diagnostic
 from shotc.emit.mavlink.fence import Left
 from shotc.emit.mavlink.speed import is_steep
-from shotc.emit.mavlink.steps import Step
+from shotc.emit.mavlink.steps import WaypointStep
 from shotc.emit.waypoints.compare import Error
 from shotc.emit.waypoints.report import by_hand, zoomed_to
 from shotc.emit.waypoints.timing import WaysTooNear
@@ -117,12 +117,12 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
     )
 
 
-def sidenotes(drone: Drone, asked: list[Step], flown: list[Step]) -> list[str]:
+def sidenotes(drone: Drone, asked: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
     """Return what the pilot has to know about how this autopilot flies the file."""
     return [*_flown(drone, asked, flown), *by_hand(drone, focuses=drone.autopilot == "px4")]
 
 
-def _flown(drone: Drone, asked: list[Step], flown: list[Step]) -> list[str]:
+def _flown(drone: Drone, asked: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
     if drone.autopilot == "ardupilot":
         text = (
             f"ardupilot {drone.name}: set WP_YAW_BEHAVIOR to 0, or every waypoint turns the body to the path"

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from shotc.emit.mavlink.speed import SLOWEST
 from shotc.emit.mavlink.style import Command, Style, command_of, region_of
-from shotc.emit.mavlink.thin import Leg
+from shotc.emit.mavlink.thin import StraightLeg
 from shotc.emit.waypoints.lens import SAME_LENS, edge
 from shotc.emit.waypoints.track import SampledFlight
 from shotc.ir.limits import Vec3
@@ -27,7 +27,7 @@ CORNER_CUT = 0.25  # metres by which a rounded corner may miss its waypoint
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class WaypointStep:
     """One waypoint and the way to it.
 
     region : point of W that the gimbal is to look at, or None where it is told angles
@@ -35,7 +35,7 @@ class Step:
     hold : seconds at the waypoint; radius : of acceptance, m
     """
 
-    leg: Leg
+    leg: StraightLeg
     command: Command
     region: Vec3 | None
     across: float
@@ -45,9 +45,9 @@ class Step:
     radius: float
 
 
-def steps_of(track: SampledFlight, style: Style, legs: list[Leg]) -> list[Step]:
+def steps_of(track: SampledFlight, style: Style, legs: list[StraightLeg]) -> list[WaypointStep]:
     """Return the steps that fly ``legs``; a stay that asks for no new angles joins the step before it."""
-    steps: list[Step] = []
+    steps: list[WaypointStep] = []
     if legs and legs[0].shot is not None:
         steps.append(_aligned(track))
     for index, leg in enumerate(legs):
@@ -59,9 +59,9 @@ def steps_of(track: SampledFlight, style: Style, legs: list[Leg]) -> list[Step]:
     return steps
 
 
-def whole_seconds(steps: list[Step]) -> list[Step]:
+def whole_seconds(steps: list[WaypointStep]) -> list[WaypointStep]:
     """Round holds to whole seconds, handing what is lost on to the next hold of the same stay or shot."""
-    out: list[Step] = []
+    out: list[WaypointStep] = []
     owed = 0.0
     for step in steps:
         hold = float(max(0, round(step.hold + owed))) if step.hold > 0 else 0.0
@@ -70,20 +70,22 @@ def whole_seconds(steps: list[Step]) -> list[Step]:
     return out
 
 
-def _aligned(track: SampledFlight) -> Step:
+def _aligned(track: SampledFlight) -> WaypointStep:
     """Return a stay above the pad, for a flight that films from there: no other leg turns the body first."""
     command = command_of(track.poses, 0, 0, filmed=False)
-    return Step(Leg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
+    return WaypointStep(StraightLeg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
 
 
-def _step(track: SampledFlight, style: Style, leg: Leg, following: Leg | None) -> Step:
+def _step(
+    track: SampledFlight, style: Style, leg: StraightLeg, following: StraightLeg | None
+) -> WaypointStep:
     points, time = track.poses.position, track.time
     way = points[leg.last] - points[leg.first]
     command = command_of(track.poses, leg.first, leg.last, filmed=leg.shot is not None)
     region = region_of(style, track, slice(leg.first, leg.last + 1), leg.shot)
     elapsed = float(time[leg.last] - time[leg.first])
     if leg.rest:
-        return Step(leg, command, region, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
+        return WaypointStep(leg, command, region, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
     stops = _speed(track, leg.last) < STANDSTILL
     boundary = following is not None and following.shot != leg.shot
     radius = RADIUS_REST
@@ -92,10 +94,10 @@ def _step(track: SampledFlight, style: Style, leg: Leg, following: Leg | None) -
     # No autopilot creeps: it is there sooner, and waits.
     hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST)
     hold = max(hold, SETTLE) if stops and boundary else hold
-    return Step(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
+    return WaypointStep(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
 
 
-def _joins(track: SampledFlight, style: Style, before: Step, stay: Step) -> bool:
+def _joins(track: SampledFlight, style: Style, before: WaypointStep, stay: WaypointStep) -> bool:
     if before.leg.shot != stay.leg.shot or before.leg.rest:
         return False
     part = slice(stay.leg.first, stay.leg.last + 1)

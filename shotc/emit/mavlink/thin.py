@@ -43,7 +43,7 @@ class Tolerance:
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class StraightLeg:
     """One straight leg, or a stay where ``rest``: samples first to last."""
 
     first: int
@@ -67,12 +67,12 @@ class Thinner:
     planned_shortfall: tuple[Array, ...]
     focus: Focus | None = None
 
-    def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[Leg]:
+    def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[StraightLeg]:
         """Return the legs of the whole track; ``even`` ones cost more time and no more legs."""
         cut = self._even if even else self._greedy
         return [leg for stretch in self.track.stretches for leg in cut(stretch, tolerance)]
 
-    def _even(self, stretch: SampleRange, tolerance: Tolerance) -> list[Leg]:
+    def _even(self, stretch: SampleRange, tolerance: Tolerance) -> list[StraightLeg]:
         # Greedy cutting leaves a short last leg; a tighter tolerance that needs no more legs evens them.
         best, low, high = self._greedy(stretch, tolerance), 0.0, 1.0
         for _ in range(EVENING):
@@ -84,12 +84,12 @@ class Thinner:
                 low = share
         return best
 
-    def _greedy(self, stretch: SampleRange, tolerance: Tolerance) -> list[Leg]:
-        out: list[Leg] = []
+    def _greedy(self, stretch: SampleRange, tolerance: Tolerance) -> list[StraightLeg]:
+        out: list[StraightLeg] = []
         first = stretch.first
         while first < stretch.last:
             last = self._longest(stretch, first, tolerance)
-            out.append(Leg(first, last, stretch.shot, stretch.rest))
+            out.append(StraightLeg(first, last, stretch.shot, stretch.rest))
             first = last
         return out
 
@@ -100,19 +100,19 @@ class Thinner:
         bad = stretch.last + 1
         while good < stretch.last:
             trial = min(good + step, stretch.last)
-            if not self._fits(Leg(first, trial, stretch.shot, stretch.rest), tolerance):
+            if not self._fits(StraightLeg(first, trial, stretch.shot, stretch.rest), tolerance):
                 bad = trial
                 break
             good, step = trial, step * 2
         while bad - good > 1:
             trial = (good + bad) // 2
-            if self._fits(Leg(first, trial, stretch.shot, stretch.rest), tolerance):
+            if self._fits(StraightLeg(first, trial, stretch.shot, stretch.rest), tolerance):
                 good = trial
             else:
                 bad = trial
         return good
 
-    def _fits(self, leg: Leg, tolerance: Tolerance) -> bool:
+    def _fits(self, leg: StraightLeg, tolerance: Tolerance) -> bool:
         part = slice(leg.first, leg.last + 1)
         planned = select(self.track.poses, part)
         share = along(planned.position, self.track.time[part], rest=leg.rest)
@@ -147,7 +147,7 @@ class Thinner:
                 return False
         return True
 
-    def _flown(self, leg: Leg, planned: Poses, flown: Array, share: Array) -> Poses:
+    def _flown(self, leg: StraightLeg, planned: Poses, flown: Array, share: Array) -> Poses:
         command = command_of(self.track.poses, leg.first, leg.last, filmed=True)
         if self.style.autopilot == "px4":
             body = np.full(len(share), command.body_yaw)

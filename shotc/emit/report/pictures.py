@@ -8,7 +8,7 @@ from math import floor, log10
 import numpy as np
 
 from shotc.emit.report.nearness import Nearness
-from shotc.emit.site.volumes import Outline, Volumes
+from shotc.emit.site.volumes import AreaOutline, Volumes
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.rings import ground_plan
 from shotc.ir.mission import MissionIR
@@ -32,7 +32,7 @@ def site_map(mission: MissionIR, found: Volumes) -> str:
         flat = (points - middle) * scale
         return np.column_stack([WIDTH / 2.0 + flat[:, 0], MAP_HEIGHT / 2.0 - flat[:, 1]])
 
-    def area(outline: Outline, kind: str) -> str:
+    def area(outline: AreaOutline, kind: str) -> str:
         return f'<polygon class="{kind}" points="{_points(put(outline.corners))}"/>'
 
     parts = [area(found.risk, "risk"), area(found.contingency, "contingency"), area(found.flight, "flight")]

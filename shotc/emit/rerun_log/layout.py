@@ -12,7 +12,7 @@ from rerun.encodings import AbsoluteTimeRange
 from shotc.emit.rerun_log.clock import FILMED, MISSION
 from shotc.emit.rerun_log.motion import camera_entity, frame_size
 from shotc.emit.rerun_log.obstacle_meshes import STANDING
-from shotc.emit.rerun_log.opening import Stand, filmed_span, first_stand
+from shotc.emit.rerun_log.opening import OpeningView, filmed_span, first_stand
 from shotc.emit.rerun_log.series import Plot
 from shotc.emit.rerun_log.terrain_mesh import TERRAIN
 from shotc.geom.bernstein import Array
@@ -89,16 +89,18 @@ def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
     )
 
 
-def overview(bounds: tuple[Array, Array]) -> Stand:
+def overview(bounds: tuple[Array, Array]) -> OpeningView:
     """Return from where all of a scene is seen; bounds : its corners."""
     low, high = bounds
     centre = (low + high) / 2
     reach = float(np.linalg.norm(high - low)) * 0.66 + 12.0
     x, y, z = (centre + reach * np.array([-0.62, -0.92, 0.72])).tolist()
-    return Stand((x, y, z), (float(centre[0]), float(centre[1]), float(low[2] + 0.3 * (high[2] - low[2]))))
+    return OpeningView(
+        (x, y, z), (float(centre[0]), float(centre[1]), float(low[2] + 0.3 * (high[2] - low[2])))
+    )
 
 
-def world_view(stand: Stand, cameras: list[str]) -> Any:
+def world_view(stand: OpeningView, cameras: list[str]) -> Any:
     """Return the view of the world from outside; cameras : entities whose overlays it leaves out."""
     hidden = [f"- /{camera}/screen/**" for camera in cameras]
     return rrb.Spatial3DView(

@@ -37,7 +37,7 @@ AHEAD = 10.0
 
 
 @dataclass(frozen=True, slots=True)
-class Stand:
+class OpeningView:
     """From where the world is seen, and what is in the middle, p_W in metres."""
 
     eye: tuple[float, float, float]
@@ -50,7 +50,7 @@ def filmed_span(plan: VerifiedIR) -> tuple[float, float] | None:
     return (min(p.start for p in phases), max(p.end for p in phases)) if phases else None
 
 
-def first_stand(plan: VerifiedIR) -> Stand | None:
+def first_stand(plan: VerifiedIR) -> OpeningView | None:
     """Return from where the first filmed frame's camera and subjects are seen, or None without a frame."""
     span = filmed_span(plan)
     if span is None:
@@ -68,7 +68,7 @@ def first_stand(plan: VerifiedIR) -> Stand | None:
     eyes = [_over_ground(mission, middle + away * _toward(k)) for k in range(HEADINGS)]
     covered = [_covered(mission, subjects, (eye, camera[0]), time) for eye in eyes]
     x, y, z = eyes[int(np.argmin(covered))].tolist()
-    return Stand((x, y, z), (float(middle[0]), float(middle[1]), float(middle[2])))
+    return OpeningView((x, y, z), (float(middle[0]), float(middle[1]), float(middle[2])))
 
 
 def _toward(k: int) -> Array:

@@ -16,7 +16,7 @@ import numpy as np
 from shotc.diag.model import Diagnostic
 from shotc.emit.base import Artifact, Emission
 from shotc.emit.kml import KML, text_element
-from shotc.emit.site.volumes import Outline, Volumes, volumes
+from shotc.emit.site.volumes import AreaOutline, Volumes, volumes
 from shotc.emit.zip_parts import archive_parts
 from shotc.filenames import file_name
 from shotc.geom.bernstein import Array
@@ -118,11 +118,11 @@ def _volumes(folder: Element, origin: GeoOrigin, found: Volumes) -> None:
 def _zones(folder: Element, mission: MissionIR, origin: GeoOrigin) -> None:
     for zone in mission.zones:
         words = "stay inside" if zone.keep == "in" else "keep out"
-        outline = Outline(ground_plan(zone.solid), zone.solid.top)
+        outline = AreaOutline(ground_plan(zone.solid), zone.solid.top)
         _polygon(_mark(folder, f"zone {zone.name}", zone.keep, words), origin, outline)
 
 
-def _polygon(mark: Element, origin: GeoOrigin, outline: Outline, *, flat: bool = False) -> None:
+def _polygon(mark: Element, origin: GeoOrigin, outline: AreaOutline, *, flat: bool = False) -> None:
     """Draw an outline: with walls from its height down to the ground, or flat on the ground."""
     polygon = SubElement(mark, f"{{{KML}}}Polygon")
     if not flat:

@@ -25,7 +25,7 @@ SIDES = 32
 """Of the polygon about a circle by which a hull is made wider."""
 
 
-class Outline(NamedTuple):
+class AreaOutline(NamedTuple):
     """A convex area on the map, corners counter-clockwise (k, 2), metres in W, and its greatest height, z."""
 
     corners: Array
@@ -46,9 +46,9 @@ class Volumes(NamedTuple):
     ground : z from which heights count, that of the lowest pad
     """
 
-    flight: Outline
-    contingency: Outline
-    risk: Outline
+    flight: AreaOutline
+    contingency: AreaOutline
+    risk: AreaOutline
     across: float
     upright: float
     buffer: float
@@ -76,9 +76,9 @@ def volumes(flown: TrajectoryIR) -> Volumes:
     margin = widened(own, across)
     buffer = top + upright - ground
     return Volumes(
-        Outline(own, top),
-        Outline(margin, top + upright),
-        Outline(widened(margin, buffer), ground),
+        AreaOutline(own, top),
+        AreaOutline(margin, top + upright),
+        AreaOutline(widened(margin, buffer), ground),
         across,
         upright,
         buffer,

@@ -9,7 +9,7 @@ import numpy as np
 from shotc.emit.screen import ScreenSummary, certified, framed_targets
 from shotc.emit.storyboard.composition import composition_text
 from shotc.emit.storyboard.fleet_lights import FleetLights, lights_at
-from shotc.emit.storyboard.subjects import Framed, at_keyframe, at_time
+from shotc.emit.storyboard.subjects import FramedSubject, at_keyframe, at_time
 from shotc.emit.storyboard.worst import WorstFrame, worst_framing
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
@@ -44,7 +44,7 @@ class StoryboardFrame:
     time: float
     pose: Array
     hold: float
-    framed: tuple[Framed, ...]
+    framed: tuple[FramedSubject, ...]
     worst: str = ""
     lights: FleetLights | None = None
 

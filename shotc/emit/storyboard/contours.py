@@ -36,7 +36,7 @@ _TURN = np.array([0, 1, 2])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Relief:
+class PlanRelief:
     """The ground that a plan shows.
 
     nodes : W, on a net of equal cells from edge to edge of the sheet, South first, (r, c, 3); z is NaN where
@@ -77,7 +77,7 @@ class Relief:
         return np.asarray(found[np.isfinite(found[..., 2]).all(axis=1)])
 
 
-def relief_of(sheet: Sheet, ground: Ground) -> Relief:
+def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
     """Return the ground that a plan shows."""
     half = np.array([sheet.box.width, sheet.box.height]) / 2 / sheet.inches
     columns, rows = (int(np.ceil(side / FINE_IN)) + 1 for side in (sheet.box.width, sheet.box.height))
@@ -88,10 +88,10 @@ def relief_of(sheet: Sheet, ground: Ground) -> Relief:
     found = z[np.isfinite(z)]
     rise = float(np.ptp(found)) if found.size else 0.0
     step = max(round_length(rise / LEVELS), LEAST_STEP_M) if rise > LEAST_STEP_M else 0.0
-    return Relief(np.concatenate([plan, z[..., None]], axis=-1), step)
+    return PlanRelief(np.concatenate([plan, z[..., None]], axis=-1), step)
 
 
-def draw_relief(canvas: Canvas, sheet: Sheet, relief: Relief) -> None:
+def draw_relief(canvas: Canvas, sheet: Sheet, relief: PlanRelief) -> None:
     """Draw hillshade and contours; where there is no ground, the sheet stays as it is."""
     canvas.image(_pixels(relief), sheet.box)
     triangles, told = relief.triangles, relief.told
@@ -103,7 +103,7 @@ def draw_relief(canvas: Canvas, sheet: Sheet, relief: Relief) -> None:
             canvas.pieces(sheet.at(ends), color, BOLD if bold else LINE, sheet.box)
 
 
-def _pixels(relief: Relief) -> np.ndarray:
+def _pixels(relief: PlanRelief) -> np.ndarray:
     p = relief.nodes
     normals = np.cross(p[1:, 1:] - p[:-1, :-1], p[1:, :-1] - p[:-1, 1:])
     colors = shades(np.array(GROUND_FAR), hillshade(normals))
@@ -124,7 +124,7 @@ def contour(triangles: Array, level: float) -> Array:
 
 
 def contour_heights(
-    canvas: Canvas, sheet: Sheet, relief: Relief, taken: Sequence[PageRectangle]
+    canvas: Canvas, sheet: Sheet, relief: PlanRelief, taken: Sequence[PageRectangle]
 ) -> list[PageRectangle]:
     """Write heights on a few contours, each near the middle where nothing else is; return their room."""
     rooms: list[PageRectangle] = []

@@ -15,7 +15,7 @@ from shotc.emit.storyboard.side_by_side import (
     moment_at,
     picture_size,
 )
-from shotc.ir.comparison import Comparison, Difference
+from shotc.ir.comparison import Comparison, ShotDifference
 
 FACTS = 0.36
 
@@ -45,7 +45,7 @@ def _page(comparison: Comparison, dpi: float) -> bytes:
 
 
 def _row(
-    canvas: Canvas, comparison: Comparison, found: Difference, at: tuple[float, tuple[float, float]]
+    canvas: Canvas, comparison: Comparison, found: ShotDifference, at: tuple[float, tuple[float, float]]
 ) -> None:
     """Draw two pictures beside each other; at : the top of the row, and the size of a picture, inches."""
     top, (width, height) = at

@@ -10,10 +10,10 @@ from shotc.emit.palette import CAMERA, FAINT, INK, KEEP_OUT, QUIET, WHITE
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
-from shotc.ir.comparison import FlownShot, Trace
+from shotc.ir.comparison import ComparedShot, Trace
 
 
-def draw_error(canvas: Canvas, box: PageRectangle, shot: FlownShot, what: tuple[float, float]) -> None:
+def draw_error(canvas: Canvas, box: PageRectangle, shot: ComparedShot, what: tuple[float, float]) -> None:
     """Draw the errors of a shot; what : the time of the frame to mark, seconds, and the error at the top."""
     time, top = what
     canvas.polygons([box.outline()], WHITE, FAINT, 0.6)

@@ -14,9 +14,9 @@ from shotc.emit.storyboard.camera_picture import PictureRectangle, picture
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, chip
 from shotc.emit.storyboard.content import StoryboardFrame
 from shotc.emit.storyboard.fleet_lights import draw_lights
-from shotc.emit.storyboard.labels import Label, write_labels
+from shotc.emit.storyboard.labels import MapLabel, write_labels
 from shotc.emit.storyboard.scene import draw_scene, name_places
-from shotc.emit.storyboard.subjects import Framed
+from shotc.emit.storyboard.subjects import FramedSubject
 from shotc.geom.bernstein import Array
 from shotc.geom.camera import heading_of
 from shotc.ir.limits import Vec2, Vec3
@@ -92,7 +92,7 @@ def _composition(canvas: Canvas, shown: PictureRectangle, composition: Compositi
 
 
 def _marks(
-    canvas: Canvas, shown: PictureRectangle, subject: Framed, offset: Vec3, body: PageRectangle | None
+    canvas: Canvas, shown: PictureRectangle, subject: FramedSubject, offset: Vec3, body: PageRectangle | None
 ) -> list[PageRectangle]:
     """Draw where a subject is wanted and where it is; return the room that takes.
 
@@ -147,7 +147,7 @@ def _asked(canvas: Canvas, shown: PictureRectangle, asked: Vec2, reference: Vec2
     canvas.polygons([diamond], (*WHITE, 0.35), INK, 0.8, shown.box)
 
 
-def _faults(canvas: Canvas, box: PageRectangle, framed: Sequence[Framed]) -> list[PageRectangle]:
+def _faults(canvas: Canvas, box: PageRectangle, framed: Sequence[FramedSubject]) -> list[PageRectangle]:
     """Write what is wrong with the subjects, with its name where there are several; return the room."""
     taken: list[PageRectangle] = []
     top = box.top - 0.07
@@ -179,7 +179,9 @@ def _names(
                 place = place.with_box(mark)
         if name in targets:
             bodies.append(seen)
-        labels.append(Label(name, color, place, PICTURE_SIDES, 7.5, bold=False, inside=name not in targets))
+        labels.append(
+            MapLabel(name, color, place, PICTURE_SIDES, 7.5, bold=False, inside=name not in targets)
+        )
     return write_labels(canvas, inner, labels, [*taken, *bodies])
 
 

@@ -21,7 +21,7 @@ MAP_SIDES = ("under", "over", "left", "right", *FLUSH, "over left", "over right"
 
 
 @dataclass(frozen=True, slots=True)
-class Label:
+class MapLabel:
     """A name, the rectangle of its thing, and the sides of that on which it may stand, best first.
 
     inside : whether it stands best on the thing, where that has room for it
@@ -39,7 +39,7 @@ class Label:
 def write_labels(
     canvas: Canvas,
     inner: PageRectangle,
-    labels: Iterable[Label],
+    labels: Iterable[MapLabel],
     taken: Sequence[PageRectangle],
     avoid: Sequence[PageRectangle] = (),
 ) -> list[str]:
@@ -107,7 +107,7 @@ def _middle(box: PageRectangle) -> tuple[float, float]:
 def free_room(
     size: tuple[float, float],
     inner: PageRectangle,
-    label: Label,
+    label: MapLabel,
     others: tuple[Sequence[PageRectangle], Sequence[PageRectangle]],
 ) -> PageRectangle | None:
     """Return where a label of some size goes, or None; others : what is taken, and what to avoid."""

@@ -23,7 +23,7 @@ from shotc.emit.palette import (
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 from shotc.emit.storyboard.content import ShotBoard, StoryboardFrame, standing
 from shotc.emit.storyboard.contours import (
-    Relief,
+    PlanRelief,
     contour_heights,
     draw_profile,
     draw_relief,
@@ -31,7 +31,7 @@ from shotc.emit.storyboard.contours import (
     relief_of,
 )
 from shotc.emit.storyboard.furniture import height_marks, north_arrow, round_length, scale_bar, view_name
-from shotc.emit.storyboard.labels import Label, nearest_room, write_labels
+from shotc.emit.storyboard.labels import MapLabel, nearest_room, write_labels
 from shotc.emit.storyboard.sheet import Sheet, sheet_of
 from shotc.emit.storyboard.standing import draw_on_map
 from shotc.geom.bernstein import Array
@@ -85,7 +85,7 @@ def _step(sheet: Sheet, grid: float) -> float:
     return grid if most <= MOST_SQUARES * grid else round_length(most / 8)
 
 
-def _paper(canvas: Canvas, sheet: Sheet, step: float, relief: Relief | None) -> None:
+def _paper(canvas: Canvas, sheet: Sheet, step: float, relief: PlanRelief | None) -> None:
     canvas.polygons([sheet.box.outline()], GROUND_FAR if sheet.is_plan else SKY_LOW)
     if relief is not None:
         draw_relief(canvas, sheet, relief)
@@ -204,7 +204,7 @@ def _clear_of(strip: Array, marks: Array, start: int) -> int:
 
 
 def _furniture(
-    canvas: Canvas, sheet: Sheet, what: tuple[float, Relief | None], board: ShotBoard, mission: MissionIR
+    canvas: Canvas, sheet: Sheet, what: tuple[float, PlanRelief | None], board: ShotBoard, mission: MissionIR
 ) -> list[PageRectangle]:
     """Draw directions, scale, how wide the squares are and how far contours are apart; return the room."""
     step, relief = what
@@ -272,18 +272,18 @@ def _names(
     for target in {t.name: t for t in mission.targets}.values():
         seen = sheet.visible(_body(sheet, target))
         if seen is not None:
-            labels.append(Label(target.name, shade(SUBJECT, 0.75), seen))
+            labels.append(MapLabel(target.name, shade(SUBJECT, 0.75), seen))
     named = len(labels)
     bodies = [seen for t in mission.targets if (seen := sheet.visible(_body(sheet, t))) is not None]
     pad = _square(sheet.place(np.array(board.drone.home)), 0.055)
     if sheet.box.holds(pad):
         canvas.polygons([pad.outline()], WHITE, INK, 1.0)
         taken.append(pad)
-        labels.append(Label("home", QUIET, pad))
+        labels.append(MapLabel("home", QUIET, pad))
     for zone in mission.zones:
         seen = sheet.visible(sheet.outline(zone.solid))
         if zone.keep == "out" and seen is not None:
-            labels.append(Label(zone.name, shade(KEEP_OUT, 0.8), seen, inside=True))
+            labels.append(MapLabel(zone.name, shade(KEEP_OUT, 0.8), seen, inside=True))
     inner = PageRectangle(
         sheet.box.x + 0.03, sheet.box.y + 0.03, sheet.box.width - 0.06, sheet.box.height - 0.06
     )

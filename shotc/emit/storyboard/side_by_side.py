@@ -14,7 +14,7 @@ from shotc.emit.storyboard.content import StoryboardFrame, passing
 from shotc.emit.storyboard.error_plot import draw_error
 from shotc.emit.storyboard.frame import Cell, caption_height, draw_frame
 from shotc.emit.storyboard.furniture import round_length
-from shotc.ir.comparison import Comparison, Condition, FlownShot, Score
+from shotc.ir.comparison import ComparedShot, Comparison, Condition, Score
 from shotc.ir.mission import Shot
 from shotc.ir.trajectory import VerifiedIR
 
@@ -39,7 +39,7 @@ def draw_comparison(comparison: Comparison, dpi: float) -> bytes:
         return _page(comparison, dpi)
 
 
-def worst_frame(shot: FlownShot) -> float:
+def worst_frame(shot: ComparedShot) -> float:
     """Return when a shot shows its targets worst, seconds of mission time.
 
     That is where one is cropped most; where none is, where one is farthest from its place; else half-way.
@@ -100,7 +100,9 @@ def _shot(canvas: Canvas, comparison: Comparison, shot: Shot, first: Panel) -> N
             _flown(canvas, each.plan, there, panel, (i + 1, top))
 
 
-def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what: tuple[int, float]) -> None:
+def _flown(
+    canvas: Canvas, plan: VerifiedIR, shot: ComparedShot, panel: Panel, what: tuple[int, float]
+) -> None:
     """Draw the column of a shot that is flown; what : the number of the column and the top of its plot."""
     number, top = what
     width, height = panel.picture
@@ -116,7 +118,7 @@ def _flown(canvas: Canvas, plan: VerifiedIR, shot: FlownShot, panel: Panel, what
         canvas.write(panel.left, plot.y - 0.36 - i * 0.17, text, Type(8.5, KEEP_OUT if lost else INK), CELL)
 
 
-def moment_at(plan: VerifiedIR, shot: FlownShot, time: float, number: int) -> StoryboardFrame:
+def moment_at(plan: VerifiedIR, shot: ComparedShot, time: float, number: int) -> StoryboardFrame:
     """Return what a shot shows at a mission time, with its number on the page."""
     (placed,) = (p for p in plan.trajectory.keyframes.shots if p.shot.id == shot.id)
     (flight,) = (f for f in plan.trajectory.drones if f.drone == shot.drone)

@@ -53,7 +53,7 @@ Project = Callable[[Array], OnPage]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Raster:
+class DepthRaster:
     """The nearest point of each pixel.
 
     colors : shape (rows, columns, 3), 0 to 1; points : W, (rows, columns, 3), NaN where there is none
@@ -75,7 +75,7 @@ class Raster:
         return out
 
 
-def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> Raster:
+def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRaster:
     """Return what a picture of size (rows, columns) shows of triangles."""
     rows, columns = size
     depth = np.full(rows * columns, np.inf)
@@ -95,7 +95,7 @@ def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> Raster:
             _put(project(p), p, tint, (depth, colors, points), size)
     depth = depth.reshape(size)
     lined = colors.reshape(rows, columns, 3) * _edges(depth)[..., None]
-    return Raster(lined, points.reshape(rows, columns, 3))
+    return DepthRaster(lined, points.reshape(rows, columns, 3))
 
 
 def _small(faces: Faces, project: Project) -> Faces:

@@ -25,7 +25,7 @@ MOVED = 0.02
 
 
 @dataclass(frozen=True, slots=True)
-class Framed:
+class FramedSubject:
     """One subject at one moment.
 
     reference : (u, v) wanted of it, or None
@@ -49,7 +49,7 @@ class Framed:
 
 def at_keyframe(
     plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime
-) -> tuple[Framed, ...]:
+) -> tuple[FramedSubject, ...]:
     """Return whom a keyframe frames: one subject, or none."""
     placed, flight = pair
     keyframe, written = placed.keyframes[at.index], placed.shot.keyframes[at.index]
@@ -57,7 +57,7 @@ def at_keyframe(
         return ()
     own_angles = keyframe.placed and written.aim is not None and len(written.aim) == 2
     return (
-        Framed(
+        FramedSubject(
             target=keyframe.target,
             reference=keyframe.reference,
             asked=keyframe.asked if own_angles else None,
@@ -67,7 +67,9 @@ def at_keyframe(
     )
 
 
-def at_time(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float) -> tuple[Framed, ...]:
+def at_time(
+    plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float
+) -> tuple[FramedSubject, ...]:
     """Return whom a shot frames at some time, seconds, the foremost first."""
     placed, flight = pair
     shot = placed.shot
@@ -77,7 +79,7 @@ def at_time(plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: fl
     for target in dict.fromkeys(span.target for span in spans):
         u, v = (float(c) for c in references(flight, shot.id, target, np.array([time]))[0])
         framed.append(
-            Framed(
+            FramedSubject(
                 target=target,
                 reference=None if np.isnan(u) else (u, v),
                 asked=None,

@@ -19,7 +19,7 @@ from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.flown import STAY_PACE
 from shotc.emit.waypoints.lens import SAME_LENS, edge, middle_lens, shown_by, stay_and_zoom, zoomed
 from shotc.emit.waypoints.models import TURNINGS, CurveModel, Legs, legs_of, times_of, turned
-from shotc.emit.waypoints.route import Action, Route
+from shotc.emit.waypoints.route import PointAction, Route
 from shotc.emit.waypoints.stations import LEG_LEAST, Station, StationInterval, stations_of
 from shotc.emit.waypoints.track import LOST, Poses, SampledFlight, SampleRange, project, select
 from shotc.ir.drone import Drone, LensRange
@@ -97,13 +97,13 @@ class Chooser:
             self._actions(stations),
         )
 
-    def _stay(self, stretch: SampleRange) -> list[Action]:
+    def _stay(self, stretch: SampleRange) -> list[PointAction]:
         """Return what is done while the drone stands, films and may zoom."""
         assert self.lens is not None
         part = slice(stretch.first, stretch.last + 1)
         return stay_and_zoom(self.lens, self.track.time[part], self.track.poses.hfov[part], WORST * STEADY)
 
-    def _actions(self, stations: list[Station]) -> tuple[tuple[Action, ...], ...]:
+    def _actions(self, stations: list[Station]) -> tuple[tuple[PointAction, ...], ...]:
         """Return what is done at each station: its own, then the zoom for the way that begins there."""
         if self.lens is None:
             return tuple(s.actions for s in stations)

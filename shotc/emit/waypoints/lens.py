@@ -8,7 +8,7 @@ from math import atan, ceil, exp, log1p
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.waypoints.route import Action
+from shotc.emit.waypoints.route import PointAction
 from shotc.geom.focal import field_of_view
 from shotc.ir.drone import LensRange
 
@@ -31,17 +31,17 @@ def middle_lens(hfov: Array) -> float:
     return 2 * atan(exp(float(half.max() + half.min()) / 2))
 
 
-def zoomed(lens: LensRange, hfov: float) -> Action:
+def zoomed(lens: LensRange, hfov: float) -> PointAction:
     """Return a zoom to a field of view, rad."""
-    return Action("zoom", focal=round(1000 * lens.focal(hfov), 1))
+    return PointAction("zoom", focal=round(1000 * lens.focal(hfov), 1))
 
 
-def shown_by(lens: LensRange, action: Action) -> float:
+def shown_by(lens: LensRange, action: PointAction) -> float:
     """Return the field of view to which an action zooms, rad."""
     return field_of_view(action.focal, 1000 * lens.frame)
 
 
-def stay_and_zoom(lens: LensRange, time: Array, hfov: Array, most: float) -> list[Action]:
+def stay_and_zoom(lens: LensRange, time: Array, hfov: Array, most: float) -> list[PointAction]:
     """Return the stays and zooms of a camera that stands at times (n,) and has fields of view (n,), rad.
 
     most : half frames at the edge of the picture, by which a step may be off
@@ -51,11 +51,11 @@ def stay_and_zoom(lens: LensRange, time: Array, hfov: Array, most: float) -> lis
     steps = max(1, ceil(span / (2 * log1p(most))))
     level = np.minimum(steps * rise / max(span, 1e-12), steps - 1).astype(int)
     cuts = [0, *(np.flatnonzero(np.diff(level)) + 1), len(time) - 1]
-    actions: list[Action] = []
+    actions: list[PointAction] = []
     spent = 0.0
     for first, last in pairwise(cuts):
         seconds = round(float(time[last] - time[0]) - spent, 1)
         if seconds > 0.0:
-            actions += [zoomed(lens, middle_lens(hfov[first : last + 1])), Action("stay", seconds)]
+            actions += [zoomed(lens, middle_lens(hfov[first : last + 1])), PointAction("stay", seconds)]
             spent += seconds
     return actions

@@ -22,7 +22,7 @@ from shotc.emit.waypoints.compare import Error, ShotError, compare
 from shotc.emit.waypoints.geo import Geo, GeoPosition, tie
 from shotc.emit.waypoints.link import link_notes, return_height
 from shotc.emit.waypoints.models import TURNINGS, CurveModel, fly, legs_of
-from shotc.emit.waypoints.route import Action, Route, Waypoint, route_of
+from shotc.emit.waypoints.route import PointAction, Route, Waypoint, route_of
 from shotc.emit.waypoints.stations import Station
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
 from shotc.emit.waypoints.track import SampledFlight, track_of
@@ -335,7 +335,7 @@ def joined(blocks: list[list[Waypoint]]) -> list[Waypoint]:
     """Return the points of all blocks, each place once."""
     points = list(blocks[0])
     for before, block in pairwise(blocks):
-        actions: tuple[Action, ...] = (*before[-1].actions, *block[0].actions)
+        actions: tuple[PointAction, ...] = (*before[-1].actions, *block[0].actions)
         points[-1] = replace(block[0], actions=actions)
         points += block[1:]
     return points

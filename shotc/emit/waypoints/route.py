@@ -15,7 +15,7 @@ from shotc.ir.photos import Photos
 Array = NDArray[np.float64]
 
 
-class Action(NamedTuple):
+class PointAction(NamedTuple):
     """What is done at a point: recording starts or stops, the drone stays some seconds, or the lens zooms.
 
     focal : focal length to zoom to, mm, as the lens counts them
@@ -43,7 +43,7 @@ class Waypoint:
     pitch: float
     speed: float
     stops: bool
-    actions: tuple[Action, ...] = ()
+    actions: tuple[PointAction, ...] = ()
     curve: float = 0.0
     watched: GeoPosition | None = None
 
@@ -63,7 +63,7 @@ class Route:
     speed: Array
     stops: NDArray[np.bool_]
     curve: Array
-    actions: tuple[tuple[Action, ...], ...]
+    actions: tuple[tuple[PointAction, ...], ...]
 
 
 def route_of(points: list[Waypoint], geo: Geo) -> Route:

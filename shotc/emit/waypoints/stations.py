@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.waypoints.route import Action
+from shotc.emit.waypoints.route import PointAction
 from shotc.emit.waypoints.track import SampledFlight, SampleRange
 from shotc.ir.photos import Photos
 
@@ -31,7 +31,7 @@ class Station:
     first: int
     last: int
     stops: bool = False
-    actions: tuple[Action, ...] = ()
+    actions: tuple[PointAction, ...] = ()
     aim: int | None = None
 
 
@@ -47,7 +47,7 @@ class StationInterval:
 def stations_of(
     track: SampledFlight,
     way: Array,
-    stay: Callable[[SampleRange], list[Action]] | None = None,
+    stay: Callable[[SampleRange], list[PointAction]] | None = None,
     photos: Mapping[str, Photos] | None = None,
 ) -> tuple[list[Station], list[StationInterval]]:
     """Return the stations that a track needs, and the gap after each but the last.
@@ -62,14 +62,14 @@ def stations_of(
     for i, group in enumerate(groups):
         before = gaps[i - 1] if i else None
         after = gaps[i] if i < len(gaps) else None
-        actions: list[Action] = []
+        actions: list[PointAction] = []
         for stretch in group:
             actions += _changed(shot, stretch.shot, photos or {})
             shot = stretch.shot
             seconds = float(track.time[stretch.last] - track.time[stretch.first])
             seconds = round(seconds if shot else min(seconds, SETTLE), 1)
             if seconds >= STAY_LEAST:
-                actions += stay(stretch) if stay and shot else [Action("stay", seconds)]
+                actions += stay(stretch) if stay and shot else [PointAction("stay", seconds)]
         actions += _changed(shot, after.shot if after else None, photos or {})
         shot = after.shot if after else None
         first, last = _ends(track, group, before, after)
@@ -123,11 +123,11 @@ def _aim(
     return None if any(stretch.shot for stretch in group) else last
 
 
-def _changed(before: str | None, after: str | None, photos: Mapping[str, Photos]) -> Iterator[Action]:
+def _changed(before: str | None, after: str | None, photos: Mapping[str, Photos]) -> Iterator[PointAction]:
     if before != after and before is not None:
-        yield Action("stop", photos=photos.get(before))
+        yield PointAction("stop", photos=photos.get(before))
     if before != after and after is not None:
-        yield Action("start", photos=photos.get(after))
+        yield PointAction("start", photos=photos.get(after))
 
 
 def _speed(track: SampledFlight, index: int) -> float:

@@ -66,7 +66,7 @@ class Numbered:
 
 
 @dataclass(slots=True)
-class Search:
+class LeastSearch:
     """What a search for the least value knows: the least one met, and the least bound it stopped at."""
 
     best: float = np.inf
@@ -105,17 +105,17 @@ def inf_distance(pieces: Pieces, surface: Surface, gap: Gap) -> SurfaceBound:
     No pieces, or no triangles: both are inf. Where a curve crosses the surface the value is 0, or at most
     the gap: it has no sign.
     """
-    known = Search()
+    known = LeastSearch()
     if len(surface) and len(pieces):
         run(_Distances(known, surface, gap), Numbered(pieces, np.arange(len(pieces))))
     return known.bound(surface)
 
 
-class Problem(Protocol):
+class DistanceProblem(Protocol):
     """What ``run`` needs of a least value over pairs of pieces and triangles."""
 
     @property
-    def known(self) -> Search:
+    def known(self) -> LeastSearch:
         """What is known of it."""
 
     def look(self, parts: Numbered) -> None:
@@ -131,7 +131,7 @@ class Problem(Protocol):
         """Bound the value over pairs."""
 
 
-def run(problem: Problem, parts: Numbered) -> None:
+def run(problem: DistanceProblem, parts: Numbered) -> None:
     """Find the least value, piece by piece where all at once would meet too many boxes."""
     problem.look(parts)
     rest, closed = [parts], np.inf
@@ -145,7 +145,7 @@ def run(problem: Problem, parts: Numbered) -> None:
     problem.known.rest = closed
 
 
-def _fewer(problem: Problem, parts: Numbered) -> list[Numbered]:
+def _fewer(problem: DistanceProblem, parts: Numbered) -> list[Numbered]:
     long = problem.long(parts)
     if long.any() and len(parts) < PIECES_LIMIT:
         shorter = parts.pick(long).halves()
@@ -167,7 +167,7 @@ def middles(ctrl: Array) -> Array:
 class _Distances:
     """The problem of the least distance, for ``run``."""
 
-    known: Search
+    known: LeastSearch
     surface: Surface
     gap: Gap
 

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces
 from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS
-from shotc.geom.surface.distance import Gap, Numbered, Search, SurfaceBound, halve, middles, run
+from shotc.geom.surface.distance import Gap, LeastSearch, Numbered, SurfaceBound, halve, middles, run
 from shotc.geom.surface.ground import Ground, NoGround, heights, leaves, under
 from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
 from shotc.geom.surface.triangles import TINY, dot, highest, lowest
@@ -51,7 +51,7 @@ def least_where_ground(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound
 
 
 def _least(pieces: Pieces, ground: Ground, gap: Gap, sign: float) -> SurfaceBound:
-    known = Search()
+    known = LeastSearch()
     if len(pieces):
         run(_Heights(known, ground, gap, sign), Numbered(pieces, np.arange(len(pieces))))
     return known.bound(ground.surface)
@@ -61,7 +61,7 @@ def _least(pieces: Pieces, ground: Ground, gap: Gap, sign: float) -> SurfaceBoun
 class _Heights:
     """The problem of the least of ``sign`` times the height above ground, for ``run``."""
 
-    known: Search
+    known: LeastSearch
     ground: Ground
     gap: Gap
     sign: float

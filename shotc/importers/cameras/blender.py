@@ -13,8 +13,15 @@ from math import asin, atan2, cos, degrees, hypot, pi, radians, sin
 from shotc.geom.focal import field_of_view
 from shotc.geom.vec import Vec3
 from shotc.importers.cameras.places import level, reached, shown, without_far
-from shotc.importers.cameras.table import Table, TableRow, table_of
-from shotc.importers.cameras.takes import MOST_CAMERAS, Footage, ImportedCamera, ImportOptions, Refused, Take
+from shotc.importers.cameras.table import CameraTable, TableRow, table_of
+from shotc.importers.cameras.takes import (
+    MOST_CAMERAS,
+    ImportedCamera,
+    ImportedTakes,
+    ImportOptions,
+    Refused,
+    Take,
+)
 from shotc.importers.notes import Notes
 
 USUAL_FPS = 24.0
@@ -38,7 +45,7 @@ LEVEL_AXIS = 1e-6
 """How much of the view is level at least, for its heading to be that of the view itself."""
 
 
-def footage(text: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
+def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the one take of a table of frames."""
     table = table_of(text, [NAMES[k] for k in "xyz"], EXAMPLE)
     if isinstance(table, Refused):
@@ -55,17 +62,17 @@ def footage(text: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
         message = f"it has {len(table.rows)} frames; at most {MOST_CAMERAS} are read"
         return Refused("I001", message, table.rows[MOST_CAMERAS].node)
     cameras = _cameras(table, columns, asked, notes)
-    return Footage(table.node, without_far([Take("", table.node, tuple(cameras))], notes))
+    return ImportedTakes(table.node, without_far([Take("", table.node, tuple(cameras))], notes))
 
 
-def _column(table: Table, names: tuple[str, ...]) -> str:
+def _column(table: CameraTable, names: tuple[str, ...]) -> str:
     """Return what a column is called in a table, empty where it is not there."""
     endings = ("", "_deg", "_rad")
     return next((n + end for n in names for end in endings if n + end in table.heads), "")
 
 
 def _cameras(
-    table: Table, columns: dict[str, str], asked: ImportOptions, notes: Notes
+    table: CameraTable, columns: dict[str, str], asked: ImportOptions, notes: Notes
 ) -> list[ImportedCamera]:
     rate = _rate(table, columns, asked, notes)
     unit = _unit(table, columns, notes)
@@ -88,7 +95,7 @@ def _cameras(
     return cameras
 
 
-def _rate(table: Table, columns: dict[str, str], asked: ImportOptions, notes: Notes) -> float:
+def _rate(table: CameraTable, columns: dict[str, str], asked: ImportOptions, notes: Notes) -> float:
     if "time" in columns or asked.fps is not None:
         return asked.fps or USUAL_FPS
     head = table.heads[columns["frame"]]
@@ -96,7 +103,7 @@ def _rate(table: Table, columns: dict[str, str], asked: ImportOptions, notes: No
     return USUAL_FPS
 
 
-def _unit(table: Table, columns: dict[str, str], notes: Notes) -> float:
+def _unit(table: CameraTable, columns: dict[str, str], notes: Notes) -> float:
     """Return how many radians one of the table's angles is: some write degrees, as the panel shows them."""
     name = columns.get("rx", "")
     if not name or "qw" in columns:
@@ -112,7 +119,7 @@ def _unit(table: Table, columns: dict[str, str], notes: Notes) -> float:
     return radians(1.0) if in_degrees else 1.0
 
 
-def _lens_noted(table: Table, columns: dict[str, str], notes: Notes) -> None:
+def _lens_noted(table: CameraTable, columns: dict[str, str], notes: Notes) -> None:
     if "lens" not in columns and "hfov" not in columns:
         taken = f"{USUAL_LENS:g} mm on a sensor {USUAL_SENSOR:g} mm wide, as a new camera of Blender has"
         notes.assume(table.node, "the file has no column `hfov`, nor `lens`", taken)

@@ -23,7 +23,14 @@ from shotc.importers.cameras.places import (
     without_far,
     world,
 )
-from shotc.importers.cameras.takes import MOST_CAMERAS, Footage, ImportedCamera, ImportOptions, Refused, Take
+from shotc.importers.cameras.takes import (
+    MOST_CAMERAS,
+    ImportedCamera,
+    ImportedTakes,
+    ImportOptions,
+    Refused,
+    Take,
+)
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import LARGEST, Node, XmlFault
 from shotc.ir.mission import GeoOrigin
@@ -62,7 +69,7 @@ def unpacked(data: bytes) -> bytes | XmlFault:
     return XmlFault(found) if isinstance(found, str) else found
 
 
-def footage(root: Node, asked: ImportOptions, notes: Notes) -> Footage | Refused:
+def footage(root: Node, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a KML document."""
     if local(root) != "kml":
         return Refused("I002", f"it is no KML: its root is `{plain(root.tag, 30)}`", root)
@@ -88,7 +95,7 @@ def footage(root: Node, asked: ImportOptions, notes: Notes) -> Footage | Refused
     takes = [
         Take(_name(tour), tour, tuple(_camera(view, origin, notes) for view in some)) for tour, some in found
     ]
-    return Footage(root, without_far(takes, notes), origin)
+    return ImportedTakes(root, without_far(takes, notes), origin)
 
 
 RECORD = (

@@ -12,8 +12,8 @@ from shotc.importers.cameras.places import aim, is_place, origin_at, reached, wi
 from shotc.importers.cameras.table import TableRow, table_of
 from shotc.importers.cameras.takes import (
     MOST_CAMERAS,
-    Footage,
     ImportedCamera,
+    ImportedTakes,
     ImportOptions,
     Refused,
     recorded,
@@ -29,7 +29,7 @@ FOCUS = 1
 """Gimbal mode in which the camera keeps to the point of interest."""
 
 
-def footage(text: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
+def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a Litchi mission: what is recorded, or all of it where nothing is."""
     height = ("altitude(m)", "altitude(ft)")
     table = table_of(text, [("latitude",), ("longitude",), height, ("heading(deg)",)], EXAMPLE)
@@ -63,7 +63,7 @@ def footage(text: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
     takes = recorded(
         table.node, cameras, [START in found for found in kinds], [STOP in found for found in kinds]
     )
-    return Footage(table.node, without_far(takes, notes), origin)
+    return ImportedTakes(table.node, without_far(takes, notes), origin)
 
 
 def _is_placed(row: TableRow, notes: Notes) -> bool:

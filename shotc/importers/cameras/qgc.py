@@ -25,8 +25,8 @@ from shotc.importers.cameras.places import (
 )
 from shotc.importers.cameras.takes import (
     MOST_CAMERAS,
-    Footage,
     ImportedCamera,
+    ImportedTakes,
     ImportOptions,
     Refused,
     Take,
@@ -102,7 +102,7 @@ def opened(data: bytes, name: str) -> Opened | Refused:
     return Opened(document, mission, listed, whole)
 
 
-def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Footage | Refused:
+def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
     """Return the takes of a plan: what is recorded, or all waypoints where nothing is."""
     plan = opened(data, name)
     if isinstance(plan, Refused):
@@ -137,7 +137,7 @@ def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Foota
         notes.assume(fast.node, "speeds between waypoints are not read", "the drone goes at its own pace")
     _assumed(items, notes)
     takes = _takes(whole, items, origin, notes)
-    return Footage(whole, without_far(takes, notes), origin, home=(0.0, 0.0, 0.0))
+    return ImportedTakes(whole, without_far(takes, notes), origin, home=(0.0, 0.0, 0.0))
 
 
 def _assumed(items: Sequence[CameraCommand], notes: Notes) -> None:

@@ -35,7 +35,7 @@ class TableRow(NamedTuple):
         return value
 
 
-class Table(NamedTuple):
+class CameraTable(NamedTuple):
     """A table. node : its first line; heads : its columns' cells, by their names in small letters."""
 
     node: Node
@@ -43,7 +43,7 @@ class Table(NamedTuple):
     rows: tuple[TableRow, ...]
 
 
-def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> Table | Refused:
+def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> CameraTable | Refused:
     """Return a table whose first line names its columns.
 
     needed : for each column that there has to be, the names that it may have; example : such a first line
@@ -61,7 +61,7 @@ def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> Table 
             message = f"it has no column `{names[0]}` in its first line"
             return Refused("I002", message, head, f"begin it with a line such as `{example}`")
     order = list(dict.fromkeys(cell.text.lower() for cell in _cells(lines[first], first, separator)))
-    return Table(head, heads, tuple(_rows(lines, first, separator, order)))
+    return CameraTable(head, heads, tuple(_rows(lines, first, separator, order)))
 
 
 def _rows(lines: Sequence[str], first: int, separator: str, order: Sequence[str]) -> Iterator[TableRow]:

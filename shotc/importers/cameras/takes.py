@@ -60,7 +60,7 @@ def recorded(
     return [Take("", some[0].node, tuple(some)) for some in takes]
 
 
-class Footage(NamedTuple):
+class ImportedTakes(NamedTuple):
     """All that is imported of a file.
 
     node : of the whole file; origin : None where the file is in metres already

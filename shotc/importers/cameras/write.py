@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from shotc.geom.focal import focal_length
 from shotc.importers.cameras.pace import too_fast
-from shotc.importers.cameras.takes import Footage, ImportedCamera, ImportOptions, Take
+from shotc.importers.cameras.takes import ImportedCamera, ImportedTakes, ImportOptions, Take
 from shotc.importers.cameras.thin import PICTURE, thinned
 from shotc.importers.names import safe
 from shotc.importers.notes import Notes
@@ -32,7 +32,9 @@ class Written(NamedTuple):
     cameras: int
 
 
-def written(name: str, what: str, footage: Footage, asked: ImportOptions, notes: Notes) -> Written | None:
+def written(
+    name: str, what: str, footage: ImportedTakes, asked: ImportOptions, notes: Notes
+) -> Written | None:
     """Return a mission, None where no take has two cameras; name : of it, what : it comes from."""
     takes = [take for take in map(_rested, footage.takes) if len(take.cameras) > 1]
     for take in footage.takes:
@@ -84,14 +86,14 @@ def _lenses(takes: list[Take]) -> tuple[float, float]:
     return max(found, default=own), min(found, default=own)
 
 
-def _world(footage: Footage) -> Iterator[str]:
+def _world(footage: ImportedTakes) -> Iterator[str]:
     if footage.origin is not None:
         lat, lon, alt = footage.origin
         yield f"world: {{origin: {{lat: {lat:.7f}, lon: {lon:.7f}, alt: {alt:.3f}}}}}"
 
 
 def _drone(
-    footage: Footage, first: ImportedCamera, notes: Notes, *, zoom: tuple[float, float] | None
+    footage: ImportedTakes, first: ImportedCamera, notes: Notes, *, zoom: tuple[float, float] | None
 ) -> list[str]:
     """Return the line of the drone; zoom : its widest and narrowest field of view, where it has several."""
     home = footage.home

@@ -18,9 +18,9 @@ from shotc.importers.flights.points import (
     FOREIGN,
     HEIGHTS,
     UNREADABLE,
+    FlightPoint,
     Level,
     Pace,
-    Point,
     Unread,
     Waypoints,
     checked,
@@ -62,9 +62,9 @@ class _Run:
     """What has been read so far, and what is in force."""
 
     pace: Pace = field(default_factory=Pace)
-    points: list[Point] = field(default_factory=list)
+    points: list[FlightPoint] = field(default_factory=list)
     climb: float = 0.0
-    landing: Point | None = None
+    landing: FlightPoint | None = None
     ending: str = ""
     stay: float = 0.0
     pitches: tuple[float, ...] = ()
@@ -176,7 +176,7 @@ def _do(run: _Run, item: FlightCommand) -> None:
         run.pitches = (*run.pitches, p[0])
 
 
-def _landing(run: _Run, item: FlightCommand) -> Point | None:
+def _landing(run: _Run, item: FlightCommand) -> FlightPoint | None:
     """Return where it lands: at a place of its own, or where it is."""
     p = item.params
     if p[4] is None or p[5] is None or (p[4], p[5]) == (0.0, 0.0):
@@ -184,7 +184,7 @@ def _landing(run: _Run, item: FlightCommand) -> Point | None:
     return _point(item._replace(params=(*p[:6], p[6] or 0.0)), straight=True)
 
 
-def _pass(run: _Run, point: Point) -> None:
+def _pass(run: _Run, point: FlightPoint) -> None:
     """Go to a point at the speeds in force, which belong to the one before it."""
     if run.points:
         told = run.pace if run.pace != Pace() else None
@@ -193,7 +193,7 @@ def _pass(run: _Run, point: Point) -> None:
     run.points.append(point)
 
 
-def _stayed(point: Point, run: _Run) -> Point:
+def _stayed(point: FlightPoint, run: _Run) -> FlightPoint:
     return point._replace(stay=run.stay, stops=run.stay > 0.0, pitches=run.pitches)
 
 
@@ -218,9 +218,9 @@ def _level(item: FlightCommand) -> Level:
     return LEVELS[item.frame]
 
 
-def _point(item: FlightCommand, *, straight: bool) -> Point:
+def _point(item: FlightCommand, *, straight: bool) -> FlightPoint:
     lat, lon, height = item.params[4:7]
     if lat is None or lon is None or height is None:
         refuse(BROKEN, f"{item.name} has no latitude, longitude and altitude", item.node)
     placed(lat, lon, item.name, item.node)
-    return Point(item.node, item.name, lat, lon, height, _level(item), straight=straight)
+    return FlightPoint(item.node, item.name, lat, lon, height, _level(item), straight=straight)

@@ -29,14 +29,14 @@ Color = tuple[int, int, int]
 BLACK: Color = (0, 0, 0)
 
 
-class Keyed(NamedTuple):
+class KeyedLight(NamedTuple):
     """A light: colours at times, s, that rise; it changes evenly between them, and is constant beyond."""
 
     times: tuple[float, ...]
     colors: tuple[Color, ...]
 
 
-def keyed(program: bytes, where: str, end: float) -> Keyed:
+def keyed(program: bytes, where: str, end: float) -> KeyedLight:
     """Return the light of a program; refuse what is none.
 
     where : the program, in words; end : of the flight, s, beyond which nothing is read
@@ -54,10 +54,10 @@ class _Player:
         self._times, self._colors = [0.0], [BLACK]
         self._loops: list[tuple[int, int]] = []
 
-    def played(self) -> Keyed:
+    def played(self) -> KeyedLight:
         for _ in range(MOST_ORDERS):
             if self._steps * STEP_S > self._end or not self._order():
-                return Keyed(tuple(self._times), tuple(self._colors))
+                return KeyedLight(tuple(self._times), tuple(self._colors))
         self._refuse(f"does more than {MOST_ORDERS} orders")
         raise AssertionError
 

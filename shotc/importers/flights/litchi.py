@@ -9,9 +9,9 @@ from shotc.importers.flights.points import (
     BROKEN,
     FOREIGN,
     UNREADABLE,
+    FlightPoint,
     Level,
     Pace,
-    Point,
     Unread,
     Waypoints,
     checked,
@@ -40,7 +40,7 @@ def waypoints(text: str) -> Waypoints:
 _ENDING = "it does what the mission's settings in Litchi say, which the table does not hold"
 
 
-def _point(row: TableRow, index: int, units: dict[str, str]) -> Point:
+def _point(row: TableRow, index: int, units: dict[str, str]) -> FlightPoint:
     name, notes = f"waypoint {index + 1}", Notes()
     foot = 1.0 if units is PACES else FOOT_M
     lat, lon = (_needed(row, column, name, notes) for column in ("latitude", "longitude"))
@@ -54,7 +54,7 @@ def _point(row: TableRow, index: int, units: dict[str, str]) -> Point:
     wrong: Note | None = next(iter(notes.found), None)
     if wrong is not None:
         refuse(BROKEN, f"{wrong.message} of {name}", wrong.node)
-    return Point(
+    return FlightPoint(
         row.node,
         name,
         lat,

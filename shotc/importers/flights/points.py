@@ -32,7 +32,7 @@ class Pace(NamedTuple):
     along: float = inf
 
 
-class Point(NamedTuple):
+class FlightPoint(NamedTuple):
     """One waypoint.
 
     node : where it stands in its file; name : what it is there, as "waypoint 3"
@@ -69,11 +69,11 @@ class Waypoints(NamedTuple):
 
     node: Node
     family: Family
-    points: tuple[Point, ...]
+    points: tuple[FlightPoint, ...]
     pilot: str
     autopilot: Literal["px4", "ardupilot"] = "px4"
     climb: float = 0.0
-    landing: Point | None = None
+    landing: FlightPoint | None = None
     ending: str = ""
 
 

@@ -11,7 +11,7 @@ from shotc.importers.flights.points import UNREADABLE, Unread, Waypoints, refuse
 from shotc.importers.flights.rows import DroneRows, rows
 from shotc.importers.xml_tree import Node, shown
 
-Found = Waypoints | tuple[DroneRows, ...] | skyc.Show
+Found = Waypoints | tuple[DroneRows, ...] | skyc.SkycShow
 
 
 class Read(NamedTuple):

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from shotc.geom.geodetic import to_world
 from shotc.importers.archive import Archive
 from shotc.importers.cameras.places import LARGEST_NUMBER, is_place
-from shotc.importers.flights.light_program import Keyed, keyed
+from shotc.importers.flights.light_program import KeyedLight, keyed
 from shotc.importers.flights.names import LARGEST_CLOCKED
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.flights.rows import LONGEST_S
@@ -56,11 +56,11 @@ class ShowFlight:
     home: Array
     breaks: Array
     ctrl: Array
-    light: Keyed | None = None
+    light: KeyedLight | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Show:
+class SkycShow:
     """A show; origin : latitude and longitude of its frame, deg, and altitude, m, None where it says none."""
 
     flights: tuple[ShowFlight, ...]
@@ -79,7 +79,7 @@ def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | N
     return np.array([east, north, 0.0 if alt is None else up])
 
 
-def show(data: bytes, *, lit: bool = False) -> Show:
+def show(data: bytes, *, lit: bool = False) -> SkycShow:
     """Return the flights of a show; lit : with their lights."""
     archive = Archive(data, LARGEST_CLOCKED, MOST_UNPACKED)
     content = _part(archive, SHOW)
@@ -94,7 +94,7 @@ def show(data: bytes, *, lit: bool = False) -> Show:
     if not _is_number(turn):
         refuse(BROKEN, "its `environment.location.orientation` is no number", WHOLE)
     flights = tuple(_flight(archive, drone, i, (radians(turn), lit)) for i, drone in enumerate(drones))
-    return Show(flights, _origin(location.get("origin")))
+    return SkycShow(flights, _origin(location.get("origin")))
 
 
 def _origin(told: Any) -> tuple[float, float, float | None] | None:
@@ -159,7 +159,7 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
     return ShowFlight(name, element, at_home, times, places, light)
 
 
-def _light(archive: Archive, settings: dict[str, Any], element: str, end: float) -> Keyed | None:
+def _light(archive: Archive, settings: dict[str, Any], element: str, end: float) -> KeyedLight | None:
     """Return the light of a drone, None where it has none; end : of its flight, s."""
     lights, where = _resolved(archive, settings.get("lights")), f"{element}.settings.lights"
     if lights is None:

@@ -15,9 +15,9 @@ from shotc.importers.flights.points import (
     FOREIGN,
     HEIGHTS,
     UNREADABLE,
+    FlightPoint,
     Level,
     Pace,
-    Point,
     Waypoints,
     checked,
     finite,
@@ -104,7 +104,7 @@ def _version(root: Node) -> None:
         refuse(FOREIGN, message, root)
 
 
-def _point(mark: Node, index: int, usual: float | None) -> Point:
+def _point(mark: Node, index: int, usual: float | None) -> FlightPoint:
     name = f"waypoint {index + 1}"
     where = _told(mark, "coordinates")
     parts = [] if where is None else where.text.strip().split(",")
@@ -120,7 +120,7 @@ def _point(mark: Node, index: int, usual: float | None) -> Point:
     told = _told(mark, "waypointTurnMode")
     turn = "" if told is None else told.text.strip()
     straight = (_number(mark, "useStraightLine") or 0.0) > 0.0 or turn in STRAIGHT
-    return Point(
+    return FlightPoint(
         where,
         name,
         lat,

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from collections.abc import Sequence as Rows
 from typing import NamedTuple
 
-from shotc.importers.multidrone.frames import Frame
-from shotc.importers.multidrone.read import Action, Sequence
+from shotc.importers.multidrone.frames import CoordinateFrame
+from shotc.importers.multidrone.read import Sequence, ShootingAction
 from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, GroundTrack, courses_of, gap, route_of
 from shotc.importers.notes import Notes, plain
 from shotc.rounding import at_least
 
 
-class Film(NamedTuple):
+class FilmedAction(NamedTuple):
     """An action with its target, as it is filmed.
 
     target : its name, empty where the cameras fly through, and the course is their own
@@ -22,7 +22,7 @@ class Film(NamedTuple):
     """
 
     id: str
-    action: Action
+    action: ShootingAction
     course: GroundTrack
     target: str
     start: float
@@ -40,7 +40,7 @@ class _Target(NamedTuple):
     identity: float | None
 
 
-def films_of(sequences: Rows[Sequence], frame: Frame, notes: Notes) -> Iterator[Film]:
+def films_of(sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes) -> Iterator[FilmedAction]:
     """Return all that is filmed, sequence by sequence; a sequence has drones of its own."""
     targets: list[_Target] = []
     first = 1
@@ -56,14 +56,14 @@ def films_of(sequences: Rows[Sequence], frame: Frame, notes: Notes) -> Iterator[
             name, said = ("", ()) if known is None else _name(action, known, targets, notes)
             if k == 1:
                 said = (f"sequence `{plain(sequence.name, 60)}`", *said)
-            yield Film(
+            yield FilmedAction(
                 f"s{number}-{k}", action, course, name, start, action.duration, first, sequence.main, said
             )
         first += max(len(action.roles) for action in sequence.actions)
 
 
 def _name(
-    action: Action, course: GroundTrack, targets: list[_Target], notes: Notes
+    action: ShootingAction, course: GroundTrack, targets: list[_Target], notes: Notes
 ) -> tuple[str, tuple[str, ...]]:
     """Return the name of the target with this course, which may be a new one, and comments."""
     identity = next((role.params["ID"] for role in action.roles if "ID" in role.params), None)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from shotc.geom.geodetic import to_world
 from shotc.importers.multidrone.kml import drawn
-from shotc.importers.multidrone.read import Action, Point, Sequence
+from shotc.importers.multidrone.read import MissionPoint, Sequence, ShootingAction
 from shotc.importers.notes import Notes
 from shotc.rounding import plain
 
@@ -21,7 +21,7 @@ AWAY = 30.0  # metres beyond which it does not
 DEGREE = 111_320.0  # metres of a degree of latitude, roughly
 
 
-class Frame(NamedTuple):
+class CoordinateFrame(NamedTuple):
     """How places are written, and where they are.
 
     origin : latitude and longitude of W's origin in degrees, or None where everything is local
@@ -33,13 +33,13 @@ class Frame(NamedTuple):
     geodetic: bool
     comments: tuple[str, ...]
 
-    def place(self, point: Point) -> Place:
+    def place(self, point: MissionPoint) -> Place:
         """Return a point as East and North of the origin, metres."""
         if not point.on_earth or self.origin is None:
             return point.at
         return _world(point.at, self.origin)
 
-    def written(self, point: Point, z: float) -> str:
+    def written(self, point: MissionPoint, z: float) -> str:
         """Return a point as a position of our language; z : metres over the ground."""
         if self.geodetic and point.on_earth:
             return f"{{lat: {_degrees(point.at[0])}, lon: {_degrees(point.at[1])}, height: {z:g}}}"
@@ -63,7 +63,7 @@ def without_far(sequences: Rows[Sequence], notes: Notes) -> list[Sequence]:
     return [s._replace(actions=tuple(_kept(a, far) for a in s.actions)) for s in sequences]
 
 
-def _kept(action: Action, far: set[int]) -> Action:
+def _kept(action: ShootingAction, far: set[int]) -> ShootingAction:
     origin = None if id(action.origin) in far else action.origin
     return action._replace(points=tuple(p for p in action.points if id(p) not in far), origin=origin)
 
@@ -73,25 +73,25 @@ def written(place: Place, z: float) -> str:
     return f"[{place[0]:.2f}, {place[1]:.2f}, {z:g}]".replace("-0.00,", "0.00,")
 
 
-def frame_of(sequences: Rows[Sequence], notes: Notes) -> Frame:
+def frame_of(sequences: Rows[Sequence], notes: Notes) -> CoordinateFrame:
     """Choose the origin, and say what does not fit."""
     actions = [action for sequence in sequences for action in sequence.actions]
     points = [p for a in actions for p in a.places]
     earthly, local = [p for p in points if p.on_earth], [p for p in points if not p.on_earth]
     if not earthly:
-        return Frame(None, False, _unplaced(actions, notes))
+        return CoordinateFrame(None, False, _unplaced(actions, notes))
     if not local:
-        return Frame(earthly[0].at, True, _elsewhere(actions, notes))
+        return CoordinateFrame(earthly[0].at, True, _elsewhere(actions, notes))
     message = f"{len(local)} points in metres stand beside {len(earthly)} in latitude and longitude"
     found = next((o for o in map(_anchor, actions) if o is not None), None)
     how = "where the map (KML) of the same action shows the first of them"
     if found is None:
         found, how = earthly[0].at, "and no map says where they count from: the first place on the earth"
     taken = f"metres count from {_degrees(found[0])}, {_degrees(found[1])}, {how}"
-    return Frame(found, False, (notes.assume(local[0].node, message, taken),))
+    return CoordinateFrame(found, False, (notes.assume(local[0].node, message, taken),))
 
 
-def _unplaced(actions: Rows[Action], notes: Notes) -> tuple[str, ...]:
+def _unplaced(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
     """Say that a map stands beside points in metres, whose origin is not in the file."""
     found = next((d for d in map(drawn, actions) if d is not None), None)
     if found is None:
@@ -101,7 +101,7 @@ def _unplaced(actions: Rows[Action], notes: Notes) -> tuple[str, ...]:
     return (notes.assume(found.node, message, taken),)
 
 
-def _elsewhere(actions: Rows[Action], notes: Notes) -> tuple[str, ...]:
+def _elsewhere(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
     """Say where a map shows another place than the points do."""
     said = []
     for action in actions:
@@ -116,7 +116,7 @@ def _elsewhere(actions: Rows[Action], notes: Notes) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _anchor(action: Action) -> Place | None:
+def _anchor(action: ShootingAction) -> Place | None:
     """Return where W's origin is, if the map of an action of both frames says it."""
     found = drawn(action)
     if found is None or len(found.points) != len(action.points):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import NamedTuple
 
-from shotc.importers.multidrone.read import Action, below
+from shotc.importers.multidrone.read import ShootingAction, below
 from shotc.importers.xml_tree import Node, XmlFault, parse_xml
 
 MOST = 1000  # coordinates of a line that are read
@@ -18,7 +18,7 @@ class MapLine(NamedTuple):
     points: tuple[tuple[float, float], ...]
 
 
-def drawn(action: Action) -> MapLine | None:
+def drawn(action: ShootingAction) -> MapLine | None:
     """Return the first line of an action's maps, None where there is none that can be read."""
     for holder in below(action.node, "Map"):
         node = holder.first("description")

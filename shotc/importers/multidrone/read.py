@@ -19,7 +19,7 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
 
 
-class Point(NamedTuple):
+class MissionPoint(NamedTuple):
     """A place: (x, y) in metres, or (lat, lon) where ``on_earth``; altitude and time, None if missing."""
 
     node: Node
@@ -43,7 +43,7 @@ class Role(NamedTuple):
     params: dict[str, float]
 
 
-class Action(NamedTuple):
+class ShootingAction(NamedTuple):
     """One shooting action: its target's way, where the formation starts, and who films how.
 
     speed : of the formation, m/s, or None
@@ -52,12 +52,12 @@ class Action(NamedTuple):
     node: Node
     duration: float
     speed: float | None
-    points: tuple[Point, ...]
-    origin: Point | None
+    points: tuple[MissionPoint, ...]
+    origin: MissionPoint | None
     roles: tuple[Role, ...]
 
     @property
-    def places(self) -> tuple[Point, ...]:
+    def places(self) -> tuple[MissionPoint, ...]:
         """Its points, and where the formation begins."""
         return self.points if self.origin is None else (*self.points, self.origin)
 
@@ -73,7 +73,7 @@ class Sequence(NamedTuple):
     node: Node
     name: str
     main: bool
-    actions: tuple[Action, ...]
+    actions: tuple[ShootingAction, ...]
 
 
 def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
@@ -119,7 +119,7 @@ def _number(text: str, name: str, node: Node, notes: Notes) -> float | None:
     return None
 
 
-def _action(node: Node, notes: Notes) -> Action | None:
+def _action(node: Node, notes: Notes) -> ShootingAction | None:
     kind = node.attributes.get("shootingActionTemplateRef", "")
     points = [_point(p, notes) for p in below(node, "RTTrajectoryPoint")]
     origin = node.first("originOfFormation")
@@ -137,7 +137,7 @@ def _action(node: Node, notes: Notes) -> Action | None:
         message = "an action without a duration lasts to the next event, which the file does not tell"
         notes.assume(node.first("duration") or node, message, "20 s")
     speed = number(node.first("formationSpeed"), notes)
-    return Action(
+    return ShootingAction(
         node,
         duration,
         None if speed is None or speed < 0 else speed / KMH,
@@ -147,7 +147,7 @@ def _action(node: Node, notes: Notes) -> Action | None:
     )
 
 
-def _point(node: Node, notes: Notes) -> Point | None:
+def _point(node: Node, notes: Notes) -> MissionPoint | None:
     names = (("x", "y"), ("latitude", "longitude"), ("lat", "lon"))
     for first, second in names:
         a, b = number(node.first(first), notes), number(node.first(second), notes)
@@ -158,7 +158,7 @@ def _point(node: Node, notes: Notes) -> Point | None:
             notes.assume(node, f"a point whose {first} and {second} are no place", "the point is left out")
             return None
         z, time = number(node.first("altitude"), notes), number(node.first("time"), notes)
-        return Point(node, (a, b), on_earth, z, time)
+        return MissionPoint(node, (a, b), on_earth, z, time)
     notes.assume(node, "a point without a place", "the point is left out")
     return None
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from collections.abc import Sequence as Rows
 from math import cos, sin
 
-from shotc.importers.multidrone.films import Film
-from shotc.importers.multidrone.frames import Frame, written
+from shotc.importers.multidrone.films import FilmedAction
+from shotc.importers.multidrone.frames import CoordinateFrame, written
 from shotc.importers.multidrone.read import below
 from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
@@ -24,14 +24,14 @@ APART = 6.0  # metres between two homes
 AWAY = 20.0  # metres from the first target's start to the homes
 
 
-def world(frame: Frame) -> Iterator[str]:
+def world(frame: CoordinateFrame) -> Iterator[str]:
     """Return the lines of the origin, if there is one."""
     yield from (f"# {comment}" for comment in frame.comments)
     if frame.origin is not None:
         yield f"world: {{origin: {{lat: {frame.origin[0]:.7f}, lon: {frame.origin[1]:.7f}, alt: 0}}}}"
 
 
-def targets(films: Rows[Film], root: Node, frame: Frame, notes: Notes) -> Iterator[str]:
+def targets(films: Rows[FilmedAction], root: Node, frame: CoordinateFrame, notes: Notes) -> Iterator[str]:
     """Return the lines of all targets, each once; none where nothing but ways is filmed."""
     courses: dict[str, GroundTrack] = {}
     for film in films:
@@ -68,7 +68,7 @@ def _target(name: str, course: GroundTrack, places: list[str], body: str) -> Ite
     yield f"      times: [{', '.join(f'{t:.2f}' for t in course.times)}]}}, {body}"
 
 
-def _ground(films: Rows[Film], notes: Notes) -> Iterator[str]:
+def _ground(films: Rows[FilmedAction], notes: Notes) -> Iterator[str]:
     """Say that altitudes of points are not flown: the project's own planner does not read them, either."""
     points = [p for film in films for p in film.action.points]
     odd = [p for p in points if p.z != 0]
@@ -81,7 +81,7 @@ def _ground(films: Rows[Film], notes: Notes) -> Iterator[str]:
     yield notes.assume(node, message, "targets go on the ground, z = 0, as in the project's own planner")
 
 
-def drones(films: Rows[Film], number: int, root: Node, notes: Notes) -> Iterator[str]:
+def drones(films: Rows[FilmedAction], number: int, root: Node, notes: Notes) -> Iterator[str]:
     """Return the lines of so many drones, beside where the first film begins, and of their rules."""
     team = [node for node in below(root, "drone") if node.value("name")][:number]
     message = "the file does not say what its drones are, nor where they stand"

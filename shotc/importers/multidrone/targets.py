@@ -6,8 +6,8 @@ from itertools import pairwise
 from math import atan2, dist, pi
 from typing import NamedTuple
 
-from shotc.importers.multidrone.frames import Frame, Place
-from shotc.importers.multidrone.read import KMH, Action, Point, Sequence
+from shotc.importers.multidrone.frames import CoordinateFrame, Place
+from shotc.importers.multidrone.read import KMH, MissionPoint, Sequence, ShootingAction
 from shotc.importers.notes import Notes
 
 LEAD = 40.0  # seconds from take-off to the first frame
@@ -27,7 +27,7 @@ class GroundTrack(NamedTuple):
 
     times: tuple[float, ...]
     places: tuple[Place, ...]
-    points: tuple[Point, ...]
+    points: tuple[MissionPoint, ...]
     comments: tuple[str, ...]
 
     @property
@@ -57,7 +57,7 @@ class GroundTrack(NamedTuple):
         return self.places[-1]
 
 
-def courses_of(sequence: Sequence, frame: Frame, notes: Notes) -> tuple[GroundTrack | None, ...]:
+def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tuple[GroundTrack | None, ...]:
     """Return the course of every action's target: one for actions that take up where the last one ended.
 
     None for an action that films no target, or says nowhere where it is.
@@ -95,14 +95,16 @@ class _Run(NamedTuple):
 
     times: list[float]
     places: list[Place]
-    points: list[Point]
+    points: list[MissionPoint]
     comments: list[str]
 
     def takes_up(self, t: float, place: Place) -> bool:
         """Tell whether a target can be at a place at a time after what it did so far."""
         return dist(self.places[-1], place) <= max(SAME, FASTEST * (t - self.times[-1]))
 
-    def add(self, clock: list[float], places: list[Place], points: list[Point], comments: list[str]) -> None:
+    def add(
+        self, clock: list[float], places: list[Place], points: list[MissionPoint], comments: list[str]
+    ) -> None:
         """Add places with their times; what repeats the one before, place and time, is dropped."""
         self.comments.extend(comments)
         for t, place, point in zip(clock, places, points, strict=True):
@@ -113,7 +115,7 @@ class _Run(NamedTuple):
             self.points.append(point)
 
 
-def route_of(action: Action, frame: Frame, begins: float) -> GroundTrack:
+def route_of(action: ShootingAction, frame: CoordinateFrame, begins: float) -> GroundTrack:
     """Return the way of a fly-through, which is its camera's own, evenly over the action's time."""
     points = action.points or ((action.origin,) if action.origin else ())
     share = action.duration / max(len(points) - 1, 1)
@@ -127,7 +129,12 @@ def gap(one: GroundTrack, other: GroundTrack) -> float:
 
 
 def _clock(
-    action: Action, points: list[Point], places: list[Place], begins: float, said: list[str], notes: Notes
+    action: ShootingAction,
+    points: list[MissionPoint],
+    places: list[Place],
+    begins: float,
+    said: list[str],
+    notes: Notes,
 ) -> list[float]:
     """Return the mission time of every point: as written where that can be meant, else by the speed."""
     ways = [dist(p, q) for p, q in pairwise(places)]
@@ -150,7 +157,9 @@ def _clock(
     return clock
 
 
-def _wrong(points: list[Point], given: list[float], ways: list[float]) -> tuple[Point, str] | None:
+def _wrong(
+    points: list[MissionPoint], given: list[float], ways: list[float]
+) -> tuple[MissionPoint, str] | None:
     """Return the first point whose time cannot be meant, and why."""
     missing = next((p for p in points if p.time is None), None)
     if missing is not None:
@@ -165,7 +174,7 @@ def _wrong(points: list[Point], given: list[float], ways: list[float]) -> tuple[
     return None
 
 
-def _compare(action: Action, pace: float, said: list[str], notes: Notes) -> None:
+def _compare(action: ShootingAction, pace: float, said: list[str], notes: Notes) -> None:
     """Say where the times and the formation's speed contradict each other."""
     node = action.node.first("formationSpeed")
     if node is None or action.speed is None:

@@ -6,8 +6,8 @@ from math import cos, sin
 from typing import NamedTuple
 
 from shotc.geom.vec import Vec3
-from shotc.importers.multidrone.frames import Frame
-from shotc.importers.multidrone.read import Action, Role
+from shotc.importers.multidrone.frames import CoordinateFrame
+from shotc.importers.multidrone.read import Role, ShootingAction
 from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
 
@@ -36,10 +36,10 @@ class Made(NamedTuple):
 class RoleTask(NamedTuple):
     """One role to be made a shot, from mission time ``start`` on, for ``duration`` seconds."""
 
-    action: Action
+    action: ShootingAction
     role: Role
     course: GroundTrack
-    frame: Frame
+    frame: CoordinateFrame
     start: float
     duration: float
     target: str

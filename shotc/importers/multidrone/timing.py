@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from math import dist
 
 from shotc.geom.vec import Vec3
-from shotc.importers.multidrone.films import Film
-from shotc.importers.multidrone.frames import Frame
+from shotc.importers.multidrone.films import FilmedAction
+from shotc.importers.multidrone.frames import CoordinateFrame
 from shotc.importers.multidrone.read import Role
 from shotc.importers.multidrone.shots import shot_of
 from shotc.importers.multidrone.targets import OVERLAP
@@ -20,7 +20,7 @@ SHORTEST = 2.0  # seconds
 WATCHING = frozenset(("STATIC", "ELEVATOR", "FLY_THROUGH", "FLYTHROUGH"))
 
 
-def timed(films: Iterable[Film], frame: Frame, notes: Notes) -> Iterator[Film]:
+def timed(films: Iterable[FilmedAction], frame: CoordinateFrame, notes: Notes) -> Iterator[FilmedAction]:
     """Return films with the times at which they can be filmed."""
     ended: dict[int, Vec3] = {}
     for film in films:
@@ -34,12 +34,12 @@ def timed(films: Iterable[Film], frame: Frame, notes: Notes) -> Iterator[Film]:
         yield found
 
 
-def task_of(film: Film, role: Role, frame: Frame, notes: Notes) -> RoleTask:
+def task_of(film: FilmedAction, role: Role, frame: CoordinateFrame, notes: Notes) -> RoleTask:
     """Return what has to be known to make a shot of one role of a film."""
     return RoleTask(film.action, role, film.course, frame, film.start, film.duration, film.target, notes)
 
 
-def _cut(film: Film, change: float, notes: Notes) -> Film:
+def _cut(film: FilmedAction, change: float, notes: Notes) -> FilmedAction:
     """Return a film with its time, once the drones have had so many seconds to change places.
 
     It ends where nothing more is known of its target, if its camera goes with that.

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from collections.abc import Sequence as Rows
 from typing import NamedTuple
 
-from shotc.importers.multidrone.films import Film, films_of
-from shotc.importers.multidrone.frames import Frame
+from shotc.importers.multidrone.films import FilmedAction, films_of
+from shotc.importers.multidrone.frames import CoordinateFrame
 from shotc.importers.multidrone.framing import composition_of, size_of
 from shotc.importers.multidrone.read import Sequence
 from shotc.importers.multidrone.scene import drones, targets, world
@@ -30,7 +30,7 @@ class Written(NamedTuple):
 
 
 def written_mission(
-    name: str, root: Node, sequences: Rows[Sequence], frame: Frame, notes: Notes
+    name: str, root: Node, sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes
 ) -> Written | None:
     """Return a mission, None where nothing is left to film; name : of the mission."""
     films = list(timed(films_of(sequences, frame, notes), frame, notes))
@@ -70,7 +70,7 @@ def _event(root: Node, notes: Notes) -> str:
     return notes.assume(root, message, f"the event is {LEAD:g} s after the first take-off")
 
 
-def _shot(film: Film, k: int, frame: Frame, notes: Notes) -> list[str]:
+def _shot(film: FilmedAction, k: int, frame: CoordinateFrame, notes: Notes) -> list[str]:
     role = film.action.roles[k]
     task = task_of(film, role, frame, notes)
     made = shot_of(task)

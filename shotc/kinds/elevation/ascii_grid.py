@@ -21,7 +21,7 @@ DEGREES = 0.1
 """Smaller cells, at places that may be degrees, are in degrees: no grid has them in metres."""
 
 
-class Header(NamedTuple):
+class GridHeader(NamedTuple):
     """Names and numbers, and how many lines they take."""
 
     values: dict[str, float]
@@ -66,7 +66,7 @@ def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFa
     return posts_of(heights, x, y, system)
 
 
-def _header(lines: list[str]) -> Header | TerrainFault:
+def _header(lines: list[str]) -> GridHeader | TerrainFault:
     values: dict[str, float] = {}
     for number, line in enumerate(lines, 1):
         words = line.split()
@@ -82,14 +82,14 @@ def _header(lines: list[str]) -> Header | TerrainFault:
     return _complete(values, len(lines) + 1)
 
 
-def _complete(values: dict[str, float], line: int) -> Header | TerrainFault:
+def _complete(values: dict[str, float], line: int) -> GridHeader | TerrainFault:
     step = ("cellsize",) if "cellsize" in values else STEPS
     corners = [next((name for name in both if name in values), both[0]) for both in CORNERS]
     lacking = [name for name in (*NEEDED, *corners, *step) if name not in values]
     if lacking:
         names = ", ".join(f"`{name}`" for name in lacking)
         return TerrainFault("format", f"its header lacks {names}", line)
-    return Header(values, line - 1)
+    return GridHeader(values, line - 1)
 
 
 def _steps(values: dict[str, float]) -> Steps | TerrainFault:

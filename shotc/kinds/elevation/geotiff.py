@@ -29,7 +29,7 @@ BANDS = frozenset({"L", "I", "F", "I;16", "I;16B", "I;16L", "I;16N"})
 SAVE_AS = "save it as float32 or int16, uncompressed or with deflate or LZW: `gdal_translate -ot Float32`"
 
 
-class Raster(NamedTuple):
+class HeightRaster(NamedTuple):
     """Heights (R, C) as the file has them, and its tags."""
 
     heights: Array
@@ -43,7 +43,7 @@ class Along(NamedTuple):
     step: float
 
 
-class Placed(NamedTuple):
+class RasterTags(NamedTuple):
     """What tags say: along columns and rows, in which system, and metres of a unit of heights."""
 
     x: Along
@@ -72,7 +72,7 @@ def _along(axis: Along, count: int) -> Array:
     return np.asarray(axis.first + axis.step * np.arange(count))
 
 
-def _placed(tags: dict[int, Any], system: int | None) -> Placed | TerrainFault:
+def _placed(tags: dict[int, Any], system: int | None) -> RasterTags | TerrainFault:
     keys = _keys(tags.get(KEYS, ()))
     axes = _axes(tags, keys.get(RASTER) == IS_POINT)
     if isinstance(axes, TerrainFault):
@@ -83,10 +83,10 @@ def _placed(tags: dict[int, Any], system: int | None) -> Placed | TerrainFault:
     unit = keys.get(UNITS_UP, METRE)
     if unit not in METRES:
         return TerrainFault("system", f"its heights are in the unit {unit} of EPSG, which is not known")
-    return Placed(*axes, code, METRES[unit])
+    return RasterTags(*axes, code, METRES[unit])
 
 
-def _raster(data: bytes) -> Raster | TerrainFault:
+def _raster(data: bytes) -> HeightRaster | TerrainFault:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of damaged tags, and of sizes, which have a cap of their own
@@ -103,7 +103,7 @@ def _raster(data: bytes) -> Raster | TerrainFault:
         return TerrainFault("format", f"Pillow says: {reason}", None, SAVE_AS)
 
 
-def _pixels(image: Image.Image) -> Raster | TerrainFault:
+def _pixels(image: Image.Image) -> HeightRaster | TerrainFault:
     columns, rows = image.size
     if columns * rows > MOST_POSTS:
         message = f"it has {rows} x {columns} posts; {MOST_POSTS} are the most"
@@ -115,7 +115,7 @@ def _pixels(image: Image.Image) -> Raster | TerrainFault:
     heights = np.asarray(image)
     if heights.dtype.kind == "u" and heights.dtype.itemsize == 4:
         heights = heights.astype(np.int64)
-    return Raster(heights.astype(np.float64), tags)
+    return HeightRaster(heights.astype(np.float64), tags)
 
 
 def _keys(directory: Any) -> dict[int, int]:
@@ -164,7 +164,7 @@ def _axes(tags: dict[int, Any], at_points: bool) -> tuple[Along, Along] | Terrai
     return found
 
 
-def _mark_unknown(raster: Raster) -> TerrainFault | None:
+def _mark_unknown(raster: HeightRaster) -> TerrainFault | None:
     """Make heights NaN that the file marks as none; a NaN of the file is one anyway."""
     said = raster.tags.get(NO_DATA)
     if said is None:

@@ -40,7 +40,7 @@ class Footprint(NamedTuple):
     called: tuple[str, ...] = ()
 
 
-class Collection(NamedTuple):
+class FeatureCollection(NamedTuple):
     """The polygons of a file, and how many features of other types it has, by their type."""
 
     footprints: tuple[Footprint, ...]
@@ -51,7 +51,7 @@ class _Wrong(Exception):
     """What is wrong with a feature."""
 
 
-def read_geojson(data: bytes) -> Collection | FileFault:
+def read_geojson(data: bytes) -> FeatureCollection | FileFault:
     """Return the footprints of a file, or the first thing that is wrong with it; bytes may be anything."""
     value = _parsed(data)
     if isinstance(value, FileFault):
@@ -72,7 +72,7 @@ def read_geojson(data: bytes) -> Collection | FileFault:
             found += [Footprint(ring, tags, name, number, called) for ring in map(_ring, rings)]
         except _Wrong as wrong:
             return FileFault(f"feature {number}: {wrong}", None, _EXPORT)
-    return Collection(tuple(found), others)
+    return FeatureCollection(tuple(found), others)
 
 
 def _parsed(data: bytes) -> Any:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from shotc.geom.solids import inside_polygon, is_simple, signed_area, triangles
 from shotc.geom.vec import Vec2
 from shotc.kinds.footprints.geojson import Footprint
-from shotc.kinds.footprints.tags import Extent, extent_of, is_building, is_part
+from shotc.kinds.footprints.tags import HeightExtent, extent_of, is_building, is_part
 
 LEAST_AREA_M2 = 0.01
 COVERED = 0.9
@@ -50,7 +50,7 @@ class House(NamedTuple):
     features: tuple[Feature, ...] = ()
 
 
-class Fault(NamedTuple):
+class BuildingFault(NamedTuple):
     """What is wrong with one building."""
 
     name: str
@@ -68,10 +68,10 @@ class Houses(NamedTuple):
     """
 
     houses: tuple[House, ...]
-    wrong: tuple[Fault, ...] = ()
-    unknown: tuple[Fault, ...] = ()
-    assumed: tuple[Fault, ...] = ()
-    uncovered: tuple[Fault, ...] = ()
+    wrong: tuple[BuildingFault, ...] = ()
+    unknown: tuple[BuildingFault, ...] = ()
+    assumed: tuple[BuildingFault, ...] = ()
+    uncovered: tuple[BuildingFault, ...] = ()
     passed: int = 0
     far: tuple[Footprint, ...] = ()
 
@@ -88,7 +88,7 @@ class _Shape(NamedTuple):
     area: float
     low: Vec2
     high: Vec2
-    extent: Extent
+    extent: HeightExtent
     part: bool
     outline: Footprint | None = None
 
@@ -103,7 +103,7 @@ def houses_of(
     built = _built(footprints)
     shapes: list[_Shape] = []
     far: list[Footprint] = []
-    wrong: list[Fault] = []
+    wrong: list[BuildingFault] = []
     for footprint in built:
         ring = tuple(map(project, footprint.ring))
         if all(hypot(*corner) > farthest for corner in ring):
@@ -113,7 +113,7 @@ def houses_of(
         if isinstance(shape, _Shape):
             shapes.append(shape)
         else:
-            wrong.append(Fault(footprint.name, footprint.number, shape))
+            wrong.append(BuildingFault(footprint.name, footprint.number, shape))
     whole = _replaced(shapes)
     made = _made(whole.left, height)
     return made._replace(
@@ -151,7 +151,7 @@ class _Replaced(NamedTuple):
     """What is left of outlines and parts, and the outlines that stay beside their parts."""
 
     left: list[_Shape]
-    uncovered: list[Fault]
+    uncovered: list[BuildingFault]
 
 
 def _replaced(shapes: list[_Shape]) -> _Replaced:
@@ -160,7 +160,7 @@ def _replaced(shapes: list[_Shape]) -> _Replaced:
     if not parts:
         return _Replaced(shapes, [])
     left: list[_Shape] = []
-    uncovered: list[Fault] = []
+    uncovered: list[BuildingFault] = []
     named: dict[int, _Shape] = {}
     for outline in (s for s in shapes if not s.part):
         own = [i for i, part in enumerate(parts) if _lies_in(part, outline)]
@@ -168,7 +168,7 @@ def _replaced(shapes: list[_Shape]) -> _Replaced:
         share = sum(parts[i].area for i in own if parts[i].extent.bottom <= 0.0) / outline.area
         if own and share < COVERED:
             text = f"its parts cover {100 * share:.0f} % of its outline"
-            uncovered.append(Fault(outline.footprint.name, outline.footprint.number, text))
+            uncovered.append(BuildingFault(outline.footprint.name, outline.footprint.number, text))
         if not own or (share < COVERED and outline.extent.top is not None):
             left.append(outline)
     return _Replaced([*left, *(named.get(i, part) for i, part in enumerate(parts))], uncovered)
@@ -195,19 +195,21 @@ def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
 def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
     """Return the houses of shapes; height : of those whose height is not known."""
     houses: list[House] = []
-    wrong: list[Fault] = []
-    unknown: list[Fault] = []
+    wrong: list[BuildingFault] = []
+    unknown: list[BuildingFault] = []
     for shape in shapes:
         name, number = shape.footprint.name, shape.footprint.number
         extent = shape.extent
         if extent.top is None:
             text = f"`{extent.unread}` is no height" if extent.unread else "it has none"
-            unknown.append(Fault(name, number, text))
+            unknown.append(BuildingFault(name, number, text))
         top = extent.top if extent.top is not None else height
         if top is None:
             continue
         if extent.bottom >= top:
-            wrong.append(Fault(name, number, f"it begins at {extent.bottom:g} m and ends at {top:g} m"))
+            wrong.append(
+                BuildingFault(name, number, f"it begins at {extent.bottom:g} m and ends at {top:g} m")
+            )
         else:
             features = _features(shape)
             houses.append(House(name, shape.ring, shape.lid, extent.bottom, top, number, features))

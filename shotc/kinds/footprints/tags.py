@@ -22,7 +22,7 @@ _NO = frozenset({"no", "false", "0", "none", ""})
 Tags = Mapping[str, Any]
 
 
-class Extent(NamedTuple):
+class HeightExtent(NamedTuple):
     """From where to where a building reaches over the lowest ground at it, metres; top : None if not said.
 
     unread : a text that stands for a height and is none, as `key: text`; empty where all can be read
@@ -33,7 +33,7 @@ class Extent(NamedTuple):
     unread: str = ""
 
 
-def extent_of(tags: Tags) -> Extent:
+def extent_of(tags: Tags) -> HeightExtent:
     """Return how high a building is by its tags.
 
     Heights at or below zero say that none is known, as in some collections of footprints.
@@ -51,7 +51,7 @@ def extent_of(tags: Tags) -> Extent:
     if top is None and levels is not None:
         roof = _positive(tags, "roof:height")
         top = LEVEL_M * levels + (LEVEL_M * (_positive(tags, "roof:levels") or 0.0) if roof is None else roof)
-    return Extent(bottom, top, unread[0] if unread else "")
+    return HeightExtent(bottom, top, unread[0] if unread else "")
 
 
 def _positive(tags: Tags, key: str) -> float | None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from shotc.kinds.models.parts import ModelFault, Part, part
+from shotc.kinds.models.parts import ModelFault, NodePart, part
 
 KINDS = ("xyz", "las", "laz")
 MOST_POINTS = 20_000_000
@@ -31,12 +31,12 @@ MOST_BYTES = 4_000_000_000
 _THIN = "thin it, or cut it to the mission"
 
 
-def read_cloud(kind: str, data: bytes) -> list[Part] | ModelFault:
+def read_cloud(kind: str, data: bytes) -> list[NodePart] | ModelFault:
     """Return the points of a file as one part, in its own units and axes; kind : one of KINDS."""
     return _read_xyz(data) if kind == "xyz" else _read_las(data)
 
 
-def _read_xyz(data: bytes) -> list[Part] | ModelFault:
+def _read_xyz(data: bytes) -> list[NodePart] | ModelFault:
     """Read rows whose first three columns are x, y and z; a row before them may be a header."""
     if b"\0" in data[:1000]:
         return ModelFault("it is no text", "export it as PLY, or as rows of x y z")
@@ -72,7 +72,7 @@ def _is_row(line: str, separator: str) -> bool:
         return False
 
 
-def _read_las(data: bytes) -> list[Part] | ModelFault:
+def _read_las(data: bytes) -> list[NodePart] | ModelFault:
     missing = next((name for name in ("laspy", "lazrs") if find_spec(name) is None), "")
     if missing:
         return ModelFault(
@@ -112,7 +112,7 @@ def _promised(data: bytes) -> int:
     return max(least)
 
 
-def _points(data: bytes) -> list[Part] | ModelFault:
+def _points(data: bytes) -> list[NodePart] | ModelFault:
     import laspy
 
     with laspy.open(io.BytesIO(data), laz_backend=laspy.LazBackend.Lazrs) as reader:

@@ -13,7 +13,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.kinds.models.parts import Colors, Part, part
+from shotc.kinds.models.parts import Colors, NodePart, part
 
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
@@ -49,7 +49,7 @@ class _File(NamedTuple):
         return item
 
 
-def read_glb(data: bytes, most_corners: int) -> list[Part]:
+def read_glb(data: bytes, most_corners: int) -> list[NodePart]:
     """Return what stands at the nodes of a file; ValueError where it cannot be read.
 
     most_corners : of all nodes together, for one mesh may stand at many
@@ -58,8 +58,8 @@ def read_glb(data: bytes, most_corners: int) -> list[Part]:
     needed = COMPRESSED & set(file.header.get("extensionsRequired", []))
     if needed:
         raise ValueError(f"its meshes are compressed ({', '.join(sorted(needed))}); export it without")
-    parts: list[Part] = []
-    made: dict[int, list[Part]] = {}
+    parts: list[NodePart] = []
+    made: dict[int, list[NodePart]] = {}
     count = 0
     for placed in _placed(file):
         if placed.mesh not in made:
@@ -134,7 +134,7 @@ def _matrix(node: dict[str, Any]) -> Array:
     return matrix
 
 
-def _primitive(file: _File, primitive: dict[str, Any]) -> Part:
+def _primitive(file: _File, primitive: dict[str, Any]) -> NodePart:
     """Return the triangles of a primitive, or its points; lines are triangles without area."""
     attributes = primitive["attributes"]
     corners = _accessor(file, attributes["POSITION"])

@@ -11,7 +11,7 @@ import numpy as np
 
 from shotc.kinds.models.glb import read_glb
 from shotc.kinds.models.obj import read_obj
-from shotc.kinds.models.parts import ModelFault, Part
+from shotc.kinds.models.parts import ModelFault, NodePart
 from shotc.kinds.models.ply import read_ply
 from shotc.kinds.models.stl import read_stl
 
@@ -22,7 +22,7 @@ FOREIGN = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, 
 """What bytes that are no model come to."""
 
 
-def read_mesh(kind: str, data: bytes) -> list[Part] | ModelFault:
+def read_mesh(kind: str, data: bytes) -> list[NodePart] | ModelFault:
     """Return what stands at the nodes of a file, in its own units and axes; kind : one of KINDS.
 
     Coordinates may be anything; see ``parts.wrong_corners``.
@@ -39,7 +39,7 @@ def read_mesh(kind: str, data: bytes) -> list[Part] | ModelFault:
     return parts
 
 
-def _parts(kind: str, data: bytes) -> list[Part]:
+def _parts(kind: str, data: bytes) -> list[NodePart]:
     if kind == "ply":
         return read_ply(data)
     if kind == "stl":

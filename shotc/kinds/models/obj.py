@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
-from shotc.kinds.models.parts import Colors, Part, fans, part, table
+from shotc.kinds.models.parts import Colors, NodePart, fans, part, table
 
 _AFTER_SLASH = re.compile(r"/\S*")
 MOST_NAME = 80
@@ -27,7 +27,7 @@ class _Lines(NamedTuple):
     begins: list[tuple[str, int]]
 
 
-def read_obj(data: bytes) -> list[Part]:
+def read_obj(data: bytes) -> list[NodePart]:
     """Return the objects of a file, or its groups where it has no objects; ValueError where it is none."""
     lines = _lines(data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").decode("latin-1"))
     if not lines.corners:
@@ -85,7 +85,7 @@ def _faces(lines: _Lines, count: int) -> tuple[IntArray, IntArray]:
     return faces, np.repeat(np.arange(len(words)), lengths)
 
 
-def _part(name: str, corners: Array, faces: IntArray, colors: Colors | None) -> Part:
+def _part(name: str, corners: Array, faces: IntArray, colors: Colors | None) -> NodePart:
     """Return a part with the corners of its own faces."""
     used, own = np.unique(faces, return_inverse=True)
     return part(name, corners[used], own.reshape(-1, 3), None if colors is None else colors[used])

@@ -25,7 +25,7 @@ class ModelFault(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
+class NodePart:
     """What stands at one node of a file.
 
     name      : of the node; empty where the file has none
@@ -40,10 +40,10 @@ class Part:
     colors: Colors | None = None
 
 
-def part(name: str, corners: Any, triangles: Any = None, colors: Colors | None = None) -> Part:
+def part(name: str, corners: Any, triangles: Any = None, colors: Colors | None = None) -> NodePart:
     """Return a part of whatever a library gives, as arrays of our own."""
     faces = np.zeros((0, 3), np.intp) if triangles is None else np.asarray(triangles, np.intp).reshape(-1, 3)
-    return Part(name, np.asarray(corners, dtype=np.float64).reshape(-1, 3), faces, colors)
+    return NodePart(name, np.asarray(corners, dtype=np.float64).reshape(-1, 3), faces, colors)
 
 
 def table(lines: list[str], columns: tuple[int, ...]) -> Array:
@@ -63,7 +63,7 @@ def fans(rows: Any) -> IntArray:
     return np.array(found, dtype=np.intp).reshape(-1, 3)
 
 
-def wrong_corners(parts: list[Part], farthest: float) -> ModelFault | None:
+def wrong_corners(parts: list[NodePart], farthest: float) -> ModelFault | None:
     """Return the fault of a file without corners, with one that is nowhere, or a face without one.
 
     farthest : the largest coordinate that is one

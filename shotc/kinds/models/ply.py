@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from shotc.geom.bspline import IntArray
-from shotc.kinds.models.parts import Colors, Part, fans, part, table
+from shotc.kinds.models.parts import Colors, NodePart, fans, part, table
 
 TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
@@ -53,7 +53,7 @@ class Element(NamedTuple):
         return found[0]
 
 
-class Header(NamedTuple):
+class PlyHeader(NamedTuple):
     """What a header says; begin : of the first row, in bytes."""
 
     order: str
@@ -61,7 +61,7 @@ class Header(NamedTuple):
     begin: int
 
 
-def read_ply(data: bytes) -> list[Part]:
+def read_ply(data: bytes) -> list[NodePart]:
     """Return the one part of a file; ValueError where it is none."""
     header = _header(data)
     rows = _texts if not header.order else _bytes
@@ -88,7 +88,7 @@ def read_ply(data: bytes) -> list[Part]:
     return [part("", vertex, faces, colors)]
 
 
-def _header(data: bytes) -> Header:
+def _header(data: bytes) -> PlyHeader:
     if data[:3] != b"ply":
         raise ValueError("it does not begin with `ply`")
     lines: list[str] = []
@@ -114,7 +114,7 @@ def _header(data: bytes) -> Header:
     promised = sum(element.rows for element in elements)
     if promised > len(data):
         raise ValueError(f"its header promises {promised} elements in {len(data)} bytes")
-    return Header(order, tuple(elements), begin)
+    return PlyHeader(order, tuple(elements), begin)
 
 
 def _order(words: list[str]) -> str:

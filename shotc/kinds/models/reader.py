@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from shotc.kinds.models import cloud_file, mesh_file
-from shotc.kinds.models.parts import ModelFault, Part
+from shotc.kinds.models.parts import ModelFault, NodePart
 
 
-def read_model(kind: str, data: bytes) -> list[Part] | ModelFault:
+def read_model(kind: str, data: bytes) -> list[NodePart] | ModelFault:
     """Return what a file holds, or why it cannot be read. The bytes may be anything.
 
     kind : the ending of its name, one of ``endings.ENDINGS``

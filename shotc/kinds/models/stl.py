@@ -6,14 +6,14 @@ import re
 
 import numpy as np
 
-from shotc.kinds.models.parts import Part, part
+from shotc.kinds.models.parts import NodePart, part
 
 HEAD, RECORD = 84, 50
 """Bytes before the first triangle, and of each."""
 _CORNER = re.compile(rb"^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$", re.MULTILINE)
 
 
-def read_stl(data: bytes) -> list[Part]:
+def read_stl(data: bytes) -> list[NodePart]:
     """Return the one part of a file; ValueError where it is none."""
     if not data:
         return []

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from shotc.passes.assign_drones.tasks import ShotTask
-from shotc.solvers.assignment import Programme, least_cost
+from shotc.solvers.assignment import AssignmentProgramme, least_cost
 
 Choice = Mapping[int, str]
 
@@ -40,7 +40,7 @@ def choose(tasks: Sequence[ShotTask], drones: Sequence[str]) -> Choice | None:
         for c, value in terms.items():
             matrix[r, c] = value
     most = np.array([bound for _, bound in rows])
-    solution = least_cost(Programme(cost, highest, once, matrix, most, whole=count))
+    solution = least_cost(AssignmentProgramme(cost, highest, once, matrix, most, whole=count))
     if solution is None:
         return None
     chosen = solution[:count].reshape(len(tasks), len(drones)).argmax(axis=1)

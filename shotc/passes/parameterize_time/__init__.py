@@ -22,7 +22,7 @@ from shotc.ir.path import ClockLeg, DronePath, HoldLeg, Leg, PathIR, PathLeg, Ti
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.passes.parameterize_time.explain.binding import binding
 from shotc.passes.parameterize_time.explain.times import (
-    Remedies,
+    TimeRemedies,
     endurance_exceeded,
     roughly_timed,
     start_too_early,
@@ -152,7 +152,7 @@ def _fault(mission: MissionIR, drone: Drone, leg: PathLeg, timing: LegTiming) ->
         return without_length(mission, leg)
     if timing.too_fast is None or isinstance(leg, HoldLeg):
         return None
-    remedies = Remedies(binding(leg, timing.fast, ceiling_of(drone)), partial(can_be_timed, leg))
+    remedies = TimeRemedies(binding(leg, timing.fast, ceiling_of(drone)), partial(can_be_timed, leg))
     return too_fast(mission, drone, leg, timing.too_fast, remedies)
 
 

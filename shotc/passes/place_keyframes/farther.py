@@ -9,17 +9,17 @@ from shotc.diag.model import Label
 from shotc.geom.vec import Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
-from shotc.planning.framing.candidates import Setting
+from shotc.planning.framing.candidates import FixedCamera
 from shotc.rounding import at_least, up
 
 FARTHEST = 50.0  # largest factor of the present distance that is tried
 LEVEL = 0.1  # metres from the target's axis, below which a camera is above it
 NUDGE = 0.01  # metres added to a proposed distance
 
-Fits = Callable[[Setting], bool]
+Fits = Callable[[FixedCamera], bool]
 
 
-def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting, fits: Fits) -> str:
+def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: FixedCamera, fits: Fits) -> str:
     """Return a remedy with a place where the target fits, at most ``FARTHEST`` times as far; else empty.
 
     A camera placed by the user goes straight back, or horizontally where that would be too close to the
@@ -47,7 +47,7 @@ def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting
     return f"move to [{written}], {far}"
 
 
-def _place(keyframe: Keyframe, setting: Setting, offset: Vec3) -> Vec3:
+def _place(keyframe: Keyframe, setting: FixedCamera, offset: Vec3) -> Vec3:
     """Return the camera's place for another offset of the target."""
     x, y, z = (p + o - q for p, o, q in zip(keyframe.at, setting.offset, offset, strict=True))
     return (x, y, z)
@@ -73,7 +73,7 @@ def least(fits: Callable[[float], bool], low: float, high: float) -> float | Non
     return high
 
 
-def _back(setting: Setting, fits: Fits, *, level: bool) -> Vec3 | None:
+def _back(setting: FixedCamera, fits: Fits, *, level: bool) -> Vec3 | None:
     """Return the least offset to the target that fits, along the line of sight or horizontally."""
     x, y, z = setting.offset
 
@@ -86,7 +86,9 @@ def _back(setting: Setting, fits: Fits, *, level: bool) -> Vec3 | None:
     return scaled(k + NUDGE / (hypot(x, y) if level else hypot(x, y, z)))
 
 
-def _by_parameter(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: Setting, fits: Fits) -> str:
+def _by_parameter(
+    mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: FixedCamera, fits: Fits
+) -> str:
     """Return a remedy with the parameter for which the target fits at every keyframe, at its altitude."""
     assert keyframe.target is not None
     centre = mission.target(keyframe.target).centre

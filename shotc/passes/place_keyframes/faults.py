@@ -17,7 +17,7 @@ from shotc.passes.labels import framing_label
 from shotc.passes.place_keyframes.farther import Fits, farther, least, parameter_label
 from shotc.planning.framing.candidates import (
     TOUCH_M,
-    Setting,
+    FixedCamera,
     has_candidate,
     nearest_candidate,
     nearest_on_verticals,
@@ -56,7 +56,7 @@ def missed(unmet: Unmet) -> Miss:
     )
 
 
-def off_composition(keyframe: Keyframe, setting: Setting, asked: Vec2, place: Vec2) -> Miss:
+def off_composition(keyframe: Keyframe, setting: FixedCamera, asked: Vec2, place: Vec2) -> Miss:
     """Return the warning that the target stands off its set: it would be cropped, or is out of reach."""
     instead = f"it is shown whole at ({place[0]:.3f}, {place[1]:.3f}) instead, {_range(setting)}"
     free = setting._replace(pitch=(-pi / 2, pi / 2))
@@ -89,7 +89,7 @@ def _kept(keyframe: Keyframe, mission: MissionIR) -> str:
     return "write `frame: keep`" if own else "set `composition: keep`"
 
 
-def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
+def cropped_or_beyond(keyframe: Keyframe, setting: FixedCamera, aim: Vec2) -> Miss:
     """Return the error of a kept framing out of the gimbal's range, or the warning that it crops its
     target.
     """
@@ -108,7 +108,7 @@ def cropped_or_beyond(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
     )
 
 
-def _wider(setting: Setting, aim: Vec2, widest: float) -> list[str]:
+def _wider(setting: FixedCamera, aim: Vec2, widest: float) -> list[str]:
     """Return which lens shows the whole target at the same angles, if the drone may have it."""
     if setting.hfov >= widest:
         return []
@@ -122,7 +122,7 @@ def _widest(mission: MissionIR, shot: Shot) -> float:
     return WIDEST if lens is None else lens.widest
 
 
-def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
+def does_not_fit(keyframe: Keyframe, setting: FixedCamera, asked: Vec2) -> Miss:
     """Return why no place of the set, nor of its vertical lines, is a candidate."""
     free = setting._replace(pitch=(-pi / 2, pi / 2))
     place = nearest_candidate(free, keyframe.composition, asked)
@@ -144,7 +144,7 @@ def does_not_fit(keyframe: Keyframe, setting: Setting, asked: Vec2) -> Miss:
     )
 
 
-def _beyond_gimbal(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
+def _beyond_gimbal(keyframe: Keyframe, setting: FixedCamera, aim: Vec2) -> Miss:
     return Miss(
         "G013",
         keyframe,
@@ -155,17 +155,17 @@ def _beyond_gimbal(keyframe: Keyframe, setting: Setting, aim: Vec2) -> Miss:
     )
 
 
-def _excess(setting: Setting, pitch: float) -> float:
+def _excess(setting: FixedCamera, pitch: float) -> float:
     return max(setting.pitch[0] - pitch, pitch - setting.pitch[1])
 
 
-def _reach(setting: Setting, pitch: float) -> str:
+def _reach(setting: FixedCamera, pitch: float) -> str:
     low, high = (degrees(p) for p in setting.pitch)
     needed = degrees(pitch)
     return f"the camera needs a pitch of {needed:.1f} deg; the gimbal reaches {low:.1f} to {high:.1f} deg"
 
 
-def _within_reach(setting: Setting, pitch: float) -> str:
+def _within_reach(setting: FixedCamera, pitch: float) -> str:
     """Return how to bring a pitch into the gimbal's range, rounded away from the horizon."""
     above = pitch > setting.pitch[1]
     enough = (at_least if above else at_most)(degrees(pitch), 1)
@@ -173,7 +173,7 @@ def _within_reach(setting: Setting, pitch: float) -> str:
     return f"let the gimbal pitch to {enough} deg, or fly {level} or farther away"
 
 
-def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: Shot) -> str:
+def _what_fits(keyframe: Keyframe, setting: FixedCamera, mission: MissionIR, shot: Shot) -> str:
     """Return the least distance and field of view that show the whole target on the set, or beside it."""
     composition = keyframe.composition
 
@@ -189,7 +189,7 @@ def _what_fits(keyframe: Keyframe, setting: Setting, mission: MissionIR, shot: S
     )
 
 
-def _options(distance: str, setting: Setting, fits: Fits, widest: float) -> str:
+def _options(distance: str, setting: FixedCamera, fits: Fits, widest: float) -> str:
     wide = None
     if setting.hfov < widest:
         wide = least(lambda a: fits(setting._replace(hfov=a)), setting.hfov, widest)
@@ -199,7 +199,7 @@ def _options(distance: str, setting: Setting, fits: Fits, widest: float) -> str:
     return ", or ".join(option for option in options if option)
 
 
-def _range(setting: Setting) -> str:
+def _range(setting: FixedCamera) -> str:
     return f"seen from {hypot(*setting.offset):.1f} m"
 
 

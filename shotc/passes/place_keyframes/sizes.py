@@ -23,7 +23,7 @@ LOOKS = 40  # samples of a shot on its own clock
 OFF = 0.1  # relative error of the size, above which there is a warning
 
 
-class Look(NamedTuple):
+class SizeCase(NamedTuple):
     """A camera's view of a target: its size, the camera's offset, and the framing.
 
     offset : camera minus target's centre
@@ -73,7 +73,7 @@ def _framed(mission: MissionIR, placed: PlacedShot, asked: float) -> str:
     return f", or write `kind: framing, subjects: [{subject}]` in place of {each(own)}"
 
 
-def _instead(mission: MissionIR, look: Look, asked: float) -> str:
+def _instead(mission: MissionIR, look: SizeCase, asked: float) -> str:
     """Return the distance and the lens that would give a target its size."""
     target = mission.target(look.name)
     wanted = Wanted(target.centre, target.shape, look.uv)
@@ -89,7 +89,7 @@ def _instead(mission: MissionIR, look: Look, asked: float) -> str:
     return said if hfov is None else f"{said}, or from there with `hfov: {degrees(hfov):.0f} deg`"
 
 
-def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
+def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[SizeCase]:
     """Yield the views of the first subject along the ideal of a shot on its own clock."""
     shot = placed.shot
     if shot.ideal is None or not placed.subjects:
@@ -106,7 +106,7 @@ def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
             yield look
 
 
-def _at_keyframes(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
+def _at_keyframes(mission: MissionIR, placed: PlacedShot) -> Iterator[SizeCase]:
     """Yield the views of the targets at the keyframes of a shot."""
     shot, drone = placed.shot, mission.drone(placed.shot.drone)
     times = arrivals(shot) if is_keyed(shot) else (0.0,) * len(placed.keyframes)
@@ -118,7 +118,7 @@ def _at_keyframes(mission: MissionIR, placed: PlacedShot) -> Iterator[Look]:
             yield look
 
 
-def _from_keyframe(mission: MissionIR, drone: Drone, keyframe: PlacedKeyframe, name: str) -> Look | None:
+def _from_keyframe(mission: MissionIR, drone: Drone, keyframe: PlacedKeyframe, name: str) -> SizeCase | None:
     x, y, z = (e - c for e, c in zip(keyframe.at, mission.target(name).centre, strict=True))
     lens = lens_of(drone)._replace(hfov=keyframe.hfov)
     return _look(mission, name, (x, y, z), keyframe.reference, lens, (keyframe.yaw, keyframe.pitch))
@@ -126,7 +126,7 @@ def _from_keyframe(mission: MissionIR, drone: Drone, keyframe: PlacedKeyframe, n
 
 def _look(
     mission: MissionIR, name: str, offset: Vec3, uv: Vec2 | None, lens: Lens, aim: Vec2 | None
-) -> Look | None:
+) -> SizeCase | None:
     """Return a camera's view of a target; None where the target reaches behind the camera."""
     target = mission.target(name)
     back = (-offset[0], -offset[1], -offset[2])
@@ -137,4 +137,4 @@ def _look(
     if target.shape.nearest_depth(camera, back) <= 0:
         return None
     _, _, low, high = target.shape.bounds(camera, back)
-    return Look(0.5 * (high - low), name, offset, uv, lens)
+    return SizeCase(0.5 * (high - low), name, offset, uv, lens)

@@ -17,7 +17,7 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
 from shotc.passes.place_keyframes.farther import least
 from shotc.passes.place_keyframes.faults import WIDEST
-from shotc.planning.framing.candidates import TOUCH_M, Setting, nearest_candidate, nearest_on_verticals
+from shotc.planning.framing.candidates import TOUCH_M, FixedCamera, nearest_candidate, nearest_on_verticals
 from shotc.rounding import at_least
 
 MIDDLE = (0.0, 0.0)
@@ -79,7 +79,7 @@ def _half(shot: Shot) -> float:
     return 0.5 * (shot.timing.duration or 0.0)
 
 
-def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Composition) -> str:
+def _whole(mission: MissionIR, shot: Shot, setting: FixedCamera, composition: Composition) -> str:
     """Return the lens that shows a whole target at a place of its composition; empty where none does."""
 
     def fits(hfov: float) -> bool:
@@ -95,7 +95,7 @@ def _whole(mission: MissionIR, shot: Shot, setting: Setting, composition: Compos
     return f"{first} from farther away, or through a lens of `camera: {{hfov: {lens} deg}}` of `{shot.drone}`"
 
 
-def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None = None) -> Setting:
+def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None = None) -> FixedCamera:
     """Return the camera at its ideal place and the target that it frames.
 
     time : of the shot, seconds; half way through it if None
@@ -105,10 +105,10 @@ def setting_at(mission: MissionIR, shot: Shot, target: str, time: float | None =
     drone, subject = mission.drone(shot.drone), mission.target(target)
     eye, centre = ideal_place(mission, shot, start, t), subject.at(t)
     x, y, z = (c - e for c, e in zip(centre, eye, strict=True))
-    return Setting((x, y, z), subject.shape_at(t), drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2)
+    return FixedCamera((x, y, z), subject.shape_at(t), drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2)
 
 
-def _nearest_of_all(setting: Setting, composition: Composition) -> Vec2:
+def _nearest_of_all(setting: FixedCamera, composition: Composition) -> Vec2:
     points = [
         *composition.points,
         *((u, 0.0) for u in composition.u_lines),

@@ -10,13 +10,13 @@ from shotc.diag.registry import registry, severity_of
 from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.path import PathIR
 from shotc.passes.refine_path.child import Failed, TooSlow, refined_within
-from shotc.passes.refine_path.finding import Fault, Finding, own, tell
+from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, own, tell
 from shotc.passes.refine_path.seat import Seat
 
 LONGER = "give it a longer `--deadline`"
 
 
-class Answer(NamedTuple):
+class RefinerAnswer(NamedTuple):
     """The answer of a refiner.
 
     path : anything; None where there is none
@@ -25,16 +25,16 @@ class Answer(NamedTuple):
     """
 
     path: Any
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[RefinerFault, ...] = ()
     warnings: tuple[Diagnostic, ...] = ()
 
 
-def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> Answer:
+def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> RefinerAnswer:
     """Call a refiner on a path, for ``deadline`` seconds at most where one is given."""
     mission = path.keyframes.mission
 
-    def fault(code: str, what: str, *notes: str) -> Answer:
-        return Answer(None, (tell(mission, seat, Finding(code, what, notes)),))
+    def fault(code: str, what: str, *notes: str) -> RefinerAnswer:
+        return RefinerAnswer(None, (tell(mission, seat, RefinerFinding(code, what, notes)),))
 
     try:
         if deadline is None or not seat.reference:
@@ -42,8 +42,8 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> A
         else:
             outcome = refined_within(deadline, seat.reference, path, ctx)
     except TooSlow:
-        late = Finding("R004", f"was stopped after {deadline:g} s, its deadline", help=LONGER)
-        return Answer(None, (tell(mission, seat, late),))
+        late = RefinerFinding("R004", f"was stopped after {deadline:g} s, its deadline", help=LONGER)
+        return RefinerAnswer(None, (tell(mission, seat, late),))
     except Failed as failed:
         return fault("R001", "failed", str(failed))
     except (Exception, SystemExit) as raised:  # noqa: BLE001  a plugin may raise anything
@@ -56,7 +56,7 @@ def ask(seat: Seat, deadline: float | None, path: PathIR, ctx: PassContext) -> A
     warnings = tuple(d for d in outcome.diagnostics if severity_of(d) is not Severity.ERROR)
     if outcome.value is None and not errors:
         return fault("R002", "returned no path", "it does not say why")
-    return Answer(outcome.value, tuple(own(mission, seat, d) for d in errors), warnings)
+    return RefinerAnswer(outcome.value, tuple(own(mission, seat, d) for d in errors), warnings)
 
 
 def _are_diagnostics(value: object) -> bool:

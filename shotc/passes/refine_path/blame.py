@@ -7,7 +7,7 @@ from typing import NamedTuple
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.path import ClockDeviation, PathIR, filmed
-from shotc.passes.refine_path.finding import Fault
+from shotc.passes.refine_path.finding import RefinerFault
 from shotc.passes.refine_path.seat import Seat
 from shotc.passes.refine_path.settle import kept, same
 from shotc.passes.solve_path_qp.explain.on_clock import left_places
@@ -23,14 +23,14 @@ OF_THE_GUIDE = "M008"
 """The warning about the deviation of a shot on its own clock; a refined shot has another deviation."""
 
 
-class Verdict(NamedTuple):
+class Blame(NamedTuple):
     """Whether the mission allows the convex path instead, and the diagnostics."""
 
     convex: bool
     diagnostics: tuple[Diagnostic, ...]
 
 
-def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ...]) -> Verdict:
+def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ...]) -> Blame:
     """Return the verdict on a refined path that causes errors.
 
     paths : the convex and the refined one
@@ -39,10 +39,10 @@ def blame(seat: Seat, paths: tuple[PathIR, PathIR], errors: tuple[Diagnostic, ..
     before, _ = paths
     refined = _refined(paths)
     if all(shot.refine_optional for shot in refined):
-        faults = [Fault(None, error) for error in errors]
-        return Verdict(True, tuple(kept(before, seat, shot.id, faults) for shot in refined))
+        faults = [RefinerFault(None, error) for error in errors]
+        return Blame(True, tuple(kept(before, seat, shot.id, faults) for shot in refined))
     notes = [note for error in errors for note in (error.message, *error.notes)]
-    return Verdict(
+    return Blame(
         False,
         (
             Diagnostic(

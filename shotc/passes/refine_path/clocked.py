@@ -14,7 +14,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, PathLeg, TimedPath
 from shotc.ir.phases import UPRIGHT, Reference
 from shotc.ir.tolerances import AT_REST
-from shotc.passes.refine_path.finding import Finding
+from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
 from shotc.planning.timing.estimate import leg_time
 
@@ -27,7 +27,7 @@ IN_TIME = 1e-6
 _DENSE = 257
 
 
-def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
+def on_clock(before: PathIR, after: PathIR) -> Iterator[RefinerFinding]:
     """Yield the faults of drones on the mission's clock; both paths have the same legs."""
     mission = before.keyframes.mission
     for old, new in zip(before.timed, after.timed, strict=True):
@@ -42,19 +42,21 @@ def on_clock(before: PathIR, after: PathIR) -> Iterator[Finding]:
         yield from _joints(new)
 
 
-def _on_path(drone: Drone, was: PathLeg, now: PathLeg) -> Iterator[Finding]:
+def _on_path(drone: Drone, was: PathLeg, now: PathLeg) -> Iterator[RefinerFinding]:
     """Yield the faults of a leg on a path; its angles may change, and the path of a shot may change."""
     changed = list(_as_told(was, now))
     if changed:
         what = f"the {was.phase}" if was.shot is None else f"what shot `{was.shot}` is to do"
-        yield Finding("R005", f"changed {what}", (*changed, f"of `{drone.name}`"), was.shot)
+        yield RefinerFinding("R005", f"changed {what}", (*changed, f"of `{drone.name}`"), was.shot)
         return
     if isinstance(now, MovingLeg):
         yield from jumps(now, now.curve)
     took, takes = (leg_time(drone, leg) for leg in (was, now))
     if abs(took - takes) > IN_TIME:
         note = f"it takes {takes:.6f} s instead of {took:.6f} s, and others are planned beside it"
-        yield Finding("R005", f"changed how long `{drone.name}` flies", (note, f"its {was.phase}"), was.shot)
+        yield RefinerFinding(
+            "R005", f"changed how long `{drone.name}` flies", (note, f"its {was.phase}"), was.shot
+        )
 
 
 def _as_told(was: PathLeg, now: PathLeg) -> Iterator[str]:
@@ -81,7 +83,7 @@ def _moved(was: MovingLeg, now: MovingLeg) -> float:
     return float(np.abs(was.curve(s)[:, :3] - now.curve(s)[:, :3]).max())
 
 
-def _joints(flown: TimedPath) -> Iterator[Finding]:
+def _joints(flown: TimedPath) -> Iterator[RefinerFinding]:
     for a, b in pairwise(flown.legs):
         gap = float(np.abs(np.array(a.end_pose) - np.array(b.pose)).max())
         if gap > SAME:
@@ -91,9 +93,9 @@ def _joints(flown: TimedPath) -> Iterator[Finding]:
             )
 
 
-def _shot(was: ClockLeg, now: ClockLeg) -> Iterator[Finding]:
+def _shot(was: ClockLeg, now: ClockLeg) -> Iterator[RefinerFinding]:
     for fault in _changed(was, now):
-        yield Finding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
+        yield RefinerFinding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
     for note in _ends(was.curve, now.curve):
         yield broken(note, was.shot)
     yield from jumps(now, now.curve)

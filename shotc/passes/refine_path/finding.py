@@ -9,7 +9,7 @@ from shotc.ir.mission import MissionIR
 from shotc.passes.refine_path.seat import Seat
 
 
-class Finding(NamedTuple):
+class RefinerFinding(NamedTuple):
     """One fault of a refiner's result.
 
     what : completes "refiner `x` of package y ..."
@@ -26,27 +26,27 @@ class Finding(NamedTuple):
     help: str = ""
 
 
-class Fault(NamedTuple):
+class RefinerFault(NamedTuple):
     """An error and the shot that it is about; None where it is about all of them."""
 
     shot: str | None
     told: Diagnostic
 
 
-def tell(mission: MissionIR, seat: Seat, finding: Finding) -> Fault:
+def tell(mission: MissionIR, seat: Seat, finding: RefinerFinding) -> RefinerFault:
     """Return a finding as the error that the user reads."""
     path = next((shot.path for shot in mission.shots if shot.id == finding.shot), None)
     labels = (() if path is None else (mission.origins.key(path, "in this shot"),)) + finding.labels
     help_ = finding.help or f"tell the authors of {seat.package}"
-    return Fault(
+    return RefinerFault(
         finding.shot, Diagnostic(finding.code, f"{seat.named} {finding.what}", labels, finding.notes, help_)
     )
 
 
-def own(mission: MissionIR, seat: Seat, diagnostic: Diagnostic) -> Fault:
+def own(mission: MissionIR, seat: Seat, diagnostic: Diagnostic) -> RefinerFault:
     """Return an error of the refiner itself, with the package's name added."""
     note = seat.named
-    return Fault(
+    return RefinerFault(
         shot_of(mission, diagnostic), diagnostic._replace(notes=(*diagnostic.notes, f"told by {note}"))
     )
 

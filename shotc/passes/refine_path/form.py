@@ -27,7 +27,7 @@ from shotc.ir.path import (
 )
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.tolerances import OFF_LINE
-from shotc.passes.refine_path.finding import Finding
+from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.refine_path.joints import ORDERS, largest_jump
 from shotc.passes.solver_reports import place
 
@@ -42,7 +42,7 @@ DEGREE = 5
 _DENSE = 257
 
 
-def structure(before: PathIR, after: object) -> Iterator[Finding]:
+def structure(before: PathIR, after: object) -> Iterator[RefinerFinding]:
     """Yield what makes the legs of two paths impossible to compare."""
     if not isinstance(after, PathIR):
         yield broken(f"it is a {type(after).__name__}, not a PathIR")
@@ -53,7 +53,7 @@ def structure(before: PathIR, after: object) -> Iterator[Finding]:
         yield broken("one of its legs is none, or has no curve")
         return
     if after.keyframes is not before.keyframes and after.keyframes != before.keyframes:
-        yield Finding(
+        yield RefinerFinding(
             "R005", "changed the mission", ("the keyframes it returned are not those it was given",)
         )
     if _skeleton(before) != _skeleton(after) or any(map(_doubled, after.drones)):
@@ -64,7 +64,7 @@ def structure(before: PathIR, after: object) -> Iterator[Finding]:
     yield from _shapes(after)
 
 
-def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
+def form(before: PathIR, after: PathIR) -> Iterator[RefinerFinding]:
     """Yield where a path of known structure does not join, jumps, or differs from the mission."""
     for old, new in zip(before.drones, after.drones, strict=True):
         yield from _joints(new)
@@ -74,10 +74,10 @@ def form(before: PathIR, after: PathIR) -> Iterator[Finding]:
                 yield from jumps(leg, leg.curve)
         for was, now in zip(_shots(old), _shots(new), strict=True):
             for fault in changed_shot(was, now):
-                yield Finding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
+                yield RefinerFinding("R005", f"changed what shot `{was.shot}` is to do", (fault,), was.shot)
 
 
-def _shapes(path: PathIR) -> Iterator[Finding]:
+def _shapes(path: PathIR) -> Iterator[RefinerFinding]:
     for drone in path.drones:
         for leg in drone.legs:
             fault = _shapeless(leg)
@@ -90,9 +90,9 @@ def _shapes(path: PathIR) -> Iterator[Finding]:
                 yield broken(f"the {'shot' if filmed.shot else 'way'} {fault}", filmed.shot)
 
 
-def broken(note: str, shot: str | None = None) -> Finding:
+def broken(note: str, shot: str | None = None) -> RefinerFinding:
     """Return the finding of a path that cannot be flown."""
-    return Finding("R002", "returned a path that cannot be flown", (note,), shot)
+    return RefinerFinding("R002", "returned a path that cannot be flown", (note,), shot)
 
 
 def _skeleton(path: PathIR) -> list[tuple[str, list[tuple[str, str | None]]]]:
@@ -153,7 +153,7 @@ def _misshapen(curve: Piecewise) -> str:
     return ""
 
 
-def _joints(drone: DronePath) -> Iterator[Finding]:
+def _joints(drone: DronePath) -> Iterator[RefinerFinding]:
     for a, b in pairwise(drone.legs):
         gap = float(np.abs(np.array(a.end_pose) - np.array(b.pose)).max())
         if gap > SAME:
@@ -169,14 +169,14 @@ def _joints(drone: DronePath) -> Iterator[Finding]:
             )
 
 
-def _pads(old: DronePath, new: DronePath) -> Iterator[Finding]:
+def _pads(old: DronePath, new: DronePath) -> Iterator[RefinerFinding]:
     """Yield take-offs and landings that have moved."""
     for was, now in zip(_lifts(old), _lifts(new), strict=True):
         ends = ((was.pose, now.pose), (was.end_pose, now.end_pose))
         moved = max(_apart(old_end, new_end) for old_end, new_end in ends)
         aside = float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
         if moved > SAME or aside > SAME:
-            yield Finding(
+            yield RefinerFinding(
                 "R005", f"moved the {now.phase} of `{new.drone}`", (f"by {max(moved, aside):.3f} m",)
             )
 
@@ -186,7 +186,7 @@ def _apart(a: Pose, b: Pose) -> float:
     return float(np.abs(np.array(a[:3]) - np.array(b[:3])).max())
 
 
-def jumps(leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+def jumps(leg: Leg, curve: Piecewise) -> Iterator[RefinerFinding]:
     """Yield where a leg is not smooth, for the lowest order only; at a stop it may turn."""
     stops = leg.stops if isinstance(leg, MovingLeg) else ()
     rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in stops])

@@ -32,7 +32,7 @@ from shotc.ir.path import (
 )
 from shotc.ir.phases import UPRIGHT
 from shotc.ir.tolerances import ON_PLACE
-from shotc.passes.refine_path.finding import Finding
+from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.solver_reports import place
 from shotc.planning.free_space import FreeSpace, breaches, shortfall
 from shotc.planning.obstacles import flight_space
@@ -53,7 +53,7 @@ class ClearanceLack(NamedTuple):
     lack: float
 
 
-def limits(path: PathIR) -> Iterator[Finding]:
+def limits(path: PathIR) -> Iterator[RefinerFinding]:
     """Yield where a path of sound form breaks a clearance, misses a keyframe or leaves the gimbal's range."""
     mission = path.keyframes.mission
     every: tuple[DronePath | TimedPath, ...] = (*path.drones, *path.timed)
@@ -91,7 +91,7 @@ def _worst_of(space: FreeSpace, bag: Pieces) -> ClearanceLack:
     return ClearanceLack(float(at[k]), points[k], float(lack[k]))
 
 
-def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise) -> Iterator[RefinerFinding]:
     near = nearest(space, curve.channels(0, 1, 2))
     if near is None:
         return
@@ -101,7 +101,7 @@ def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise)
     x, y, z = near.point
     owner = breach.owner.path
     find = mission.origins.value if owner[:1] == ("rules",) else mission.origins.key
-    yield Finding(
+    yield RefinerFinding(
         "R006",
         f"flies {_which(leg)} too near to {breach.owner.words}",
         (
@@ -113,7 +113,7 @@ def _clearance(mission: MissionIR, space: FreeSpace, leg: Leg, curve: Piecewise)
     )
 
 
-def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Iterator[Finding]:
+def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Iterator[RefinerFinding]:
     """Yield camera angles out of the gimbal's range; its yaw is relative to the body, modulo whole turns."""
     whole = pieces(curve)
     low, high = drone.gimbal.yaw
@@ -127,7 +127,7 @@ def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Ite
         under, over = inf_channel(angle, 0, _fine), sup_channel(angle, 0, _fine)
         beyond, at = max((least - under.proven, under.at), (over.proven - most, over.at))
         if beyond > TOLERANCE:
-            yield Finding(
+            yield RefinerFinding(
                 "R008",
                 f"turns the gimbal beyond its {axis} range in {_which(leg)}",
                 (
@@ -143,7 +143,7 @@ def _fine(_worst: float) -> float:
     return 0.5 * TOLERANCE
 
 
-def _keyframes(path: PathIR) -> Iterator[Finding]:
+def _keyframes(path: PathIR) -> Iterator[RefinerFinding]:
     on_paths = {leg.shot for drone in path.drones for leg in drone.legs}
     on_paths |= {leg.shot for drone in path.timed for leg in drone.legs if isinstance(leg, PathLeg)}
     for placed in (p for p in path.keyframes.shots if p.shot.id in on_paths):
@@ -155,7 +155,7 @@ def _keyframes(path: PathIR) -> Iterator[Finding]:
             at = np.array(leg.pose) if isinstance(leg, HoldLeg) else leg.curve(mark.s)
             away = float(np.linalg.norm(at[:3] - np.array(keyframe.at)))
             if keyframe.placed and away > ON_PLACE:
-                yield Finding(
+                yield RefinerFinding(
                     "R007",
                     f"misses keyframe {mark.index + 1} of shot `{leg.shot}`",
                     (f"passes {away:.3g} m away from where the mission places it, {place(leg, mark.s)}",),

@@ -25,9 +25,9 @@ from shotc.ir.path import (
     Z,
     filmed,
 )
-from shotc.passes.refine_path.ask import Answer
+from shotc.passes.refine_path.ask import RefinerAnswer
 from shotc.passes.refine_path.clocked import on_clock
-from shotc.passes.refine_path.finding import Fault, Finding, tell
+from shotc.passes.refine_path.finding import RefinerFault, RefinerFinding, tell
 from shotc.passes.refine_path.form import form, structure
 from shotc.passes.refine_path.limits import limits
 from shotc.passes.refine_path.seat import Seat
@@ -37,7 +37,7 @@ from shotc.planning.path.with_camera import NoTransit
 CAMERA = (X, Y, Z, CAM_YAW, CAM_PITCH)
 
 
-def settle(before: PathIR, seat: Seat, answer: Answer) -> Outcome[PathIR]:
+def settle(before: PathIR, seat: Seat, answer: RefinerAnswer) -> Outcome[PathIR]:
     """Return the path to fly: refined where sound, convex in optional shots that are not; or errors."""
     shots = before.keyframes.mission.shots
     path, faults = _mended(before, seat, answer)
@@ -53,7 +53,7 @@ def settle(before: PathIR, seat: Seat, answer: Answer) -> Outcome[PathIR]:
     return Outcome(None, (*answer.warnings, *(errors or dict.fromkeys(fault.told for fault in faults))))
 
 
-def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, list[Fault]]:
+def _mended(before: PathIR, seat: Seat, answer: RefinerAnswer) -> tuple[PathIR | None, list[RefinerFault]]:
     """Return the refined path with convex legs for shots that failed, and all faults.
 
     None where nothing of the refined path is usable.
@@ -71,7 +71,7 @@ def _mended(before: PathIR, seat: Seat, answer: Answer) -> tuple[PathIR | None, 
     return (None if None in failed else path), faults
 
 
-def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
+def _judged(before: PathIR, seat: Seat, path: Any) -> list[RefinerFault]:
     """Return the faults of a value that should be a path; detailed checks need a sound structure."""
     try:
         faults = list(structure(before, path)) or [
@@ -81,7 +81,7 @@ def _judged(before: PathIR, seat: Seat, path: Any) -> list[Fault]:
         ]
     except Exception as raised:  # noqa: BLE001  a plugin may hand back anything, and reading it may raise
         faults = [
-            Finding(
+            RefinerFinding(
                 "R002", "returned a path that cannot be flown", (f"to read it raises {one_line(raised)}",)
             )
         ]
@@ -143,7 +143,7 @@ def same(a: Leg, b: Leg) -> bool:
     return np.array_equal(a.curve.breaks, b.curve.breaks) and np.array_equal(a.curve.ctrl, b.curve.ctrl)
 
 
-def kept(before: PathIR, seat: Seat, shot: str, faults: list[Fault]) -> Diagnostic:
+def kept(before: PathIR, seat: Seat, shot: str, faults: list[RefinerFault]) -> Diagnostic:
     """Return the warning of a shot that keeps its convex path, with the faults of the refined one."""
     mission = before.keyframes.mission
     path = mission.shot(shot).path

@@ -42,7 +42,7 @@ from shotc.planning.clock.visibility import visibility_of
 from shotc.planning.framing.moments import placed_at
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import free_spaces_of, pad_space
-from shotc.planning.path.legs import Blocked, LegContext, drone_legs
+from shotc.planning.path.legs import BlockedWay, LegContext, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
 from shotc.planning.path.shots import PlannedShot, shot_curve
 from shotc.solvers.headings import DEFAULT
@@ -253,7 +253,7 @@ def _in_a_row(
 ) -> _Planned:
     """Plan the legs of a drone without a clock: its shots one after another."""
     joined = drone_legs(flight, shots)
-    if isinstance(joined, Blocked):
+    if isinstance(joined, BlockedWay):
         shot = joined.shot.shot if joined.shot else None
         return _stopped(*warnings, failure(mission, flight.drone, flight.space, shot, joined.failure))
     deviations = tuple(d for s in shots for d in s.deviations)

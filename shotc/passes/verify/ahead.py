@@ -24,7 +24,7 @@ from shotc.ir.path import BODY_YAW, CAM_YAW, X, Y, Z
 from shotc.ir.phases import Phase
 from shotc.ir.rules import SLOW_M_S
 from shotc.ir.trajectory import Claim, DroneTrajectory
-from shotc.ir.transits import Way, ways
+from shotc.ir.transits import TransitInterval, ways
 from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap
 from shotc.rounding import at_least
 
@@ -123,7 +123,7 @@ def _claimed(
         yield bounded(flight, Limit(CONSTRAINT, half_angle, "rad", ("rules", "look_ahead"), shot=shot), found)
 
 
-def judged(flight: JudgedFlight, way: Way) -> tuple[float, float] | None:
+def judged(flight: JudgedFlight, way: TransitInterval) -> tuple[float, float] | None:
     """Return the start and end of the judged part of a transfer; None where the drone does not come
     to rest.
     """

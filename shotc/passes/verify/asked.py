@@ -24,7 +24,7 @@ ELSEWHERE = frozenset({"path", "source_sha256"})
 """Fields that contain places in a file, which may differ in another file."""
 
 
-class Difference(NamedTuple):
+class MissionDifference(NamedTuple):
     """One difference between a plan and its mission; path : key path in the mission."""
 
     path: KeyPath
@@ -52,12 +52,14 @@ class _Place(NamedTuple):
         """Return the place of an element with its own name."""
         return self._replace(words=words, path=path)
 
-    def differs(self, text: str) -> Difference:
+    def differs(self, text: str) -> MissionDifference:
         """Return a difference here."""
-        return Difference(self.path, f"{self.words}{text}")
+        return MissionDifference(self.path, f"{self.words}{text}")
 
 
-def differences(written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = True) -> Iterator[Difference]:
+def differences(
+    written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = True
+) -> Iterator[MissionDifference]:
     """Yield the differences between a plan's data and what the mission asks for.
 
     same_text : whether both were lowered from one text, so that all places in it must be equal
@@ -69,7 +71,7 @@ def differences(written: KeyframeIR, asked: KeyframeIR, *, same_text: bool = Tru
         yield from _origins(written, asked)
 
 
-def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[Difference]:
+def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[MissionDifference]:
     """Yield where a plan's files or choices are not those that its mission uses."""
     for words, mine, true in (
         (
@@ -82,21 +84,21 @@ def source_differences(written: MissionIR, asked: MissionIR) -> Iterator[Differe
         ("the drones that were chosen", written.source.chosen, asked.source.chosen),
     ):
         if mine != true:
-            yield Difference((), f"{words} are not those that the mission uses")
+            yield MissionDifference((), f"{words} are not those that the mission uses")
 
 
-def _origins(written: KeyframeIR, asked: KeyframeIR) -> Iterator[Difference]:
+def _origins(written: KeyframeIR, asked: KeyframeIR) -> Iterator[MissionDifference]:
     """Yield the first wrong place in the file."""
     one, other = written.mission.origins, asked.mission.origins
     for mine, true in ((one.keys, other.keys), (one.values, other.values)):
         for path, span in mine.items():
             if path not in true or true[path] != span:
                 name = ".".join(map(str, path)) or "the mission"
-                yield Difference(path, f"the place of {name} in the file is another one")
+                yield MissionDifference(path, f"the place of {name} in the file is another one")
                 return
 
 
-def _walk(written: Any, asked: Any, at: _Place) -> Iterator[Difference]:
+def _walk(written: Any, asked: Any, at: _Place) -> Iterator[MissionDifference]:
     if written is asked:
         return
     if isinstance(written, float | int) and isinstance(asked, float | int):
@@ -116,7 +118,7 @@ def _walk(written: Any, asked: Any, at: _Place) -> Iterator[Difference]:
         yield at.differs(f" is {_shown(written)} in the plan, but {_shown(asked)} in the mission")
 
 
-def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[Difference]:
+def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
     named = [_name(item) for item in (*written, *asked)]
     if named and all(named):
         yield from _named(written, asked, at)
@@ -132,12 +134,12 @@ def _items(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator
             yield from _walk(one, other, at.item(words, _path(other, at)))
 
 
-def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[Difference]:
+def _named(written: Sequence[Any], asked: Sequence[Any], at: _Place) -> Iterator[MissionDifference]:
     """Yield differences of elements with names: which exist, their order, and each with its namesake."""
     mine, true = {_name(item): item for item in written}, {_name(item): item for item in asked}
     for name, item in true.items():
         if name not in mine:
-            yield Difference(_path(item, at), f"{at.words}: `{name}` is left out")
+            yield MissionDifference(_path(item, at), f"{at.words}: `{name}` is left out")
     for name in mine:
         if name not in true:
             yield at.differs(f": the mission has no `{clip(name)}`")

@@ -29,7 +29,7 @@ from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim, g
 from shotc.passes.verify.explained import (
     NEAR_M,
     PICTURE_SHARE,
-    Way,
+    ExpectedPlaces,
     believed,
     farthest,
     for_the_picture,
@@ -75,7 +75,7 @@ def course(flight: JudgedFlight, ir: TrajectoryIR) -> Iterator[Claim]:
             yield from _looking(flight, placed, t)
 
 
-def _told(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, way: Way) -> float:
+def _told(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, way: ExpectedPlaces) -> float:
     """Return how far a shot may leave its path, metres: as reported, around obstacles and for its picture."""
     blocks = in_the_way(flight, way)
     distances = believed((d for d in ir.deviations if d.shot == placed.shot.id), blocks)
@@ -83,11 +83,11 @@ def _told(flight: JudgedFlight, ir: TrajectoryIR, placed: PlacedShot, way: Way) 
     return min(sum(distances[:2]), sum(blocks.values()) + for_the_picture(flight.mission, far, placed=False))
 
 
-def _chords(at: Array) -> Way:
+def _chords(at: Array) -> ExpectedPlaces:
     """Return the polyline through places (K, 3), densely sampled."""
     share = np.linspace(0.0, 1.0, PLACES_PER_CHORD)[:, None]
     parts = [a + share * (b - a) for a, b in pairwise(at)]
-    return Way(np.concatenate(parts) if parts else at, None)
+    return ExpectedPlaces(np.concatenate(parts) if parts else at, None)
 
 
 def _times(flight: JudgedFlight, placed: PlacedShot) -> list[float]:

@@ -44,14 +44,14 @@ THINGS = ("zone ", "target ", "drone ", "ground", "scene", "building")
 """Prefixes of causes that name an obstacle."""
 
 
-class Way(NamedTuple):
+class ExpectedPlaces(NamedTuple):
     """Ideal positions of a shot, shape (M, 3), and their mission times (M,), None where these are free."""
 
     places: Array
     times: Array | None
 
 
-def in_the_way(flight: JudgedFlight, way: Way, *, placed: bool = False) -> dict[str, float]:
+def in_the_way(flight: JudgedFlight, way: ExpectedPlaces, *, placed: bool = False) -> dict[str, float]:
     """Return what blocks a course, named as in causes, and the length of the detour around each, metres.
 
     placed : whether the author gave the place, which then is left only for moving obstacles
@@ -87,7 +87,7 @@ def for_the_picture(mission: MissionIR, distance: float, *, placed: bool) -> flo
     return (PICTURE_SHARE if mission.rules.visibility == "require" else MOST_MOVED) * distance
 
 
-def for_its_limits(flight: JudgedFlight, way: Way, smoothing: float) -> float:
+def for_its_limits(flight: JudgedFlight, way: ExpectedPlaces, smoothing: float) -> float:
     """Return how far a drone falls behind a course, metres: where that is too fast, and while it stops.
 
     smoothing : seconds; the time beyond the normal one adds a distance at the same speed
@@ -105,7 +105,7 @@ def for_its_limits(flight: JudgedFlight, way: Way, smoothing: float) -> float:
     return float(behind + stops + fastest * max(0.0, smoothing - NORMAL_S))
 
 
-def farthest(mission: MissionIR, names: Iterable[str], way: Way) -> float:
+def farthest(mission: MissionIR, names: Iterable[str], way: ExpectedPlaces) -> float:
     """Return the largest distance of a course from the nearest of some targets, metres."""
     targets = [mission.target(name) for name in names]
     if not targets:
@@ -119,7 +119,7 @@ def _centre(target: Target, times: Array | None) -> Array:
     return centre if times is None or target.track is None else centre + moved(target, times)
 
 
-def _zones(flight: JudgedFlight, way: Way) -> Iterator[tuple[str, float]]:
+def _zones(flight: JudgedFlight, way: ExpectedPlaces) -> Iterator[tuple[str, float]]:
     mission, body = flight.mission, flight.drone.radius + NEAR_M
     for zone in mission.zones:
         apart = signed_distance(zone.solid, way.places)
@@ -130,7 +130,7 @@ def _zones(flight: JudgedFlight, way: Way) -> Iterator[tuple[str, float]]:
     yield "ground", mission.rules.ground_clearance + body - float(way.places[:, 2].min())
 
 
-def _meshes(flight: JudgedFlight, way: Way) -> Iterator[tuple[str, float]]:
+def _meshes(flight: JudgedFlight, way: ExpectedPlaces) -> Iterator[tuple[str, float]]:
     """Yield the detour around each mesh: above its near parts, or around the widest of them."""
     body = flight.mission.rules.beside_obstacle(flight.drone.radius)
     for mesh in flight.mission.meshes:
@@ -158,7 +158,7 @@ def _widest(low: Array, high: Array) -> float:
     return float(np.linalg.norm(spans, axis=1).max())
 
 
-def _targets(flight: JudgedFlight, way: Way, *, placed: bool) -> Iterator[tuple[str, float]]:
+def _targets(flight: JudgedFlight, way: ExpectedPlaces, *, placed: bool) -> Iterator[tuple[str, float]]:
     near = flight.mission.rules.target_clearance + flight.drone.radius + NEAR_M
     for target in flight.mission.targets:
         if (placed and target.track is None) or (way.times is None and target.track is not None):
@@ -168,7 +168,7 @@ def _targets(flight: JudgedFlight, way: Way, *, placed: bool) -> Iterator[tuple[
             yield f"target {target.name}", max(2.0 * target.radius, target.height) + 2.0 * near
 
 
-def _drones(flight: JudgedFlight, way: Way) -> Iterator[tuple[str, float]]:
+def _drones(flight: JudgedFlight, way: ExpectedPlaces) -> Iterator[tuple[str, float]]:
     if way.times is None:
         return
     near = flight.mission.rules.separation + NEAR_M

@@ -15,7 +15,7 @@ from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.verify import judge
 from shotc.passes.verify.advice import REPLAN
-from shotc.passes.verify.asked import Difference, differences, source_differences
+from shotc.passes.verify.asked import MissionDifference, differences, source_differences
 from shotc.passes.verify.certificate import certificate_differences
 from shotc.planfile.read import ReadPlan, read_plan
 from shotc.source.file import WHOLE_FILE, SourceFile
@@ -85,11 +85,11 @@ def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
     diagnostics = [
         *differences(written, asked.keyframes, same_text=False),
         *(
-            Difference((), f"`{name}` is another file than the plan draws")
+            MissionDifference((), f"`{name}` is another file than the plan draws")
             for name in _changed(source.drawn, now.drawn)
         ),
         *(
-            Difference((), f"`{name}` is another file than the plan was made with")
+            MissionDifference((), f"`{name}` is another file than the plan was made with")
             for name in _changed(source.linked, now.linked)
         ),
     ]
@@ -130,7 +130,7 @@ def _of_another_mission(read: ReadPlan, asked: KeyframeIR) -> list[Diagnostic]:
 
 
 def told(
-    differing: Sequence[Difference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
+    differing: Sequence[MissionDifference], asked: KeyframeIR, code: str, notes: tuple[str, ...]
 ) -> list[Diagnostic]:
     """Return differences as diagnostics on the mission's lines: the first ones each, the others together."""
     shown = [

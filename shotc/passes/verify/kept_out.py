@@ -15,13 +15,13 @@ from shotc.ir.sampling import ticks
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.meeting import filming, put_off
-from shotc.passes.verify.sight import Sight
+from shotc.passes.verify.sight import CameraAndBody
 from shotc.rounding import at_least
 
 BEYOND_DEG = 0.5  # degrees that a camera is turned beyond the least angle
 
 
-def kept_out(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
+def kept_out(sight: CameraAndBody, claim: Claim, phase: Phase) -> Iterator[str]:
     """Yield remedies that keep the other drone of a broken claim out of the shot of a phase.
 
     Another time does not help where the other drone is seen on its pad as well.
@@ -40,13 +40,13 @@ def kept_out(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
     yield f"film from where `{other.drone}` is {aside}"
 
 
-def _pad_is_seen(sight: Sight, times: Array, claim: Claim) -> bool:
+def _pad_is_seen(sight: CameraAndBody, times: Array, claim: Claim) -> bool:
     pad = sight.other.curve(sight.other.curve.start)[:3]
     out = sight.out_at(times, np.repeat(pad[None], len(times), axis=0))
     return bool((out < claim.limit - slack(claim.limit)).any())
 
 
-def _another_time(sight: Sight, phase: Phase) -> Iterator[str]:
+def _another_time(sight: CameraAndBody, phase: Phase) -> Iterator[str]:
     """Yield the remedy to film one after the other; this shot, if later, after the other drone has landed."""
     other = filming(sight.other, phase.start)
     if other is None:
@@ -58,7 +58,7 @@ def _another_time(sight: Sight, phase: Phase) -> Iterator[str]:
         yield put_off(sight.mission, landed, (sight.film, phase))
 
 
-def _turned(sight: Sight, times: Array, phase: Phase) -> str:
+def _turned(sight: CameraAndBody, times: Array, phase: Phase) -> str:
     """Return how far a camera with a given heading turns away; empty for one that follows a target."""
     mission = sight.mission
     shot = mission.shot(phase.shot)

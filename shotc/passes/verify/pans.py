@@ -24,7 +24,7 @@ RESHAPED_RATIO = 1.05  # factor for a free duration: a given one stretches anoth
 NEARLY_SHARE = 0.99  # share of the least time of a frame width, below which it is reported
 
 
-class Pan(NamedTuple):
+class FastestTurn(NamedTuple):
     """The fastest turn of a shot, relative to its rule.
 
     width : seconds for one frame width
@@ -56,7 +56,7 @@ def pans(ir: TrajectoryIR) -> Iterator[Diagnostic]:
                 yield _told(mission, track, phase, turn)
 
 
-def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:
+def fastest(track: DroneTrajectory, phase: Phase) -> FastestTurn | None:
     """Return the fastest turn of a shot by its rule, over a second, or over the whole of a shorter shot."""
     duration = phase.end - phase.start
     if duration <= 0.0:
@@ -70,7 +70,7 @@ def fastest(track: DroneTrajectory, phase: Phase) -> Pan | None:
     k = int(np.argmax(least * widths))
     if widths[k] <= 0.0:
         return None
-    return Pan(window / float(widths[k]), float(starts[k]), followed[k])
+    return FastestTurn(window / float(widths[k]), float(starts[k]), followed[k])
 
 
 def _followed(
@@ -98,7 +98,7 @@ def _axis(pose: Array) -> Array:
     return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
 
 
-def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float:
+def _enough(track: DroneTrajectory, phase: Phase, pan: FastestTurn, free: bool) -> float:
     """Return a duration in which a shot between keyframes turns slowly enough, seconds.
 
     It is the duration times the excess of the rate, and at least that of the whole turn from rest to rest by
@@ -113,7 +113,7 @@ def _enough(track: DroneTrajectory, phase: Phase, pan: Pan, free: bool) -> float
     return max(longer, PEAK_RATIO * turned * slowest(pan.followed))
 
 
-def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: Pan) -> Diagnostic:
+def _told(mission: MissionIR, track: DroneTrajectory, phase: Phase, pan: FastestTurn) -> Diagnostic:
     shot = mission.shot(phase.shot)
     help_ = "film it from farther away, or with a wider field of view"
     if shot.ideal is None:

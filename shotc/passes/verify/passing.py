@@ -17,7 +17,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.ir.transits import Way, ways
+from shotc.ir.transits import TransitInterval, ways
 from shotc.passes.verify.claims import gap, slack
 from shotc.passes.verify.transits import ENDING, on_way, taper_of
 from shotc.rounding import at_most
@@ -27,7 +27,7 @@ WORTH_SHARE = 0.1  # share of an unstated clearance; a smaller lack gets no warn
 PLAY_M = 0.1  # metres by which a proposed clearance is below the flown one, as play for planning
 
 
-class Pass(NamedTuple):
+class ClosestPass(NamedTuple):
     """How near a drone comes to a solid where a claim is worst.
 
     name : of the solid in messages
@@ -41,7 +41,7 @@ class Pass(NamedTuple):
 
     name: str
     path: KeyPath
-    way: Way
+    way: TransitInterval
     at: float
     has: float
     needs: float
@@ -55,7 +55,7 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
     An unstated clearance gets a warning only if more than a tenth of it lacks.
     """
     broken = [c for c in claims if not c.holds and c.constraint.endswith(ENDING)]
-    soft: dict[tuple[str, Way], list[tuple[Claim, Pass]]] = {}
+    soft: dict[tuple[str, TransitInterval], list[tuple[Claim, ClosestPass]]] = {}
     for claim in broken:
         passes = _passes(ir, claim)
         if claim.hard:
@@ -67,7 +67,7 @@ def told_passes(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Iterator[Diagnos
         yield _told(ir, sorted(together, key=lambda pair: pair[1].has - pair[1].needs))
 
 
-def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
+def _passes(ir: TrajectoryIR, claim: Claim) -> list[ClosestPass]:
     """Return where a flight breaks a claim, one entry per transfer, the worst first."""
     mission, name = ir.keyframes.mission, claim.constraint.removesuffix(ENDING)
     track = next(t for t in ir.drones if t.drone == claim.subject)
@@ -83,7 +83,7 @@ def _passes(ir: TrajectoryIR, claim: Claim) -> list[Pass]:
         needs = taper_of(solid, curve, claim.limit + radius, way).needs(np.array([x, y, z]))
         least = inf_distance(cut(curve, way.start, way.end), solid, gap(radius))
         has = distance(solid, (x, y, z))
-        passed = Pass(f"{kind} `{own}`", path, way, bound.at, has - radius, float(needs) - radius)
+        passed = ClosestPass(f"{kind} `{own}`", path, way, bound.at, has - radius, float(needs) - radius)
         passed = passed._replace(least=least.proven - radius, counts_from=counts_from)
         passes.append((bound.proven, passed))
     return [one for _, one in sorted(passes, key=lambda pair: pair[0])]
@@ -108,7 +108,7 @@ def _solid(mission: MissionIR, name: str, track: DroneTrajectory) -> _Named:
     return _Named(zone.solid, zone.path, curve)
 
 
-def _told(ir: TrajectoryIR, together: list[tuple[Claim, Pass]]) -> Diagnostic:
+def _told(ir: TrajectoryIR, together: list[tuple[Claim, ClosestPass]]) -> Diagnostic:
     claim, worst = together[0]
     message = f"{claim.subject} passes {_near(claim, worst)}"
     notes = [_when(claim, worst), *(f"and {_near(c, p)}; {_when(c, p)}" for c, p in together[1:])]
@@ -121,7 +121,7 @@ def _told(ir: TrajectoryIR, together: list[tuple[Claim, Pass]]) -> Diagnostic:
     return Diagnostic(SOFT, message, tuple(_labels(ir, claim, worst)), tuple(notes), help_)
 
 
-def _accepted(claim: Claim, together: list[tuple[Claim, Pass]]) -> str:
+def _accepted(claim: Claim, together: list[tuple[Claim, ClosestPass]]) -> str:
     return _held(min(p.least for c, p in together if c.path == claim.path))
 
 
@@ -130,7 +130,7 @@ def _held(least: float) -> str:
     return at_most(max(least - PLAY_M, 0.0))
 
 
-def _refused(ir: TrajectoryIR, claim: Claim, passed: Pass) -> Diagnostic:
+def _refused(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Diagnostic:
     message = f"{claim.subject} passes {_near(claim, passed)}"
     key = claim.path[-1]
     help_ = (
@@ -141,7 +141,7 @@ def _refused(ir: TrajectoryIR, claim: Claim, passed: Pass) -> Diagnostic:
     return Diagnostic(HARD, message, tuple(_labels(ir, claim, passed)), notes, help_)
 
 
-def _near(claim: Claim, passed: Pass) -> str:
+def _near(claim: Claim, passed: ClosestPass) -> str:
     has, needs = told_apart(passed.has, passed.needs, "m")
     return f"{passed.name} at {has} {_where(passed.way)}; {needs} {_kept(claim)}"
 
@@ -150,17 +150,17 @@ def _kept(claim: Claim) -> str:
     return "are required" if claim.hard else "are the default where there is room"
 
 
-def _where(way: Way) -> str:
+def _where(way: TransitInterval) -> str:
     return "on the way home" if way.shot is None else f"on the way to shot `{way.shot}`"
 
 
-def _when(claim: Claim, passed: Pass) -> str:
+def _when(claim: Claim, passed: ClosestPass) -> str:
     tapers = claim.limit - passed.needs > 0.01
     nearer = f", less than {claim.limit:g} m where the way begins or ends nearer" if tapers else ""
     return f"worst at t = {passed.at:.1f} s{nearer}; proved over continuous time"
 
 
-def _labels(ir: TrajectoryIR, claim: Claim, passed: Pass) -> Iterator[Label]:
+def _labels(ir: TrajectoryIR, claim: Claim, passed: ClosestPass) -> Iterator[Label]:
     mission = ir.keyframes.mission
     if claim.hard:
         yield mission.origins.value(claim.path, "required here")

@@ -21,7 +21,7 @@ from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, bounded, claim, gap
 from shotc.passes.verify.explained import (
-    Way,
+    ExpectedPlaces,
     believed,
     farthest,
     for_its_limits,
@@ -103,12 +103,16 @@ def _place(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, phase: Phase) -> 
     away = np.linalg.norm(flight.track.curve(t)[:, :3] - ideal, axis=1)
     k = int(np.argmax(away))
     limit = Limit(
-        "distance from its place", _allowed(flight, ir, begun, Way(ideal, t)), "m", shot.path, shot=shot.id
+        "distance from its place",
+        _allowed(flight, ir, begun, ExpectedPlaces(ideal, t)),
+        "m",
+        shot.path,
+        shot=shot.id,
     )
     yield claim(flight, limit, WorstValue(float(away[k]), float(t[k]), "sampled"))
 
 
-def _allowed(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, way: Way) -> float:
+def _allowed(flight: JudgedFlight, ir: TrajectoryIR, shot: Shot, way: ExpectedPlaces) -> float:
     """Return how far a shot may be from its ideal, metres, as the plan reports and the mission explains."""
     assert shot.ideal is not None
     placed = shot.ideal.placed

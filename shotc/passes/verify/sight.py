@@ -66,13 +66,13 @@ def _claim(flight: JudgedFlight, other: JudgedFlight, phase: Phase) -> Claim:
         hard=rules.visibility == "require",
         shot=phase.shot,
     )
-    sight = Sight(flight.mission, flight.track, other.track)
+    sight = CameraAndBody(flight.mission, flight.track, other.track)
     times = ticks(flight.mission.rate, phase.start, phase.end)
     return claim(flight, limit, _worst(sight, times, limit.value))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sight:
+class CameraAndBody:
     """One drone's camera and another drone's body."""
 
     mission: MissionIR
@@ -95,7 +95,7 @@ class Sight:
         return measured(eyes, places, self.body.radius)
 
 
-def _worst(sight: Sight, times: Array, limit: float) -> WorstValue:
+def _worst(sight: CameraAndBody, times: Array, limit: float) -> WorstValue:
     """Return the least value between the first and the last time: proved, or sampled where no proof
     succeeds.
     """
@@ -109,7 +109,7 @@ def _worst(sight: Sight, times: Array, limit: float) -> WorstValue:
     return WorstValue(bound.attained, bound.at, "sampled")
 
 
-def infimum(sight: Sight, times: Array, limit: float) -> ProvedExtreme:
+def infimum(sight: CameraAndBody, times: Array, limit: float) -> ProvedExtreme:
     """Return bounds of the least value over the time that the samples span."""
     if times[-1] <= times[0]:
         least = float(sight.out(times[:1])[0])
@@ -150,7 +150,7 @@ class _Fastest:
     zoom: float
 
 
-def _fastest(sight: Sight, start: float, end: float) -> _Fastest:
+def _fastest(sight: CameraAndBody, start: float, end: float) -> _Fastest:
     film, other = sight.film.curve, sight.other.curve
 
     def most(curve: Piecewise, *channels: int) -> float:
@@ -164,7 +164,7 @@ def _fastest(sight: Sight, start: float, end: float) -> _Fastest:
     )
 
 
-def _sampled(sight: Sight, t: Array) -> Array:
+def _sampled(sight: CameraAndBody, t: Array) -> Array:
     """Return the value, relative speed, turn of the camera, zoom, and distance at times, shape (M, 5)."""
     film, other = sight.film.curve, sight.other.curve
     rate = film.derivative()(t)
@@ -176,7 +176,7 @@ def _sampled(sight: Sight, t: Array) -> Array:
     return np.column_stack([sight.out(t), speed, turn, np.abs(rate[:, HFOV]), far])
 
 
-def _lower(sight: Sight, fastest: _Fastest, a: Array, b: Array, dt: Array) -> Array:
+def _lower(sight: CameraAndBody, fastest: _Fastest, a: Array, b: Array, dt: Array) -> Array:
     """Return lower bounds within intervals.
 
     An edge of the frame is a plane through the camera with unit normal n; a body at p from the camera is -n.p

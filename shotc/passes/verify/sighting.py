@@ -16,7 +16,7 @@ from shotc.ir.sampling import ticks
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
 from shotc.passes.verify.claims import slack
 from shotc.passes.verify.kept_out import kept_out
-from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, Sight
+from shotc.passes.verify.sight import OUT_OF_PICTURE, PATH, CameraAndBody
 from shotc.rounding import at_least
 
 HARD, SOFT = "V025", "V033"
@@ -42,7 +42,7 @@ def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
     notes: list[str] = []
     for name, one in zip(names, claims, strict=True):
         whose = f"{name} " if len(claims) > 1 else ""
-        notes += [whose + note for note in _notes(Sight(mission, film, tracks[name]), one, phase)]
+        notes += [whose + note for note in _notes(CameraAndBody(mission, film, tracks[name]), one, phase)]
     notes += _given_up(ir, phase, [tracks[name] for name in names])
     who = f"{_listed(names)} {'is' if len(names) == 1 else 'are'}"
     return Diagnostic(
@@ -50,7 +50,9 @@ def sighted(ir: TrajectoryIR, claims: tuple[Claim, ...]) -> Diagnostic:
         f"{who} {where} {claim.subject} in shot `{claim.shot}`",
         tuple(_labels(mission, claim)),
         tuple(notes),
-        _help(Sight(mission, film, tracks[claim.constraint.removesuffix(OUT_OF_PICTURE)]), claim, phase),
+        _help(
+            CameraAndBody(mission, film, tracks[claim.constraint.removesuffix(OUT_OF_PICTURE)]), claim, phase
+        ),
     )
 
 
@@ -91,7 +93,7 @@ def _labels(mission: MissionIR, claim: Claim) -> Iterator[Label]:
         yield origins.key(PATH, "required here" if claim.hard else "preferred here")
 
 
-def _notes(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
+def _notes(sight: CameraAndBody, claim: Claim, phase: Phase) -> Iterator[str]:
     rate = sight.mission.rate
     times = ticks(rate, phase.start, phase.end)
     seen = sight.out(times) < claim.limit - slack(claim.limit)
@@ -109,7 +111,7 @@ def _notes(sight: Sight, claim: Claim, phase: Phase) -> Iterator[str]:
         yield "nothing worse happens between samples"
 
 
-def _how_far(sight: Sight, claim: Claim) -> str:
+def _how_far(sight: CameraAndBody, claim: Claim) -> str:
     away = np.linalg.norm(np.subtract(*(t.curve(claim.time or 0.0)[:3] for t in (sight.film, sight.other))))
     far = f"{float(away):.1f} m from the camera"
     if sight.mission.rules.half_angle is None:
@@ -133,7 +135,7 @@ def _doing(other: DroneTrajectory, time: float) -> str:
     return f"{other.drone} is {_DOING[phase.name]} then"
 
 
-def _help(sight: Sight, claim: Claim, phase: Phase) -> str:
+def _help(sight: CameraAndBody, claim: Claim, phase: Phase) -> str:
     ways = ", or ".join(kept_out(sight, claim, phase))
     if claim.hard:
         prefer = "`rules: {mutual_visibility: {strength: prefer}}`"

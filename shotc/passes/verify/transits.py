@@ -18,7 +18,7 @@ from shotc.geom.solids import Solid, distance
 from shotc.geom.taper import SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
-from shotc.ir.transits import Apart, Way, from_target, from_zones, ways
+from shotc.ir.transits import TransitClearance, TransitInterval, from_target, from_zones, ways
 from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
 
 ENDING = " on transits"
@@ -38,7 +38,9 @@ def transits(flight: JudgedFlight) -> Iterator[Claim]:
             yield from _kept(flight, f"zone {zone.name}", (zone.solid, own), apart)
 
 
-def _kept(flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart: Apart) -> Iterator[Claim]:
+def _kept(
+    flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart: TransitClearance
+) -> Iterator[Claim]:
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius
     bounds = [on_way(near, clearance, way) for way in ways(flight.track.phases)]
@@ -50,7 +52,7 @@ def _kept(flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart:
     yield bounded(flight, limit, less(worst, flight.drone.radius))
 
 
-def on_way(near: tuple[Solid, Piecewise], clearance: float, way: Way) -> ProvedExtreme:
+def on_way(near: tuple[Solid, Piecewise], clearance: float, way: TransitInterval) -> ProvedExtreme:
     """Return a bound on the distance from a solid, plus what the taper allows, on a transfer.
 
     near : the solid, and the flight relative to it
@@ -61,7 +63,7 @@ def on_way(near: tuple[Solid, Piecewise], clearance: float, way: Way) -> ProvedE
     return inf_tapered(cut(curve, way.start, way.end), solid, taper, gap(clearance))
 
 
-def taper_of(solid: Solid, curve: Piecewise, clearance: float, way: Way) -> Taper:
+def taper_of(solid: Solid, curve: Piecewise, clearance: float, way: TransitInterval) -> Taper:
     """Return the tapered clearance on a transfer, for a curve relative to a solid.
 
     clearance : of the body's centre, metres

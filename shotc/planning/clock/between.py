@@ -29,20 +29,22 @@ class StandingDrone(NamedTuple):
     stands: Array
 
 
-class Lack(NamedTuple):
+class ClearanceShortfall(NamedTuple):
     """Missing clearance, metres: over all stated clearances of transfers, and over all of them."""
 
     required: float
     any: float
 
 
-def lacking(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> Lack:
+def lacking(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> ClearanceShortfall:
     """Return how much the parts before and after the film lack of the clearances of transfers."""
     into, out = lacking_each(motions, course, span)
-    return Lack(max(into.required, out.required), max(into.any, out.any))
+    return ClearanceShortfall(max(into.required, out.required), max(into.any, out.any))
 
 
-def lacking_each(motions: Sequence[LinearMotion], course: Piecewise, span: Span) -> tuple[Lack, Lack]:
+def lacking_each(
+    motions: Sequence[LinearMotion], course: Piecewise, span: Span
+) -> tuple[ClearanceShortfall, ClearanceShortfall]:
     """Return the lack before the film and the lack after it."""
     into, out = (
         _lack(motions, course, film, times) for film, times in zip(span, _times(course, span), strict=True)
@@ -50,15 +52,19 @@ def lacking_each(motions: Sequence[LinearMotion], course: Piecewise, span: Span)
     return into, out
 
 
-def _lack(motions: Sequence[LinearMotion], course: Piecewise, film: float, times: Array) -> Lack:
-    places, worst = course(np.clip(times, course.start, course.end))[:, :3], Lack(0.0, 0.0)
+def _lack(
+    motions: Sequence[LinearMotion], course: Piecewise, film: float, times: Array
+) -> ClearanceShortfall:
+    places, worst = course(np.clip(times, course.start, course.end))[:, :3], ClearanceShortfall(0.0, 0.0)
     for motion in motions:
         taper = _taper(motion.what, course, film, SLOPE)
         if taper is None:
             continue
         beside = places - motion.what.at(times)
         lack = float((taper.needs(beside) - distances(motion.what.part, beside)).max(initial=0.0))
-        worst = Lack(max(worst.required, lack if motion.what.required else 0.0), max(worst.any, lack))
+        worst = ClearanceShortfall(
+            max(worst.required, lack if motion.what.required else 0.0), max(worst.any, lack)
+        )
     return worst
 
 

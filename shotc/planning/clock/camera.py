@@ -39,7 +39,7 @@ YAW, PITCH, BODY = range(3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Turned:
+class CameraAngles:
     """Camera yaw, camera pitch and body yaw over mission time; or None, and the solver's status."""
 
     curve: Piecewise | None
@@ -62,7 +62,7 @@ class AngleTask:
     course: Callable[[Array], Array] | None = None
 
 
-def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
+def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> CameraAngles:
     """Return the angles along a position curve, by one convex programme."""
     drone = angle_task.camera_task.drone
     breaks = clock.breaks
@@ -79,11 +79,11 @@ def turn(angle_task: AngleTask, clock: Clock, position: Piecewise) -> Turned:
     problem = SplineProblem(count(breaks), goals, _ends(angle_task, breaks), _bounds(drone, breaks), ())
     solved = minimise(problem, UNIT_RAD2_S)
     if solved.coef is None:
-        return Turned(None, solved.status)
+        return CameraAngles(None, solved.status)
     coef = solved.coef.copy()
     if drone.body == "follow-camera":
         coef[:, BODY] = coef[:, YAW]
-    return Turned(spline(breaks, coef), solved.status)
+    return CameraAngles(spline(breaks, coef), solved.status)
 
 
 def _ends(angle_task: AngleTask, breaks: Array) -> Equalities:

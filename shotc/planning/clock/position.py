@@ -18,7 +18,7 @@ from shotc.planning.clock.bounds import at_rest, limits_of
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, motion_rows, shortfalls, sides
 from shotc.planning.clock.preferred import cost
 from shotc.planning.clock.task import ClockTask, drawn_to, ideal_of
-from shotc.planning.clock.visibility import Kept, keep_free
+from shotc.planning.clock.visibility import PictureHalfSpaces, keep_free
 from shotc.planning.corridor import Around, with_corridor
 from shotc.planning.free_space import HalfSpaces, shortfall
 from shotc.solvers.conic import Status
@@ -128,7 +128,7 @@ def _apart_floors(task: ClockTask, course: Piecewise) -> tuple[HalfSpaceRows, ..
     return tuple(half_spaces for half_spaces in (ways, *ends) if len(half_spaces.offset))
 
 
-def _kept(task: ClockTask, course: Piecewise) -> Kept:
+def _kept(task: ClockTask, course: Piecewise) -> PictureHalfSpaces:
     span = (task.clock.start, task.clock.end)
     return keep_free(task.camera_task, task.visibility, span, task.clock.breaks, course)
 

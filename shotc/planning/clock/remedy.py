@@ -30,7 +30,7 @@ LIFTS_M = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50)
 """Metres by which a shot is raised."""
 
 
-class Blocked(NamedTuple):
+class MeshConflict(NamedTuple):
     """The sample of a shot that lacks the most clearance from a mesh: time, lack in metres, and the mesh's
     owner.
     """
@@ -50,7 +50,7 @@ class Remedy(NamedTuple):
 class BesideMeshes(NamedTuple):
     """The report on a shot that meshes block; remedy : None if none was found."""
 
-    blocked: Blocked | None
+    blocked: MeshConflict | None
     remedy: Remedy | None
 
 
@@ -76,13 +76,13 @@ def _places(mission: MissionIR, placed: PlacedShot, start: float) -> tuple[Array
     return times, ideal_places(mission, placed.shot, start, times)
 
 
-def _blocked(space: FreeSpace, times: Array, places: Array) -> Blocked | None:
-    worst: Blocked | None = None
+def _blocked(space: FreeSpace, times: Array, places: Array) -> MeshConflict | None:
+    worst: MeshConflict | None = None
     for mesh in space.meshes:
         lacks = -mesh.slack(places)
         i = int(lacks.argmax())
         if lacks[i] > 0.0 and (worst is None or lacks[i] > worst.lack):
-            worst = Blocked(float(times[i]), float(lacks[i]), mesh.owner_at(places[i]))
+            worst = MeshConflict(float(times[i]), float(lacks[i]), mesh.owner_at(places[i]))
     return worst
 
 

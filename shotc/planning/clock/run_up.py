@@ -19,7 +19,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Limits
 from shotc.ir.mission import MissionIR, Shot
-from shotc.planning.timing.straight import Bounds
+from shotc.planning.timing.straight import LineLimits
 
 STEP_S = 0.5  # seconds over which the speed at the ends of a shot is measured
 SPLINE_RATIO = 1.05  # time of a spline over the least time, because its control points keep the limits
@@ -124,8 +124,8 @@ def way_time(limits: Limits, way: Array) -> float:
     return max(level, _bounds(limits, speed).rest_to_rest(abs(float(way[2]))))
 
 
-def _bounds(limits: Limits, speed: float = inf) -> Bounds:
-    return Bounds(speed, limits.usable_acceleration, limits.jerk)
+def _bounds(limits: Limits, speed: float = inf) -> LineLimits:
+    return LineLimits(speed, limits.usable_acceleration, limits.jerk)
 
 
 def _either_way(limits: Limits, way: Array) -> float:

@@ -30,7 +30,7 @@ from shotc.planning.clock.aims import aims_at
 from shotc.planning.clock.moving import Moving
 from shotc.planning.clock.task import ClockTask
 from shotc.planning.free_space import MARGIN_M
-from shotc.planning.layered import Passing, VisiblePath, Watched, led_round
+from shotc.planning.layered import Passing, VisiblePath, VisibleSubject, led_round
 
 STEP_S = 0.1  # seconds between samples
 ABOUT_M = 1.0  # metres by which a target is enlarged, because the motion deviates from the course
@@ -39,7 +39,7 @@ CROPS_SHARE = 1e-3  # share of the frames, tolerance of the cropped ones
 AIM_RAD = 2e-3  # rad, tolerance of the angles at a keyframe
 
 
-class Way(NamedTuple):
+class KeyframeSpan(NamedTuple):
     """The way from one keyframe to the next that films a target; mission times, seconds."""
 
     start: float
@@ -47,7 +47,7 @@ class Way(NamedTuple):
     target: Target
 
 
-def ways_of(task: ClockTask) -> tuple[Way, ...]:
+def ways_of(task: ClockTask) -> tuple[KeyframeSpan, ...]:
     """Return the ways between keyframes that may be led, each for the target that both ends show."""
     mission, shot, start = task.mission, task.shot, task.clock.start
     hides = mission.meshes or mission.terrain or mission.opaque_zones
@@ -56,11 +56,11 @@ def ways_of(task: ClockTask) -> tuple[Way, ...]:
     found = []
     for (a, left), (b, reached) in pairwise(zip(shot.keyframes, arrivals(shot), strict=True)):
         if a.target is not None and a.target == b.target and not stays(a, b):
-            found.append(Way(start + left + a.hold, start + reached, mission.target(a.target)))
+            found.append(KeyframeSpan(start + left + a.hold, start + reached, mission.target(a.target)))
     return tuple(found)
 
 
-def led_to_see(task: ClockTask, ways: tuple[Way, ...], motion: Piecewise) -> ClockTask | None:
+def led_to_see(task: ClockTask, ways: tuple[KeyframeSpan, ...], motion: Piecewise) -> ClockTask | None:
     """Return the task with ways led to where their targets are visible; None where no way is changed.
 
     motion : x, y, z over the task's clock
@@ -82,13 +82,13 @@ def _led(task: ClockTask, target: Target, times: Array, places: Array) -> Visibl
     return led_round(task.walls, near, (times, places), _watched(task.mission, target, times), held)
 
 
-def _watched(mission: MissionIR, target: Target, times: Array) -> Watched:
+def _watched(mission: MissionIR, target: Target, times: Array) -> VisibleSubject:
     """Return an enlarged target at times (M,), and the standing occluders that may hide it."""
     surfaces = tuple(surface for _, surface in surfaces_before(mission, target.name))
     zones = tuple(zone.solid for zone in mission.opaque_zones)
     centres = np.array(target.centre) + moved(target, times) + np.array([0.0, 0.0, 0.5 * ABOUT_M])
     size = (target.radius + ABOUT_M, target.height + ABOUT_M)
-    return Watched(centres, np.ones(len(times), dtype=bool), *size, surfaces, zones)
+    return VisibleSubject(centres, np.ones(len(times), dtype=bool), *size, surfaces, zones)
 
 
 def _no_nearer(target: Target, times: Array, places: Array) -> Moving:
@@ -101,7 +101,7 @@ def _no_nearer(target: Target, times: Array, places: Array) -> Moving:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shown:
+class VisibleShares:
     """What a motion with its camera shows on some ways.
 
     hidden : mean covered share of the targets' outlines
@@ -113,7 +113,7 @@ class Shown:
     cropped: float
     astray: float
 
-    def better(self, than: Shown) -> bool:
+    def better(self, than: VisibleShares) -> bool:
         """Return whether notably less is hidden, no more is cropped, and keyframes are composed as well."""
         return (
             self.hidden <= LESS_SHARE * than.hidden
@@ -122,7 +122,7 @@ class Shown:
         )
 
 
-def shown(task: ClockTask, ways: tuple[Way, ...], curve: Piecewise) -> Shown:
+def shown(task: ClockTask, ways: tuple[KeyframeSpan, ...], curve: Piecewise) -> VisibleShares:
     """Return what a camera shows on ways; curve : all channels over the task's clock."""
     mission, hidden, whole = task.mission, [np.zeros(0)], [np.ones(0, dtype=bool)]
     for way in ways:
@@ -137,4 +137,6 @@ def shown(task: ClockTask, ways: tuple[Way, ...], curve: Piecewise) -> Shown:
     off = pose[:, [CAM_YAW, CAM_PITCH]] - aims_at(task.camera_task, at, pose[:, :3])
     off[:, 0] = np.arctan2(np.sin(off[:, 0]), np.cos(off[:, 0])) * np.cos(pose[:, CAM_PITCH])
     cropped = 1.0 - np.concatenate(whole).mean()
-    return Shown(float(np.concatenate(hidden).mean()), float(cropped), float(np.abs(off).max(initial=0.0)))
+    return VisibleShares(
+        float(np.concatenate(hidden).mean()), float(cropped), float(np.abs(off).max(initial=0.0))
+    )

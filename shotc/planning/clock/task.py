@@ -21,7 +21,7 @@ from shotc.planning.clock.moving import LinearMotion
 from shotc.planning.clock.run_up import RunUp
 from shotc.planning.clock.visibility import Visibility
 from shotc.planning.free_space import FreeSpace
-from shotc.planning.layered import VisiblePath, Watched, led_round
+from shotc.planning.layered import VisiblePath, VisibleSubject, led_round
 from shotc.solvers.spline_problem import HalfSpaceRows
 
 ROUNDING_S = 1e-9  # seconds
@@ -97,7 +97,7 @@ def led(task: ClockTask) -> ClockTask:
     return replace(task, course=course)
 
 
-def _watched(task: ClockTask) -> Watched | None:
+def _watched(task: ClockTask) -> VisibleSubject | None:
     """Return the subject to see at the clock's breaks; None where the author gave the camera's places."""
     mission, camera_task, ideal = task.mission, task.camera_task, task.shot.ideal
     bound = (
@@ -112,7 +112,7 @@ def _watched(task: ClockTask) -> Watched | None:
     filmed = (times >= task.clock.start - ROUNDING_S) & (times <= task.clock.end + ROUNDING_S)
     surfaces = tuple(surface for _, surface in surfaces_before(mission, target.name))
     places = np.array(target.centre) + moved(target, times)
-    return Watched(places, filmed, target.radius, target.height, surfaces)
+    return VisibleSubject(places, filmed, target.radius, target.height, surfaces)
 
 
 def drawn_to(task: ClockTask, times: Array) -> Array:

@@ -98,7 +98,7 @@ def _out(camera: Cameras, places: Array, radius: float, half_angle: float | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kept:
+class PictureHalfSpaces:
     """Half-spaces that keep pictures free, and the least distance of the course from pictures, metres."""
 
     half_spaces: tuple[HalfSpaceRows, ...]
@@ -111,7 +111,7 @@ def keep_free(
     span: tuple[float, float],
     breaks: Array,
     course: Callable[[Array], Array],
-) -> Kept:
+) -> PictureHalfSpaces:
     """Return half-spaces that keep a course out of others' pictures, and others out of its own.
 
     span : mission times of the first and the last frame
@@ -134,7 +134,7 @@ def keep_free(
         ]
     found = [_linear(outside_of, at, breaks, course) for outside_of, at in asked if len(at)]
     half_spaces = tuple(kept for part in found for kept in part.half_spaces)
-    return Kept(half_spaces, min((part.worst for part in found), default=np.inf))
+    return PictureHalfSpaces(half_spaces, min((part.worst for part in found), default=np.inf))
 
 
 def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -> float:
@@ -152,18 +152,20 @@ def seen_on(drone: Drone, visibility: Visibility, times: Array, places: Array) -
     return float(least)
 
 
-def _linear(found: Outside, times: Array, breaks: Array, course: Callable[[Array], Array]) -> Kept:
+def _linear(
+    found: Outside, times: Array, breaks: Array, course: Callable[[Array], Array]
+) -> PictureHalfSpaces:
     places = course(times)
     here = found(times, places)
     slope = np.stack([(found(times, places + NUDGE_M * step) - here) / NUDGE_M for step in np.eye(3)], axis=1)
     helps = (here < NEAR_M) & (np.linalg.norm(slope, axis=1) > FLAT_SLOPE)
     worst = float(here.min())
     if not helps.any():
-        return Kept((), worst)
+        return PictureHalfSpaces((), worst)
     normal = slope[helps]
     offset = (normal * places[helps]).sum(axis=1) - here[helps] + MARGIN_M
     owner = np.zeros(len(offset), dtype=np.intp)
-    return Kept((HalfSpaceRows(value_rows(breaks, times[helps]), normal, offset, owner),), worst)
+    return PictureHalfSpaces((HalfSpaceRows(value_rows(breaks, times[helps]), normal, offset, owner),), worst)
 
 
 def _in_theirs(

@@ -22,7 +22,7 @@ HALVINGS = 40
 GOLDEN = (sqrt(5) - 1) / 2
 
 
-class Setting(NamedTuple):
+class FixedCamera(NamedTuple):
     """A camera at a fixed position with free angles, and the target that it frames.
 
     offset : target's centre minus camera, W, metres
@@ -97,7 +97,7 @@ class ScreenLine(NamedTuple):
         """Return (u, v) at ``t``."""
         return (self.c, t) if self.upright else (t, self.c)
 
-    def foot(self, setting: Setting, asked: Vec2) -> float:
+    def foot(self, setting: FixedCamera, asked: Vec2) -> float:
         """Return the t whose view direction is nearest to that of ``asked``.
 
         With m the asked direction, the product of the line's unit direction with m is (a + b t) / sqrt(k +
@@ -115,7 +115,7 @@ class ScreenLine(NamedTuple):
         return max(-1.0, min(1.0, b * (1.0 + (self.c * fixed) ** 2) / (a * free * free)))
 
 
-def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
+def nearest_candidate(setting: FixedCamera, composition: Composition, asked: Vec2) -> Vec2 | None:
     """Return the candidate of the composition nearest to ``asked``, or None."""
     points = [p for p in composition.points if setting.slack(p) >= -TOUCH_M]
     lines = (
@@ -126,7 +126,7 @@ def nearest_candidate(setting: Setting, composition: Composition, asked: Vec2) -
     return place or _nearest(setting, asked, (p for p in composition.last if setting.slack(p) >= -TOUCH_M))
 
 
-def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2) -> Vec2 | None:
+def nearest_on_verticals(setting: FixedCamera, composition: Composition, asked: Vec2) -> Vec2 | None:
     """Return the nearest candidate on the vertical lines through the set's points, or None.
 
     It is used where the target is cropped at every place of the set itself.
@@ -135,7 +135,7 @@ def nearest_on_verticals(setting: Setting, composition: Composition, asked: Vec2
     return _nearest(setting, asked, (_along(setting, ScreenLine(u, True), asked) for u in verticals))
 
 
-def roomiest(setting: Setting, composition: Composition) -> float:
+def roomiest(setting: FixedCamera, composition: Composition) -> float:
     """Return the largest slack on the set's points and lines, and on the verticals through its points."""
     points = (*composition.points, *composition.last)
     verticals = dict.fromkeys((*(u for u, _ in points), *composition.u_lines))
@@ -143,7 +143,7 @@ def roomiest(setting: Setting, composition: Composition) -> float:
     return max(setting.slack(line.point(_best(setting, line))) for line in lines)
 
 
-def has_candidate(setting: Setting, composition: Composition) -> bool:
+def has_candidate(setting: FixedCamera, composition: Composition) -> bool:
     """Return whether the set itself has a candidate."""
     lines = (
         *(ScreenLine(c, True) for c in composition.u_lines),
@@ -154,7 +154,7 @@ def has_candidate(setting: Setting, composition: Composition) -> bool:
     )
 
 
-def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Vec2 | None:
+def _nearest(setting: FixedCamera, asked: Vec2, places: Iterable[Vec2 | None]) -> Vec2 | None:
     best: Vec2 | None = None
     for place in places:
         if place is None:
@@ -164,7 +164,7 @@ def _nearest(setting: Setting, asked: Vec2, places: Iterable[Vec2 | None]) -> Ve
     return best
 
 
-def _along(setting: Setting, line: ScreenLine, asked: Vec2) -> Vec2 | None:
+def _along(setting: FixedCamera, line: ScreenLine, asked: Vec2) -> Vec2 | None:
     """Return the candidate of the line nearest to ``asked``, or None.
 
     The distance increases away from the foot, so the first candidate on either side of it is the nearest of
@@ -180,12 +180,12 @@ def _along(setting: Setting, line: ScreenLine, asked: Vec2) -> Vec2 | None:
     return _nearest(setting, asked, (line.point(t) for t in ends if t is not None))
 
 
-def _best(setting: Setting, line: ScreenLine) -> float:
+def _best(setting: FixedCamera, line: ScreenLine) -> float:
     """Return the t of the largest slack."""
     return max(_peaks(setting, line), key=lambda t: setting.slack(line.point(t)))
 
 
-def _peaks(setting: Setting, line: ScreenLine) -> list[float]:
+def _peaks(setting: FixedCamera, line: ScreenLine) -> list[float]:
     """Return the t of every local maximum of the slack in an even sample.
 
     The slack may have several, of equal height on a level line; each belongs to an interval where the target
@@ -201,7 +201,7 @@ def _peaks(setting: Setting, line: ScreenLine) -> list[float]:
     return [_summit(setting, line, t) for t in tops] or [0.0]
 
 
-def _summit(setting: Setting, line: ScreenLine, middle: float) -> float:
+def _summit(setting: FixedCamera, line: ScreenLine, middle: float) -> float:
     """Return the t of the largest slack within a step of ``middle``, by golden section."""
 
     def slack(t: float) -> float:
@@ -222,7 +222,7 @@ def _summit(setting: Setting, line: ScreenLine, middle: float) -> float:
     return max(middle, (low + high) / 2, key=slack)
 
 
-def _first(setting: Setting, line: ScreenLine, way: Vec2, peaks: list[float]) -> float | None:
+def _first(setting: FixedCamera, line: ScreenLine, way: Vec2, peaks: list[float]) -> float | None:
     """Return the first candidate from the foot to an end of the line, its border bisected; None if none."""
     foot, end = way
     steps = [foot + (end - foot) * i / LINE_SAMPLES for i in range(1, LINE_SAMPLES + 1)]
@@ -237,7 +237,7 @@ def _first(setting: Setting, line: ScreenLine, way: Vec2, peaks: list[float]) ->
     return None
 
 
-def _border(setting: Setting, line: ScreenLine, outside: float, inside: float) -> float:
+def _border(setting: FixedCamera, line: ScreenLine, outside: float, inside: float) -> float:
     """Return where candidates begin, by bisection; there the whole target is inside the frame if possible."""
     least = min(TOUCH_M, setting.slack(line.point(inside)))
     for _ in range(HALVINGS):

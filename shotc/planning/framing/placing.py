@@ -12,7 +12,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.limits import reaches
 from shotc.ir.mission import Keyframe, MissionIR, Shot
-from shotc.planning.framing.candidates import TOUCH_M, Setting, nearest_candidate, nearest_on_verticals
+from shotc.planning.framing.candidates import TOUCH_M, FixedCamera, nearest_candidate, nearest_on_verticals
 from shotc.planning.framing.whole_turns import with_turns
 
 NORTH_RAD = pi / 2
@@ -27,7 +27,7 @@ class Unmet(NamedTuple):
     """
 
     keyframe: Keyframe
-    setting: Setting
+    setting: FixedCamera
     aim: Vec2
     asked: Vec2 | None
     place: Vec2 | None
@@ -77,13 +77,13 @@ def _place(
     return _placed(keyframe, turned or aim, asked, place), missed
 
 
-def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float) -> Setting:
+def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: float) -> FixedCamera:
     """Return the placement problem of a keyframe that names a target."""
     assert keyframe.target is not None
     target = mission.target(keyframe.target)
     if isinstance(keyframe.aim, tuple) and len(keyframe.aim) == 2:
         course = keyframe.aim[0]
-    return Setting(
+    return FixedCamera(
         offset=minus(target.centre, keyframe.at),
         shape=target.shape,
         hfov=keyframe.hfov,
@@ -93,7 +93,7 @@ def setting_of(mission: MissionIR, drone: Drone, keyframe: Keyframe, course: flo
     )
 
 
-def own_framing(setting: Setting, keyframe: Keyframe, course: float) -> Vec2:
+def own_framing(setting: FixedCamera, keyframe: Keyframe, course: float) -> Vec2:
     """Return (yaw, pitch) of the camera as the author framed it, before composition."""
     if keyframe.aim is None:
         return setting.aim((0.0, 0.0)) or (course, 0.0)

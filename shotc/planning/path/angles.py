@@ -25,7 +25,7 @@ from shotc.ir.path import FramingSpan
 from shotc.planning.path.lens import lens_line
 from shotc.planning.path.lines import SAME_PLACE_M
 from shotc.planning.path.turns import steady
-from shotc.planning.path.unwrapping import Known, PlannedTurn, Turned, turned, turning
+from shotc.planning.path.unwrapping import Known, PlannedTurn, UnwrappedTurn, turned, turning
 from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 from shotc.solvers.spline_fit import Fit, fit, within
@@ -60,7 +60,7 @@ class KeyedPath:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cut:
+class UnreachableAngles:
     """The interval in which the gimbal cannot show the target at its place.
 
     index : keyframe before it
@@ -85,7 +85,7 @@ class CameraLine:
     status: Status
     error: float
     worst: float
-    cuts: tuple[Cut, ...]
+    cuts: tuple[UnreachableAngles, ...]
     unsolved: int = 0
 
 
@@ -112,7 +112,7 @@ class _Samples:
     anchor_s: Array
     anchor_yaw: Array
     anchor_pitch: Array
-    cuts: tuple[Cut, ...]
+    cuts: tuple[UnreachableAngles, ...]
     planned: tuple[PlannedTurn, ...] = ()
     unsolved: int = 0
 
@@ -279,7 +279,7 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
     """Return the reference angles on framed intervals and the fixed ones, with the yaw unwrapped."""
     samples: list[_Known] = []
     anchors: list[_Known] = []
-    cuts: list[Cut] = []
+    cuts: list[UnreachableAngles] = []
     last_yaw, group = keyed.keyframes[0].yaw, 0
     for i, keyframe in enumerate(keyed.keyframes):
         free = i > 0 and keyed.s[i] > keyed.s[i - 1] and (keyframe.placed or keyed.keyframes[i - 1].placed)
@@ -297,7 +297,7 @@ def _sample(mission: MissionIR, drone: Drone, keyed: KeyedPath, breaks: Array, h
         if anchor is not None and not (anchors and keyed.s[i] <= anchors[-1].s):
             last_yaw = _near(anchor[0], last_yaw)
             anchors.append(_Known(float(keyed.s[i]), last_yaw, anchor[1], group, i))
-    turns = Turned([0.0], (), 0)
+    turns = UnwrappedTurn([0.0], (), 0)
     if group:
         turns = turned(_places(keyed, samples, anchors), turning(drone, keyed.pace, keyed.headings))
         samples, anchors = (
@@ -355,7 +355,7 @@ def _anchor(mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int) -> tuple
 
 def _aims(
     mission: MissionIR, drone: Drone, keyed: KeyedPath, i: int, at: Array, hfov: Piecewise
-) -> tuple[list[tuple[float, float] | None], Cut | None]:
+) -> tuple[list[tuple[float, float] | None], UnreachableAngles | None]:
     a, b = keyed.keyframes[i], keyed.keyframes[i + 1]
     if a.target is None or b.target is None or a.reference is None or b.reference is None:
         return [None] * len(at), None
@@ -366,7 +366,7 @@ def _aims(
     wide = hfov(at)[:, 0]
     low, high = drone.gimbal.pitch
     aims: list[tuple[float, float] | None] = []
-    worst: Cut | None = None
+    worst: UnreachableAngles | None = None
     for k, s in enumerate(at):
         d, ref = offset[k], uv[k]
         aim = aim_at(
@@ -378,12 +378,12 @@ def _aims(
         )
         excess = None if aim is None else max(low - aim[1], aim[1] - high)
         if excess is None or excess > NOTICE_RAD:
-            worst = _worse(worst, Cut(i, float(s), excess))
+            worst = _worse(worst, UnreachableAngles(i, float(s), excess))
         aims.append(None if aim is None else (aim[0], min(max(aim[1], low), high)))
     return aims, worst
 
 
-def _worse(old: Cut | None, new: Cut) -> Cut:
+def _worse(old: UnreachableAngles | None, new: UnreachableAngles) -> UnreachableAngles:
     if old is None or new.excess is None:
         return new
     return new if old.excess is not None and new.excess > old.excess else old

@@ -67,26 +67,26 @@ class LegContext:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Blocked:
+class BlockedWay:
     """Why a transfer is infeasible, and the shot that it leads to; None for the way home."""
 
     failure: Failure
     shot: PlannedShot | None
 
 
-def drone_legs(flight: LegContext, shots: list[PlannedShot]) -> tuple[PathLeg, ...] | Blocked:
+def drone_legs(flight: LegContext, shots: list[PlannedShot]) -> tuple[PathLeg, ...] | BlockedWay:
     """Join the shots of one drone with take-off, transits, return and landing."""
     legs: list[PathLeg] = [take_off(flight, shots[0].leg.pose)]
     for shot in shots:
         placed = turned(flight.drone, shot, end_of(legs))
         way = way_to(flight, end_of(legs), placed.leg.pose, shot.shot.shot.path)
         if isinstance(way, Failure):
-            return Blocked(way, shot)
+            return BlockedWay(way, shot)
         legs += way
         wound = turns_to(placed.leg.pose, end_of(legs))
         legs.append(turned(flight.drone, placed, end_of(legs)).leg if wound else placed.leg)
     back = way_home(flight, end_of(legs))
-    return Blocked(back, None) if isinstance(back, Failure) else (*legs, *back)
+    return BlockedWay(back, None) if isinstance(back, Failure) else (*legs, *back)
 
 
 def take_off(flight: LegContext, goal: Pose) -> MovingLeg:

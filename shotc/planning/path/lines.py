@@ -19,7 +19,7 @@ from shotc.geom.solid_arrays.points import FAR_M, support
 from shotc.geom.vec import wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.planning.free_space import MARGIN_M, Breach, FreeSpace, blocked, bounds_slack, breaches
-from shotc.planning.layered import Watched, led_round
+from shotc.planning.layered import VisibleSubject, led_round
 from shotc.planning.path.over import over_ground
 from shotc.planning.path.route import NODE_MARGIN_M, find_route
 
@@ -93,7 +93,7 @@ def straight_line(space: FreeSpace, start: Array, end: Array) -> Polyline | NoWa
 
 
 def shot_line(
-    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], watched: Watched | None = None
+    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], watched: VisibleSubject | None = None
 ) -> Polyline | NoWay | TooNear:
     """Return the polyline through a shot's keyframes.
 
@@ -146,7 +146,7 @@ def line_beside(
 
 
 def _drawn(
-    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], points: Array, watched: Watched
+    space: FreeSpace, keyframes: tuple[PlacedKeyframe, ...], points: Array, watched: VisibleSubject
 ) -> Array | None:
     """Return keyframes' places, (K, 3), with generated ones led to see the subject; None if none is moved.
 

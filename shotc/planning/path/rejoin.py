@@ -15,7 +15,7 @@ from shotc.ir.path import DronePath, HoldLeg, PathIR, PathLeg
 from shotc.planning.obstacles import free_spaces_of, pad_space
 from shotc.planning.path.filmed_ahead import ahead_in
 from shotc.planning.path.in_time import in_time
-from shotc.planning.path.legs import Blocked, LegContext, drone_legs
+from shotc.planning.path.legs import BlockedWay, LegContext, drone_legs
 from shotc.planning.path.pad import PadBlocked, transit_point
 from shotc.planning.path.shots import PlannedShot
 from shotc.planning.path.with_camera import NoTransit, same, with_camera
@@ -68,7 +68,7 @@ def _led_anew(path: PathIR, drone: Drone, legs: list[PathLeg]) -> tuple[PathLeg,
         if leg.shot is not None
     ]
     joined = drone_legs(LegContext(drone, spaces, top, mission.rules.look_ahead), shots)
-    if not isinstance(joined, Blocked):
+    if not isinstance(joined, BlockedWay):
         return joined
     before = joined.shot
     raise NoTransit("a way home" if before is None else f"a way to shot `{before.shot.shot.id}`")

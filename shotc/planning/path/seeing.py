@@ -23,7 +23,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.limits import Limits
 from shotc.ir.mission import MissionIR, Shot
 from shotc.planning.free_space import MARGIN_M, FreeSpace, breaches
-from shotc.planning.layered import Watched, led_round
+from shotc.planning.layered import VisibleSubject, led_round
 from shotc.planning.path.lines import PACE_M_S, SAME_PLACE_M
 
 STEP_M = 1.0  # least metres of path between led places
@@ -51,7 +51,7 @@ class FilmedCurve:
     keyframes: tuple[PlacedKeyframe, ...]
     at: Array
     curve: Piecewise
-    watched: Mapping[str, Watched]
+    watched: Mapping[str, VisibleSubject]
     limits: Limits
     pace: float
 
@@ -92,7 +92,7 @@ class FilmedCurve:
             found[k] = _repeated(who, len(s)).hidden(self.curve(s)[:, None])[:, 0]
         return found
 
-    def _ways(self) -> Iterator[tuple[int, Watched]]:
+    def _ways(self) -> Iterator[tuple[int, VisibleSubject]]:
         """Yield the ways from one keyframe to the next that film one target, and that target."""
         for k, (a, b) in enumerate(pairwise(self.keyframes)):
             moves = float(np.linalg.norm(np.subtract(a.at, b.at))) >= SAME_PLACE_M
@@ -119,7 +119,7 @@ class FilmedCurve:
         speed = self.pace * np.sqrt(square)
         return np.asarray(2.0 * long / np.maximum(speed[1:] + speed[:-1], NO_LENGTH))
 
-    def _led(self, space: FreeSpace, k: int, who: Watched) -> Array:
+    def _led(self, space: FreeSpace, k: int, who: VisibleSubject) -> Array:
         """Return places of the way after a keyframe, (N, 3), led to where its target is visible."""
         places = self.curve(self._samples(k, 1))
         steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
@@ -136,7 +136,7 @@ class FilmedCurve:
         return np.asarray(led[free & ~held])
 
 
-def watched_at_keyframes(mission: MissionIR, placed: PlacedShot) -> Watched | None:
+def watched_at_keyframes(mission: MissionIR, placed: PlacedShot) -> VisibleSubject | None:
     """Return the subject that a shot's keyframes should see; None where no mesh or terrain may hide it."""
     keyframes, names = placed.keyframes, [k.target for k in placed.keyframes]
     name = next((name for name in names if name is not None), None)
@@ -152,11 +152,11 @@ def is_led(mission: MissionIR, shot: Shot) -> bool:
     return bool(mission.meshes or mission.terrain) and not hidden_on_purpose(shot)
 
 
-def watched_at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> Watched:
+def watched_at(mission: MissionIR, name: str, places: Sequence[Vec3]) -> VisibleSubject:
     """Return a target as it is watched at places of W, metres."""
     target, surfaces = mission.target(name), tuple(s for _, s in surfaces_before(mission, name))
     filmed = np.ones(len(places), dtype=bool)
-    return Watched(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
+    return VisibleSubject(np.array(places, dtype=np.float64), filmed, target.radius, target.height, surfaces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +171,7 @@ class _Standing:
         return np.zeros((len(times), 3))
 
 
-def _no_nearer(who: Watched, places: Array) -> _Standing:
+def _no_nearer(who: VisibleSubject, places: Array) -> _Standing:
     """Return a target as an obstacle with the least distance of places (N, 3) as its clearance.
 
     A nearer camera would crop it.
@@ -181,7 +181,7 @@ def _no_nearer(who: Watched, places: Array) -> _Standing:
     return _Standing(body, float(distances(body, places).min()) - MARGIN_M)
 
 
-def _larger(who: Watched) -> Watched:
+def _larger(who: VisibleSubject) -> VisibleSubject:
     """Return an enlarged target on the same ground, because a curve deviates from its led places."""
     higher = who.places + np.array([0.0, 0.0, 0.5 * ABOUT_M])
     return replace(who, places=higher, radius=who.radius + ABOUT_M, height=who.height + ABOUT_M)
@@ -195,5 +195,5 @@ def _smooth(off: Array) -> Array:
     return off
 
 
-def _repeated(who: Watched, times: int) -> Watched:
+def _repeated(who: VisibleSubject, times: int) -> VisibleSubject:
     return who.at(np.zeros(times, dtype=np.intp))

@@ -16,7 +16,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import SIGHT, FramingSpan, HoldLeg, Mark, MovingLeg, PathDeviation, PathLeg, Stop
 from shotc.ir.tolerances import BOW_SHARE
 from shotc.planning.free_space import FreeSpace, breaches
-from shotc.planning.path.angles import CameraLine, Cut, KeyedPath, camera_line, framing_spans
+from shotc.planning.path.angles import CameraLine, KeyedPath, UnreachableAngles, camera_line, framing_spans
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.filmed_ahead import Faced, ahead_in, faced
 from shotc.planning.path.lines import SAME_PLACE_M, NoWay, Polyline, TooNear, line_beside, shot_line
@@ -42,7 +42,7 @@ class PlannedShot:
     shot: PlacedShot
     leg: PathLeg
     deviations: tuple[PathDeviation, ...]
-    cuts: tuple[Cut, ...]
+    cuts: tuple[UnreachableAngles, ...]
     swing: Swing | None
     stats: tuple[tuple[str, float | str], ...]
 

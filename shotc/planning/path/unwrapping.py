@@ -68,7 +68,7 @@ class PlannedTurn:
         return np.asarray(self.yaw(np.clip(self.clock(s)[:, 0], low, high))[:, 0])
 
 
-class Turned(NamedTuple):
+class UnwrappedTurn(NamedTuple):
     """The turns of a shot's camera.
 
     shifts : whole turns by which each group is shifted, rad
@@ -108,7 +108,7 @@ def turning(drone: Drone, pace: float, method: str = DEFAULT) -> TurnRules:
     return TurnRules(method, pace * limits.speed, pace * rate, pace * acceleration)
 
 
-def turned(known: list[Known], how: TurnRules) -> Turned:
+def turned(known: list[Known], how: TurnRules) -> UnwrappedTurn:
     """Return the turns of the camera through known yaws; groups count from 0."""
     found = [0.0] * (known[-1].group + 1)
     planned, unsolved = list[PlannedTurn](), 0
@@ -128,7 +128,7 @@ def turned(known: list[Known], how: TurnRules) -> Turned:
             angle += float(turn)
             found[one.group] = 2 * pi * round((angle - one.yaw) / (2 * pi))
         start = i
-    return Turned(found, tuple(planned), unsolved)
+    return UnwrappedTurn(found, tuple(planned), unsolved)
 
 
 def _chosen(known: list[Known], how: TurnRules) -> tuple[Array, Headings]:

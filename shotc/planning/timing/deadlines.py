@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.ir.path import Mark, PathLeg
-from shotc.planning.timing.leg import Plan, plan_of
+from shotc.planning.timing.leg import StopPlan, plan_of
 from shotc.planning.timing.limits import Ceiling
 from shotc.planning.timing.move import TimedMove
 from shotc.planning.timing.profile import SAME
@@ -34,7 +34,7 @@ FIRST_DELAY, DOUBLINGS, HALVINGS = 0.05, 9, 5
 class Timed:
     """The moves that meet the deadlines, and the plan with the necessary waits."""
 
-    plan: Plan
+    plan: StopPlan
     moves: tuple[TimedMove, ...]
 
 
@@ -95,7 +95,7 @@ class DueLeg:
     """
 
     leg: PathLeg
-    plan: Plan
+    plan: StopPlan
     fast: tuple[TimedMove, ...]
     paced: tuple[TimedMove, ...]
     ceiling: Ceiling
@@ -143,7 +143,7 @@ def flying_times(leg: PathLeg) -> tuple[tuple[float, float], ...]:
     return tuple((anchor.s, t) for anchor, t in zip(anchors, flown, strict=True))
 
 
-def _anchors(leg: PathLeg, plan: Plan) -> list[_Anchor]:
+def _anchors(leg: PathLeg, plan: StopPlan) -> list[_Anchor]:
     """Return the fixed times in order of s, the start first, one per place."""
     first = plan.stops[0]
     anchors = [_Anchor(first.s, 0.0, first.hold)]
@@ -167,7 +167,7 @@ def _anchors(leg: PathLeg, plan: Plan) -> list[_Anchor]:
     return anchors
 
 
-def _room(plan: Plan, a: _Anchor, b: _Anchor) -> float:
+def _room(plan: StopPlan, a: _Anchor, b: _Anchor) -> float:
     """Return the flight time between two anchors, without holds, seconds."""
     return b.arrives - a.leaves - plan.holds_between(a.s, b.s)
 
@@ -206,7 +206,7 @@ class _FlownPart(NamedTuple):
     seconds: float
 
 
-def _parts(plan: Plan, moves: tuple[TimedMove, ...], start: float, end: float) -> list[_FlownPart]:
+def _parts(plan: StopPlan, moves: tuple[TimedMove, ...], start: float, end: float) -> list[_FlownPart]:
     """Return the parts of moves between two places."""
     parts = []
     for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):

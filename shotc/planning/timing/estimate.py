@@ -12,7 +12,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.path import HoldLeg, MovingLeg, PathLeg
 from shotc.planning.timing.deadlines import DueLeg, TooFast, has_times
 from shotc.planning.timing.grid import evened, rough_profile
-from shotc.planning.timing.leg import LegMotion, Plan, assemble, fastest_moves, plan_of
+from shotc.planning.timing.leg import LegMotion, StopPlan, assemble, fastest_moves, plan_of
 from shotc.planning.timing.limits import Ceiling, ceiling_of
 from shotc.planning.timing.move import TimedMove, axes_of
 
@@ -78,7 +78,7 @@ def can_be_timed(leg: MovingLeg, ceiling: Ceiling) -> bool:
     return _due(leg, plan, fastest_moves(leg, plan, ceiling), ceiling).possible()
 
 
-def _due(leg: MovingLeg, plan: Plan, fast: tuple[TimedMove, ...], ceiling: Ceiling) -> DueLeg:
+def _due(leg: MovingLeg, plan: StopPlan, fast: tuple[TimedMove, ...], ceiling: Ceiling) -> DueLeg:
     paced = fast if leg.duration is not None else fastest_moves(leg, plan, _paced(leg, ceiling))
     return DueLeg(leg, plan, fast, paced, ceiling)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, split_half
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
-from shotc.planning.timing.limits import SHARE, Axis, Ceiling
+from shotc.planning.timing.limits import SHARE, Ceiling, LimitedNorm
 from shotc.planning.timing.profile import Profile, fly
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ class Usage:
         return np.asarray(self.share ** (1.0 / self.order))
 
 
-def usages(curve: Piecewise, limits: tuple[Axis, ...]) -> tuple[Usage, ...]:
+def usages(curve: Piecewise, limits: tuple[LimitedNorm, ...]) -> tuple[Usage, ...]:
     """Return the use of every limit that is verified, proved for all t of each piece."""
     found = []
     derivatives = {order: curve.derivative(order) for order in (1, 2, 3)}

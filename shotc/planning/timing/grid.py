@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, bernstein_basis
 from shotc.ir.path import HFOV
-from shotc.planning.timing.limits import Axis
+from shotc.planning.timing.limits import LimitedNorm
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class Samples:
         """Return the cell widths, shape (N,)."""
         return np.diff(self.grid)
 
-    def along(self, axis: Axis) -> Derivatives:
+    def along(self, axis: LimitedNorm) -> Derivatives:
         """Return the derivatives of the combinations that an axis selects, each (N, 3, d)."""
         turn = axis.pick.T
         return Derivatives(self.d1 @ turn, self.d2 @ turn, self.d3 @ turn)
@@ -86,7 +86,7 @@ def kinks(curve: Piecewise) -> Array:
     return np.asarray(curve.breaks[1:-1][jump > KINK * max(float(np.abs(third).max()), 1e-12)])
 
 
-def rate_cap(d1: Array, limits: tuple[Axis, ...]) -> Array:
+def rate_cap(d1: Array, limits: tuple[LimitedNorm, ...]) -> Array:
     """Return the largest b that the rate limits allow for a derivative d1; shape (..., 7) to (...)."""
     cap = np.full(d1.shape[:-1], FASTEST)
     for axis in limits:
@@ -96,7 +96,9 @@ def rate_cap(d1: Array, limits: tuple[Axis, ...]) -> Array:
     return cap
 
 
-def rough_profile(curve: Piecewise, s0: float, s1: float, limits: tuple[Axis, ...]) -> tuple[Array, Array]:
+def rough_profile(
+    curve: Piecewise, s0: float, s1: float, limits: tuple[LimitedNorm, ...]
+) -> tuple[Array, Array]:
     """Return places s and a guess of b there, good enough for a grid: shapes (M,), (M,).
 
     Rates and curvature bound b from above. From both ends it grows no faster than the acceleration and, from

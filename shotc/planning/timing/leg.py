@@ -40,7 +40,7 @@ class LegMotion:
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class StopPlan:
     """The distinct stops of a leg, in order of s, with a move between any two."""
 
     stops: tuple[Stop, ...]
@@ -62,28 +62,28 @@ class Plan:
         """Return whether there is a stop at a place."""
         return any(abs(stop.s - s) <= SAME for stop in self.stops)
 
-    def leaving(self, holds: dict[float, float]) -> Plan:
+    def leaving(self, holds: dict[float, float]) -> StopPlan:
         """Return the plan with other holds at some of its stops, given by place."""
         stops = self.stops
         for s, hold in holds.items():
             stops = tuple(replace(p, hold=hold) if abs(p.s - s) <= SAME else p for p in stops)
-        return Plan(stops)
+        return StopPlan(stops)
 
 
-def plan_of(leg: PathLeg) -> Plan:
+def plan_of(leg: PathLeg) -> StopPlan:
     """Return the leg's stops, with those at the same place merged; a still leg lasts its given duration."""
     if isinstance(leg, HoldLeg):
-        return Plan((Stop(0.0, leg.hold if leg.duration is None else leg.duration),))
+        return StopPlan((Stop(0.0, leg.hold if leg.duration is None else leg.duration),))
     merged: list[Stop] = []
     for stop in leg.stops:
         if merged and stop.s - merged[-1].s < SAME:
             merged[-1] = Stop(merged[-1].s, merged[-1].hold + stop.hold)
         else:
             merged.append(stop)
-    return Plan(tuple(merged))
+    return StopPlan(tuple(merged))
 
 
-def fastest_moves(leg: PathLeg, plan: Plan, ceiling: Ceiling) -> tuple[TimedMove, ...]:
+def fastest_moves(leg: PathLeg, plan: StopPlan, ceiling: Ceiling) -> tuple[TimedMove, ...]:
     """Return every move of the leg as fast as the ceiling allows."""
     if isinstance(leg, HoldLeg):
         return ()
@@ -118,7 +118,7 @@ def timed_once(
 
 
 def assemble(
-    leg: PathLeg, plan: Plan, moves: tuple[TimedMove, ...], duration: float | None
+    leg: PathLeg, plan: StopPlan, moves: tuple[TimedMove, ...], duration: float | None
 ) -> LegMotion | None:
     """Return the leg over time, or None where it has neither moves nor holds.
 

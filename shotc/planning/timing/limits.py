@@ -70,7 +70,7 @@ class Ceiling:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Axis:
+class LimitedNorm:
     """One norm with limits.
 
     pick : combination of channels whose Euclidean norm counts, shape (d, 7)
@@ -128,22 +128,24 @@ def ceiling_of(drone: Drone) -> Ceiling:
     )
 
 
-def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[Axis, ...]:
+def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[LimitedNorm, ...]:
     """Return every norm that the ceiling limits.
 
     zoom_only : whether only the field of view changes; where the mission states no zoom rate, the gimbal's
         limits are used for the same angle
     """
-    zoom = Axis(_row({HFOV: 1.0})[None], rate=("zoom_rate", ceiling.zoom_rate))
+    zoom = LimitedNorm(_row({HFOV: 1.0})[None], rate=("zoom_rate", ceiling.zoom_rate))
     zooms = () if ceiling.zoom_rate == inf else (zoom,)
     if zoom_only:
         return (_turn(_row({HFOV: 1.0}), ceiling, "gimbal_rate", "gimbal_acceleration"), *zooms)
     return (
         *zooms,
-        Axis(np.stack([_row({X: 1.0}), _row({Y: 1.0})]), rate=("speed", ceiling.speed), drift=ceiling.wind),
-        Axis(_row({Z: 1.0})[None], rate=("climb", ceiling.climb), sign=1),
-        Axis(_row({Z: 1.0})[None], rate=("descent", ceiling.descent), sign=-1),
-        Axis(
+        LimitedNorm(
+            np.stack([_row({X: 1.0}), _row({Y: 1.0})]), rate=("speed", ceiling.speed), drift=ceiling.wind
+        ),
+        LimitedNorm(_row({Z: 1.0})[None], rate=("climb", ceiling.climb), sign=1),
+        LimitedNorm(_row({Z: 1.0})[None], rate=("descent", ceiling.descent), sign=-1),
+        LimitedNorm(
             np.stack([_row({X: 1.0}), _row({Y: 1.0}), _row({Z: 1.0})]),
             acceleration=("acceleration", ceiling.acceleration),
             jerk=("jerk", ceiling.jerk),
@@ -154,9 +156,9 @@ def axes(ceiling: Ceiling, zoom_only: bool) -> tuple[Axis, ...]:
     )
 
 
-def _turn(row: Array, ceiling: Ceiling, rate: str, acceleration: str) -> Axis:
+def _turn(row: Array, ceiling: Ceiling, rate: str, acceleration: str) -> LimitedNorm:
     most = getattr(ceiling, acceleration)
-    return Axis(
+    return LimitedNorm(
         row[None],
         rate=(rate, getattr(ceiling, rate)),
         acceleration=(acceleration, most),

@@ -20,7 +20,7 @@ from shotc.planning.timing.grid import (
     sample,
     split_cells,
 )
-from shotc.planning.timing.limits import Axis, Ceiling, axes
+from shotc.planning.timing.limits import Ceiling, LimitedNorm, axes
 from shotc.planning.timing.profile import Profile, profile_of
 from shotc.planning.timing.straight import bounds_along, rate_of_line
 from shotc.solvers.conic import Status
@@ -149,7 +149,7 @@ class _Opening(NamedTuple):
 
 
 def _opening(
-    path: Piecewise, span: tuple[float, float], limits: tuple[Axis, ...], through: tuple[float, ...]
+    path: Piecewise, span: tuple[float, float], limits: tuple[LimitedNorm, ...], through: tuple[float, ...]
 ) -> _Opening:
     """Return the first grid, the initial guess on it, and the least time without a jerk limit."""
     rough_s, rough_b = rough_profile(path, *span, limits)
@@ -172,7 +172,12 @@ class _Tried:
     """
 
     def __init__(
-        self, path: Piecewise, grid: Array, bounded: Iterate, limits: tuple[Axis, ...], ceiling: Ceiling
+        self,
+        path: Piecewise,
+        grid: Array,
+        bounded: Iterate,
+        limits: tuple[LimitedNorm, ...],
+        ceiling: Ceiling,
     ) -> None:
         self.profile, self.flown = on_path(path, profile_of(grid, bounded.b, bounded.a), ceiling)
         used = usages(self.flown, limits)
@@ -189,14 +194,14 @@ class _Tried:
         return self.profile.duration * self.slowdown
 
 
-def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tuple[Axis, ...]:
+def axes_of(path: Piecewise, span: tuple[float, float], ceiling: Ceiling) -> tuple[LimitedNorm, ...]:
     """Return the norms to limit on an interval; a zoom on the spot is limited by the zoom alone."""
     s = np.linspace(*span, 9)
     others = np.delete(path(s) - path(span[0]), HFOV, axis=1)
     return axes(ceiling, zoom_only=bool(np.abs(others).max() < 1e-9))
 
 
-def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
+def topp_limits(samples: Samples, limits: tuple[LimitedNorm, ...]) -> LinearLimits:
     """Return the linear limits of the fastest profile: discs of accelerations become inscribed polygons."""
     d1 = np.concatenate([samples.d1[:, 0], samples.d1[-1:, 2]])
     d2 = np.concatenate([samples.d2[:, 0], samples.d2[-1:, 2]])
@@ -220,7 +225,7 @@ def topp_limits(samples: Samples, limits: tuple[Axis, ...]) -> LinearLimits:
 
 
 def bounded_profile(
-    samples: Samples, limits: tuple[Axis, ...], start: Iterate, last: float
+    samples: Samples, limits: tuple[LimitedNorm, ...], start: Iterate, last: float
 ) -> tuple[Iterate | None, int]:
     """Return b and a at the gridpoints, None where no step was solved, and the number of convex steps.
 
@@ -251,7 +256,7 @@ def bounded_profile(
     return best, steps
 
 
-def retiming_problem(samples: Samples, limits: tuple[Axis, ...]) -> RetimingProblem:
+def retiming_problem(samples: Samples, limits: tuple[LimitedNorm, ...]) -> RetimingProblem:
     """Return the cone program's data."""
     accelerations, jerks = [], []
     for axis in limits:

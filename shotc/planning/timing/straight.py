@@ -14,14 +14,14 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
-from shotc.planning.timing.limits import Axis
+from shotc.planning.timing.limits import LimitedNorm
 from shotc.planning.timing.profile import Profile
 
 STEADY = 1e-9  # largest change of the rate of a straight path, over its largest rate
 NO_TIME = 1e-9  # share of the time to the peak, below which a phase is left out
 
 
-class Bounds(NamedTuple):
+class LineLimits(NamedTuple):
     """Limits of a motion along a line: speed, acceleration and jerk, in its unit of length and seconds."""
 
     speed: float
@@ -81,7 +81,7 @@ def rate_of_line(path: Piecewise, span: tuple[float, float]) -> Array | None:
     return np.asarray(ctrl[0]) if size > 0.0 and np.abs(ctrl - ctrl[0]).max() <= STEADY * size else None
 
 
-def bounds_along(rate: Array, limits: tuple[Axis, ...]) -> Bounds | None:
+def bounds_along(rate: Array, limits: tuple[LimitedNorm, ...]) -> LineLimits | None:
     """Return the limits of s along a line; None where nothing limits its acceleration or its jerk.
 
     rate : dq/ds, shape (7,)
@@ -96,4 +96,4 @@ def bounds_along(rate: Array, limits: tuple[Axis, ...]) -> Bounds | None:
             acceleration = min(acceleration, axis.acceleration[1] / size)
         if axis.jerk is not None and size > 0.0:
             jerk = min(jerk, axis.jerk[1] / size)
-    return Bounds(speed, acceleration, jerk) if isfinite(acceleration) and isfinite(jerk) else None
+    return LineLimits(speed, acceleration, jerk) if isfinite(acceleration) and isfinite(jerk) else None

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Piecewise
 from shotc.planning.timing.flown import needed_scale, on_path, usages
 from shotc.planning.timing.grid import rate_cap
-from shotc.planning.timing.limits import Axis, Ceiling
+from shotc.planning.timing.limits import Ceiling, LimitedNorm
 from shotc.planning.timing.move import TimedMove, axes_of
 from shotc.planning.timing.profile import Profile
 from shotc.solvers.conic import Status
@@ -67,7 +67,7 @@ def _knots(start: float, ends: Array, seconds: Array) -> tuple[Array, tuple[tupl
     return np.concatenate(parts), tuple(places)
 
 
-def _path_limits(path: Piecewise, limits: tuple[Axis, ...], s: Array) -> PathLimits:
+def _path_limits(path: Piecewise, limits: tuple[LimitedNorm, ...], s: Array) -> PathLimits:
     derivatives = [path.derivative(k)(s) for k in (1, 2, 3)]
     accelerations, jerks = [], []
     for axis in limits:

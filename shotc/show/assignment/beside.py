@@ -59,7 +59,7 @@ class FlightConflict(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Change:
+class FlightChange:
     """A flight in place of another; until : when it is again what it was, s; told : what was done, s."""
 
     of: int
@@ -100,7 +100,7 @@ class _Sky:
             self._take(change)
         return list(self.told.items())
 
-    def _take(self, change: Change) -> None:
+    def _take(self, change: FlightChange) -> None:
         self.flights[change.of] = change.flight
         director = self.directors[change.of]
         director.score.follow(change.flight)
@@ -111,14 +111,14 @@ class _Sky:
         key = f"fleet {director.fleet.name} {what}"
         self.told[key] = self.told.get(key, 0.0) + seconds
 
-    def _change(self, meeting: FlightConflict) -> Change | None:
+    def _change(self, meeting: FlightConflict) -> FlightChange | None:
         """Return the least change that resolves a meeting, None where there is none."""
         pair = (meeting.one, meeting.other)
         changes = [c for k, of in enumerate(pair) for c in self._changes(of, pair[1 - k], meeting.near)]
         changes.sort(key=lambda change: abs(change.told[1]))
         return next((change for change in changes if self._does(change, pair)), None)
 
-    def _does(self, change: Change, pair: tuple[int, int]) -> bool:
+    def _does(self, change: FlightChange, pair: tuple[int, int]) -> bool:
         """Tell whether a fleet meets nobody once it is changed, up to when it is what it was."""
         fleet, flight = self.directors[change.of].fleet, change.flight
         if _airborne(flight) > fleet.endurance:
@@ -147,24 +147,24 @@ class _Sky:
     def _apart(self, one: int, other: int) -> Apart:
         return stricter(self.directors[one].fleet.apart, self.directors[other].fleet.apart)
 
-    def _changes(self, of: int, other: int, near: Nearest) -> Iterator[Change]:
+    def _changes(self, of: int, other: int, near: Nearest) -> Iterator[FlightChange]:
         """Yield what may be changed in the flight of a fleet at the time of a meeting."""
         flight, time = self.flights[of], near.time
         home = homeward(flight)
         if time >= home:
             for seconds in SHIFTS_S:
                 later = later_home(flight, seconds)
-                yield Change(of, later, float(later.breaks[-1]), ("home later", seconds))
+                yield FlightChange(of, later, float(later.breaks[-1]), ("home later", seconds))
         block = block_at(flight, time)
         if block is None:
             return
         until = float(flight.breaks[block.way.last])
         slack = 0.0 if time >= home else self._slack(flight, block) - LEAST_S
         for seconds in (s for s in SHIFTS_S if s <= slack):
-            yield Change(of, earlier(flight, block, seconds), until, ("sets out earlier", seconds))
+            yield FlightChange(of, earlier(flight, block, seconds), until, ("sets out earlier", seconds))
         yield from self._around(of, other, block, slack)
 
-    def _around(self, of: int, other: int, block: FlightBlock, slack: float) -> Iterator[Change]:
+    def _around(self, of: int, other: int, block: FlightBlock, slack: float) -> Iterator[FlightChange]:
         """Yield the flight round what another one fills meanwhile, where there is time for that."""
         flight, way = self.flights[of], block.way
         low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
@@ -184,7 +184,7 @@ class _Sky:
         if home or longer > 0.0:
             changed = on_arcs(flight, block, move)
             until = float(changed.breaks[-1]) if home else high
-            yield Change(of, changed, until, ("led round", max(longer, 0.0)))
+            yield FlightChange(of, changed, until, ("led round", max(longer, 0.0)))
 
     def _picture(self, flight: FleetTrajectory, time: float) -> tuple[Picture, float]:
         """Return the picture that stands from a time on, and the pace of its display."""

@@ -9,15 +9,15 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
-from shotc.ir.fleet import FleetTrajectory, Recorded, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes, Recorded
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Model, Picture
 from shotc.show.assignment import faults
 from shotc.show.assignment.home import come_home, way_up
 from shotc.show.assignment.lights import Images, StandingFrame, rows_of, with_effects
 from shotc.show.assignment.moves import Mover
-from shotc.show.assignment.order import Cast, OrderedFrame
-from shotc.show.assignment.score import Motion, Score
+from shotc.show.assignment.order import DroneOrder, OrderedFrame
+from shotc.show.assignment.score import FlightScore, Motion
 from shotc.show.assignment.waves import Waves
 
 TINY_S = 1e-6
@@ -27,9 +27,9 @@ TINY_S = 1e-6
 class Director:
     """Writes the flight of one fleet, display by display, as far as what they wait for is known."""
 
-    def __init__(self, mission: MissionIR, fleet: Fleet, cast: Cast) -> None:
+    def __init__(self, mission: MissionIR, fleet: Fleet, cast: DroneOrder) -> None:
         self.mission, self.fleet, self.cast = mission, fleet, cast
-        self.score = Score(cast.up.pads)
+        self.score = FlightScore(cast.up.pads)
         self.mover = Mover(mission, fleet)
         self.waves = Waves(mission, fleet)
         self.waited = 0.0
@@ -130,7 +130,7 @@ class Director:
             score.phase("land")
         for index, time in enumerate(flight.shown):
             at = round(origin + time, 9)
-            score.shown.append(Shown(display.id, 0, index, at, at))
+            score.shown.append(FrameTimes(display.id, 0, index, at, at))
 
     def _wait(self, display: Display, earliest: float, ready: float) -> float:
         start = display.start
@@ -173,7 +173,7 @@ class Director:
         score.stand(picture.hold)
         ends = [*times[:-1], score.clock]
         for scene, start, end in zip(frames, times, ends, strict=True):
-            score.shown.append(Shown(display.id, scene.frame.picture, scene.frame.index, start, end))
+            score.shown.append(FrameTimes(display.id, scene.frame.picture, scene.frame.index, start, end))
 
     def _way(self, display: Display, picture: Picture, here: Array, there: Array) -> tuple[Motion, float]:
         """Return the move to a picture, and how long it takes."""

@@ -18,7 +18,7 @@ from shotc.planning.clearances import ROUNDING_M
 from shotc.planning.take_off import MOST_LAYERS
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
-from shotc.show.assignment.swell import Lack
+from shotc.show.assignment.swell import SwellLack
 from shotc.show.labels import moments, transition_key, transition_label, wave_key
 
 
@@ -154,7 +154,7 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
     )
 
 
-def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Lack) -> Diagnostic:
+def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: SwellLack) -> Diagnostic:
     """Return D089: the fleet swells on its arcs into the ground, above its height, or into what stands."""
     origins, metres = mission.origins, at_least(lack.metres)
     if lack.of is None:

@@ -7,14 +7,14 @@ from shotc.ir.show import Fleet
 from shotc.planning.take_off import take_off_of
 from shotc.show.assignment.faults import high_levels
 from shotc.show.assignment.moves import Mover
-from shotc.show.assignment.order import Columns, way_down
+from shotc.show.assignment.order import RiseColumns, way_down
 from shotc.show.assignment.own_pads import way_to_own
-from shotc.show.assignment.score import Motion, Score
+from shotc.show.assignment.score import FlightScore, Motion
 from shotc.show.solvers.layered_move import LayeredMove, rising, sinking
 from shotc.show.solvers.move import fastest
 
 
-def way_up(fleet: Fleet, up: Columns) -> Motion | LayeredMove:
+def way_up(fleet: Fleet, up: RiseColumns) -> Motion | LayeredMove:
     """Return how a fleet rises from its pads."""
     take_off = take_off_of(fleet)
     if not take_off.layered:
@@ -22,7 +22,7 @@ def way_up(fleet: Fleet, up: Columns) -> Motion | LayeredMove:
     return rising(take_off.heights, take_off.step, up.layer, fleet.limits)
 
 
-def come_home(score: Score, mover: Mover) -> tuple[float, ...]:
+def come_home(score: FlightScore, mover: Mover) -> tuple[float, ...]:
     """Bring a fleet that rests home, each drone to any pad or to its own, as the fleet says.
 
     Returns the heights over the pads at which drones change places, falling, metres: none to any pad.
@@ -30,7 +30,7 @@ def come_home(score: Score, mover: Mover) -> tuple[float, ...]:
     return (_come_to_own if mover.fleet.returns == "own" else _come_to_any)(score, mover)
 
 
-def _come_to_any(score: Score, mover: Mover) -> tuple[float, ...]:
+def _come_to_any(score: FlightScore, mover: Mover) -> tuple[float, ...]:
     fleet, down = mover.fleet, way_down(mover.fleet, score.places)
     _gather(score, mover, down.above)
     score.phase("return")
@@ -39,7 +39,7 @@ def _come_to_any(score: Score, mover: Mover) -> tuple[float, ...]:
     return ()
 
 
-def _come_to_own(score: Score, mover: Mover) -> tuple[float, ...]:
+def _come_to_own(score: FlightScore, mover: Mover) -> tuple[float, ...]:
     fleet, way = mover.fleet, way_to_own(mover.fleet, score.places)
     mover.faults += high_levels(mover.mission, fleet, way.heights)
     _gather(score, mover, way.columns)
@@ -51,12 +51,14 @@ def _come_to_own(score: Score, mover: Mover) -> tuple[float, ...]:
     return way.heights
 
 
-def _gather(score: Score, mover: Mover, places: Array) -> None:
+def _gather(score: FlightScore, mover: Mover, places: Array) -> None:
     if (score.places != places).any():
         score.move(places, mover.move(score.places, places, 1.0, None))
 
 
-def _sink(score: Score, fleet: Fleet, down: Columns, layers: tuple[tuple[float, ...], float]) -> None:
+def _sink(
+    score: FlightScore, fleet: Fleet, down: RiseColumns, layers: tuple[tuple[float, ...], float]
+) -> None:
     """Come down straight, in layers where the pads are nearer to each other than the separation."""
     ways = down.pads - down.above
     if take_off_of(fleet).layered:

@@ -7,13 +7,13 @@ from shotc.ir.effects import Image
 from shotc.ir.mission import MissionIR
 from shotc.kinds.files import FileFault
 from shotc.show.assignment import faults
-from shotc.show.goals.footage import Frames, read_frames
+from shotc.show.goals.footage import ImageFrames, read_frames
 
 
-def images_of(mission: MissionIR) -> dict[str, Frames] | list[Diagnostic]:
+def images_of(mission: MissionIR) -> dict[str, ImageFrames] | list[Diagnostic]:
     """Return the frames of every image, by its name, or what is wrong with those that cannot be read."""
     files = dict(mission.files)
-    found: dict[str, Frames] = {}
+    found: dict[str, ImageFrames] = {}
     wrong: dict[str, Diagnostic] = {}
     lights = max((len(fleet.pads) for fleet in mission.fleets), default=0)
     for effect in (effect for display in mission.displays for effect in display.every_effect):

@@ -24,7 +24,7 @@ from shotc.ir.light_layers import (
     Tint,
 )
 from shotc.ir.limits import Vec3
-from shotc.show.goals.footage import Frames
+from shotc.show.goals.footage import ImageFrames
 
 COMPASS: dict[Way, Vec3] = {
     "up": (0.0, 0.0, 1.0),
@@ -58,7 +58,7 @@ class EffectContext(NamedTuple):
     places: Array
     viewpoint: Vec3 | None
     drones: int
-    images: Mapping[str, Frames]
+    images: Mapping[str, ImageFrames]
 
 
 def layer_of(effect: Effect, stage: EffectContext, times: Times, seed: int) -> Layer:
@@ -167,7 +167,7 @@ def _footage(image: Image, stage: EffectContext, times: Times) -> Footage:
     return Footage(frames.rgba, frames.rows, frames.columns, ends, times.start, _screen(image, frames, stage))
 
 
-def _screen(image: Image, frames: Frames, stage: EffectContext) -> Screen:
+def _screen(image: Image, frames: ImageFrames, stage: EffectContext) -> Screen:
     """Return where the image is: about the middle of the lights as the audience sees them."""
     right, up, forward = _axes(stage)
     away = stage.places - _eye(stage)

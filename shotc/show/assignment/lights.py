@@ -14,20 +14,20 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.diag.model import Diagnostic
-from shotc.ir.effects import Effect, Mark
-from shotc.ir.fleet import Colors, Lights, Recorded, Shown
+from shotc.ir.effects import DisplayTime, Effect
+from shotc.ir.fleet import Colors, FrameTimes, Lights, Recorded
 from shotc.ir.light_layers import Layer, Look
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display
 from shotc.show.assignment import faults
 from shotc.show.assignment.layers import EffectContext, Times, counts, layer_of
 from shotc.show.assignment.order import OrderedFrame
-from shotc.show.goals.footage import Frames
+from shotc.show.goals.footage import ImageFrames
 
 SAME_S = 1e-4
 """Seconds by which times that are meant to be the same may differ."""
 
-Images = Mapping[str, Frames]
+Images = Mapping[str, ImageFrames]
 """The images of a mission's effects, by name."""
 
 
@@ -35,7 +35,7 @@ class StandingFrame(NamedTuple):
     """A frame and when it stands."""
 
     scene: OrderedFrame
-    shown: Shown
+    shown: FrameTimes
 
 
 class _Stood(NamedTuple):
@@ -179,7 +179,7 @@ def _of_display(
         yield layer_of(effect, _stage(display, under, images), times, 10_000 * (number + 1) + k)
 
 
-def _moment(mark: Mark, pictures: Sequence[_Stood], *, until: bool) -> float:
+def _moment(mark: DisplayTime, pictures: Sequence[_Stood], *, until: bool) -> float:
     """Return when a moment of a display is, seconds of mission time."""
     if mark.time is not None:
         return mark.time

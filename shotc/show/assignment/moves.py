@@ -15,7 +15,7 @@ from shotc.ir.show import Fleet, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.show.assignment.faults import no_room
 from shotc.show.assignment.score import Motion
-from shotc.show.assignment.swell import Ends, Heights, Lack, led
+from shotc.show.assignment.swell import Ends, Heights, SwellLack, led
 from shotc.show.geom.arcs import Free, Gaps
 from shotc.show.geom.least_size import ROUNDING, least_size
 from shotc.show.geom.push_apart import nearest_pair
@@ -68,7 +68,7 @@ class Mover:
 
     def _arcs(
         self, ends: Ends, free: Free | None, pace: float, picture: Picture | None, room: DisplaySurroundings
-    ) -> tuple[ArcMove, Lack]:
+    ) -> tuple[ArcMove, SwellLack]:
         """Return the fastest arcs found that have room, or those that lack least, and what they lack."""
         easing = "ease-in-out" if picture is None else picture.easing
         # Asked for where straight ways do: a quarter of an ellipse is wider than they are everywhere.

@@ -34,7 +34,7 @@ class OrderedFrame:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Columns:
+class RiseColumns:
     """The ways straight up from pads, one a drone, in the order of their numbers.
 
     pads, above : their ends, shape (n, 3) each; layer : in which layer each rises or sinks, shape (n,)
@@ -46,18 +46,18 @@ class Columns:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Cast:
+class DroneOrder:
     """What the drones of a fleet do: rise by their own columns, and show scenes.
 
     recorded : the displays that are recorded flights; the last one may bring the fleet down itself
     """
 
-    up: Columns
+    up: RiseColumns
     scenes: tuple[OrderedFrame, ...]
     recorded: tuple[Recorded, ...] = ()
 
 
-def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
+def cast_of(fleet: Fleet, goals: FleetGoals) -> DroneOrder:
     """Match every frame with the one before it, by squared distance where heights are stretched."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     up = columns_of(fleet)
@@ -76,7 +76,7 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> Cast:
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
         scenes.append(OrderedFrame(frame, places, frame.colors[order], tuple(spare)))
         last = places
-    return Cast(up, tuple(scenes), tuple(recorded))
+    return DroneOrder(up, tuple(scenes), tuple(recorded))
 
 
 def _in_order(flight: Recorded, order: Index) -> Recorded:
@@ -89,19 +89,19 @@ def pads_of(fleet: Fleet) -> Array:
     return np.round(np.array(fleet.pads), DIGITS)
 
 
-def columns_of(fleet: Fleet) -> Columns:
+def columns_of(fleet: Fleet) -> RiseColumns:
     """Return the columns over a fleet's pads, by which its drones rise."""
     take_off = take_off_of(fleet)
     layer = np.array(take_off.layer, dtype=np.intp)
     pads = pads_of(fleet)
     heights = np.array(take_off.heights)[layer]
     above = pads + np.stack([np.zeros_like(heights), np.zeros_like(heights), heights], axis=1)
-    return Columns(pads, np.round(above, DIGITS), layer)
+    return RiseColumns(pads, np.round(above, DIGITS), layer)
 
 
-def way_down(fleet: Fleet, places: Array) -> Columns:
+def way_down(fleet: Fleet, places: Array) -> RiseColumns:
     """Return the columns by which drones at places of shape (n, 3) come down, each to any pad."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     home = columns_of(fleet)
     order = matched(places * scale, home.above * scale)
-    return Columns(home.pads[order], home.above[order], home.layer[order])
+    return RiseColumns(home.pads[order], home.above[order], home.layer[order])

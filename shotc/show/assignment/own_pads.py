@@ -19,7 +19,7 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import ROOMIER, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.show import Fleet
-from shotc.show.assignment.order import DIGITS, Columns, pads_of
+from shotc.show.assignment.order import DIGITS, RiseColumns, pads_of
 from shotc.show.solvers.match import matched
 
 ROUNDING_M = 1e-7
@@ -35,7 +35,7 @@ class WayToOwn:
 
     columns: Array
     raised: Array
-    down: Columns
+    down: RiseColumns
     heights: tuple[float, ...]
     step: float
 
@@ -54,7 +54,7 @@ def way_to_own(fleet: Fleet, places: Array) -> WayToOwn:
     above = pads.copy()
     above[:, 2] = np.round(pads[:, 2] + heights[layer], DIGITS)
     raised = np.concatenate([columns[:, :2], above[:, 2:]], axis=1)
-    return WayToOwn(columns, raised, Columns(pads, above, layer), tuple(heights.tolist()), step)
+    return WayToOwn(columns, raised, RiseColumns(pads, above, layer), tuple(heights.tolist()), step)
 
 
 def levels(starts: Array, ends: Array, least: float) -> NDArray[np.intp]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
-from shotc.ir.fleet import FleetTrajectory, Lights, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes, Lights
 from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import DIGITS
 from shotc.show.solvers.arc_move import ArcMove
@@ -24,7 +24,7 @@ from shotc.show.solvers.wave_move import WaveMove
 Motion = CommonMove | ArcMove | WaveMove
 
 
-class Score:
+class FlightScore:
     """The flight of a fleet while it is written.
 
     places : where it begins, shape (n, 3); start : when, seconds
@@ -33,15 +33,15 @@ class Score:
     def __init__(self, places: Array, start: float = 0.0) -> None:
         self.places = places
         self.phases: list[Phase] = []
-        self.shown: list[Shown] = []
+        self.shown: list[FrameTimes] = []
         self.arcs = 0
         self._points = [places, places, places]
         self._breaks = [start]
 
     @staticmethod
-    def after(breaks: Array, coef: Array) -> Score:
+    def after(breaks: Array, coef: Array) -> FlightScore:
         """Return a flight that goes on where a spline ends in a stop; breaks, coef as of FleetTrajectory."""
-        score = Score(coef[:, -1])
+        score = FlightScore(coef[:, -1])
         score._points, score._breaks = list(np.moveaxis(coef, 1, 0)), breaks.tolist()
         return score
 

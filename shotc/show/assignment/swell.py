@@ -40,7 +40,7 @@ Ends = tuple[Array, Array]
 """Places of all drones before and after a move, shape (n, 3) each."""
 
 
-class Lack(NamedTuple):
+class SwellLack(NamedTuple):
     """What the swell lacks most: metres; of : what stands there, or None for the ground and the height."""
 
     metres: float
@@ -85,12 +85,12 @@ class Heights:
 
 def led(
     ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
-) -> tuple[ArcMove, Lack]:
+) -> tuple[ArcMove, SwellLack]:
     """Return a move that is clear of everything, or that which lacks least, and what it lacks.
 
     fastest : from the point c, shape (3,), to the fastest move about it
     """
-    best: tuple[ArcMove, Lack] | None = None
+    best: tuple[ArcMove, SwellLack] | None = None
     for move in _tries(ends, heights, room, fastest):
         lack = _lack(ends, heights, room, move)
         if lack.metres <= ROUNDING_M:
@@ -114,7 +114,7 @@ def _tries(
             yield _level(ends, heights, fastest, first.pivot - shift)
 
 
-def _shifts(ends: Ends, move: ArcMove, lack: Lack) -> Iterator[Array]:
+def _shifts(ends: Ends, move: ArcMove, lack: SwellLack) -> Iterator[Array]:
     """Yield how far c would go, each to the other side, for the fleet to pass an obstacle on one of six."""
     assert lack.of is not None
     boxes = _boxes(ends, move)
@@ -147,8 +147,8 @@ def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pi
     return best
 
 
-def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove) -> Lack:
-    worst = Lack(heights.lack(ends, move.ctrl, move.pivot), None)
+def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove) -> SwellLack:
+    worst = SwellLack(heights.lack(ends, move.ctrl, move.pivot), None)
     boxes = _boxes(ends, move)
     flown: FleetPieces | None = None
     for obstacle in room.obstacles:
@@ -156,7 +156,7 @@ def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove
             continue
         flown = _flown(ends, move) if flown is None else flown
         lack = _beside(obstacle, flown)
-        worst = Lack(lack, obstacle) if lack > worst.metres else worst
+        worst = SwellLack(lack, obstacle) if lack > worst.metres else worst
     return worst
 
 

@@ -25,7 +25,7 @@ from shotc.ir.show import Display, Fleet, Picture, Wave
 from shotc.rounding import down, up
 from shotc.show.assignment.faults import TriedWave, too_fast, wave_too_near, wave_without_extent
 from shotc.show.assignment.layers import LEAST_M, EffectContext, along_of
-from shotc.show.assignment.score import Score
+from shotc.show.assignment.score import FlightScore
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.wave_move import WaveMove, fastest_wave
 
@@ -96,7 +96,7 @@ class Waves:
 
     def _nearest(self, ends: Ends, move: WaveMove) -> Nearest:
         """Return how near two drones come, proved, of the control points that are flown."""
-        score = Score(ends[0])
+        score = FlightScore(ends[0])
         score.move(ends[1], move)
         return closest(*score.spline(), self.fleet.apart)
 

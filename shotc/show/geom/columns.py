@@ -41,7 +41,7 @@ class Crossings(NamedTuple):
     sign: Numbers
 
 
-class Spans(NamedTuple):
+class ColumnPieces(NamedTuple):
     """Pieces of columns inside a shape: numbers of the columns (K,), lower and upper ends (K,)."""
 
     column: Numbers
@@ -84,7 +84,7 @@ def through_edges(columns: Columns, edges: Array) -> Crossings:
     return _joined(crossings)
 
 
-def spans(crossings: Crossings, parity: bool) -> Spans:
+def spans(crossings: Crossings, parity: bool) -> ColumnPieces:
     """Return what lies inside: where a surface winds round, or where an odd number of faces is crossed.
 
     A column that meets an edge between two faces may count it twice or not at all; it is left out.
@@ -97,22 +97,22 @@ def spans(crossings: Crossings, parity: bool) -> Spans:
     kept = whole[column]
     column, height, winding = column[kept], height[kept], np.cumsum(sign[kept])
     inside = np.flatnonzero((winding % 2 != 0) if parity else (winding != 0))
-    return Spans(column[inside], height[inside], height[inside + 1])
+    return ColumnPieces(column[inside], height[inside], height[inside + 1])
 
 
-def united(shapes: list[Spans]) -> Spans:
+def united(shapes: list[ColumnPieces]) -> ColumnPieces:
     """Return the spans of what lies in any of several shapes."""
     entered = [Crossings(s.column, s.low, np.ones(len(s.column), dtype=np.intp)) for s in shapes]
     left = [Crossings(s.column, s.high, -np.ones(len(s.column), dtype=np.intp)) for s in shapes]
     return spans(_joined([*entered, *left]), False)
 
 
-def volume(columns: Columns, inside: Spans) -> float:
+def volume(columns: Columns, inside: ColumnPieces) -> float:
     """Return the volume (or area) inside, as the columns tell it, m^3 (m^2)."""
     return float((inside.high - inside.low).sum() * columns.cell.prod())
 
 
-def drawn(columns: Columns, inside: Spans, count: int, rng: np.random.Generator) -> Array:
+def drawn(columns: Columns, inside: ColumnPieces, count: int, rng: np.random.Generator) -> Array:
     """Return ``count`` points drawn evenly from the spans, shape (count, D + 1); there must be a span."""
     ends = np.cumsum(inside.high - inside.low)
     along = (np.arange(count) + rng.random(count)) / count * ends[-1]

@@ -26,7 +26,7 @@ from shotc.show.goals.flown import RecordedPicture, flown, is_recorded
 from shotc.show.goals.layout import PictureTask
 from shotc.show.goals.picture import PictureResult, draw_picture
 from shotc.show.goals.room import room_of
-from shotc.show.goals.spaced import Setting
+from shotc.show.goals.spaced import SpacingTask
 
 
 class PlaceGoals:
@@ -59,7 +59,7 @@ def _display(
         ctx.progress(f"reading the flight of {display.id}")
         return [flown(mission, fleet, display)]
     files = dict(mission.files)
-    setting = Setting(
+    setting = SpacingTask(
         number=len(fleet.pads),
         least=spacing(fleet.apart),
         stretch=stretch(fleet.apart),

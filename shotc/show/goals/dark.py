@@ -13,7 +13,7 @@ from math import floor, hypot
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.show.goals.spaced import Setting
+from shotc.show.goals.spaced import SpacingTask
 
 BEHIND = 1.001
 """Distance of dark drones from the picture and from each other, in spacings."""
@@ -22,7 +22,7 @@ LAYERS = 100
 NORTH = np.array([0.0, 1.0, 0.0])
 
 
-def dark_places(shown: Array, spare: int, setting: Setting, facing: Array = NORTH) -> Array | None:
+def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = NORTH) -> Array | None:
     """Return so many places behind goals (n, 3), shape (spare, 3), or None where there is no room.
 
     facing : (3,), level: how the picture is looked at where there is no audience
@@ -37,7 +37,7 @@ def dark_places(shown: Array, spare: int, setting: Setting, facing: Array = NORT
     return None
 
 
-def _layers(shown: Array, setting: Setting, away: Array) -> Iterator[Array]:
+def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
     """Yield the free places of one layer after another, in the order in which they are taken."""
     across = np.array([-away[1], away[0], 0.0])
     step = BEHIND * setting.least
@@ -60,7 +60,7 @@ def _layers(shown: Array, setting: Setting, away: Array) -> Iterator[Array]:
         yield behind
 
 
-def _away(shown: Array, setting: Setting, facing: Array) -> Array:
+def _away(shown: Array, setting: SpacingTask, facing: Array) -> Array:
     """Return the level direction in which the picture is looked at."""
     if setting.viewpoint is None:
         return facing

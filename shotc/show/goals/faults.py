@@ -13,9 +13,9 @@ from shotc.ir.show import Display, Drawing, Fleet, Lettering, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.rounding import at_least, at_most
 from shotc.show.goals.body import SourceFault
-from shotc.show.goals.remedies import Remedies
+from shotc.show.goals.remedies import PictureRemedies
 from shotc.show.goals.room import DisplaySurroundings, lack_of, least_shift
-from shotc.show.goals.spaced import Setting
+from shotc.show.goals.spaced import SpacingTask
 from shotc.show.labels import word_of
 
 BETWEEN = (0.0, 0.25, 0.5, 0.75)
@@ -76,7 +76,7 @@ def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> 
 
 
 def too_many(
-    mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, setting: Setting
+    mission: MissionIR, fleet: Fleet, picture: Picture, ways: PictureRemedies, setting: SpacingTask
 ) -> Diagnostic:
     """Say that a fleet does not fit into a picture, how many would, and what else would do."""
     message = f"{len(fleet.pads)} drones do not fit into the picture"
@@ -87,7 +87,12 @@ def too_many(
 
 
 def too_dark(
-    mission: MissionIR, fleet: Fleet, picture: Picture, ways: Remedies, number: int, setting: Setting
+    mission: MissionIR,
+    fleet: Fleet,
+    picture: Picture,
+    ways: PictureRemedies,
+    number: int,
+    setting: SpacingTask,
 ) -> Diagnostic:
     """Warn of drones for which a picture has no room, and whose lights are off."""
     dark, full = len(fleet.pads) - number, len(fleet.pads)
@@ -97,7 +102,7 @@ def too_dark(
     return Diagnostic("D062", message, labels, (apart(setting),), help_)
 
 
-def apart(setting: Setting) -> str:
+def apart(setting: SpacingTask) -> str:
     """Say how far apart goals are, and why."""
     upright = setting.least / setting.stretch
     far = f"{setting.least:.2f} m apart on a level and {upright:.2f} m one above the other"
@@ -106,7 +111,7 @@ def apart(setting: Setting) -> str:
     return f"so that drones can pass each other on straight ways, goals are {far}"
 
 
-def _ways(fleet: Fleet, ways: Remedies, otherwise: str) -> str:
+def _ways(fleet: Fleet, ways: PictureRemedies, otherwise: str) -> str:
     found = []
     if ways.number is not None:
         found.append(f"use {ways.number} drone{'' if ways.number == 1 else 's'} (`count: {ways.number}`)")

@@ -12,9 +12,9 @@ from shotc.geom.bernstein import Array
 from shotc.ir.effects import Color
 from shotc.ir.fleet import Colors
 from shotc.show.geom.columns import (
+    ColumnPieces,
     Columns,
     Numbers,
-    Spans,
     columns_below,
     drawn,
     spans,
@@ -94,7 +94,7 @@ class FlatBody:
         columns, inside = self._inside(FINE_COLUMNS, np.random.default_rng(0))
         return 2.0 * volume(columns, inside) / self.outlines
 
-    def _inside(self, count: int, rng: np.random.Generator) -> tuple[Columns, Spans]:
+    def _inside(self, count: int, rng: np.random.Generator) -> tuple[Columns, ColumnPieces]:
         corners = np.concatenate([s.edges.reshape(-1, 2) for s in self.shapes])
         low, high = corners[:, :1].min(axis=0), corners[:, :1].max(axis=0)
         columns = columns_below(low, high, max(50, round(COLUMNS_PER_POINT * count)), rng)

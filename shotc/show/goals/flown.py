@@ -14,7 +14,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, RecordedFlight
 from shotc.show.recorded import faults
 from shotc.show.recorded.stage import FitRequirements, Grounded, Staged, staged
-from shotc.show.recorded.tracks import Unreadable, read_tracks
+from shotc.show.recorded.tracks import UnreadableFlight, read_tracks
 
 
 class RecordedPicture(NamedTuple):
@@ -36,7 +36,7 @@ def flown(mission: MissionIR, fleet: Fleet, display: Display) -> RecordedPicture
     source = display.pictures[0].source
     assert isinstance(source, RecordedFlight)
     tracks = read_tracks(source.file, dict(mission.files)[source.file], mission.origin)
-    if isinstance(tracks, Unreadable):
+    if isinstance(tracks, UnreadableFlight):
         return RecordedPicture((), None, (faults.unreadable(mission, display, tracks),))
     if len(tracks.tracks) != len(fleet.pads):
         return RecordedPicture((), None, (faults.other_count(mission, display, fleet, len(tracks.tracks)),))

@@ -22,7 +22,7 @@ SLOW_S = 0.1
 """Seconds of a frame of a GIF that says none: what browsers do."""
 
 
-class Frames(NamedTuple):
+class ImageFrames(NamedTuple):
     """The frames of an image as ``ir.light_layers.Footage`` has them; wide : of a pixel, over its height."""
 
     rgba: str
@@ -32,7 +32,7 @@ class Frames(NamedTuple):
     wide: float
 
 
-def read_frames(data: bytes, lights: int) -> Frames | FileFault:
+def read_frames(data: bytes, lights: int) -> ImageFrames | FileFault:
     """Return the frames of an image for so many lights; ``kinds.image_file`` has looked at its size."""
     frames: list[bytes] = []
     seconds: list[float] = []
@@ -48,7 +48,7 @@ def read_frames(data: bytes, lights: int) -> Frames | FileFault:
     except (OSError, SyntaxError, ValueError, EOFError, Image.DecompressionBombError) as reason:
         return FileFault(f"Pillow says: {reason}", None, "export it again as PNG or GIF")
     packed = b64encode(zlib.compress(b"".join(frames), 6)).decode("ascii")
-    return Frames(packed, rows, columns, tuple(accumulate(seconds)), wide)
+    return ImageFrames(packed, rows, columns, tuple(accumulate(seconds)), wide)
 
 
 def _size(size: tuple[int, int], pixels: int) -> tuple[int, int]:

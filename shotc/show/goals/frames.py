@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Array
 from shotc.ir.show import Model
 from shotc.show.goals.body import Fill, PlacedShape, SourceFault, upright_axes
 from shotc.show.goals.model import mesh_body, open_edges
-from shotc.show.goals.model_file import Mesh, Unreadable, read_model
+from shotc.show.goals.model_file import ModelMesh, UnreadableModel, read_model
 
 LARGEST_M = 1000.0
 """Extent of a picture, metres, beyond which its file is in another unit."""
@@ -25,10 +25,10 @@ LEAP_RATIO = 5.0
 
 def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[PlacedShape] | SourceFault:
     """Return the body of every frame in its place in W, or what is wrong with the first bad one."""
-    meshes: list[Mesh] = []
+    meshes: list[ModelMesh] = []
     for name in source.files:
         mesh = read_model(name, files[name], source.up)
-        if isinstance(mesh, Unreadable):
+        if isinstance(mesh, UnreadableModel):
             return SourceFault("D050", "files", f"model `{name}` cannot be drawn", (mesh.note,), mesh.help)
         fault = _open(name, mesh) if fill == "volume" else None
         if fault is not None:
@@ -41,7 +41,7 @@ def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[
     if source.height is not None and not np.ptp(meshes[0].corners[:, 2]) > 0:
         message = f"model `{source.files[0]}` is flat and cannot be scaled to a `height`"
         return SourceFault("D050", "height", message, ("all of its points are level",), "leave `height` out")
-    return [mesh_body(Mesh(place.of(m.corners), m.triangles, m.colors)) for m in meshes]
+    return [mesh_body(ModelMesh(place.of(m.corners), m.triangles, m.colors)) for m in meshes]
 
 
 class _Place:
@@ -60,7 +60,7 @@ class _Place:
         return np.asarray(self._centre + self._scale * (corners - self._middle) @ self._axes)
 
 
-def _open(name: str, mesh: Mesh) -> SourceFault | None:
+def _open(name: str, mesh: ModelMesh) -> SourceFault | None:
     number = open_edges(mesh)
     if not number:
         return None
@@ -69,7 +69,7 @@ def _open(name: str, mesh: Mesh) -> SourceFault | None:
     return SourceFault("D051", "files", f"mesh `{name}` is not closed, so it has no inside", (note,), help_)
 
 
-def _uneven(source: Model, meshes: list[Mesh]) -> SourceFault | None:
+def _uneven(source: Model, meshes: list[ModelMesh]) -> SourceFault | None:
     sizes = [float(np.linalg.norm(np.ptp(m.corners, axis=0))) for m in meshes]
     for k, (one, other) in enumerate(pairwise(sizes)):
         factor = max(one, other) / min(one, other)
@@ -81,7 +81,7 @@ def _uneven(source: Model, meshes: list[Mesh]) -> SourceFault | None:
     return None
 
 
-def _out_of_scale(source: Model, mesh: Mesh) -> SourceFault | None:
+def _out_of_scale(source: Model, mesh: ModelMesh) -> SourceFault | None:
     size = source.unit * np.ptp(mesh.corners, axis=0)
     largest = float(size.max())
     if source.height is not None or largest <= LARGEST_M:

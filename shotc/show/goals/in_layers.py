@@ -16,7 +16,7 @@ from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.lit import LEAST_FLAT, SLACK_SHARES, Lit
-from shotc.show.goals.spaced import Draw, Setting
+from shotc.show.goals.spaced import Draw, SpacingTask
 
 POINTS_EACH = 20
 """Points of the picture for each place of its layers."""
@@ -24,7 +24,7 @@ ASIDE_M, AWAY_M = 20.0, 100.0
 """How far off the axis a seat is of which it is told, and how far away it is without a viewpoint, metres."""
 
 
-def in_layers(body: FlatBody, setting: Setting, draw: Draw, count: int) -> Lit:
+def in_layers(body: FlatBody, setting: SpacingTask, draw: Draw, count: int) -> Lit:
     """Return goals in so many layers, as many as find room there, the others dark behind the last of them.
 
     Dark ones are left out where more than ``MOST_DARK_SHARE`` have no room, or have none behind either.
@@ -50,7 +50,7 @@ def in_layers(body: FlatBody, setting: Setting, draw: Draw, count: int) -> Lit:
 
 
 def layer_stats(
-    name: str, picture: Picture, body: FlatBody, setting: Setting
+    name: str, picture: Picture, body: FlatBody, setting: SpacingTask
 ) -> list[tuple[str, float | str]]:
     """Return how deep a picture is, how near its lights look, and what a seat off the axis sees, metres."""
     layers: Layers = layers_of(picture.layers, setting.upright)
@@ -69,7 +69,7 @@ def filled_in_layers(fill: Fill | Literal["legible"]) -> Fill:
     return "volume" if fill == "legible" else fill
 
 
-def seen_spacing(picture: Picture, setting: Setting) -> float:
+def seen_spacing(picture: Picture, setting: SpacingTask) -> float:
     """Return how near lights of a picture may look, in the metric of the fleet, metres."""
     if picture.layers == 1:
         return setting.least

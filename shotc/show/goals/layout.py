@@ -27,8 +27,8 @@ from shotc.show.goals.solids import SolidBody
 from shotc.show.goals.spaced import (
     TRIED,
     Draw,
-    Placed,
-    Setting,
+    PlacedGoals,
+    SpacingTask,
     drawn,
     held_of,
     in_lattice,
@@ -75,9 +75,9 @@ class GoalLayout(NamedTuple):
     """
 
     fill: Fill
-    placed: tuple[Placed, ...]
+    placed: tuple[PlacedGoals, ...]
     spaced: tuple[Lit | None, ...]
-    setting: Setting
+    setting: SpacingTask
 
     @property
     def lattice(self) -> bool:
@@ -100,7 +100,9 @@ class GoalLayout(NamedTuple):
         return self.held if self.flown else 0
 
 
-def laid_out(task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape]) -> GoalLayout | Diagnostic:
+def laid_out(
+    task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape]
+) -> GoalLayout | Diagnostic:
     """Return the goals of all frames: so far apart that all moves are straight, if all find room so.
 
     Else as near as the separation allows, if that is flown on arcs; drones that find no room then stay dark.
@@ -126,9 +128,9 @@ class _Layouts:
 
     def __init__(self, task: PictureTask, bodies: Sequence[PlacedShape]) -> None:
         self.task, self.bodies = task, bodies
-        self._known: dict[tuple[Fill, int], list[Placed] | Diagnostic] = {}
+        self._known: dict[tuple[Fill, int], list[PlacedGoals] | Diagnostic] = {}
 
-    def legible(self, setting: Setting, *, dark: bool) -> GoalLayout | Diagnostic:
+    def legible(self, setting: SpacingTask, *, dark: bool) -> GoalLayout | Diagnostic:
         """Return the goals of all frames; of a text without a ``fill`` where it reads best."""
         fill = self.task.picture.fill
         if self.task.picture.layers > 1:
@@ -149,7 +151,7 @@ class _Layouts:
         few = inside.bright == setting.number or outline.bright < AS_MANY * max(1, inside.bright)
         return inside if few and outline.bright < setting.number else outline
 
-    def _filled(self, setting: Setting, fill: Fill, *, dark: bool) -> GoalLayout | Diagnostic:
+    def _filled(self, setting: SpacingTask, fill: Fill, *, dark: bool) -> GoalLayout | Diagnostic:
         """Return goals that all find room; or if others may stay dark, as many as do, in a lattice if
         need be.
         """
@@ -178,7 +180,7 @@ class _Layouts:
         )
 
     def _crowded_strokes(
-        self, setting: Setting, fill: Fill, body: FlatBody, *, dark: bool
+        self, setting: SpacingTask, fill: Fill, body: FlatBody, *, dark: bool
     ) -> GoalLayout | Diagnostic | None:
         """Return how a flat picture shows a large fleet that has too little room to be spread evenly, if
         so.
@@ -187,16 +189,16 @@ class _Layouts:
         wrong = _wrong(self.task, setting, body, points)
         if points is None or wrong is not None:
             return wrong
-        strokes = Strokes(body, fill, Placed(points[:0], points[:0], points), setting, self._draw(fill))
+        strokes = Strokes(body, fill, PlacedGoals(points[:0], points[:0], points), setting, self._draw(fill))
         if not strokes.crowded:
             return None
         if not dark:
             return GoalLayout(fill, (), (None,), setting)
         shown = lit(strokes)
-        goals = Placed(shown.points, shown.points[: shown.number], points)
+        goals = PlacedGoals(shown.points, shown.points[: shown.number], points)
         return GoalLayout(fill, (goals,), (shown,), setting)
 
-    def _layered(self, setting: Setting, fill: Fill) -> GoalLayout | Diagnostic:
+    def _layered(self, setting: SpacingTask, fill: Fill) -> GoalLayout | Diagnostic:
         """Return a flat picture in layers, one behind the other."""
         (body,) = self.bodies
         assert isinstance(body, FlatBody)
@@ -205,10 +207,12 @@ class _Layouts:
         if points is None or wrong is not None:
             return wrong or no_points(self.task.mission, self.task.picture)
         shown = in_layers(body, setting, self._draw(fill), self.task.picture.layers)
-        goals = Placed(shown.points, shown.points[: shown.number], points)
+        goals = PlacedGoals(shown.points, shown.points[: shown.number], points)
         return GoalLayout(fill, (goals,), (shown,), setting)
 
-    def _apart(self, setting: Setting, what: tuple[Fill, Sequence[Placed]], *, dark: bool) -> GoalLayout:
+    def _apart(
+        self, setting: SpacingTask, what: tuple[Fill, Sequence[PlacedGoals]], *, dark: bool
+    ) -> GoalLayout:
         """Return the goals of all frames moved apart, up to the first frame in which they do not fit."""
         fill, goals = what
         apart: list[Lit | None] = []
@@ -227,32 +231,32 @@ class _Layouts:
         """Tell whether there is an inside to lay a lattice in."""
         return fill == "volume" and len(self.bodies) == 1 and isinstance(self.bodies[0], SolidBody | MeshBody)
 
-    def _crowded(self, setting: Setting, fill: Fill) -> bool:
+    def _crowded(self, setting: SpacingTask, fill: Fill) -> bool:
         """Tell whether centroids of a large fleet would hardly part: a solid has not enough room for them."""
         return setting.number > CROWDED_SHARE * places_held(setting, self.points(setting, fill), 1.0)
 
-    def points(self, setting: Setting, fill: Fill) -> Array:
+    def points(self, setting: SpacingTask, fill: Fill) -> Array:
         """Return points of a solid, as dense as its goals can be."""
         return drawn(setting, self._draw(fill), 3)
 
-    def _lattice(self, setting: Setting, fill: Fill) -> GoalLayout:
+    def _lattice(self, setting: SpacingTask, fill: Fill) -> GoalLayout:
         return self._one(setting, fill, in_lattice(setting, self._draw(fill)), lattice=True)
 
-    def _thinned(self, setting: Setting, fill: Fill, goals: Placed) -> GoalLayout:
+    def _thinned(self, setting: SpacingTask, fill: Fill, goals: PlacedGoals) -> GoalLayout:
         power = 1 if fill == "outline" else 2
         layout = self._one(setting, fill, thinned_out(setting, self._draw(fill), power), lattice=False)
         return layout._replace(placed=(goals,))
 
-    def _one(self, setting: Setting, fill: Fill, found: Array, *, lattice: bool) -> GoalLayout:
+    def _one(self, setting: SpacingTask, fill: Fill, found: Array, *, lattice: bool) -> GoalLayout:
         """Return the layout of a single frame whose goals are found, other drones dark behind them."""
         points = self._draw(fill)(LEAST_POINTS)
-        goals = Placed(found, found, points)
+        goals = PlacedGoals(found, found, points)
         shown = Lit(found, len(found), lattice)
         few = len(found) < max(1.0, (1.0 - MOST_DARK_SHARE) * setting.number)
         frame = shown if few else _with_dark(shown, setting) or shown
         return GoalLayout(fill, (goals,), (frame,), setting)
 
-    def _fewer(self, setting: Setting, what: tuple[Fill, Sequence[Placed]]) -> GoalLayout | None:
+    def _fewer(self, setting: SpacingTask, what: tuple[Fill, Sequence[PlacedGoals]]) -> GoalLayout | None:
         """Return the frames of as many drones as find room in every one, the others dark behind, or None."""
         fill, goals = what
         power = 3 if fill == "volume" else 2
@@ -277,7 +281,7 @@ class _Layouts:
 
         return points
 
-    def _goals(self, setting: Setting, fill: Fill) -> list[Placed] | Diagnostic:
+    def _goals(self, setting: SpacingTask, fill: Fill) -> list[PlacedGoals] | Diagnostic:
         """Return the goals of all frames, not apart yet, or what keeps them from being placed."""
         key = (fill, setting.number)
         if key not in self._known:
@@ -303,7 +307,7 @@ def growth(task: PictureTask, bodies: Sequence[PlacedShape], layout: GoalLayout)
     return high
 
 
-def _with_dark(frame: Lit, setting: Setting) -> Lit | None:
+def _with_dark(frame: Lit, setting: SpacingTask) -> Lit | None:
     """Return the goals of a frame with places for all other drones, or None where there is no room."""
     if frame.number == setting.number:
         return frame
@@ -312,10 +316,10 @@ def _with_dark(frame: Lit, setting: Setting) -> Lit | None:
 
 
 def _placed(
-    task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape], fill: Fill
-) -> list[Placed] | Diagnostic:
+    task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape], fill: Fill
+) -> list[PlacedGoals] | Diagnostic:
     n = setting.number
-    found: list[Placed] = []
+    found: list[PlacedGoals] = []
     for body in bodies:
         flat = isinstance(body, FlatBody)
         count = max(LEAST_FLAT if flat else LEAST_POINTS, n * (DENSE if n <= MANY else THIN))
@@ -331,7 +335,9 @@ def _placed(
     return found
 
 
-def _wrong(task: PictureTask, setting: Setting, body: PlacedShape, points: Array | None) -> Diagnostic | None:
+def _wrong(
+    task: PictureTask, setting: SpacingTask, body: PlacedShape, points: Array | None
+) -> Diagnostic | None:
     """Return what keeps a body from being drawn: it has no such points, or the audience is in it."""
     if points is None:
         return no_points(task.mission, task.picture)

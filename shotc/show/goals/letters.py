@@ -12,7 +12,7 @@ from shotc.show.geom.sizes import enlarged, size_words
 from shotc.show.goals.body import Fill
 from shotc.show.goals.faults import apart, place_of
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.spaced import Setting
+from shotc.show.goals.spaced import SpacingTask
 
 DOTS = 5
 """Lights in the height of a letter, fewer of which make none: the smallest fonts have five."""
@@ -54,7 +54,7 @@ def too_few_lights(
 
 
 def too_small(
-    mission: MissionIR, fleet: Fleet, picture: Picture, seen: float, setting: Setting
+    mission: MissionIR, fleet: Fleet, picture: Picture, seen: float, setting: SpacingTask
 ) -> Diagnostic | None:
     """Warn of letters so low that lights of a stroke are as near to the next one as to each other.
 

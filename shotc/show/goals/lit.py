@@ -19,7 +19,7 @@ from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.edges import along_edges
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.spaced import TRIED, Draw, Placed, Setting, evenly
+from shotc.show.goals.spaced import TRIED, Draw, PlacedGoals, SpacingTask, evenly
 
 LEAST_FLAT = 10_000
 """Points of any flat picture, where a light beside a stroke is seen."""
@@ -50,7 +50,7 @@ class Lit(NamedTuple):
     lattice: bool = False
 
 
-def on_strokes(body: FlatBody, fill: Fill, goals: Placed, setting: Setting) -> Placed:
+def on_strokes(body: FlatBody, fill: Fill, goals: PlacedGoals, setting: SpacingTask) -> PlacedGoals:
     """Return the goals of a flat picture's centroids, or of its edges, in its plane."""
     if fill == "outline":
         edges = [shape.edges for shape in body.shapes]
@@ -97,8 +97,8 @@ class Strokes:
 
     body: FlatBody
     fill: Fill
-    goals: Placed
-    setting: Setting
+    goals: PlacedGoals
+    setting: SpacingTask
     draw: Draw
 
     @property

@@ -19,7 +19,7 @@ from shotc.show.geom.columns import (
     through_triangles,
 )
 from shotc.show.goals.body import Fill
-from shotc.show.goals.model_file import Mesh
+from shotc.show.goals.model_file import ModelMesh
 
 COLUMNS_PER_POINT = 0.25
 """Columns drawn for each point."""
@@ -31,7 +31,7 @@ MOST_PAIRS = 20_000_000
 class CloudBody:
     """Points as a file has them."""
 
-    mesh: Mesh
+    mesh: ModelMesh
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
         """Return its points, or as many of them as are wanted."""
@@ -53,7 +53,7 @@ class CloudBody:
 class MeshBody:
     """Triangles; parity : that not all run round the same way, so that faces are only counted."""
 
-    mesh: Mesh
+    mesh: ModelMesh
     parity: bool
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
@@ -80,7 +80,7 @@ class MeshBody:
         return _nearest_colors(self.mesh, places)
 
 
-def mesh_body(mesh: Mesh) -> MeshBody | CloudBody:
+def mesh_body(mesh: ModelMesh) -> MeshBody | CloudBody:
     """Return a mesh, or a point cloud where there are no faces."""
     if not len(mesh.triangles):
         return CloudBody(mesh)
@@ -88,13 +88,13 @@ def mesh_body(mesh: Mesh) -> MeshBody | CloudBody:
     return MeshBody(mesh, len(np.unique(directed, axis=0)) < len(directed))
 
 
-def open_edges(mesh: Mesh) -> int:
+def open_edges(mesh: ModelMesh) -> int:
     """Return how many edges have an odd number of faces: of a closed mesh none."""
     sides = np.sort(_sides(mesh), axis=1)
     return int((np.unique(sides, axis=0, return_counts=True)[1] % 2).sum())
 
 
-def _sides(mesh: Mesh) -> Array:
+def _sides(mesh: ModelMesh) -> Array:
     return np.concatenate([mesh.triangles[:, [0, 1]], mesh.triangles[:, [1, 2]], mesh.triangles[:, [2, 0]]])
 
 
@@ -121,7 +121,7 @@ def _on_surface(corners: Array, count: int, rng: np.random.Generator) -> Array |
     return np.asarray(a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]))
 
 
-def _nearest_colors(mesh: Mesh, places: Array) -> Colors | None:
+def _nearest_colors(mesh: ModelMesh, places: Array) -> Colors | None:
     if mesh.colors is None:
         return None
     return np.asarray(mesh.colors[cKDTree(mesh.corners).query(places)[1]])

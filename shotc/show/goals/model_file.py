@@ -10,7 +10,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.ir.fleet import Colors
 from shotc.kinds.models.mesh_file import read_mesh
-from shotc.kinds.models.parts import ModelFault, Part, wrong_corners
+from shotc.kinds.models.parts import ModelFault, NodePart, wrong_corners
 from shotc.show.geom.columns import Numbers
 
 Axis = Literal["x", "y", "z"]
@@ -23,7 +23,7 @@ FARTHEST = 1e9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Mesh:
+class ModelMesh:
     """Corners (V, 3), triangles (T, 3) as their numbers, of a point cloud none; colours (V, 3) or None."""
 
     corners: Array
@@ -32,21 +32,21 @@ class Mesh:
 
 
 @dataclass(frozen=True, slots=True)
-class Unreadable:
+class UnreadableModel:
     """Why a file is no model, and what helps."""
 
     note: str
     help: str = "export it anew as binary PLY"
 
 
-def read_model(name: str, data: bytes, up: Axis | None = None) -> Mesh | Unreadable:
+def read_model(name: str, data: bytes, up: Axis | None = None) -> ModelMesh | UnreadableModel:
     """Return what a file holds, in its own units, z up, with coinciding corners made one.
 
     up : the axis of the file that points up, None for that of its format
     """
     kind = name.rsplit(".", 1)[-1].lower()
     if kind not in UP:
-        return Unreadable(
+        return UnreadableModel(
             f"`.{kind[:20]}` is no format that is read", "export it as .glb, .ply, .obj or .stl"
         )
     parts = read_mesh(kind, data)
@@ -56,11 +56,11 @@ def read_model(name: str, data: bytes, up: Axis | None = None) -> Mesh | Unreada
     return _unreadable(parts)
 
 
-def _unreadable(fault: ModelFault) -> Unreadable:
-    return Unreadable(fault.message, fault.help)
+def _unreadable(fault: ModelFault) -> UnreadableModel:
+    return UnreadableModel(fault.message, fault.help)
 
 
-def _together(parts: list[Part]) -> Mesh:
+def _together(parts: list[NodePart]) -> ModelMesh:
     """Join the parts of a file, and what lies at one place; white where only some parts have colours."""
     corners = np.concatenate([np.zeros((0, 3)), *(p.corners for p in parts)])
     offsets = np.cumsum([0, *(len(p.corners) for p in parts)])
@@ -69,24 +69,24 @@ def _together(parts: list[Part]) -> Mesh:
     if any(p.colors is not None for p in parts):
         white = [np.full((len(p.corners), 3), 255, np.uint8) if p.colors is None else p.colors for p in parts]
         colors = np.concatenate(white)
-    return Mesh(corners, np.concatenate([np.zeros((0, 3), np.intp), *triangles]), colors)
+    return ModelMesh(corners, np.concatenate([np.zeros((0, 3), np.intp), *triangles]), colors)
 
 
-def _upright(mesh: Mesh, up: Axis) -> Mesh:
+def _upright(mesh: ModelMesh, up: Axis) -> ModelMesh:
     """Turn a file's coordinates so that z is up, its triangles still counter-clockwise from outside."""
     corners = mesh.corners[:, TURNED[up]]
     if up == "y":
         corners = corners * np.array([1.0, -1.0, 1.0])
-    return Mesh(corners, mesh.triangles, mesh.colors)
+    return ModelMesh(corners, mesh.triangles, mesh.colors)
 
 
-def _checked(mesh: Mesh) -> Mesh | Unreadable:
+def _checked(mesh: ModelMesh) -> ModelMesh | UnreadableModel:
     if not np.ptp(mesh.corners, axis=0).max() > 0:
-        return Unreadable("all of its points are at one place", "export a mesh that has a size")
+        return UnreadableModel("all of its points are at one place", "export a mesh that has a size")
     return _welded(mesh)
 
 
-def _welded(mesh: Mesh) -> Mesh:
+def _welded(mesh: ModelMesh) -> ModelMesh:
     """Make corners at one place one, as in an STL each face has its own, and drop faces without area."""
     if not len(mesh.triangles):
         return mesh
@@ -97,4 +97,4 @@ def _welded(mesh: Mesh) -> Mesh:
     a, b, c = triangles.T
     whole = triangles[(a != b) & (b != c) & (a != c)]
     colors = None if mesh.colors is None else mesh.colors[first]
-    return Mesh(mesh.corners[first], whole, colors)
+    return ModelMesh(mesh.corners[first], whole, colors)

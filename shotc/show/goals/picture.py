@@ -18,9 +18,9 @@ from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.in_layers import layer_stats, seen_spacing
 from shotc.show.goals.layout import GoalLayout, PictureTask, growth, laid_out
 from shotc.show.goals.letters import lights_needed, too_few_lights, too_small
-from shotc.show.goals.remedies import Remedies, remedies
+from shotc.show.goals.remedies import PictureRemedies, remedies
 from shotc.show.goals.sources import bodies_of
-from shotc.show.goals.spaced import Setting
+from shotc.show.goals.spaced import SpacingTask
 
 WHITE = (255, 255, 255)
 
@@ -33,7 +33,7 @@ class PictureResult(NamedTuple):
     stats: tuple[tuple[str, float | str], ...] = ()
 
 
-def draw_picture(task: PictureTask, setting: Setting) -> PictureResult:
+def draw_picture(task: PictureTask, setting: SpacingTask) -> PictureResult:
     """Return a picture's frames, or all that keeps it from being flown."""
     bodies = bodies_of(task.picture, task.files)
     if isinstance(bodies, SourceFault):
@@ -55,7 +55,7 @@ def draw_picture(task: PictureTask, setting: Setting) -> PictureResult:
 
 
 def _warnings(
-    task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape], layout: GoalLayout
+    task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape], layout: GoalLayout
 ) -> list[Diagnostic]:
     """Return what is to be said of a picture that can be flown."""
     diagnostics = []
@@ -71,7 +71,7 @@ def _warnings(
     return diagnostics if few is None else [few]
 
 
-def _few(task: PictureTask, setting: Setting, body: PlacedShape, layout: GoalLayout) -> Diagnostic | None:
+def _few(task: PictureTask, setting: SpacingTask, body: PlacedShape, layout: GoalLayout) -> Diagnostic | None:
     source = task.picture.source
     if not isinstance(source, Lettering) or not isinstance(body, FlatBody):
         return too_few(task.mission, task.fleet, task.picture)
@@ -84,8 +84,8 @@ def _few(task: PictureTask, setting: Setting, body: PlacedShape, layout: GoalLay
 
 
 def _remedies(
-    task: PictureTask, setting: Setting, bodies: Sequence[PlacedShape], layout: GoalLayout
-) -> Remedies:
+    task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape], layout: GoalLayout
+) -> PictureRemedies:
     """Find what would do."""
     apart = task.fleet.apart
     touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
@@ -98,7 +98,7 @@ def _remedies(
     return remedies(fits, task.picture, held, setting.room.lowest, touching, tall)
 
 
-def _shows_all(task: PictureTask, setting: Setting, picture: Picture) -> bool:
+def _shows_all(task: PictureTask, setting: SpacingTask, picture: Picture) -> bool:
     """Tell whether a picture written otherwise shows as many drones as there are: it is laid out."""
     pictures = list(task.display.pictures)
     pictures[task.index] = picture

@@ -18,7 +18,7 @@ Fits = Callable[[Picture], bool]
 """Whether a picture shows all drones."""
 
 
-class Remedies(NamedTuple):
+class PictureRemedies(NamedTuple):
     """What does, each alone; None where nothing does.
 
     number : of drones; size : what to write of the picture, and how many times as large it is then
@@ -50,7 +50,7 @@ class GoalCapacity(NamedTuple):
 
 def remedies(
     fits: Fits, picture: Picture, held: tuple[int, float], lowest: float, touching: float, tall: float
-) -> Remedies:
+) -> PictureRemedies:
     """Return what does.
 
     held : how many drones it shows as it is, and how many times as large all of them should be shown
@@ -63,7 +63,7 @@ def remedies(
         factor *= MORE
     larger = enlarged(picture, factor, lowest, tall)
     share = 1.0 / factor
-    return Remedies(
+    return PictureRemedies(
         number or None,
         (size_words(picture.source, larger.source), factor),
         share if share > touching else None,

@@ -34,7 +34,7 @@ Draw = Callable[[int], Array]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Setting:
+class SpacingTask:
     """What the frames of one display have in common.
 
     number : of drones; least : stretched distance of two goals, metres; stretch : factor for heights
@@ -53,7 +53,7 @@ class Setting:
     room: DisplaySurroundings
 
     @property
-    def roomy(self) -> Setting:
+    def roomy(self) -> SpacingTask:
         """Return the same with goals so far apart that all moves between them are straight."""
         return replace(self, least=self.straight, upright=False)
 
@@ -63,7 +63,7 @@ class Setting:
         return np.array([1.0, 1.0, self.stretch])
 
 
-class Placed(NamedTuple):
+class PlacedGoals(NamedTuple):
     """Goals of a frame.
 
     centroids : (n, 3), in space; shown : (n, 3), adjusted for the viewpoint
@@ -75,7 +75,7 @@ class Placed(NamedTuple):
     points: Array
 
 
-def placed(setting: Setting, points: Array, before: Placed | None, on_surface: bool) -> Placed:
+def placed(setting: SpacingTask, points: Array, before: PlacedGoals | None, on_surface: bool) -> PlacedGoals:
     """Return the goals that show points (M, 3) best, spaced or not.
 
     before : the frame before, whose goals these follow; on_surface : that they stay in the points' surface
@@ -87,10 +87,10 @@ def placed(setting: Setting, points: Array, before: Placed | None, on_surface: b
     shown = goals
     if setting.viewpoint is not None:
         shown = viewpoint_centroids(points, goals, setting.viewpoint, setting.weight).goals
-    return Placed(goals, _onto(points, shown) if on_surface else shown, points)
+    return PlacedGoals(goals, _onto(points, shown) if on_surface else shown, points)
 
 
-def spaced(setting: Setting, goals: Placed) -> Array | None:
+def spaced(setting: SpacingTask, goals: PlacedGoals) -> Array | None:
     """Return goals as they are shown, moved apart as little as it takes, or None where they do not fit.
 
     Where room is short the cells of the tessellation are made as flat or tall as the drones need, too.
@@ -110,7 +110,7 @@ def spaced(setting: Setting, goals: Placed) -> Array | None:
     return None if apart is None else apart / scale
 
 
-def in_lattice(setting: Setting, draw: Draw) -> Array:
+def in_lattice(setting: SpacingTask, draw: Draw) -> Array:
     """Return goals of the widest lattice that has one a drone in a volume, shape (n, 3).
 
     Where there is no such lattice, all places of the densest one. draw : gives points of the volume
@@ -122,7 +122,7 @@ def in_lattice(setting: Setting, draw: Draw) -> Array:
     return np.asarray(goals[setting.room.lack(goals) <= 0.0]) if len(goals) else goals
 
 
-def thinned_out(setting: Setting, draw: Draw, power: int) -> Array:
+def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
     """Return as many goals as find room on a surface or along edges, the worst placed taken out, shape (n,
     3).
 
@@ -143,26 +143,26 @@ def evenly(goals: Array, number: int) -> Array:
     return np.asarray(goals[np.linspace(0, len(goals) - 1, number).round().astype(np.intp)])
 
 
-def drawn(setting: Setting, draw: Draw, power: int) -> Array:
+def drawn(setting: SpacingTask, draw: Draw, power: int) -> Array:
     """Return points of a shape as dense as its goals can be, however many drones there are, shape (M, 3)."""
     few = draw(FEW_POINTS)
     return draw(max(FEW_POINTS, POINTS_EACH * _held_about(setting, few * setting.scale, power)))
 
 
-def places_held(setting: Setting, points: Array, factor: float) -> int:
+def places_held(setting: SpacingTask, points: Array, factor: float) -> int:
     """Return how many places the densest lattice has in a volume made a number of times as large."""
     mould = _mould(setting, points)
     rough = grain(mould.shape)
     return len(laid(mould._replace(slack=(mould.slack - rough) / factor + rough), setting.least / factor))
 
 
-def held_of(setting: Setting, goals: Placed, power: int) -> int:
+def held_of(setting: SpacingTask, goals: PlacedGoals, power: int) -> int:
     """Return about how many goals a shape holds, by how far apart these are that are not spaced yet."""
     gap = _mean_gap(goals.centroids * setting.scale) if len(goals.centroids) > 1 else setting.least
     return ceil(len(goals.centroids) * (gap / setting.least) ** power)
 
 
-def _held_about(setting: Setting, shape: Array, power: int) -> int:
+def _held_about(setting: SpacingTask, shape: Array, power: int) -> int:
     """Return about how many goals a shape holds, and some more, by how far apart a few centroids of it
     are.
     """
@@ -170,12 +170,12 @@ def _held_about(setting: Setting, shape: Array, power: int) -> int:
     return ceil(SPARE * FEW_GOALS * (gap / setting.least) ** power) + 1
 
 
-def _mould(setting: Setting, points: Array) -> Mould:
+def _mould(setting: SpacingTask, points: Array) -> Mould:
     tree = cKDTree(points * setting.scale)
     return Mould(tree, SLACK * setting.least + grain(tree), setting.upright)
 
 
-def _held(setting: Setting) -> Hold:
+def _held(setting: SpacingTask) -> Hold:
     scale, room = setting.scale, setting.room
 
     def hold(before: Array, after: Array) -> Array:

@@ -47,14 +47,14 @@ class Need(NamedTuple):
     factor: float
 
 
-class Clock(NamedTuple):
+class FlightClock(NamedTuple):
     """Breaks of the flight, s, and what asked for more time than the file has, None where nothing did."""
 
     breaks: Array
     need: Need | None
 
 
-def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> Clock:
+def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> FlightClock:
     """Return the clock of a flight; step : s of every piece by the file's clock.
 
     coef : control points, (n, K, 3); rounding : metres by which they may be rounded
@@ -64,11 +64,11 @@ def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> Clock:
     widths = np.full(count, step)
     need = worst(widths, coef, granted)
     if need.factor <= 1.0 + SLACK_SHARE:
-        return Clock(_breaks(widths), None)
+        return FlightClock(_breaks(widths), None)
     alike = widths * need.factor * (1.0 + OVER_SHARE)
     found = _stretched(widths, coef, granted)
     best = alike if found is None or found.sum() >= alike.sum() else found
-    return Clock(_breaks(best), need)
+    return FlightClock(_breaks(best), need)
 
 
 def _breaks(widths: Array) -> Array:

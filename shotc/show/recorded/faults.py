@@ -11,7 +11,7 @@ from shotc.ir.show import Display, Fleet, RecordedFlight
 from shotc.rounding import at_least, plain
 from shotc.show.recorded.clock import Need
 from shotc.show.recorded.stage import FitRequirements, Grounded, Leaned, Staged
-from shotc.show.recorded.tracks import RecordedTracks, Unreadable
+from shotc.show.recorded.tracks import RecordedTracks, UnreadableFlight
 
 MOST_FACTOR = 20.0
 """By which a piece may be too fast: beyond it a drone jumps, and the file is wrong."""
@@ -26,7 +26,7 @@ def _file(mission: MissionIR, display: Display) -> tuple[str, Label]:
     return source.file, mission.origins.value((*display.pictures[0].path, "flight"))
 
 
-def unreadable(mission: MissionIR, display: Display, why: Unreadable) -> Diagnostic:
+def unreadable(mission: MissionIR, display: Display, why: UnreadableFlight) -> Diagnostic:
     """Return D150: the file of a flight cannot be read."""
     file, label = _file(mission, display)
     where = f"{file}/{why.member}, line {why.line}" if why.member else file

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights import skyc, zipped
-from shotc.importers.flights.light_program import Keyed
+from shotc.importers.flights.light_program import KeyedLight
 from shotc.importers.flights.names import TABLES, suffix_of
 from shotc.importers.flights.points import Unread
 from shotc.importers.flights.rows import DroneRows
@@ -43,7 +43,7 @@ class RecordedTrack:
     name: str
     where: str
     curve: Piecewise
-    light: Keyed | None
+    light: KeyedLight | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +64,7 @@ class RecordedTracks:
         return max(track.curve.end for track in self.tracks)
 
 
-class Unreadable(NamedTuple):
+class UnreadableFlight(NamedTuple):
     """Why a file is not read; member : of the archive, empty where it is about all of it; line from 1."""
 
     code: str
@@ -74,7 +74,7 @@ class Unreadable(NamedTuple):
     help: str
 
 
-def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> RecordedTracks | Unreadable:
+def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> RecordedTracks | UnreadableFlight:
     """Return the tracks of a `.zip` of tables or of a `.skyc`; origin : of the mission."""
     try:
         if suffix_of(PurePath(name).name) == TABLES:
@@ -86,8 +86,8 @@ def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> RecordedTra
         return _unreadable(stopped.refused, "")
 
 
-def _unreadable(why: Refused, member: str) -> Unreadable:
-    return Unreadable(why.code, why.message, member, why.node.line, why.help)
+def _unreadable(why: Refused, member: str) -> UnreadableFlight:
+    return UnreadableFlight(why.code, why.message, member, why.node.line, why.help)
 
 
 def _of_tables(tables: tuple[DroneRows, ...]) -> RecordedTracks:
@@ -104,11 +104,11 @@ def _of_rows(rows: DroneRows) -> RecordedTrack:
     light = None
     if colors is not None:
         levels = [(int(r), int(g), int(b)) for r, g, b in colors.tolist()]
-        light = Keyed(tuple(time.tolist()), tuple(levels))
+        light = KeyedLight(tuple(time.tolist()), tuple(levels))
     return RecordedTrack(rows.drone, rows.member, Piecewise(time, ctrl), light)
 
 
-def _of_show(show: skyc.Show, origin: GeoOrigin | None) -> RecordedTracks:
+def _of_show(show: skyc.SkycShow, origin: GeoOrigin | None) -> RecordedTracks:
     there = skyc.shift(show.origin, origin)
     tracks = [
         RecordedTrack(f.name, f.element, Piecewise(f.breaks, f.ctrl + there), f.light) for f in show.flights
@@ -122,7 +122,7 @@ def colors_at(tracks: RecordedTracks, start: float, end: float) -> tuple[Array, 
     The times are all those at which a light changes its course, but for those without which no light is more
     than ``LEVELS`` off; of more than ``MOST_COLORS`` they are even, as many as that leaves.
     """
-    lights = [track.light or Keyed((0.0,), ((0, 0, 0),)) for track in tracks.tracks]
+    lights = [track.light or KeyedLight((0.0,), ((0, 0, 0),)) for track in tracks.tracks]
     every = np.unique(np.round(np.concatenate([light.times for light in lights]), 6))
     times = np.concatenate([[start], every[(every > start) & (every < end)], [end]])
     most = MOST_COLORS // len(lights)

@@ -11,7 +11,7 @@ import numpy as np
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing, straight_spacing
 from shotc.geom.separation import Nearest
-from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Fleet, Picture, RecordedFlight, drone_names
@@ -177,7 +177,7 @@ def _rule(mission: MissionIR, fleet: Fleet) -> tuple[Label, ...]:
     return (mission.origins.value((*fleet.path, "separation"), "the separation"),)
 
 
-def _shown(flight: FleetTrajectory, time: float) -> Shown | None:
+def _shown(flight: FleetTrajectory, time: float) -> FrameTimes | None:
     """Return the frame that is shown at a time, or the next one; None on the way up and home."""
     first, last = flight.phases[0].end, flight.phases[-2].start
     if time <= first or time > last:
@@ -185,5 +185,5 @@ def _shown(flight: FleetTrajectory, time: float) -> Shown | None:
     return next((shown for shown in flight.shown if shown.end >= time - 1e-9), None)
 
 
-def _path(mission: MissionIR, shown: Shown) -> KeyPath:
+def _path(mission: MissionIR, shown: FrameTimes) -> KeyPath:
     return mission.display(shown.display).pictures[shown.picture].path

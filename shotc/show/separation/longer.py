@@ -15,12 +15,12 @@ import numpy as np
 from shotc.geom.apart import kept
 from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
-from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Fleet
 from shotc.rounding import up
 from shotc.show.separation.pushed import DIGITS, ROUNDS, pushed
-from shotc.show.solvers.qcqp import Bounds, bounded, short
+from shotc.show.solvers.qcqp import DerivativeBounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)
 """By which the time is stretched until it is enough; the last one not being enough, nothing is."""
@@ -43,7 +43,7 @@ class MoveBetweenStops:
 
     breaks: Array
     wanted: Array
-    shown: Shown | None
+    shown: FrameTimes | None
     key: Literal["period", "transition"]
     from_pads: bool
 
@@ -104,7 +104,7 @@ class _Trial:
         """Tell whether the drones are kept apart when the stretch takes so long."""
         stretch, fleet, ctx = self.stretch, self.fleet, self.ctx
         ctx.progress(f"keeping fleet {fleet.name} apart: would `{stretch.key}: {seconds:.2f}` do")
-        breaks, bounds = stretch.lasting(seconds), Bounds(fleet.limits)
+        breaks, bounds = stretch.lasting(seconds), DerivativeBounds(fleet.limits)
         done = bounded(breaks, stretch.wanted, bounds)
         if len(done.failed):
             return False

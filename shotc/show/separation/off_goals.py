@@ -8,7 +8,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
-from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,7 @@ class Off:
     distance: float
     smooth: float
     drone: int
-    shown: Shown
+    shown: FrameTimes
 
     def stats(self, fleet: str) -> list[tuple[str, float | str]]:
         """Return what is told of a fleet."""

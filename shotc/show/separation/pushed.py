@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.separation import closest
 from shotc.ir.show import Fleet
 from shotc.show.solvers.pusher import Index, Push, Pusher
-from shotc.show.solvers.qcqp import INNER, Bounds, bounded
+from shotc.show.solvers.qcqp import INNER, DerivativeBounds, bounded
 
 ROUNDS = 25
 GROWTH = 1.8
@@ -53,7 +53,7 @@ def pushed(
     free : those of them that may change
     What comes of fewer rounds than needed is nothing; more of them change nothing.
     """
-    bounds = Bounds(fleet.limits)
+    bounds = DerivativeBounds(fleet.limits)
     pusher = Pusher(breaks, bounds.scaled(0.999), fleet.apart, free)
     rng = np.random.default_rng(seed)
     coef, movable, reached = wanted, np.zeros(0, dtype=np.intp), 0.0

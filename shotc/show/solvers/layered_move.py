@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
-from shotc.planning.timing.straight import Bounds
+from shotc.planning.timing.straight import LineLimits
 from shotc.show.solvers.move import LIMIT_SHARE
 
 PIECE_S = 0.5
@@ -64,11 +64,11 @@ def sinking(heights: Sequence[float], step: float, layer: NDArray[np.intp], limi
     return LayeredMove(1.0 - up[:, ::-1], layer)
 
 
-def _bounds(limits: Limits, speed: float) -> Bounds:
-    return Bounds(*(LIMIT_SHARE * most for most in (speed, limits.usable_acceleration, limits.jerk)))
+def _bounds(limits: Limits, speed: float) -> LineLimits:
+    return LineLimits(*(LIMIT_SHARE * most for most in (speed, limits.usable_acceleration, limits.jerk)))
 
 
-def _shares(heights: Sequence[float], step: float, bounds: Bounds) -> Array:
+def _shares(heights: Sequence[float], step: float, bounds: LineLimits) -> Array:
     """Return shares of the ways up, shape (K, P + 3)."""
     needed = [ceil(bounds.rest_to_rest(height) / PIECE_S) for height in heights]
     length = FIRST + sum(needed) + len(needed) + 1
@@ -88,7 +88,7 @@ def _shares(heights: Sequence[float], step: float, bounds: Bounds) -> Array:
     return np.asarray(np.stack([path[: FIRST + last + 3] for path in paths]) / np.array(heights)[:, None])
 
 
-def _climb(height: float, pieces: int, bounds: Bounds) -> Array:
+def _climb(height: float, pieces: int, bounds: LineLimits) -> Array:
     """Return the places of a climb from rest to rest at the ends of so many pieces, shape (pieces + 1,)."""
     profile = bounds.profile(0.0, height)
     times = np.minimum(PIECE_S * np.arange(pieces + 1), profile.duration)

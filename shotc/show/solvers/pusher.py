@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 from shotc.geom.apart import Distances, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE, knots, places
-from shotc.show.solvers.qcqp import INNER, Bounds, Programme
+from shotc.show.solvers.qcqp import INNER, DerivativeBounds, FleetProgramme
 
 Index = NDArray[np.intp]
 
@@ -53,9 +53,11 @@ class Pusher:
     breaks : shape (P + 1,); apart, bounds : what is to hold; free : the control points that may change
     """
 
-    def __init__(self, breaks: Array, bounds: Bounds, apart: Distances, free: slice = INNER) -> None:
+    def __init__(
+        self, breaks: Array, bounds: DerivativeBounds, apart: Distances, free: slice = INNER
+    ) -> None:
         self.breaks, self.apart, self.free = breaks, apart, free
-        self.programme = Programme(breaks, bounds, free)
+        self.programme = FleetProgramme(breaks, bounds, free)
         self.scale = np.array([1.0, 1.0, stretch(apart)])
 
     def samples(self, coef: Array) -> Array:

@@ -54,13 +54,13 @@ BLOCK_DRONES = 128
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class DerivativeBounds:
     """What the control points of the derivatives keep; per_axis : bound each axis' acceleration (Eq. 9)."""
 
     limits: Limits
     per_axis: bool = False
 
-    def scaled(self, factor: float) -> Bounds:
+    def scaled(self, factor: float) -> DerivativeBounds:
         """Return all bounds times a factor."""
         motion = self.limits
         return replace(
@@ -91,7 +91,7 @@ class Bounded:
     exact: int
 
 
-def overdraft(breaks: Array, coef: Array, bounds: Bounds) -> Array:
+def overdraft(breaks: Array, coef: Array, bounds: DerivativeBounds) -> Array:
     """Return by which share each drone exceeds its limits, at the control points, shape (n,); 0 if none."""
     worst = np.zeros(len(coef))
     for order in (1, 2, 3):
@@ -100,7 +100,7 @@ def overdraft(breaks: Array, coef: Array, bounds: Bounds) -> Array:
     return worst
 
 
-def bounded(breaks: Array, wanted: Array, bounds: Bounds, free: slice = INNER) -> Bounded:
+def bounded(breaks: Array, wanted: Array, bounds: DerivativeBounds, free: slice = INNER) -> Bounded:
     """Return for every drone the nearest spline within its bounds.
 
     breaks : shape (P + 1,); wanted : shape (n, P + 3, 3); free : the control points that may change
@@ -110,7 +110,7 @@ def bounded(breaks: Array, wanted: Array, bounds: Bounds, free: slice = INNER) -
     coef, failed, exact, most = wanted.copy(), [], 0, 0
     if not len(bad):
         return Bounded(coef, bad, 0, 0, 0)
-    programme = Programme(breaks, bounds.scaled(LIMIT_SHARE), free)
+    programme = FleetProgramme(breaks, bounds.scaled(LIMIT_SHARE), free)
     for at in range(0, len(bad), BLOCK_DRONES):
         rows = bad[at : at + BLOCK_DRONES]
         coef[rows], done, iterations = programme.solve(wanted[rows])
@@ -125,7 +125,7 @@ def bounded(breaks: Array, wanted: Array, bounds: Bounds, free: slice = INNER) -
     return Bounded(coef, np.array(failed, dtype=np.intp), len(bad), most, exact)
 
 
-def short(breaks: Array, coef: Array, bounds: Bounds, digits: int) -> Array:
+def short(breaks: Array, coef: Array, bounds: DerivativeBounds, digits: int) -> Array:
     """Return control points with few digits, of those drones that keep the bounds with them."""
     rounded = np.round(coef, digits)
     kept = overdraft(breaks, rounded, bounds) <= 0.0
@@ -144,7 +144,7 @@ def deviation(breaks: Array) -> Array:
     return np.asarray((basis * (half * weights).ravel()[:, None]).T @ basis)
 
 
-def _excess(values: Array, order: int, bounds: Bounds) -> Array:
+def _excess(values: Array, order: int, bounds: DerivativeBounds) -> Array:
     """Return how far derivatives of shape (n, R, 3) are beyond their limits, as a share of these, (n, R)."""
     limits = bounds.limits
     if order == 1:
@@ -174,10 +174,10 @@ class Optimum(NamedTuple):
     iterations: int
 
 
-class Programme:
+class FleetProgramme:
     """What all drones over the same breaks share; within : the control points that are free."""
 
-    def __init__(self, breaks: Array, bounds: Bounds, within: slice = INNER) -> None:
+    def __init__(self, breaks: Array, bounds: DerivativeBounds, within: slice = INNER) -> None:
         self.bounds, self.within = bounds, within
         weight = deviation(breaks)
         self.curvature = float(np.trace(weight) / len(weight))
@@ -272,7 +272,7 @@ class Programme:
         return values
 
 
-def _project(values: Array, part: _Rows, bounds: Bounds) -> None:
+def _project(values: Array, part: _Rows, bounds: DerivativeBounds) -> None:
     limits, scale = bounds.limits, part.scale[:, None]
     if part.order == 1:
         across = np.hypot(values[..., 0], values[..., 1])
@@ -291,7 +291,7 @@ def _project(values: Array, part: _Rows, bounds: Bounds) -> None:
 class _State:
     """The iterates of a block of drones: x (free points), z and u (rows), the drones on the middle axis."""
 
-    programme: Programme
+    programme: FleetProgramme
     base: Array
     pull: Array
     wanted: Array
@@ -300,7 +300,7 @@ class _State:
     u: Array
 
     @staticmethod
-    def of(programme: Programme, wanted: Array) -> _State:
+    def of(programme: FleetProgramme, wanted: Array) -> _State:
         """Begin at the wanted splines; wanted : shape (n, K, 3)."""
         flat = np.ascontiguousarray(np.moveaxis(wanted, 1, 0))
         count = len(wanted)

@@ -22,7 +22,7 @@ from shotc.ir.passes import Outcome, PassContext
 from shotc.ir.show import Fleet
 from shotc.show.geom.windows import Window, windows
 from shotc.show.solvers.move import least_piece, least_pieces
-from shotc.show.solvers.qcqp import Bounded, Bounds, bounded, overdraft, short
+from shotc.show.solvers.qcqp import Bounded, DerivativeBounds, bounded, overdraft, short
 from shotc.show.splines.faults import too_quick
 
 DIGITS = 6
@@ -57,7 +57,7 @@ class _Fitter:
 
     def __init__(self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory) -> None:
         self.mission, self.fleet, self.flight = mission, fleet, flight
-        self.bounds = Bounds(fleet.limits)
+        self.bounds = DerivativeBounds(fleet.limits)
         self.coef = flight.coef.copy()
         self.faults: list[Diagnostic] = []
         self.done: list[Bounded] = []

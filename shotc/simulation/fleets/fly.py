@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.simulation.fleets.follow import Gains, Reference, preferred
-from shotc.simulation.fleets.vehicle import Gusts, State, Vehicle, moved
+from shotc.simulation.fleets.follow import FleetReference, Gains, preferred
+from shotc.simulation.fleets.vehicle import FleetState, FleetVehicle, Gusts, moved
 from shotc.simulation.vehicle import within
 
 PERIOD_S = 0.05
@@ -23,7 +23,7 @@ Avoid = Callable[[Array, Array, Array], Array]
 class FleetConditions:
     """How a fleet flies; seed : of the gusts."""
 
-    vehicle: Vehicle = field(default_factory=Vehicle)
+    vehicle: FleetVehicle = field(default_factory=FleetVehicle)
     gains: Gains = field(default_factory=Gains)
     gusts: Gusts = field(default_factory=Gusts)
     seed: int | tuple[int, ...] = 0
@@ -72,11 +72,11 @@ def flying(
 
     avoid : what may change the preferred velocities; None flies them as they are
     """
-    reference = Reference.of(breaks, coef)
+    reference = FleetReference.of(breaks, coef)
     rng = np.random.default_rng(conditions.seed)
     position = reference.together(breaks[:1])[:, 0]
     still = np.zeros_like(position)
-    state = State(position, still, still, conditions.gusts.at_first(len(position), rng))
+    state = FleetState(position, still, still, conditions.gusts.at_first(len(position), rng))
     for now in (np.arange(round((breaks[-1] - breaks[0]) / PERIOD_S) + 1) * PERIOD_S + breaks[0]).tolist():
         ask = preferred(reference, conditions.gains, now, state.position, state.over_ground)
         wanted = reference.together(np.array([now]))[:, 0]

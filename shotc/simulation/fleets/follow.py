@@ -47,7 +47,7 @@ class Gains:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Reference:
+class FleetReference:
     """The trajectories of a fleet.
 
     breaks : shape (P + 1,); ctrl : Bernstein control points of their pieces, (n, P, 4, 3)
@@ -59,9 +59,9 @@ class Reference:
     together: Callable[[Array], Array]
 
     @staticmethod
-    def of(breaks: Array, coef: Array) -> Reference:
+    def of(breaks: Array, coef: Array) -> FleetReference:
         """Return the reference of splines as in ``geom.fleet_spline``."""
-        return Reference(breaks, pieces(breaks, coef), places_of(breaks, coef))
+        return FleetReference(breaks, pieces(breaks, coef), places_of(breaks, coef))
 
     def each(self, times: Array) -> tuple[Array, Array, Array]:
         """Return place, velocity and acceleration, (n, 3) each, of every drone at a time of its own (n,)."""
@@ -77,7 +77,7 @@ class Reference:
         return place, rate, bend
 
 
-def preferred(reference: Reference, gains: Gains, now: float, position: Array, velocity: Array) -> Array:
+def preferred(reference: FleetReference, gains: Gains, now: float, position: Array, velocity: Array) -> Array:
     """Return the velocity that each drone should fly, shape (n, 3), m/s in W.
 
     now : the common time; position, velocity : as measured, shape (n, 3)
@@ -96,7 +96,7 @@ def preferred(reference: Reference, gains: Gains, now: float, position: Array, v
     return np.asarray((speed + along) * tangent + across * normal + gains.forward * bend)
 
 
-def _nearest(reference: Reference, gains: Gains, now: float, position: Array) -> Array:
+def _nearest(reference: FleetReference, gains: Gains, now: float, position: Array) -> Array:
     """Return the time of each drone's nearest point of its path, shape (n,)."""
     first, last = reference.breaks[0], reference.breaks[-1]
     low, high = (first, last) if gains.as_printed else (now - gains.reach, now + gains.reach)

@@ -41,7 +41,7 @@ def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Ne
 
     limit : metres of horizontal distance, for ``NearestPair.below``
     """
-    search = Search(apart, limit)
+    search = NearestSearch(apart, limit)
     for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
         search.add(time, places)
     return search.found()
@@ -93,7 +93,7 @@ class Across:
             self._best = NearestPair(float(least[m]), int(i[m]), int(j[m]), when, 0)
 
 
-class Search:
+class NearestSearch:
     """``nearest`` for places (n, 3) that come one after another."""
 
     def __init__(self, apart: Distances, limit: float) -> None:

@@ -14,15 +14,15 @@ from shotc.ir.show import Fleet
 from shotc.planning.on_pads import standing as standing_in
 from shotc.planning.take_off import bodies_of
 from shotc.simulation.fleets.fly import FleetConditions, FleetSample, flying
-from shotc.simulation.fleets.near import NearestPair, Search
-from shotc.simulation.fleets.vehicle import Gusts, Vehicle
+from shotc.simulation.fleets.near import NearestPair, NearestSearch
+from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 
 HEADROOM = 2.0
 """Acceleration that drones have over what plans may ask of them, as in the paper's simulation."""
 
 
 @dataclass(frozen=True, slots=True)
-class Rehearsal:
+class FleetRehearsal:
     """What came of one fleet, metres.
 
     rmse : of the distance from where each drone should be; usual : what 99 % of the largest distances of each
@@ -46,9 +46,9 @@ class Watch:
 
     def __init__(self, fleet: Fleet, flight: FleetTrajectory) -> None:
         self._flight, count = flight, len(flight.coef)
-        self._search = Search(fleet.apart, fleet.apart.horizontal)
+        self._search = NearestSearch(fleet.apart, fleet.apart.horizontal)
         bodies = bodies_of(fleet)._replace(margin=0.0)
-        self._beside = Search(bodies, bodies.across)
+        self._beside = NearestSearch(bodies, bodies.across)
         self._standing = standing_in(fleet, flight.coef) if count > 1 else None
         self._largest, self._when = np.zeros(count), np.zeros(count)
         self._squares, self._count = 0.0, 0
@@ -72,10 +72,10 @@ class Watch:
             self._search.add(moment.time, position, aloft)
         return position
 
-    def found(self) -> Rehearsal:
+    def found(self) -> FleetRehearsal:
         """Return what came of it so far."""
         drone = int(np.argmax(self._largest))
-        return Rehearsal(
+        return FleetRehearsal(
             rmse=float(np.sqrt(self._squares / self._count)),
             usual=float(np.quantile(self._largest, 0.99)),
             farthest=float(self._largest[drone]),
@@ -92,5 +92,5 @@ def moments(
     """Fly a fleet with lag and gusts; the same seed gives the same flight."""
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))
-    vehicle = Vehicle(acceleration=HEADROOM * limits.acceleration, speed=fastest)
+    vehicle = FleetVehicle(acceleration=HEADROOM * limits.acceleration, speed=fastest)
     return flying(flight.breaks, flight.coef, FleetConditions(vehicle, gusts=gusts, seed=seed))

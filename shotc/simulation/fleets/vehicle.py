@@ -18,7 +18,7 @@ STEP_S = 0.01
 
 
 @dataclass(frozen=True, slots=True)
-class Vehicle:
+class FleetVehicle:
     """What a drone can do.
 
     response : time constant of its velocity loop, s; lag : of the acceleration behind what the loop asks, s
@@ -53,7 +53,7 @@ class Gusts:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class State:
+class FleetState:
     """Where drones are and how they move; all of shape (n, 3).
 
     velocity : through the air; gust : how the air moves, which carries them along
@@ -70,7 +70,7 @@ class State:
         return self.velocity + self.gust
 
 
-def moved(vehicle: Vehicle, state: State, command: Array, step: float) -> State:
+def moved(vehicle: FleetVehicle, state: FleetState, command: Array, step: float) -> FleetState:
     """Return the state after a step under a commanded velocity of shape (n, 3), in a steady gust.
 
     The loop holds the velocity over ground; the acceleration follows what it asks with the lag.
@@ -85,4 +85,4 @@ def moved(vehicle: Vehicle, state: State, command: Array, step: float) -> State:
         acceleration = acceleration + (asked - acceleration) * (1.0 - exp(-h / vehicle.lag))
         velocity = velocity + h * acceleration
         position = position + h * (velocity + state.gust)
-    return State(position, velocity, acceleration, state.gust)
+    return FleetState(position, velocity, acceleration, state.gust)

@@ -84,7 +84,7 @@ def splines() -> None:
     """Print how long the programme of Sec. IV takes a drone, beside cvxpy on the same data."""
     import numpy as np
 
-    from shotc.show.solvers.qcqp import Bounds, bounded, deviation
+    from shotc.show.solvers.qcqp import DerivativeBounds, bounded, deviation
 
     rng = np.random.default_rng(1)
     walks = np.cumsum(rng.normal(0.0, STRIDE, (WALKERS, FRAMES, 3)), axis=1)
@@ -92,7 +92,7 @@ def splines() -> None:
     wanted = np.concatenate([ends[0], walks, ends[1]], axis=1)
     breaks = np.arange(wanted.shape[1] - 2.0)
     began = time.perf_counter()
-    ours = bounded(breaks, wanted, Bounds(LIMITS))
+    ours = bounded(breaks, wanted, DerivativeBounds(LIMITS))
     a_drone = (time.perf_counter() - began) / WALKERS
     solve = _programme(breaks, wanted.shape[1])
     solve(wanted[0])  # compiled once

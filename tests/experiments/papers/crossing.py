@@ -21,7 +21,7 @@ from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import matched
 from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, FleetRun, fly
 from shotc.simulation.fleets.near import nearest
-from shotc.simulation.fleets.vehicle import Gusts, Vehicle
+from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 from tests.experiments.papers import bodies
 from tests.experiments.papers.limited import ACCELERATION, SPEED
 from tests.experiments.papers.report import Table
@@ -31,7 +31,7 @@ MARGINS = (0.0, 0.15, 0.45)
 PIECES = 12
 HOLD = 6
 """Equal control points while the cube stands."""
-IDEAL = Vehicle(response=0.01, lag=1e-4, acceleration=1e6)
+IDEAL = FleetVehicle(response=0.01, lag=1e-4, acceleration=1e6)
 """Takes up any velocity at once, for which reciprocal avoidance is made."""
 ROOM = 0.1
 """By how much avoidance is told to keep apart more than it needs, m."""
@@ -43,18 +43,22 @@ class Case:
 
     assignment: str
     margin: float
-    vehicle: Vehicle
+    vehicle: FleetVehicle
     avoids: bool
     gusts: float = 0.0
 
 
 CASES = (
     Case("random", 0.0, IDEAL, True),
-    Case("random", 0.0, Vehicle(), False),
-    Case("random", 0.0, Vehicle(), True),
-    Case("least squares", 0.0, Vehicle(), False),
-    Case("least squares", 0.0, Vehicle(), True),
-    *(Case("least squares", margin, Vehicle(), False, gusts) for gusts in (0.3, 0.6) for margin in MARGINS),
+    Case("random", 0.0, FleetVehicle(), False),
+    Case("random", 0.0, FleetVehicle(), True),
+    Case("least squares", 0.0, FleetVehicle(), False),
+    Case("least squares", 0.0, FleetVehicle(), True),
+    *(
+        Case("least squares", margin, FleetVehicle(), False, gusts)
+        for gusts in (0.3, 0.6)
+        for margin in MARGINS
+    ),
 )
 FLOWN = {15: CASES[:5], 200: CASES, 1000: (CASES[3], CASES[6])}
 """What is flown with how many drones; avoidance among 1000 takes minutes."""

@@ -16,13 +16,13 @@ from shotc.ir.rehearsal import Loop
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import cameras_of
 from shotc.simulation.runs import flown
-from shotc.simulation.wind import Wind
+from shotc.simulation.wind import WindField
 from tests.experiments.papers import framing, tracked, weaving
 from tests.experiments.papers.missions import Draft, convex_path
 from tests.experiments.papers.report import Section, Table
 from tests.experiments.papers.shown import Pictures, percentile, pictures
 
-WIND = Wind(3.0, None, 1.0)
+WIND = WindField(3.0, None, 1.0)
 RUNS = 3
 LOOPS: tuple[Loop, ...] = ("replay", "track")
 

@@ -12,15 +12,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from shotc_casadi.replan.chase import Chase
+from shotc_casadi.replan.chase import ShotChase
 
 from shotc.geom.bernstein import Array
 from shotc.plugin_api.replanner import ChaseProblem, ChaseSituation, Plan
 from shotc.simulation.kalman import MotionModel, PositionFix
 from shotc.simulation.sensors import Gps
 from shotc.simulation.tracker import Tracker
-from shotc.simulation.vehicle import Setpoint, State, Vehicle, moved
-from shotc.simulation.wind import Wind
+from shotc.simulation.vehicle import Vehicle, VehicleSetpoint, VehicleState, moved
+from shotc.simulation.wind import WindField
 from tests.experiments.papers import reframing, two_anew, walked_by, warm
 from tests.experiments.papers.multidrone import LATERAL
 from tests.experiments.papers.report import Section, Table, spread
@@ -127,12 +127,12 @@ def fly(stages: int, seed: int | None) -> Record:
     """Fly the lateral shot once; seed : of gusts and of what is measured of the target, None for neither."""
     rng = np.random.default_rng(seed)
     steps = round(SECONDS / PLANT_S)
-    air = Wind(gusts=0.0 if seed is None else GUSTS)
+    air = WindField(gusts=0.0 if seed is None else GUSTS)
     wind = air.steady([rng]) + air.blown(steps, PLANT_S, [rng])
     seen = _Seen(None if seed is None else Gps(), rng)
-    planner, known = Chase(problem(stages, zone(TREE))), []
+    planner, known = ShotChase(problem(stages, zone(TREE))), []
     still = np.zeros((1, 3))
-    state = State(BESIDE[None], WALK[None], still, still)
+    state = VehicleState(BESIDE[None], WALK[None], still, still)
     places, accelerations = [], []
     plan: Plan | None = None
     for i in range(steps):
@@ -142,7 +142,7 @@ def fly(stages: int, seed: int | None) -> Record:
             known.append((_known(stages, now, state, seen.target(now)), plan))
             plan = planner.replan(*known[-1]).plan
         assert plan is not None
-        asked = Setpoint(*(part[None] for part in sampled(plan, now)))
+        asked = VehicleSetpoint(*(part[None] for part in sampled(plan, now)))
         before = state.velocity
         state = moved(VEHICLE, state, asked, wind[i])
         places.append(state.position[0])
@@ -187,7 +187,7 @@ class _Seen:
         return estimate.position[0], estimate.velocity[0]
 
 
-def _known(stages: int, now: float, state: State, target: tuple[Array, Array]) -> ChaseSituation:
+def _known(stages: int, now: float, state: VehicleState, target: tuple[Array, Array]) -> ChaseSituation:
     place, velocity = target
     ahead = place + DT * np.arange(stages + 1)[:, None] * velocity
     return situation(
@@ -217,7 +217,7 @@ def _row(label: str, name: str, flights: Sequence[Record]) -> tuple[str, ...]:
 def _times(name: str, stages: int, flights: Sequence[Record]) -> tuple[str, ...]:
     asked = [each for one in flights for each in one.asked]
     task = problem(stages, zone(TREE))
-    planner = Chase(task)
+    planner = ShotChase(task)
     planner.replan(asked[0][0], None)  # what is built once
     rounds = [(_ours(planner, asked), _theirs(task, asked)) for _ in range(reframing.ROUNDS)]
     ours, theirs = 1e3 * np.min(rounds, axis=0)
@@ -234,7 +234,7 @@ def _times(name: str, stages: int, flights: Sequence[Record]) -> tuple[str, ...]
     )
 
 
-def _ours(planner: Chase, asked: Sequence[tuple[ChaseSituation, Plan]]) -> Array:
+def _ours(planner: ShotChase, asked: Sequence[tuple[ChaseSituation, Plan]]) -> Array:
     took = []
     for known, last in asked:
         began = time.process_time()

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import degrees, radians
 
 import numpy as np
-from shotc_casadi.replan.chase import Chase
+from shotc_casadi.replan.chase import ShotChase
 
 from shotc.geom.bernstein import Array
 from shotc.ir.limits import Limits
@@ -25,7 +25,7 @@ from shotc.plugin_api.replanner import (
     Replan,
     Traffic,
 )
-from shotc.simulation.vehicle import Setpoint, State, Vehicle, moved
+from shotc.simulation.vehicle import Vehicle, VehicleSetpoint, VehicleState, moved
 from tests.experiments.papers.report import Table
 from tests.support.replans import DT, PLANT_S, WALK, sampled
 
@@ -73,8 +73,8 @@ class Record:
 class _Drone:
     """A drone, its planner, what it flies and what it sent before."""
 
-    planner: Chase
-    state: State
+    planner: ShotChase
+    state: VehicleState
     plan: Plan | None = None
     sent: Plan | None = None
 
@@ -116,7 +116,7 @@ def fly(*, coordinated: bool) -> Record:
             told += _replanned(second, _known(now, second, ahead, WALK + _passing(), others))
         for each in (first, second):
             assert each.plan is not None
-            asked = Setpoint(*(part[None] for part in sampled(each.plan, now)))
+            asked = VehicleSetpoint(*(part[None] for part in sampled(each.plan, now)))
             each.state = moved(Vehicle(), each.state, asked, still)
         places.append((first.state.position[0], second.state.position[0]))
     filmed = places[round(APPROACH / PLANT_S) :]
@@ -162,12 +162,12 @@ def _together() -> Keeping:
 
 
 def _begun(keeping: Keeping) -> _Drone:
-    return _Drone(Chase(ChaseProblem(Horizon(STAGES, DT), keeping, WEIGHTS)), _at(LATERAL, WALK))
+    return _Drone(ShotChase(ChaseProblem(Horizon(STAGES, DT), keeping, WEIGHTS)), _at(LATERAL, WALK))
 
 
-def _at(place: Array, velocity: Array) -> State:
+def _at(place: Array, velocity: Array) -> VehicleState:
     still = np.zeros((1, 3))
-    return State(place[None], velocity[None], still, still)
+    return VehicleState(place[None], velocity[None], still, still)
 
 
 def _replanned(drone: _Drone, known: ChaseSituation) -> list[Replan]:

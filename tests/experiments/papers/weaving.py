@@ -16,13 +16,13 @@ from shotc.simulation.judge import Run, judged
 from shotc.simulation.runs import flown
 from shotc.simulation.sensors import Gps
 from shotc.simulation.truth import Truth
-from shotc.simulation.wind import Wind
+from shotc.simulation.wind import WindField
 from shotc.simulation.world import at_times
 from tests.experiments.papers.fleets import THREE, planned
 from tests.experiments.papers.report import Table
 
 RUNS = 3
-GUSTS = Wind(gusts=0.5)
+GUSTS = WindField(gusts=0.5)
 WEAVES = Truth(0.5)
 CASES = {
     "replay, straight walker": Conditions(loop="replay", wind=GUSTS),

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from pymavlink.dialects.v20 import common as mavlink
 
-from shotc.simulation.vehicle import STEP_S, Setpoint, State, Vehicle, moved
+from shotc.simulation.vehicle import STEP_S, Vehicle, VehicleSetpoint, VehicleState, moved
 
 PX4, ARDUPILOT = 12, 3
 OFFBOARD, PX4_HOLD, PX4_LAND = 6 << 16, 4 << 16 | 3 << 24, 4 << 16 | 6 << 24
@@ -79,7 +79,7 @@ class Autopilot:
         self.parameters = {n: v for n, v in (known | script.parameters).items() if v is not None}
         self.mode, self.armed = (PX4_HOLD if self.kind == PX4 else 0), script.armed
         self.pad = np.array([local])
-        self.state = State.at_rest(self.pad.copy())
+        self.state = VehicleState.at_rest(self.pad.copy())
         self.asked = None
         self.rising = None
         self.setpoints, self.aims, self.commands, self.stations = [], [], [], set()
@@ -170,7 +170,7 @@ class Autopilot:
             self._flowing = now
         self._last = now
         if self.kind == PX4 or self._height() > 0.5:
-            self.asked = Setpoint(*(np.array([v]) for v in (place, rate, push)))
+            self.asked = VehicleSetpoint(*(np.array([v]) for v in (place, rate, push)))
             self.rising = None
 
     def _obey(self, raw, now):
@@ -214,7 +214,7 @@ class Autopilot:
         self.mode = custom
         if custom in (PX4_HOLD, BRAKE):
             still = np.zeros((1, 3))
-            self.asked = Setpoint(self.state.position.copy(), still, still)
+            self.asked = VehicleSetpoint(self.state.position.copy(), still, still)
         return mavlink.MAV_RESULT_ACCEPTED
 
     def _arm(self, armed):
@@ -233,18 +233,18 @@ class Autopilot:
         if self.rising is not None:
             up = self.pad.copy()
             up[0, 2] -= self.rising
-            wanted = Setpoint(up, still, still)
+            wanted = VehicleSetpoint(up, still, still)
         elif self.mode in (PX4_LAND, LAND):
             down = place.copy()
             down[0, 2] = min(down[0, 2] + DESCENT, self.pad[0, 2] + 0.5)
-            wanted = Setpoint(down, np.array([[0.0, 0.0, DESCENT]]), still)
+            wanted = VehicleSetpoint(down, np.array([[0.0, 0.0, DESCENT]]), still)
         if wanted is None:
             return
         state = moved(Vehicle(), self.state, wanted, still)
         if state.position[0, 2] >= self.pad[0, 2]:  # the ground
             place = state.position.copy()
             place[0, 2] = self.pad[0, 2]
-            state = State(place, still, still, still)
+            state = VehicleState(place, still, still, still)
             if self.mode in (PX4_LAND, LAND) and self.script.lands:
                 self.armed = False
         self.state = state

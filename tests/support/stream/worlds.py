@@ -12,7 +12,7 @@ from pymavlink.dialects.v20 import common as mavlink
 from shotc.geom.earth import of_world
 from shotc.stream.autopilots import AUTOPILOTS
 from shotc.stream.endpoint import Endpoint
-from shotc.stream.messages import Place
+from shotc.stream.messages import GlobeFix
 from shotc.stream.projection import LocalFrame
 from shotc.stream.session import Session
 from shotc.stream.sockets import DOORS
@@ -82,7 +82,7 @@ class World:
             for point in (pad, pad + script.stands)
         )
         layout = AUTOPILOTS["px4" if script.kind == PX4 else "ardupilot"].layout
-        local = LocalFrame(layout, Place(*(script.tie or home))).of_places(np.array([place]))[0]
+        local = LocalFrame(layout, GlobeFix(*(script.tie or home))).of_places(np.array([place]))[0]
         made = Autopilot(self.ports[name], system, script, home, local)
         self.stack.callback(made.close)
         return made

@@ -13,13 +13,19 @@ from shotc.emit.litchi import EMITTER, FORMAT
 from shotc.emit.litchi.table import COLUMNS, read_table, write_table
 from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.machine_files import emit_files
-from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.emit.waypoints.route import PointAction, Waypoint
 from shotc.ir.path import BODY_YAW, CAM_YAW
 from tests.support.film_plans import orbit_plan
 from tests.support.mavlink_flights import retold
 
 STAY = Waypoint(
-    GeoPosition(47.0, 8.0, 12.0), -90.0, -20.0, 3.0, True, (Action("start"), Action("stay", 40.0)), 0.2
+    GeoPosition(47.0, 8.0, 12.0),
+    -90.0,
+    -20.0,
+    3.0,
+    True,
+    (PointAction("start"), PointAction("stay", 40.0)),
+    0.2,
 )
 
 

@@ -8,9 +8,9 @@ import pytest
 from shotc.emit.mavlink import EMITTER
 from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, adapted, is_steep, seconds
-from shotc.emit.mavlink.steps import CORNER_ACCELERATION, CORNER_CUT, Step, _radius, whole_seconds
+from shotc.emit.mavlink.steps import CORNER_ACCELERATION, CORNER_CUT, WaypointStep, _radius, whole_seconds
 from shotc.emit.mavlink.style import Command
-from shotc.emit.mavlink.thin import Leg
+from shotc.emit.mavlink.thin import StraightLeg
 from shotc.ir.limits import Limits
 from shotc.ir.trajectory import VerifiedIR
 from tests.support.mavlink_flights import Move, flight, plan, straight
@@ -85,8 +85,8 @@ def test_a_still_shot_is_a_waypoint_held_for_its_length() -> None:
 
 
 def test_whole_seconds_hand_on_what_they_lose() -> None:
-    leg, command = Leg(0, 1, "half", rest=True), Command(0.0, 0.0, 0.0, 0.0, 1.2)
-    steps = [Step(leg, command, None, 0.0, 0.0, 0.0, hold, 0.5) for hold in (1.4, 1.4, 1.4, 0.0, 0.8)]
+    leg, command = StraightLeg(0, 1, "half", rest=True), Command(0.0, 0.0, 0.0, 0.0, 1.2)
+    steps = [WaypointStep(leg, command, None, 0.0, 0.0, 0.0, hold, 0.5) for hold in (1.4, 1.4, 1.4, 0.0, 0.8)]
     assert [s.hold for s in whole_seconds(steps)] == [1, 2, 1, 0, 1]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from shotc.emit.mavlink.style import Style, follow, region_of, style_of
-from shotc.emit.mavlink.thin import Leg, Thinner, Tolerance, thinner_of
+from shotc.emit.mavlink.thin import StraightLeg, Thinner, Tolerance, thinner_of
 from shotc.emit.waypoints.clearance import keep_outs, shortfall
 from shotc.emit.waypoints.track import track_of
 from shotc.geom.bernstein import Piecewise
@@ -29,7 +29,7 @@ def thinner(source: VerifiedIR, style: Style | None = None) -> Thinner:
     return thinner_of(track, mission.drones[0], style, keep_outs(mission, mission.drones[0]))
 
 
-def filmed(legs: list[Leg]) -> list[Leg]:
+def filmed(legs: list[StraightLeg]) -> list[StraightLeg]:
     return [leg for leg in legs if leg.shot]
 
 
@@ -90,7 +90,7 @@ def test_legs_do_not_cut_a_clearance_that_the_curve_keeps() -> None:
     work = thinner(source)
     loose = Tolerance(1.0, inf, inf)
 
-    def deepest(legs: list[Leg]) -> float:
+    def deepest(legs: list[StraightLeg]) -> float:
         points = work.track.poses.position
         line = [
             points[leg.first] + s * (points[leg.last] - points[leg.first])
@@ -124,7 +124,7 @@ def test_legs_do_not_cut_the_clearance_of_a_building_either() -> None:
     work, loose = thinner(source), Tolerance(1.0, inf, inf)
     (beside,) = [o for o in work.obstacles if o.owner.kind == "buildings"]
 
-    def deepest(legs: list[Leg]) -> float:
+    def deepest(legs: list[StraightLeg]) -> float:
         points = work.track.poses.position
         ends = [(points[leg.first], points[leg.last]) for leg in filmed(legs)]
         line = [a + s * (b - a) for a, b in ends for s in np.linspace(0, 1, 50)]

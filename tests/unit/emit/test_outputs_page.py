@@ -24,7 +24,7 @@ from shotc.simulation.clearance import ClosestApproach
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.document import FLIGHT, json_text
 from shotc.simulation.fleets.near import NearestPair
-from shotc.simulation.fleets.rehearse import Rehearsal
+from shotc.simulation.fleets.rehearse import FleetRehearsal
 from shotc.simulation.guidance import Replans
 from shotc.simulation.judge import TargetFraming, TrackingError
 from shotc.simulation.rehearsal import rehearse
@@ -32,8 +32,8 @@ from shotc.simulation.runs import simulated
 from shotc.simulation.sensors import Detector, Gps
 from shotc.simulation.shows import FleetCourse, FleetPair
 from shotc.simulation.truth import Truth
-from shotc.simulation.verdict import Verdict
-from shotc.simulation.wind import Wind
+from shotc.simulation.verdict import RequirementVerdict
+from shotc.simulation.wind import WindField
 from tests.support.film_plans import orbit_plan
 
 PAGE = (Path(shotc.__file__).parent / "docs" / "outputs.md").read_text(encoding="utf-8")
@@ -72,8 +72,18 @@ def test_every_part_of_simulate_json_is_explained():
     ir, conditions = orbit_plan().trajectory, Conditions()
     done = rehearse(ir, conditions, simulated(ir, conditions, 1, 1), lambda _runs: None)
     run = json.loads(json_text(done))
-    of_fleets = (NearestPair, Rehearsal, FleetCourse, FleetPair)
-    records = (TrackingError, TargetFraming, Verdict, Replans, *of_fleets, Wind, Gps, Detector, Truth)
+    of_fleets = (NearestPair, FleetRehearsal, FleetCourse, FleetPair)
+    records = (
+        TrackingError,
+        TargetFraming,
+        RequirementVerdict,
+        Replans,
+        *of_fleets,
+        WindField,
+        Gps,
+        Detector,
+        Truth,
+    )
     named = [field.name for record in records for field in fields(record)]
     parts = [*run, *run["conditions"], *run["asked"], *run["runs"][0], *ClosestApproach._fields, *named]
     assert [part for part in parts if part not in NAMED | BOLD] == []

@@ -10,7 +10,7 @@ import pytest
 
 from shotc.emit.storyboard import EMITTER, frame, map, page
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
-from shotc.emit.storyboard.labels import MAP_SIDES, Label, nearest_room, write_labels
+from shotc.emit.storyboard.labels import MAP_SIDES, MapLabel, nearest_room, write_labels
 from shotc.emit.storyboard.map import NUMBER
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
@@ -124,7 +124,7 @@ def test_a_label_without_room_beside_its_thing_stands_in_the_nearest_free_place(
 
 
 def test_a_label_without_any_room_is_handed_back() -> None:
-    label = Label("lost", (0.0, 0.0, 0.0), PageRectangle(1.0, 1.0, 0.2, 0.2), MAP_SIDES)
+    label = MapLabel("lost", (0.0, 0.0, 0.0), PageRectangle(1.0, 1.0, 0.2, 0.2), MAP_SIDES)
     with house_style():
         canvas, whole = Canvas(4.0, 3.0, 50.0), PageRectangle(0.0, 0.0, 4.0, 3.0)
         assert write_labels(canvas, whole, [label], [whole]) == ["lost"]

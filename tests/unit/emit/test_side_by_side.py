@@ -15,20 +15,20 @@ from shotc.emit.rerun_log.side_by_side import place_of, within
 from shotc.emit.screen import error_top
 from shotc.emit.storyboard.error_plot import runs, stretches
 from shotc.emit.storyboard.side_by_side import draw_comparison, worst_frame
-from shotc.ir.comparison import Comparison, Condition, FlownShot, MotionMeasures, Trace
+from shotc.ir.comparison import ComparedShot, Comparison, Condition, MotionMeasures, Trace
 from tests.support.film_plans import orbit_plan
 
 TIMES = np.array([20.0, 21.0, 22.0, 23.0])
 
 
-def shot(*pairs) -> FlownShot:
+def shot(*pairs) -> ComparedShot:
     """Return a shot of 4 frames from 20 s on, of targets with some errors and margins."""
     share = (TIMES - 20) / 10
     traces = tuple(
         Trace("t", TIMES, share, np.array(e), np.array(m), np.ones(4), np.zeros(4)) for e, m in pairs
     )
     motion = MotionMeasures(0.0, 0.0, 0.0, 0.0, 10.0)
-    return FlownShot("s", "cam", 20.0, 30.0, traces, motion, score(traces, motion))
+    return ComparedShot("s", "cam", 20.0, 30.0, traces, motion, score(traces, motion))
 
 
 def test_the_worst_frame_is_the_one_that_crops_most():

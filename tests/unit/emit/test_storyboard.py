@@ -12,7 +12,7 @@ from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type, house_styl
 from shotc.emit.storyboard.content import shot_boards
 from shotc.emit.storyboard.frame import compass, metres
 from shotc.emit.storyboard.furniture import LOWER_FIRST, corner, round_length
-from shotc.emit.storyboard.labels import Label, free_room
+from shotc.emit.storyboard.labels import MapLabel, free_room
 from shotc.emit.storyboard.page import WIDTH, headline, layout, not_promised
 from shotc.emit.storyboard.scene import painting_order
 from shotc.emit.storyboard.sheet import outline, sheet_of
@@ -333,7 +333,7 @@ def test_a_shot_that_rises_is_drawn_from_the_side() -> None:
 
 
 def test_names_go_where_there_is_room_or_nowhere() -> None:
-    label = Label("house", (0.0, 0.0, 0.0), PageRectangle(2.0, 2.0, 0.4, 0.4), ("under", "over", "right"))
+    label = MapLabel("house", (0.0, 0.0, 0.0), PageRectangle(2.0, 2.0, 0.4, 0.4), ("under", "over", "right"))
     size, under = (0.5, 0.1), PageRectangle(1.5, 1.8, 1.5, 0.2)
     room = free_room(size, SHEET, label, ([], []))
     assert room is not None

@@ -9,7 +9,7 @@ import pytest
 
 from shotc.emit.waypoints import paths
 from shotc.emit.waypoints.models import CURVED, ROUNDED, TURNINGS, AngleRamps, fly, legs_of, times_of
-from shotc.emit.waypoints.route import Action, Route
+from shotc.emit.waypoints.route import PointAction, Route
 
 CORNER = np.array([[0.0, 0, 10], [10, 0, 10], [10, 10, 10]])
 BENT = np.array([[0.0, 0, 5], [8, 1, 6], [10, 9, 9], [25, 12, 7], [26, 13, 7]])
@@ -110,7 +110,7 @@ def test_angles_go_with_the_way_or_with_time():
 
 
 def test_recordings_and_stays_are_flown_in_their_order():
-    actions = ((Action("start"),), (Action("stay", 2.0), Action("stop")), ())
+    actions = ((PointAction("start"),), (PointAction("stay", 2.0), PointAction("stop")), ())
     flown = fly(
         line := route([[0.0, 0, 5], [10, 0, 5], [20, 0, 5]], stops=(1,), actions=actions),
         legs_of(line, ROUNDED[1]),

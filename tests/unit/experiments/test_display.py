@@ -10,9 +10,9 @@ from shotc.geom.fleet_spline import differences, places
 from shotc.geom.separation import closest
 from shotc.ir.limits import Limits
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.solvers.qcqp import Bounds, bounded, deviation
+from shotc.show.solvers.qcqp import DerivativeBounds, bounded, deviation
 from shotc.simulation.fleets.fly import FleetConditions, fly
-from shotc.simulation.fleets.vehicle import Vehicle
+from shotc.simulation.fleets.vehicle import FleetVehicle
 from tests.experiments.papers import bodies, coverage, crossing, following, limited
 
 
@@ -62,7 +62,7 @@ def test_the_solver_of_plan_finds_what_the_papers_programme_finds():
     walk = np.cumsum(np.random.default_rng(2).normal(0.0, 2.0, (20, 3)) * [1.0, 1.0, 0.0], axis=0)
     breaks, asked = limited.control_points(walk)
     limits = Limits(limited.SPEED, 9.0, 9.0, limited.ACCELERATION, 1e3, 9.0, 9.0)
-    plan = bounded(breaks, asked[None], Bounds(limits, per_axis=True)).coef[0]
+    plan = bounded(breaks, asked[None], DerivativeBounds(limits, per_axis=True)).coef[0]
     paper = limited.Limited(breaks).solver()(asked)
     cost = [np.einsum("cd,ck,kd->", c - asked, deviation(breaks), c - asked) for c in (plan, paper)]
     assert cost[0] == pytest.approx(cost[1], rel=5e-3)
@@ -81,7 +81,7 @@ def test_what_is_preferred_dips_before_the_path_does():
 
 @pytest.mark.parametrize("assignment", ["random", "least squares"])
 def test_only_a_matched_plan_is_apart(assignment):
-    case = crossing.Case(assignment, 0.15, Vehicle(), avoids=False)
+    case = crossing.Case(assignment, 0.15, FleetVehicle(), avoids=False)
     breaks, coef = crossing.move(60, case)
     height = [1.0, 1.0, stretch(crossing.NEEDED)]
     for at in (0, -len(coef[0]) // 2):

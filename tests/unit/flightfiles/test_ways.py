@@ -9,7 +9,7 @@ import pytest
 
 from shotc.emit.litchi.table import write_table
 from shotc.emit.waypoints.geo import GeoPosition
-from shotc.emit.waypoints.route import Action, Waypoint
+from shotc.emit.waypoints.route import PointAction, Waypoint
 from shotc.flightfiles.verify import FlightsReport
 from shotc.importers.cameras.takes import ImportOptions
 from shotc.importers.mission import imported
@@ -168,8 +168,8 @@ def test_our_litchi_files_are_imported_as_they_are_written() -> None:
         Waypoint(GeoPosition(*globe(place)), heading, -12.5 - i, 4.0, stops=False)
         for i, (place, heading) in enumerate(zip(asked, (-90.0, 10.0, 170.0), strict=True))
     ]
-    points[0] = replace(points[0], stops=True, actions=(Action("start"), Action("stay", 3.0)))
-    points[2] = replace(points[2], stops=True, actions=(Action("stop"),))
+    points[0] = replace(points[0], stops=True, actions=(PointAction("start"), PointAction("stay", 3.0)))
+    points[2] = replace(points[2], stops=True, actions=(PointAction("stop"),))
     made = imported(
         "litchi", write_table(points), "ours.csv", strict=False, asked=ImportOptions(every=True, ground=408.0)
     )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.camera import ScreenBox, aim_at
-from shotc.identify.find import Glance, SearchResult, Target, find, held
+from shotc.identify.find import ClusterTarget, Glance, SearchResult, find, held
 from shotc.identify.views import FRAME, CameraPose
 from shotc.ir.mission import MissionIR
 from tests.support.cities import ASPECT, HFOV_RAD, block, box_of, mission_of, tube
@@ -32,7 +32,7 @@ def glance(triangles: np.ndarray, eye: tuple[float, float, float]) -> Glance:
     return Glance(camera, box)
 
 
-def only(found: SearchResult) -> Target:
+def only(found: SearchResult) -> ClusterTarget:
     (target,) = found.targets
     return target
 

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.importers.flights.light_program import Keyed, keyed
+from shotc.importers.flights.light_program import KeyedLight, keyed
 from shotc.importers.flights.points import Unread
 from shotc.show.emit.skyc.lights import program
 
 
-def color_at(light: Keyed, time: float) -> tuple[float, ...]:
+def color_at(light: KeyedLight, time: float) -> tuple[float, ...]:
     """The colour at a time, straight between those that are told."""
     before = max((i for i, t in enumerate(light.times) if t <= time), default=0)
     if before + 1 == len(light.times):

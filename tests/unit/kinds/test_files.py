@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.files import FileFault, NumberTable, read_table
 from shotc.kinds.gpx import read_gpx
 
 XYZ = (("x", "y", "z"), ("lat", "lon", "height"))
@@ -13,11 +13,13 @@ GPX = '<?xml version="1.0"?>\n<gpx xmlns="http://www.topografix.com/GPX/1/1">\n{
 
 def test_a_header_may_order_its_columns() -> None:
     table = read_table(b"z,X,y\n3,1,2\n\n# rest\n6,4,5\n", XYZ)
-    assert table == Table(("z", "x", "y"), ((3.0, 1.0, 2.0), (6.0, 4.0, 5.0)), (2, 5))
+    assert table == NumberTable(("z", "x", "y"), ((3.0, 1.0, 2.0), (6.0, 4.0, 5.0)), (2, 5))
 
 
 def test_rows_without_a_header_take_the_first_layout() -> None:
-    assert read_table(b"\xef\xbb\xbf1, 2, 3\r\n4,5,6", XYZ) == Table(XYZ[0], ((1, 2, 3), (4, 5, 6)), (1, 2))
+    assert read_table(b"\xef\xbb\xbf1, 2, 3\r\n4,5,6", XYZ) == NumberTable(
+        XYZ[0], ((1, 2, 3), (4, 5, 6)), (1, 2)
+    )
 
 
 @pytest.mark.parametrize(
@@ -54,9 +56,9 @@ def test_track_points_come_before_route_points() -> None:
     both = GPX.format(
         f"<rte>{point.format('rtept')}</rte><trk><trkseg>{point.format('trkpt') * 2}</trkseg></trk>"
     )
-    assert read_gpx(both.encode()) == Table(("lat", "lon", "ele"), ((47.1, 8.2, 412.5),) * 2, (3, 3))
+    assert read_gpx(both.encode()) == NumberTable(("lat", "lon", "ele"), ((47.1, 8.2, 412.5),) * 2, (3, 3))
     route = GPX.format(f"<g:rte xmlns:g='u'>{point.format('g:rtept')}</g:rte>")
-    assert read_gpx(route.encode()) == Table(("lat", "lon", "ele"), ((47.1, 8.2, 412.5),), (3,))
+    assert read_gpx(route.encode()) == NumberTable(("lat", "lon", "ele"), ((47.1, 8.2, 412.5),), (3,))
 
 
 @pytest.mark.parametrize(

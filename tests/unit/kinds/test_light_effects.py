@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from shotc.ir.effects import Fade, Mark, Ramp
+from shotc.ir.effects import DisplayTime, Fade, Ramp
 from shotc.ir.source import Chosen
 from shotc.kinds.image_file import MOST_FRAMES, image_fault
 from shotc.lowering import lower
@@ -52,7 +52,7 @@ def test_a_stack_is_what_is_written(tmp_path: Path) -> None:
     assert (effect.blend, effect.opacity, effect.over) == ("screen", 0.5, "hold")
     (over,) = display.effects
     assert over.paint == Fade((0, 0, 0), to=True, seconds=2.0)
-    assert (over.since, over.until) == (Mark(3.0, None), Mark(None, 1))
+    assert (over.since, over.until) == (DisplayTime(3.0, None), DisplayTime(None, 1))
 
 
 @pytest.mark.parametrize(

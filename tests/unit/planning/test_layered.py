@@ -12,7 +12,7 @@ from shotc.geom.solids import Cylinder
 from shotc.ir.owners import Owner
 from shotc.planning.clock.moving import Moving
 from shotc.planning.free_space import FreeSpace, blocked
-from shotc.planning.layered import Watched, led_round
+from shotc.planning.layered import VisibleSubject, led_round
 from tests.support.mesh_spaces import CLEARANCE, space_of
 from tests.support.scenes import house, turned
 from tests.support.surfaces import distances
@@ -70,7 +70,7 @@ def test_where_no_course_is_free_the_ideal_is_returned():
 def watched(place, surface, **changes):
     """A person who stands at a place all the while."""
     places = np.tile(np.array(place, dtype=float), (len(TIMES), 1))
-    return replace(Watched(places, np.ones(len(TIMES), dtype=bool), 0.4, 1.8, (surface,)), **changes)
+    return replace(VisibleSubject(places, np.ones(len(TIMES), dtype=bool), 0.4, 1.8, (surface,)), **changes)
 
 
 def test_a_course_is_led_to_where_its_subject_is_not_hidden():

@@ -20,7 +20,7 @@ from shotc.simulation.kalman import Estimate
 from shotc.simulation.sensors import Gps
 from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from shotc.simulation.truth import Truth
-from shotc.simulation.wind import Wind
+from shotc.simulation.wind import WindField
 from shotc.simulation.world import World, at_times
 
 pytestmark = pytest.mark.slow
@@ -70,7 +70,7 @@ WANDERS = Truth(1.0)
 
 @cache
 def flown(loop="replan", runs=(0, 1, 2), truth=WANDERS):
-    conditions = Conditions(loop=loop, wind=Wind(2.0, None, 0.5), truth=truth)
+    conditions = Conditions(loop=loop, wind=WindField(2.0, None, 0.5), truth=truth)
     world = World.of(plan(), conditions, runs)
     return world, fly_all(world, plan().drones)
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import quintic_hermite
-from shotc.simulation.vehicle import STEP_S, Lagging, Setpoint, State, Vehicle, steered
-from shotc.simulation.wind import Wind
+from shotc.simulation.vehicle import STEP_S, Lagging, Vehicle, VehicleSetpoint, VehicleState, steered
+from shotc.simulation.wind import WindField
 
 pytestmark = pytest.mark.slow
 
@@ -20,23 +20,23 @@ WAY = quintic_hermite(
 
 
 def strays(plant, vehicle, wind):
-    state, off = State.at_rest(WAY(0.0)[None]), []
+    state, off = VehicleState.at_rest(WAY(0.0)[None]), []
     for k, blows in enumerate(wind):
         t = k * STEP_S
-        asked = Setpoint(*(WAY.derivative(n)(t)[None] for n in range(3)))
+        asked = VehicleSetpoint(*(WAY.derivative(n)(t)[None] for n in range(3)))
         off.append(np.linalg.norm(state.position - asked.position))
         state = plant.carried(state, *steered(vehicle, state, asked), blows)
     return np.sqrt(np.mean(np.square(off))), np.max(off)
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("wind", [Wind(), Wind(4.0, 2.0, 1.0)])
+@pytest.mark.parametrize("wind", [WindField(), WindField(4.0, 2.0, 1.0)])
 def test_both_vehicles_stray_alike(wind):
     rotorpy_plant = pytest.importorskip("shotc.simulation.rotorpy_plant")
     chances = [np.random.default_rng(4)]
     blows = wind.steady(chances) + wind.blown(800, STEP_S, chances)
     vehicle = Vehicle()
     ours = strays(Lagging(vehicle), vehicle, blows)
-    theirs = strays(rotorpy_plant.RotorPyPlant(vehicle, State.at_rest(WAY(0.0)[None])), vehicle, blows)
+    theirs = strays(rotorpy_plant.RotorPyPlant(vehicle, VehicleState.at_rest(WAY(0.0)[None])), vehicle, blows)
     assert ours == pytest.approx(theirs, rel=0.25)
     assert theirs[1] < 0.8

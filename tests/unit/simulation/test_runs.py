@@ -14,14 +14,14 @@ from shotc.simulation import runs
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.runs import RunBlock, simulated
 from shotc.simulation.unfinished import NAME, Unfinished
-from shotc.simulation.wind import Wind
+from shotc.simulation.wind import WindField
 from tests.support.film_plans import orbit_plan
 from tests.support.show_plans import plan as show_plan
 
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[3]
-WINDY = Conditions(wind=Wind(2.0, None, 0.5))
+WINDY = Conditions(wind=WindField(2.0, None, 0.5))
 
 
 @pytest.fixture(autouse=True)

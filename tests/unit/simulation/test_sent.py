@@ -4,7 +4,7 @@ import pytest
 from shotc.geom.bernstein import quintic_hermite
 from shotc.plugin_api.replanner import Plan
 from shotc.simulation.sent import Fading, Sent, SentPlans
-from shotc.simulation.vehicle import Setpoint
+from shotc.simulation.vehicle import VehicleSetpoint
 
 
 class _Film:
@@ -25,7 +25,7 @@ class _Film:
 
     def setpoint(self, k):
         t = self.times[k]
-        return Setpoint(np.array([[2.0 * t, 0, 5]]), np.array([[2.0, 0, 0]]), np.zeros((1, 3)))
+        return VehicleSetpoint(np.array([[2.0 * t, 0, 5]]), np.array([[2.0, 0, 0]]), np.zeros((1, 3)))
 
 
 def plan(start=1.0, n=20, velocity=(1.0, 0.5, 0.0), acceleration=(0.2, -0.1, 0.0)):

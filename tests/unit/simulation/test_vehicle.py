@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from shotc.simulation.vehicle import G_M_S2, STEP_S, Setpoint, State, Vehicle, moved, within
+from shotc.simulation.vehicle import G_M_S2, STEP_S, Vehicle, VehicleSetpoint, VehicleState, moved, within
 
 STILL = np.zeros((1, 3))
 
@@ -14,14 +14,14 @@ def flown(vehicle, state, asked, wind, seconds, error=0.0):
 
 def test_a_drone_comes_to_rest_where_it_is_asked_to_be():
     goal = np.array([[3.0, -2.0, 5.0]])
-    state = flown(Vehicle(), State.at_rest(STILL), Setpoint(goal, STILL, STILL), STILL, 30.0)
+    state = flown(Vehicle(), VehicleState.at_rest(STILL), VehicleSetpoint(goal, STILL, STILL), STILL, 30.0)
     assert state.position == pytest.approx(goal, abs=1e-3)
     assert state.velocity == pytest.approx(STILL, abs=1e-3)
 
 
 def test_in_a_steady_wind_the_integrator_takes_over_all_of_the_drag():
     vehicle, wind = Vehicle(), np.array([[6.0, -2.0, 0.0]])
-    state = flown(vehicle, State.at_rest(STILL), Setpoint(STILL, STILL, STILL), wind, 60.0)
+    state = flown(vehicle, VehicleState.at_rest(STILL), VehicleSetpoint(STILL, STILL, STILL), wind, 60.0)
     assert state.position == pytest.approx(STILL, abs=1e-3)
     assert state.held == pytest.approx(-vehicle.drag * wind, abs=1e-3)
 
@@ -29,9 +29,11 @@ def test_in_a_steady_wind_the_integrator_takes_over_all_of_the_drag():
 def test_without_lag_and_drag_what_is_fed_forward_is_flown_exactly():
     vehicle = Vehicle(lag=1e-9, drag=0.0)
     t, dt = 0.0, STEP_S
-    state = State(np.array([[0.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 0.0]]), STILL, STILL)
+    state = VehicleState(np.array([[0.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 0.0]]), STILL, STILL)
     for _ in range(300):
-        asked = Setpoint(np.array([[0.5 * t * t, 0, 0]]), np.array([[t, 0, 0]]), np.array([[1.0, 0, 0]]))
+        asked = VehicleSetpoint(
+            np.array([[0.5 * t * t, 0, 0]]), np.array([[t, 0, 0]]), np.array([[1.0, 0, 0]])
+        )
         state = moved(vehicle, state, asked, STILL)
         t += dt
     # The integration is of first order: half a step of speed.
@@ -40,29 +42,29 @@ def test_without_lag_and_drag_what_is_fed_forward_is_flown_exactly():
 
 def test_a_lagging_acceleration_leaves_a_drone_behind_by_the_lag_times_the_change_of_speed():
     vehicle = Vehicle(position=(0, 0, 0), velocity=(0, 0, 0), integral=(0, 0, 0), drag=0.0, lag=0.2)
-    push = Setpoint(STILL, STILL, np.array([[1.0, 0.0, 0.0]]))
-    state = flown(vehicle, State.at_rest(STILL), push, STILL, 5.0)
+    push = VehicleSetpoint(STILL, STILL, np.array([[1.0, 0.0, 0.0]]))
+    state = flown(vehicle, VehicleState.at_rest(STILL), push, STILL, 5.0)
     assert state.velocity[0, 0] == pytest.approx(5.0 - 0.2, abs=0.01)
 
 
 def test_no_more_is_asked_of_a_drone_than_its_tilt_gives():
     vehicle = Vehicle(lag=1e-9)
-    far = Setpoint(np.array([[1000.0, 1000.0, 1000.0]]), STILL, STILL)
-    state = moved(vehicle, State.at_rest(STILL), far, STILL)
+    far = VehicleSetpoint(np.array([[1000.0, 1000.0, 1000.0]]), STILL, STILL)
+    state = moved(vehicle, VehicleState.at_rest(STILL), far, STILL)
     assert np.hypot(*state.acceleration[0, :2]) == pytest.approx(G_M_S2 * np.tan(vehicle.tilt))
     assert state.acceleration[0, 2] == pytest.approx(vehicle.climb)
 
 
 def test_a_drone_hovers_as_far_off_as_it_takes_its_own_place_to_be():
     error = np.array([[0.4, 0.0, -0.2]])
-    asked = Setpoint(STILL, STILL, STILL)
-    state = flown(Vehicle(), State.at_rest(STILL), asked, STILL, 60.0, error)
+    asked = VehicleSetpoint(STILL, STILL, STILL)
+    state = flown(Vehicle(), VehicleState.at_rest(STILL), asked, STILL, 60.0, error)
     assert state.position == pytest.approx(-error, abs=1e-3)
 
 
 def test_wind_faster_than_the_tilt_can_hold_blows_a_drone_away_and_leaves_numbers_finite():
     wind = np.array([[60.0, 0.0, 0.0]])
-    state = flown(Vehicle(), State.at_rest(STILL), Setpoint(STILL, STILL, STILL), wind, 60.0)
+    state = flown(Vehicle(), VehicleState.at_rest(STILL), VehicleSetpoint(STILL, STILL, STILL), wind, 60.0)
     assert state.position[0, 0] > 100.0
     assert np.isfinite(state.position).all()
 

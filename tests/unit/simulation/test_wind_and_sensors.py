@@ -10,11 +10,11 @@ from shotc.simulation.aim import aimed, sight_rates
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.gimbal import axes_of
 from shotc.simulation.kalman import MotionModel, PositionFix, projection
-from shotc.simulation.seen import Watched
+from shotc.simulation.seen import TrackedTarget
 from shotc.simulation.sensors import PLAIN, Detector, Gps
 from shotc.simulation.tracker import Tracker
 from shotc.simulation.truth import Truth
-from shotc.simulation.wind import Wind, wandering
+from shotc.simulation.wind import WindField, wandering
 
 
 def chances(n, what="x"):
@@ -29,16 +29,16 @@ def test_a_process_of_deviation_one_stays_so_and_forgets_at_its_rate():
 
 
 def test_wind_with_a_bearing_is_the_same_in_all_runs_and_else_of_one_speed():
-    assert Wind(3.0, 0.0).steady(chances(4)) == pytest.approx(np.tile([3.0, 0.0, 0.0], (4, 1)))
-    drawn = Wind(3.0).steady(chances(50))
+    assert WindField(3.0, 0.0).steady(chances(4)) == pytest.approx(np.tile([3.0, 0.0, 0.0], (4, 1)))
+    drawn = WindField(3.0).steady(chances(50))
     assert np.linalg.norm(drawn, axis=1) == pytest.approx(np.full(50, 3.0))
     assert drawn[:, 0].min() < -1.0 < 1.0 < drawn[:, 0].max()
 
 
 def test_gusts_have_the_deviation_that_is_asked_for():
-    blown = Wind(gusts=1.5).blown(2000, 0.1, chances(60))
+    blown = WindField(gusts=1.5).blown(2000, 0.1, chances(60))
     assert blown.std() == pytest.approx(1.5, rel=0.05)
-    assert not Wind().blown(10, 0.1, chances(2)).any()
+    assert not WindField().blown(10, 0.1, chances(2)).any()
 
 
 def test_a_run_has_the_same_chances_whichever_runs_stand_beside_it():
@@ -76,7 +76,7 @@ def test_a_position_is_known_at_the_step_on_which_it_arrives():
     stamp = 0.2 + 0.1 - 0.1  # the sum with its delay is a little more than 0.3
     fix = PositionFix(stamp, np.ones((1, 3)), 0.02, np.ones(1, dtype=bool))
     tracker = Tracker.beginning(0.0, np.zeros((1, 3)), np.zeros((1, 3)), MotionModel(1.0))
-    seen = Watched("walker", np.zeros((1, 1, 3)), np.zeros(1), [fix], tracker, chances(1))
+    seen = TrackedTarget("walker", np.zeros((1, 1, 3)), np.zeros(1), [fix], tracker, chances(1))
     heappush(seen.waiting, (stamp + 0.1, 0, fix))
     assert stamp + 0.1 > 0.3
     seen.learn(0.3)

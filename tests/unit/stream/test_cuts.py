@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from shotc.ir.phases import Phase
-from shotc.stream.pilot import Cut
+from shotc.stream.pilot import RecordingTick
 from shotc.stream.session import BETWEEN_CUTS, cuts_of
 from tests.support.stream.plans import hop_plan
 
@@ -17,7 +17,7 @@ def track(*phases):
 
 def test_a_shot_is_recorded_from_its_first_frame_to_its_last():
     cuts = cuts_of(track(("takeoff", None, 0.0, 2.01), ("shot", "a", 2.01, 4.0), ("land", None, 4.0, 9.0)))
-    assert cuts == (Cut(101, "a", True), Cut(200, "a", False))
+    assert cuts == (RecordingTick(101, "a", True), RecordingTick(200, "a", False))
 
 
 def test_between_shots_that_follow_each_other_the_camera_stops():

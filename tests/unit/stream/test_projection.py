@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from shotc.geom.geodetic import to_world
-from shotc.stream.messages import Place
+from shotc.stream.messages import GlobeFix
 from shotc.stream.projection import LocalFrame, azimuthal, equirectangular
 
-ORIGIN = Place(47.3769, 8.5417, 408.0)
+ORIGIN = GlobeFix(47.3769, 8.5417, 408.0)
 PLACES = [(47.3769, 8.5417), (47.3795, 8.5417), (47.3769, 8.5460), (47.3700, 8.5500), (47.38, 8.53)]
 
 

@@ -23,7 +23,7 @@ UPRIGHT = 0.01  # of a sine or cosine of the pitch: smaller ones are rounded off
 EVEN_HALF_FRAMES = 0.001  # half frames: two rims closer on screen are rounded off
 
 
-class Outline(NamedTuple):
+class SubjectOutline(NamedTuple):
     """A subject on screen, half frames: its centre (u, v), and the bounding box of its outline."""
 
     place: Any
@@ -40,7 +40,7 @@ class _Edges(NamedTuple):
     high: Any
 
 
-def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Outline:
+def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> SubjectOutline:
     """Return the outline of a cylinder.
 
     A cylinder that is not completely in front of the camera is moved along the camera's axis until it is.
@@ -54,10 +54,10 @@ def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Outlin
     centre = _before(camera, away, far, reach)
     u, v, _ = camera.project((centre[0], centre[1], centre[2]))
     box = _cylinder(camera, centre, far, solid)
-    return Outline(ca.vertcat(u, v), *box)
+    return SubjectOutline(ca.vertcat(u, v), *box)
 
 
-def outline_of(camera: View, away: Any, far: Any, bodies: Sequence[Extent]) -> Outline:
+def outline_of(camera: View, away: Any, far: Any, bodies: Sequence[Extent]) -> SubjectOutline:
     """Return the outline of several bodies as one.
 
     away : of their common centre; other arguments as in ``outline``
@@ -67,7 +67,7 @@ def outline_of(camera: View, away: Any, far: Any, bodies: Sequence[Extent]) -> O
     centre = _before(camera, away, far, reach)
     u, v, _ = camera.project((centre[0], centre[1], centre[2]))
     boxes = [box for body in bodies for box in _boxes(camera, centre + body.offset, far, body)]
-    return Outline(ca.vertcat(u, v), *_union(boxes))
+    return SubjectOutline(ca.vertcat(u, v), *_union(boxes))
 
 
 def _boxes(camera: View, centre: Any, far: Any, body: Extent) -> list[_Edges]:

@@ -29,7 +29,7 @@ from shotc_casadi.clock.program import cost, solve
 from shotc_casadi.clock.proof import UnprovedMoment, astray, gap_in
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.several import turned
-from shotc_casadi.clock.side import Pass, guess_to_side, held, passes
+from shotc_casadi.clock.side import Overflight, guess_to_side, held, passes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
 ROUNDS = 6
@@ -122,7 +122,7 @@ class _Round:
     references: ClockReferences
     course: Piecewise
     start: tuple[Array, Array]
-    over: tuple[Pass, ...]
+    over: tuple[Overflight, ...]
     guess_aside: bool
     reach: float = REACH_M
     use: Use = FIRST

@@ -28,7 +28,7 @@ RATE_HZ = 25.0  # frames a second that are evaluated
 SLACK_SHARE = 1e-4  # tolerance, of a size, of half a frame, of the number of frames
 
 
-class Shown(NamedTuple):
+class SubjectVisibility(NamedTuple):
     """What a leg shows of a subject.
 
     free : free share of its outline
@@ -122,7 +122,7 @@ def _covered(subject: ClockSubject, leg: ClockLeg) -> float:
 
 
 @lru_cache(maxsize=8)  # several rules compare a guide with its refinement
-def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
+def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> SubjectVisibility:
     """Return what a leg shows of one of the subjects of its shot in the film."""
     one = subject.framed[which]
     t = np.linspace(leg.start, leg.end, max(2, int(RATE_HZ * (leg.end - leg.start))))
@@ -132,7 +132,7 @@ def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     covered = coverage(subject.mission, others, one.target, leg.curve(t)[:, :3], t).share
     u, v = wanted_places(one, leg.start, t).T
     off = np.nan_to_num(np.hypot(frames.u - u, frames.v - v), nan=np.inf)
-    return Shown(
+    return SubjectVisibility(
         free_of(covered),
         float(1.0 - frames.in_frame.mean()),
         float(np.nan_to_num(frames.size, nan=np.inf).min()),
@@ -141,7 +141,7 @@ def shown(subject: ClockSubject, leg: ClockLeg, which: int = 0) -> Shown:
     )
 
 
-def _promised(subject: ClockSubject, before: Shown, after: Shown) -> bool:
+def _promised(subject: ClockSubject, before: SubjectVisibility, after: SubjectVisibility) -> bool:
     """Return whether each promise of a shot is kept, or broken no further than before."""
     promise = subject.placed.shot.promise
     held = [True]

@@ -27,7 +27,7 @@ ALONG_SHARE = 0.1  # of a direction: with a smaller component across, it is alon
 SPREAD_S = 2.0  # seconds before and after the closest point in which the guess moves aside
 
 
-class Pass(NamedTuple):
+class Overflight(NamedTuple):
     """A pass over a target.
 
     stages : near it, shape (M,)
@@ -46,7 +46,7 @@ class Pass(NamedTuple):
     guess_offset: float
 
 
-def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) -> tuple[Pass, ...]:
+def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) -> tuple[Overflight, ...]:
     """Return the passes over the target that have room on their side, in time order."""
     leg = subject.leg
     if not references.watches:
@@ -73,7 +73,7 @@ def passes(subject: ClockSubject, breaks: Array, references: ClockReferences) ->
                 np.column_stack([sides, 0 * sides[:, 0]]),
                 min(GUESS_SHARE * references.usual, float(free[nearest])),
             )
-            over.append(Pass(stages, float(breaks[nearest]), level, offset, least, far))
+            over.append(Overflight(stages, float(breaks[nearest]), level, offset, least, far))
     return tuple(over)
 
 
@@ -86,7 +86,7 @@ def _across(way: Array, away: Array) -> Array:
     return np.asarray(np.where((length > 1e-3) & ((across @ away)[:, None] > ALONG_SHARE), across, away))
 
 
-def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Pass]) -> HalfSpaces:
+def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Overflight]) -> HalfSpaces:
     """Return half-spaces together with those that hold the nodes near a target on their side."""
     target = references.target[:, :3]
     for one in over:
@@ -97,7 +97,7 @@ def held(planes: HalfSpaces, references: ClockReferences, over: Sequence[Pass]) 
     return planes
 
 
-def guess_to_side(curve: Piecewise, over: Sequence[Pass]) -> Piecewise:
+def guess_to_side(curve: Piecewise, over: Sequence[Overflight]) -> Piecewise:
     """Return the guess moved aside smoothly at its passes over the target; its ends stay."""
     values = [curve(curve.breaks), *(curve.derivative(order)(curve.breaks) for order in (1, 2))]
     for one in over:

@@ -18,7 +18,7 @@ from shotc.plugin_api.replanner import Array, ChaseProblem, ChaseSituation, Plan
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
 from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
-from shotc_casadi.replan.keeping import Kept, ends, length, pitched, rows, within
+from shotc_casadi.replan.keeping import RowCounts, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, Until
 
 PRICES = Prices(lacking=(1e4,), outside=30.0, damping=1e-3)  # of a metre, of a m/s, of the squared step
@@ -28,7 +28,7 @@ OWN = BOUNDS + 8  # parameters of a stage: also the target, 1 if not the last st
 SHARED = 12  # parameters of all stages: weights, reference state, height
 
 
-class Chase:
+class ShotChase:
     """Plans a shot of one target (``ChasePlanner``)."""
 
     def __init__(self, problem: ChaseProblem, until: Until = WARM) -> None:
@@ -75,7 +75,7 @@ class Chase:
 
 
 @lru_cache(maxsize=32)
-def _horizon(of: Kept, stages: int) -> Horizon:
+def _horizon(of: RowCounts, stages: int) -> Horizon:
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
     p, g = ca.SX.sym("p", OWN + of.each), ca.SX.sym("g", SHARED + of.common)
     effort, pitch, yaw, height, end = ca.vertsplit(g[:5])

@@ -18,7 +18,7 @@ from shotc.plugin_api.replanner import (
 )
 from shotc.plugin_api.replanner import Horizon as Ahead
 from shotc_casadi.replan.evaluation import Horizon
-from shotc_casadi.replan.keeping import Kept, StaticObstacles, common, each, kept
+from shotc_casadi.replan.keeping import RowCounts, StaticObstacles, common, each, kept
 from shotc_casadi.replan.steps import Solver, Walk
 
 BEYOND = "the motion from here is beyond all numbers"
@@ -39,7 +39,7 @@ class ShotSolvers:
         self,
         keeping: Keeping,
         ahead: Ahead,
-        made: Callable[[Kept], Horizon],
+        made: Callable[[RowCounts], Horizon],
         begun: Callable[[Solver], None],
     ) -> None:
         """Make the solver of a shot without traffic.
@@ -50,7 +50,7 @@ class ShotSolvers:
         limits, n = keeping.limits, ahead.stages
         self._keeping, self._step, self._made, self._begun = keeping, ahead.step, made, begun
         self._standing = StaticObstacles(keeping)
-        self._solvers: dict[Kept, Solver] = {}
+        self._solvers: dict[RowCounts, Solver] = {}
         self.times = ahead.step * np.arange(n + 1)
         self._way = float(self.times[-1])  # metres at 1 m/s
         self._back = limits.usable_acceleration / np.sqrt(3.0) * self.times[1:, None] * np.ones(3)
@@ -94,7 +94,7 @@ class ShotSolvers:
         status: Status = "stalled" if done.stalled else "opened" if opened else "planned"
         return Replan(plan, status, "", motion.worst, done.steps)
 
-    def _solver(self, of: Kept) -> Solver:
+    def _solver(self, of: RowCounts) -> Solver:
         if of not in self._solvers:
             self._solvers[of] = Solver(self._made(of))
             self._begun(self._solvers[of])

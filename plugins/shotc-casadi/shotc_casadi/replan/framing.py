@@ -27,7 +27,7 @@ from shotc.plugin_api.replanner import (
 )
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
 from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
-from shotc_casadi.replan.keeping import Kept, ends, rows, within
+from shotc_casadi.replan.keeping import RowCounts, ends, rows, within
 from shotc_casadi.replan.pictures import (
     COMMON,
     EACH,
@@ -146,11 +146,11 @@ def _shifted(index: Array, last: Plan) -> Array:
 
 
 @lru_cache(maxsize=32)
-def _horizon(of: Kept, cast: Cast, stages: int) -> Horizon:
+def _horizon(of: RowCounts, cast: Cast, stages: int) -> Horizon:
     return horizon(stage(of, cast), stages, PRICES)
 
 
-def stage(of: Kept, cast: Cast) -> StageExpressions:
+def stage(of: RowCounts, cast: Cast) -> StageExpressions:
     """Return one stage of the problem in symbols."""
     k = len(cast)
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)

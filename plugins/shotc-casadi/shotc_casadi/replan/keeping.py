@@ -23,7 +23,7 @@ FEW = 3
 LIMITS = 10
 
 
-class Kept(NamedTuple):
+class RowCounts(NamedTuple):
     """Which rows there are.
 
     shapes : of the obstacles
@@ -70,10 +70,10 @@ class StaticObstacles:
         return tuple(self._rooms[i] for i in np.flatnonzero(away < way + REACH_M))
 
 
-def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) -> Kept:
+def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) -> RowCounts:
     """Return which rows there are in one replan."""
     low, high = keeping.pitch
-    return Kept(
+    return RowCounts(
         tuple(room.shape for room in near),
         len(traffic.others),
         len(traffic.cones),
@@ -104,7 +104,7 @@ def each(traffic: Traffic) -> Array:
     return np.hstack(sent)
 
 
-def rows(of: Kept, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
+def rows(of: RowCounts, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
     """Return the rows of a stage as a column.
 
     state : position and velocity of the drone, and the unit vector opposite to its camera's axis
@@ -138,7 +138,7 @@ def within(a: Any, most: Any) -> tuple[Any, Any]:
     return a * most / ca.fmax(ca.norm_2(a), most), most - ca.sqrt(ca.sumsqr(a) + STANDING_MS**2)
 
 
-def ends(of: Kept, place: Any, v: Any, g: Any) -> Any:
+def ends(of: RowCounts, place: Any, v: Any, g: Any) -> Any:
     """Return the slacks at the place where the drone stops if it brakes from the last stage, as a column.
 
     The braking path is straight, and the linearised slack of a convex solid is never larger than the slack.
@@ -164,14 +164,14 @@ def beside_cone(d: Any, axis: Any, half_angle: Any) -> Any:
     return ca.if_else(behind, length(d), cosine * across - sine * along)
 
 
-def _rooms(of: Kept, g: Any) -> Iterator[tuple[int, Any]]:
+def _rooms(of: RowCounts, g: Any) -> Iterator[tuple[int, Any]]:
     at = LIMITS
     for shape in of.shapes:
         yield shape, g[at : at + count(shape)]
         at += count(shape)
 
 
-def pitched(of: Kept, q: Any, g: Any) -> Any:
+def pitched(of: RowCounts, q: Any, g: Any) -> Any:
     """Return the distances from the cones of the lowest and the highest line of sight, as a column.
 
     Alcantara et al., Eq. 12.g.

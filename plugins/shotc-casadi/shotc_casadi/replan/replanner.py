@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from shotc.plugin_api.replanner import ChasePlanner, ChaseProblem, FramingPlanner, FramingProblem
-from shotc_casadi.replan.chase import Chase
+from shotc_casadi.replan.chase import ShotChase
 from shotc_casadi.replan.framing import Framing
 
 
@@ -18,7 +18,7 @@ class Ours:
 
     def chase(self, problem: ChaseProblem) -> ChasePlanner:
         """Return the planner of a shot of one target."""
-        return Chase(problem)
+        return ShotChase(problem)
 
     def framing(self, problem: FramingProblem) -> FramingPlanner:
         """Return the planner of a shot that composes subjects."""

@@ -24,7 +24,7 @@ from shotc.rounding import at_least, plain
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Remedies:
+class TimeRemedies:
     """The data for remedies of a leg that is too slow.
 
     holdup : the limits that bind its fastest flight
@@ -36,7 +36,7 @@ class Remedies:
 
 
 def too_fast(
-    mission: MissionIR, drone: Drone, leg: PathLeg, fault: TooFast, remedies: Remedies
+    mission: MissionIR, drone: Drone, leg: PathLeg, fault: TooFast, remedies: TimeRemedies
 ) -> Diagnostic:
     """Return T001 for a duration or T002 for a keyframe's time that is too short."""
     labels = binding_labels(mission, drone, remedies.holdup)

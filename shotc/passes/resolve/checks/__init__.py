@@ -27,11 +27,11 @@ from shotc.passes.resolve.checks.show import check_show
 from shotc.passes.resolve.checks.terrain_level import check_level
 from shotc.passes.resolve.checks.timing import check_timing
 from shotc.passes.resolve.checks.underground import check_underground
-from shotc.passes.resolve.lower import Lowered
+from shotc.passes.resolve.lower import PartialMission
 from shotc.spec.load import LoadedMission
 
 
-def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
+def check(ir: LoadedMission, what: PartialMission) -> list[Diagnostic]:
     """Return the faults of a mission as written and as resolved, those of its names first."""
     mission = what.mission
     if what.astray and not has_errors(what.faults):
@@ -44,7 +44,7 @@ def check(ir: LoadedMission, what: Lowered) -> list[Diagnostic]:
     return faults
 
 
-def _judged(ir: LoadedMission, what: Lowered, *, order: bool) -> list[Diagnostic]:
+def _judged(ir: LoadedMission, what: PartialMission, *, order: bool) -> list[Diagnostic]:
     """Return the faults of numbers; ``order`` is whether all names and dependencies are valid."""
     mission = what.mission
     if unknown := list(check_counted(mission, ir.spec, what.level)):

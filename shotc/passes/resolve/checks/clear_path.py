@@ -18,7 +18,7 @@ PAIRS = 1000  # pairs of places and obstacles, above which the search is too slo
 Moved = Callable[[Keyframe, float], Keyframe]
 
 
-class Change(NamedTuple):
+class ParameterChange(NamedTuple):
     """A parameter and the value to write."""
 
     key: str
@@ -28,7 +28,7 @@ class Change(NamedTuple):
         return f"`{self.key}: {self.value}`"
 
 
-def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
+def clear_path(mission: MissionIR, shot: Shot) -> list[ParameterChange]:
     """Return the least changes of distance and of altitude, each by itself, that clear a path of everything.
 
     Empty for a kind without these parameters. A path is clear if all its keyframes are, and it has to show
@@ -50,13 +50,13 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[Change]:
 
     nearest = min(distance_of(centre, k) for k in shot.keyframes)
     ends = (shot.keyframes[0], shot.keyframes[-1])
-    changes: list[Change] = []
+    changes: list[ParameterChange] = []
     for key, move, least in ((DISTANCES[shot.kind], aside, STEP - nearest), ("altitude", above, -MOST)):
         by = next(_free(mission, shot, move, least), None)
         if by is not None:
             now = [distance_of(centre, k) if move is aside else altitude(k) for k in ends]
             value = span(now[0] + by, now[1] + by)
-            changes.append(Change(key, value if move is aside else as_counted(mission, shot, value)))
+            changes.append(ParameterChange(key, value if move is aside else as_counted(mission, shot, value)))
     return changes
 
 

@@ -14,7 +14,7 @@ from shotc.ir.keyed import is_keyed
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
 from shotc.passes.labels import framing_label
-from shotc.planning.framing.candidates import Setting
+from shotc.planning.framing.candidates import FixedCamera
 from shotc.planning.framing.moments import is_sure, moments
 from shotc.planning.framing.placing import explicit_aim, setting_of
 from shotc.rounding import at_least, at_most
@@ -104,7 +104,7 @@ def _unseen(mission: MissionIR, drone: Drone, keyframe: Keyframe, aim: Vec2) -> 
     return Diagnostic("G009", f"target `{keyframe.target}` is out of the frame", label, (note,), remedy)
 
 
-def _less_drift(setting: Setting, keyframe: Keyframe) -> str:
+def _less_drift(setting: FixedCamera, keyframe: Keyframe) -> str:
     """Return how far a camera that looks straight down may drift, and from what height, as a remedy."""
     below, aside = -setting.offset[2], hypot(*setting.offset[:2])
     half = tan(setting.hfov / 2) / setting.aspect
@@ -114,6 +114,6 @@ def _less_drift(setting: Setting, keyframe: Keyframe) -> str:
     return f"drift {at_most(below * half)} m or less in all, or write `altitude: {at_least(high, 1)}` or more"
 
 
-def _angle_off(setting: Setting, aim: Vec2) -> float:
+def _angle_off(setting: FixedCamera, aim: Vec2) -> float:
     forward = view(aim[0], aim[1], setting.hfov, setting.aspect).to_camera(setting.offset)[2]
     return acos(max(-1.0, min(1.0, forward / max(hypot(*setting.offset), 1e-12))))

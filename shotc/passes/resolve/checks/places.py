@@ -15,7 +15,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.ir.drone import Drone
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.ir.origin import KeyPath
-from shotc.passes.resolve.checks.clear_path import Change, clear_path
+from shotc.passes.resolve.checks.clear_path import ParameterChange, clear_path
 from shotc.passes.resolve.checks.move_out import move_out
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.rounding import at_least
@@ -104,7 +104,7 @@ def blocked(
     shot: Shot,
     keyframes: list[Keyframe],
     obstacle: Clearance,
-    clear: Callable[[], list[Change]],
+    clear: Callable[[], list[ParameterChange]],
 ) -> Iterator[Diagnostic]:
     """Yield the fault of keyframes that an obstacle blocks; ``clear`` finds changes that clear a path."""
     drone = mission.drone(shot.drone)

@@ -15,14 +15,14 @@ from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
 from shotc.passes.resolve.lower.deferred import deferred_features
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
-from shotc.passes.resolve.lower.files import Files, Reader, match_files
+from shotc.passes.resolve.lower.files import FileReader, Files, match_files
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.music import Heard, music_of
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
 from shotc.passes.resolve.lower.obstacles import Obstacles, read_obstacles
 from shotc.passes.resolve.lower.rehearsal import rehearsal, toward
-from shotc.passes.resolve.lower.shots import Cast, Shots, expand_shots
-from shotc.passes.resolve.lower.show import Show, shown
+from shotc.passes.resolve.lower.shots import Shots, ShotSurroundings, expand_shots
+from shotc.passes.resolve.lower.show import ShowMaterial, shown
 from shotc.passes.resolve.lower.slips import check_slips
 from shotc.passes.resolve.lower.targets import Targets, targets
 from shotc.passes.resolve.lower.terrain import read_terrain
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 ANYWHERE = GeoOrigin(0.0, 0.0, 0.0)
 
 
-class Lowered(NamedTuple):
+class PartialMission(NamedTuple):
     """A mission as far as it can be resolved, and the faults of its text.
 
     courses : of its framings, in the order of the shots
@@ -62,7 +62,7 @@ def lowered(
     kinds: Mapping[str, Kind],
     emitters: Collection[str] | None,
     progress: Callable[[str], None],
-) -> Lowered:
+) -> PartialMission:
     """Resolve a mission; kinds, emitters : as in ``Resolve``."""
     world = _world(ir)
     progress("expanding the shots")
@@ -73,7 +73,7 @@ def lowered(
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
     faults = once([*world.faults, *heard.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
     mission, courses = with_framings(with_times(_mission(ir, world, shots, show, heard)))
-    return Lowered(mission, courses, tuple(faults), world.astray, world.sound, world.level)
+    return PartialMission(mission, courses, tuple(faults), world.astray, world.sound, world.level)
 
 
 class _World(NamedTuple):
@@ -91,7 +91,7 @@ class _World(NamedTuple):
 
     put: Put
     files: Files
-    read: Reader
+    read: FileReader
     zones: tuple[Zone, ...]
     drones: Mapping[str, Drone]
     targets: Targets
@@ -106,7 +106,7 @@ class _World(NamedTuple):
 
 
 def _shots(ir: LoadedMission, world: _World, kinds: Mapping[str, Kind], heard: Heard) -> Shots:
-    cast = Cast(
+    cast = ShotSurroundings(
         kinds,
         world.drones,
         world.targets.found,
@@ -125,7 +125,7 @@ def _world(ir: LoadedMission) -> _World:
     spec, origins = ir.spec, ir.origins
     astray = check_earth(spec, origins)
     origin = geo_origin(spec)
-    read = Reader(ir.folder, origins)
+    read = FileReader(ir.folder, origins)
     files = Files(origin, origins, read)
     terrain = None if astray else read_terrain(spec, partial(placed, origin or ANYWHERE, flat), files)
     astray = [*astray, terrain] if isinstance(terrain, Diagnostic) else astray
@@ -155,7 +155,7 @@ def _world(ir: LoadedMission) -> _World:
     )
 
 
-def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show, heard: Heard) -> MissionIR:
+def _mission(ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial, heard: Heard) -> MissionIR:
     spec = ir.spec
     return MissionIR(
         name=spec.mission,
@@ -184,7 +184,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: Show, heard: 
     )
 
 
-def _source(ir: LoadedMission, read: Reader, show: Show) -> MissionSource:
+def _source(ir: LoadedMission, read: FileReader, show: ShowMaterial) -> MissionSource:
     tables, linked = tuple(read.tables.items()), tuple(read.linked.items())
     return MissionSource(ir.text, tables, show.drawn, ir.chosen, linked)
 

@@ -11,8 +11,8 @@ from shotc.ir.mission import GeoOrigin
 from shotc.kinds.base import bad_file
 from shotc.kinds.earth import FARTHEST, stray
 from shotc.kinds.files import FileFault
-from shotc.kinds.footprints.geojson import Collection, described, read_geojson
-from shotc.kinds.footprints.houses import Fault, House, Houses, houses_of
+from shotc.kinds.footprints.geojson import FeatureCollection, described, read_geojson
+from shotc.kinds.footprints.houses import BuildingFault, House, Houses, houses_of
 from shotc.kinds.footprints.tags import LEVEL_M
 from shotc.passes.resolve.lower.files import Files
 from shotc.spec.world import BuildingsSpec
@@ -65,7 +65,7 @@ def _errors(written: BuildingsSpec, houses: Houses, files: Files) -> Iterator[Di
 
 
 def _warnings(
-    written: BuildingsSpec, found: Collection, houses: Houses, files: Files
+    written: BuildingsSpec, found: FeatureCollection, houses: Houses, files: Files
 ) -> Iterator[Diagnostic]:
     label = (files.origins.value(BUILDINGS),)
     if houses.assumed:
@@ -87,7 +87,9 @@ def _warnings(
 _LEFT = "drones do not keep clear of what is left out; give what stands there `building: yes` and a `height`"
 
 
-def _without_any(written: BuildingsSpec, found: Collection, houses: Houses, files: Files) -> Diagnostic:
+def _without_any(
+    written: BuildingsSpec, found: FeatureCollection, houses: Houses, files: Files
+) -> Diagnostic:
     if houses.far:
         far = houses.far[0]
         origin: GeoOrigin = files.origin or GeoOrigin(0.0, 0.0, 0.0)
@@ -102,10 +104,10 @@ def _without_any(written: BuildingsSpec, found: Collection, houses: Houses, file
     return bad_file(files.origins, BUILDINGS, written.file, wrong)
 
 
-def _count(faults: Sequence[Fault]) -> str:
+def _count(faults: Sequence[BuildingFault]) -> str:
     return f"{len(faults)} building{'s' * (len(faults) > 1)}"
 
 
-def _listed(faults: Sequence[Fault]) -> tuple[str, ...]:
+def _listed(faults: Sequence[BuildingFault]) -> tuple[str, ...]:
     notes = [f"`{f.name}` (feature {f.number}): {f.text}" for f in faults[:_NAMED]]
     return (*notes, f"and {len(faults) - _NAMED} more") if len(faults) > _NAMED else tuple(notes)

@@ -23,7 +23,7 @@ NOT_KEPT = "plan the mission again: a plan keeps every file that its mission rea
 NO_FOLDER = "a mission read from standard input has no folder; save it to a file"
 
 
-class Reader:
+class FileReader:
     """Reads the files that a mission names, and keeps what a plan needs of them.
 
     tables : name and bytes of small files
@@ -71,7 +71,7 @@ class Files(NamedTuple):
 
     origin: GeoOrigin | None
     origins: OriginMap
-    read: Reader
+    read: FileReader
 
 
 def read_file(

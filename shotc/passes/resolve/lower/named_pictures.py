@@ -17,11 +17,11 @@ from shotc.spec.shot import NO_DRONE
 if TYPE_CHECKING:
     from shotc.geom.shapes import BodyShape
     from shotc.ir.show import Display
-    from shotc.passes.resolve.lower.shots import Cast
+    from shotc.passes.resolve.lower.shots import ShotSurroundings
 
 
 def named_pictures(
-    spec: MissionSpec, displays: "Iterable[Display]", cast: "Cast"
+    spec: MissionSpec, displays: "Iterable[Display]", cast: "ShotSurroundings"
 ) -> tuple[Mapping[str, Target | None], list[Diagnostic]]:
     """Return the named pictures as targets, None for one of unknown size, and their faults."""
     found: dict[str, Target | None] = {}

@@ -69,9 +69,9 @@ def _scene(
         return Obstacles(faults=(data,))
     if find_spec("numpy") is None:
         return Obstacles(faults=(not_judged("scene", name, SCENE, files),), unread=True)
-    from shotc.passes.resolve.lower.scene import Placed, scene_mesh
+    from shotc.passes.resolve.lower.scene import SceneReading, scene_mesh
 
-    placed = Placed(
+    placed = SceneReading(
         kind, 1.0 if written.units is None else METRES[written.units], written.up or ENDINGS[kind].up
     )
     return scene_mesh(written, data, (placed, put(written.at)), terrain, files)

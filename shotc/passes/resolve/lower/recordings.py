@@ -9,7 +9,7 @@ from shotc.geom.camera import yaw_of
 from shotc.geom.track import Track, unwrapped
 from shotc.ir.origin import KeyPath
 from shotc.kinds.base import bad_file
-from shotc.kinds.files import FileFault, Table, read_table
+from shotc.kinds.files import FileFault, NumberTable, read_table
 from shotc.kinds.gpx import read_gpx  # brings an XML parser, which few missions need
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.lower.files import Files
@@ -44,7 +44,7 @@ def read_recording(file: str, files: Files, path: KeyPath) -> Recording | Diagno
     wrong = table if isinstance(table, FileFault) else _fault(table)
     if wrong is not None:
         return bad_file(files.origins, path, file, wrong)
-    assert isinstance(table, Table)
+    assert isinstance(table, NumberTable)
     points = in_world(table, file, files.origin, files.origins, path)
     if isinstance(points, Diagnostic):
         return points
@@ -53,7 +53,7 @@ def read_recording(file: str, files: Files, path: KeyPath) -> Recording | Diagno
     return Recording(track, table.lines, level=not HEIGHTS & set(table.columns))
 
 
-def _headings(table: Table) -> tuple[float, ...]:
+def _headings(table: NumberTable) -> tuple[float, ...]:
     if "heading_deg" in table.columns:
         return unwrapped([yaw_of(radians(h)) for h in _column(table, "heading_deg")])
     if "heading" in table.columns:
@@ -61,12 +61,12 @@ def _headings(table: Table) -> tuple[float, ...]:
     return ()
 
 
-def _column(table: Table, name: str) -> tuple[float, ...]:
+def _column(table: NumberTable, name: str) -> tuple[float, ...]:
     i = table.columns.index(name)
     return tuple(row[i] for row in table.rows)
 
 
-def _fault(table: Table) -> FileFault | None:
+def _fault(table: NumberTable) -> FileFault | None:
     """Return the fault of too few rows, or of the first row not later than the one before, or None."""
     if len(table.rows) < 2:
         line = table.lines[0] if table.lines else None
@@ -85,5 +85,5 @@ def _fault(table: Table) -> FileFault | None:
     return None
 
 
-def _timed_gpx(data: bytes) -> Table | FileFault:
+def _timed_gpx(data: bytes) -> NumberTable | FileFault:
     return read_gpx(data, timed=True)

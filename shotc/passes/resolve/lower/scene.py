@@ -25,7 +25,7 @@ from shotc.kinds.base import bad_file
 from shotc.kinds.earth import FARTHEST
 from shotc.kinds.files import FileFault
 from shotc.kinds.models.endings import METRES
-from shotc.kinds.models.parts import ModelFault, Part, wrong_corners
+from shotc.kinds.models.parts import ModelFault, NodePart, wrong_corners
 from shotc.kinds.models.reader import read_model
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.obstacles import SCENE, Obstacles
@@ -58,7 +58,7 @@ _LOOKED_AT = 10_000  # most corners that are compared with the ground
 _DOUBLES = re.compile(rb"^property\s+(double|float64)\s+x\s*$", re.MULTILINE)
 
 
-class Placed(NamedTuple):
+class SceneReading(NamedTuple):
     """How a file is read: its format, its unit in metres, and the axis that points up."""
 
     kind: str
@@ -67,7 +67,7 @@ class Placed(NamedTuple):
 
 
 def scene_mesh(
-    written: SceneSpec, data: bytes, where: tuple[Placed, Vec3], terrain: Terrain | None, files: Files
+    written: SceneSpec, data: bytes, where: tuple[SceneReading, Vec3], terrain: Terrain | None, files: Files
 ) -> Obstacles:
     """Return a file's triangles and points in W, or their faults.
 
@@ -100,11 +100,11 @@ class _Scene(NamedTuple):
     """A scene as written, and its position."""
 
     written: SceneSpec
-    placed: Placed
+    placed: SceneReading
     at: Vec3
     files: Files
 
-    def inexact(self, data: bytes, parts: list[Part]) -> Iterator[Diagnostic]:
+    def inexact(self, data: bytes, parts: list[NodePart]) -> Iterator[Diagnostic]:
         """Yield the fault of 32-bit coordinates that are so large that rounding is notable."""
         single = self.placed.kind in SINGLE or (
             self.placed.kind == "ply" and not _DOUBLES.search(data[:2000])
@@ -123,7 +123,7 @@ class _Scene(NamedTuple):
         message = f"the coordinates of `{self.written.file}` are rounded to {grain:.2g} m"
         yield Diagnostic("G033", message, self._label, tuple(notes), help_)
 
-    def of_no_size(self, parts: list[Part]) -> Iterator[Diagnostic]:
+    def of_no_size(self, parts: list[NodePart]) -> Iterator[Diagnostic]:
         """Yield the fault of a scene that is smaller than a drone, or larger than the range of a mission."""
         low, high = _box(parts)
         size = float((high - low).max()) * self.placed.metres
@@ -131,7 +131,7 @@ class _Scene(NamedTuple):
             message = f"the scene `{self.written.file}` measures {_length(size)}"
             yield Diagnostic("G031", message, self._label, (self._says(low, high),), self._fitting(size))
 
-    def away(self, parts: list[Part]) -> Iterator[Diagnostic]:
+    def away(self, parts: list[NodePart]) -> Iterator[Diagnostic]:
         """Yield the fault of a scene that is out of the mission's range."""
         low, high = _box(parts)
         middle = self._world(0.5 * (low + high)[None])[0]
@@ -141,7 +141,7 @@ class _Scene(NamedTuple):
             help_ = f"take {_rounded(0.5 * (low + high))} off its coordinates, and give that place as `at`"
             yield Diagnostic("G031", message, self._label, (self._says(low, high),), help_)
 
-    def mesh(self, parts: list[Part]) -> ObstacleMesh | ModelFault:
+    def mesh(self, parts: list[NodePart]) -> ObstacleMesh | ModelFault:
         """Return the triangles of all parts in W; points are triangles without size."""
         stem = PurePosixPath(self.written.file).stem
         solid = [p for p in parts if len(p.triangles)]
@@ -230,7 +230,7 @@ class _Scene(NamedTuple):
         return f"write `units: {fits[0]}`, which makes it {_length(bare * METRES[fits[0]])}"
 
 
-def _box(parts: list[Part]) -> tuple[Array, Array]:
+def _box(parts: list[NodePart]) -> tuple[Array, Array]:
     """Return the lowest and the highest coordinates of a file."""
     filled = [p.corners for p in parts if len(p.corners)]
     low = np.min([corners.min(axis=0) for corners in filled], axis=0)

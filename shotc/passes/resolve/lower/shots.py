@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # missions without these features do not load them
     from shotc.spec.shot import RequireSpec
 
 
-class Cast(NamedTuple):
+class ShotSurroundings(NamedTuple):
     """The data that all shots of a mission share: a scene without the shot.
 
     drones : by name
@@ -58,7 +58,7 @@ class Shots(NamedTuple):
     pictures: tuple[Target, ...] = ()
 
 
-def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> Shots:
+def expand_shots(spec: MissionSpec, cast: ShotSurroundings, spare: Callable[[], Drone]) -> Shots:
     """Expand every shot; one without a valid drone is checked with the drone of ``spare`` and left out."""
     diagnostics: list[Diagnostic] = []
     deferred: list[Deferred] = []
@@ -91,7 +91,9 @@ def expand_shots(spec: MissionSpec, cast: Cast, spare: Callable[[], Drone]) -> S
     return Shots(tuple(shots), tuple(displays), tuple(diagnostics), tuple(deferred), found)
 
 
-def _expand(spec: MissionSpec, shot: ShotBase, cast: Cast, drone: Drone, path: KeyPath) -> Expansion:
+def _expand(
+    spec: MissionSpec, shot: ShotBase, cast: ShotSurroundings, drone: Drone, path: KeyPath
+) -> Expansion:
     scene = Scene(
         drone=drone,
         rules=cast.rules,
@@ -145,7 +147,7 @@ def _shot(spec: MissionSpec, shot: ShotBase, expansion: Expansion, path: KeyPath
     )
 
 
-def _focus(spec: MissionSpec, shot: ShotBase, cast: Cast, path: KeyPath) -> list[Diagnostic]:
+def _focus(spec: MissionSpec, shot: ShotBase, cast: ShotSurroundings, path: KeyPath) -> list[Diagnostic]:
     """Return the faults of a shot's focus: an unknown target, or no aperture."""
     where = (*path, "focus")
     if shot.focus is None:

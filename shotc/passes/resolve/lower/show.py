@@ -12,7 +12,7 @@ from shotc.passes.resolve.lower.world import Put
 from shotc.spec.load import LoadedMission
 
 
-class Show(NamedTuple):
+class ShowMaterial(NamedTuple):
     """Fleets with readable layouts, the files that displays draw, and the faults of the others.
 
     files : (name, bytes), the song among them
@@ -31,13 +31,13 @@ def shown(
     files: Files,
     displays: tuple[Display, ...],
     song: tuple[str, bytes] | None = None,
-) -> Show:
+) -> ShowMaterial:
     """Resolve the fleets, and read the files of their displays; song : (name, bytes)."""
     if not ir.spec.fleets:
-        return Show()
+        return ShowMaterial()
     fleets, wrong = fleets_of(ir.spec, put, files)
     if isinstance(ir.folder, KeptFiles):
-        return Show(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
+        return ShowMaterial(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
     drawn, missing = read_material(displays, ir.folder, ir.origins)
     material = drawn if song is None else (*drawn, song)
-    return Show(fleets, material, digests(drawn), (*wrong, *missing))
+    return ShowMaterial(fleets, material, digests(drawn), (*wrong, *missing))

@@ -20,7 +20,7 @@ from shotc.ir.path import PathDeviation
 from shotc.ir.terrain import Terrain
 from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import flight_space, pad_space
-from shotc.planning.path.angles import NOTICE_RAD, Cut
+from shotc.planning.path.angles import NOTICE_RAD, UnreachableAngles
 from shotc.planning.path.gap import lower_clearance, narrow_gap, opening
 from shotc.planning.path.lines import NoWay, TooNear
 from shotc.planning.path.pad import PadBlocked, transit_point
@@ -136,7 +136,9 @@ def moved(mission: MissionIR, shot: PlacedShot, deviation: PathDeviation) -> Dia
     )
 
 
-def cut_framing(mission: MissionIR, drone: Drone, shot: PlacedShot, cuts: tuple[Cut, ...]) -> Diagnostic:
+def cut_framing(
+    mission: MissionIR, drone: Drone, shot: PlacedShot, cuts: tuple[UnreachableAngles, ...]
+) -> Diagnostic:
     """Return the warning for a composition that the gimbal cannot keep between keyframes."""
     low, high = (degrees(a) for a in drone.gimbal.pitch)
     worst = max(cuts, key=lambda cut: inf if cut.excess is None else cut.excess)

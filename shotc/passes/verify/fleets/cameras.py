@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from shotc.geom.proof import norm
-from shotc.ir.fleet import Shown
+from shotc.ir.fleet import FrameTimes
 from shotc.ir.light_colors import lit_drones
 from shotc.ir.show import Display, kept_from_cameras
 from shotc.ir.trajectory import Claim, DroneTrajectory
@@ -32,7 +32,7 @@ def from_cameras(flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajecto
         yield held(flight.fleet.name, limit, worst, (flight.names[drone], camera.drone))
 
 
-def named_pictures(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+def named_pictures(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield claims that the lights of every named picture lie within the body that cameras frame for it."""
     for stand in shown:
         name = display.pictures[stand.picture].name if stand.picture < len(display.pictures) else None

@@ -13,7 +13,7 @@ import numpy as np
 
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.proof import norm, sup_convex
-from shotc.ir.fleet import Shown
+from shotc.ir.fleet import FrameTimes
 from shotc.ir.origin import KeyPath
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display
@@ -68,7 +68,9 @@ def _early(after: str | None, ends: dict[str, float], start: float) -> float | N
     return None if after is None or after not in ends else ends[after] - start
 
 
-def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequence[Shown]) -> Iterator[Claim]:
+def _pictures(
+    flight: FleetFlight, display: Display, phase: Phase, shown: Sequence[FrameTimes]
+) -> Iterator[Claim]:
     """Yield claims that every picture is shown, in order, within the display, for its hold."""
     name, wanted = flight.fleet.name, range(len(display.pictures))
     order = [(s.picture, s.index) for s in shown]
@@ -90,7 +92,7 @@ def _pictures(flight: FleetFlight, display: Display, phase: Phase, shown: Sequen
         yield held(name, limit, WorstValue(max(lack, 0.0), at.start, "exact"))
 
 
-def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+def _moments(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that pictures stand at their given times."""
     first = {s.picture: s for s in reversed(shown)}
     timed = [(k, p) for k, p in enumerate(display.pictures) if p.at is not None and k in first]
@@ -101,7 +103,7 @@ def _moments(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> I
         yield held(flight.fleet.name, limit, WorstValue(error, time, "exact"))
 
 
-def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+def _transitions(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that transitions between pictures take their given time."""
     transitions: list[tuple[float, float, KeyPath]] = []
     for one, other in pairwise(shown):
@@ -116,7 +118,7 @@ def _transitions(flight: FleetFlight, display: Display, shown: Sequence[Shown]) 
         yield held(flight.fleet.name, limit, WorstValue(off, time, "exact"))
 
 
-def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that the drones depart within the time of a wave, to two pieces of their splines.
 
     For a move of millimetres rounding hides the departure, and a drone that stays never departs. So there is
@@ -149,7 +151,7 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Ite
         yield held(flight.fleet.name, limit, worst)
 
 
-def _holds(flight: FleetFlight, display: Display, shown: Sequence[Shown]) -> Iterator[Claim]:
+def _holds(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -> Iterator[Claim]:
     """Yield the claim that no drone moves while a picture is held."""
     parts = [flight.flown.between([(s.start, s.end)]) for s in shown]
     parts = [part for part in parts if len(part.low)]

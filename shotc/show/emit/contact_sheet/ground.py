@@ -10,7 +10,7 @@ from shotc.emit.audience import Audience
 from shotc.emit.palette import CAMERA, FLIGHT, GROUND_FAR, INK, KEEP_IN, KEEP_OUT, QUIET, WHITE, Rgb, shade
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle
 from shotc.emit.storyboard.furniture import north_arrow, round_length, scale_bar
-from shotc.emit.storyboard.labels import Label, write_labels
+from shotc.emit.storyboard.labels import MapLabel, write_labels
 from shotc.emit.storyboard.map import reach_of, zones
 from shotc.emit.storyboard.map import squares as draw_squares
 from shotc.emit.storyboard.sheet import Sheet
@@ -96,16 +96,16 @@ def _names(
     content, taken = others
     pads, _, eye = content
     labels = [
-        Label(
+        MapLabel(
             "audience", shade(CAMERA, 0.6), _around(np.array([[eye.x, eye.y], [eye.right, eye.top]]), 0.08)
         ),
-        Label("pads", QUIET, pads),
+        MapLabel("pads", QUIET, pads),
     ]
     for zone in mission.zones:
         seen = sheet.visible(sheet.outline(zone.solid))
         if seen is not None:
             color: Rgb = shade(KEEP_OUT if zone.keep == "out" else KEEP_IN, 0.8)
-            labels.append(Label(zone.name, color, seen, inside=zone.keep == "out"))
+            labels.append(MapLabel(zone.name, color, seen, inside=zone.keep == "out"))
     box = sheet.box
     inner = PageRectangle(box.x + 0.03, box.y + 0.03, box.width - 0.06, box.height - 0.06)
     write_labels(canvas, inner, labels, [*taken, *content])

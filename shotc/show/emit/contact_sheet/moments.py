@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shotc.emit.audience import flight_of, picture_name
-from shotc.ir.fleet import FleetTrajectory, Shown
+from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.light_colors import lit_drones
 from shotc.ir.show import Display, fleet_name
 from shotc.ir.trajectory import VerifiedIR
@@ -70,7 +70,7 @@ def boards(plan: VerifiedIR) -> tuple[Board, ...]:
     return tuple(found)
 
 
-def _moments(display: Display, flight: FleetTrajectory, shown: list[Shown]) -> tuple[SheetFrame, ...]:
+def _moments(display: Display, flight: FleetTrajectory, shown: list[FrameTimes]) -> tuple[SheetFrame, ...]:
     counts = [sum(s.picture == i for s in shown) for i in range(len(display.pictures))]
     chosen = [
         frames[i]

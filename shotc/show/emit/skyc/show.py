@@ -36,7 +36,7 @@ STRAIGHT_M = 1.5e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Show:
+class ShowFile:
     """A show file's content, how far its flights are from the plan's (metres), and the zones it lacks."""
 
     content: Json
@@ -44,7 +44,7 @@ class Show:
     left_out: tuple[Zone, ...]
 
 
-def show_of(plan: VerifiedIR) -> Show:
+def show_of(plan: VerifiedIR) -> ShowFile:
     """Return the show of all fleets of a plan."""
     mission = plan.trajectory.keyframes.mission
     flights = plan.trajectory.fleets
@@ -74,7 +74,7 @@ def show_of(plan: VerifiedIR) -> Show:
         "swarm": {"drones": drones},
     }
     # Inner control points of a chord are moved by no more than this.
-    return Show(content, max(curve.error for curve in flown) + STRAIGHT_M, left)
+    return ShowFile(content, max(curve.error for curve in flown) + STRAIGHT_M, left)
 
 
 def _turned(points: Array) -> list[list[float]]:

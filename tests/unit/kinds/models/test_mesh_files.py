@@ -10,11 +10,11 @@ import pytest
 import trimesh
 
 from shotc.kinds.models.mesh_file import read_mesh
-from shotc.kinds.models.parts import ModelFault, Part, wrong_corners
+from shotc.kinds.models.parts import ModelFault, NodePart, wrong_corners
 from tests.support.meshes import chunks
 
 
-def triangles(parts: list[Part]) -> np.ndarray:
+def triangles(parts: list[NodePart]) -> np.ndarray:
     """Return all triangles, each begun with its least corner, in order: whatever order they stand in."""
     assert isinstance(parts, list), parts
     found = np.concatenate([p.corners[p.triangles] for p in parts]).round(5) + 0.0
@@ -22,7 +22,7 @@ def triangles(parts: list[Part]) -> np.ndarray:
     return np.array(sorted(np.array(turned).tolist()))
 
 
-def read(kind: str, data: bytes | str) -> list[Part]:
+def read(kind: str, data: bytes | str) -> list[NodePart]:
     parts = read_mesh(kind, data.encode() if isinstance(data, str) else data)
     assert isinstance(parts, list), parts
     return parts
@@ -44,7 +44,7 @@ def test_what_trimesh_writes_is_read(name, kind):
     ending = kind.partition(" ")[0]
     options = {"encoding": "ascii"} if kind == "ply ascii" else {}
     data = mesh.export(file_type="stl_ascii" if kind == "stl ascii" else ending, **options)
-    own = Part("", np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    own = NodePart("", np.asarray(mesh.vertices), np.asarray(mesh.faces))
     assert triangles(read(ending, data)) == pytest.approx(triangles([own]), abs=2e-5)
 
 
@@ -61,7 +61,7 @@ def test_nodes_of_a_scene_stand_where_trimesh_puts_them():
         )
     data = scene.export(file_type="glb")
     seen = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
-    theirs = [Part("", np.asarray(g.vertices), np.asarray(g.faces)) for g in seen.dump()]
+    theirs = [NodePart("", np.asarray(g.vertices), np.asarray(g.faces)) for g in seen.dump()]
     parts = read("glb", data)
     assert triangles(parts) == pytest.approx(triangles(theirs), abs=1e-4)
     assert {p.name for p in parts} == {"root", *(f"n{k}" for k in range(6))}

@@ -15,7 +15,7 @@ from shotc.ir.path import PathDeviation
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.explained import (
     NEAR_M,
-    Way,
+    ExpectedPlaces,
     believed,
     farthest,
     for_its_limits,
@@ -28,7 +28,7 @@ from tests.support.records import replace
 from tests.support.resealed_plans import Document, resealed
 from tests.support.scenes import house
 
-EAST = Way(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
+EAST = ExpectedPlaces(np.linspace([-50.0, 0.0, 30.0], [50.0, 0.0, 30.0], 101), np.linspace(0.0, 20.0, 101))
 
 
 def flight(*zones: Zone, **rules: object) -> JudgedFlight:
@@ -90,7 +90,7 @@ def test_limits_explain_the_way_to_stop_and_what_is_too_fast() -> None:
     held_back = 1.0 * 20.0 + 4.0**2 / 4.0 + 4.0 * 2.0 / 8.0
     assert for_its_limits(slow, EAST, 0.5) == pytest.approx(held_back)
     assert for_its_limits(slow, EAST, 1.5) == pytest.approx(held_back + 4.0 * 1.0)
-    still = Way(np.zeros((5, 3)), np.arange(5.0))
+    still = ExpectedPlaces(np.zeros((5, 3)), np.arange(5.0))
     assert for_its_limits(slow, still, 1.5) == 0.0
 
 

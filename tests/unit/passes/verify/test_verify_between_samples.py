@@ -20,7 +20,7 @@ from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.close import errors_close, margins_close, rates
-from shotc.passes.verify.sight import Sight, infimum
+from shotc.passes.verify.sight import CameraAndBody, infimum
 from tests.support.records import replace
 from tests.support.sight_plans import EYE, LENGTH, at, film, mission, still, through, unfilmed
 
@@ -181,7 +181,7 @@ def test_a_drone_that_comes_nearer_to_a_picture_between_samples_is_seen(
     name: str, half_angle: float | None
 ) -> None:
     eye, bird = PASSES[name]
-    sight = Sight(mission(half_angle=half_angle), film("eye", eye), unfilmed("bird", bird))
+    sight = CameraAndBody(mission(half_angle=half_angle), film("eye", eye), unfilmed("bird", bird))
     dense = sight.out(np.linspace(0.0, 1.0, 20_001)).min()
     assert dense < sight.out(ENDS).min() - 0.05
     found = infimum(sight, ENDS, half_angle or 0.0)

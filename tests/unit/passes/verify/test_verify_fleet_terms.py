@@ -9,7 +9,7 @@ from shotc.geom.pieces import Pieces
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
-from shotc.ir.fleet import Shown
+from shotc.ir.fleet import FrameTimes
 from shotc.ir.limits import Timing
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim, TrajectoryIR
@@ -28,7 +28,7 @@ def claim(ir: TrajectoryIR, constraint: str) -> Claim:
 def showing(*shown: tuple[int, float, float]) -> TrajectoryIR:
     """The show with pictures at times: (picture, start, end)."""
     track = SHOW.fleets[0]
-    pictures = tuple(Shown("globe", picture, 0, start, end) for picture, start, end in shown)
+    pictures = tuple(FrameTimes("globe", picture, 0, start, end) for picture, start, end in shown)
     return replace(SHOW, fleets=(replace(track, shown=pictures),))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import quintic_hermite
-from shotc.passes.verify.sight import Sight, infimum
+from shotc.passes.verify.sight import CameraAndBody, infimum
 from tests.support.sight_plans import EYE, LENGTH, at, claims, film, mission, still, through, unfilmed
 
 R = 0.5  # of the body
@@ -98,7 +98,7 @@ def test_a_drone_that_crosses_between_two_samples_is_found(half_angle: float | N
     slow = mission(rate=1.0, half_angle=half_angle)
     eye, bird = film("eye", still(EYE)), unfilmed("bird", dash)
     limit = half_angle or 0.0
-    sampled = Sight(slow, eye, bird).out(np.arange(11.0))
+    sampled = CameraAndBody(slow, eye, bird).out(np.arange(11.0))
     assert sampled.min() > limit  # at whole seconds it is far out
     (found,) = claims(slow, eye, bird)
     assert not found.holds
@@ -115,7 +115,7 @@ def test_what_holds_is_proved_between_samples() -> None:
     (found,) = claims(slow, film("eye", still(EYE)), unfilmed("bird", through(list(t), ring)))
     assert found.holds
     assert found.method == "bounded"
-    dense = Sight(slow, film("eye", still(EYE)), unfilmed("bird", through(list(t), ring)))
+    dense = CameraAndBody(slow, film("eye", still(EYE)), unfilmed("bird", through(list(t), ring)))
     least = float(dense.out(np.linspace(0, LENGTH, 100_001)).min())
     assert least * 0.98 <= found.worst <= least
 
@@ -127,7 +127,7 @@ def test_a_claim_that_is_broken_tells_a_proved_bound_too(visibility: str) -> Non
     weave = through([0.0, 3.3, 6.1, LENGTH], [at(20, 30, 10), at(24, -3, 12), at(18, 5, 7), at(20, -30, 10)])
     eye, bird = film("eye", still(EYE)), unfilmed("bird", weave)
     (found,) = claims(mission(rate=2.0, visibility=visibility), eye, bird)
-    dense = float(Sight(mission(), eye, bird).out(np.linspace(0.0, LENGTH, 200_001)).min())
+    dense = float(CameraAndBody(mission(), eye, bird).out(np.linspace(0.0, LENGTH, 200_001)).min())
     assert not found.holds
     assert found.method == "bounded"
     assert dense - 0.002 * abs(dense) <= found.worst <= dense
@@ -135,7 +135,7 @@ def test_a_claim_that_is_broken_tells_a_proved_bound_too(visibility: str) -> Non
 
 def test_what_is_proved_is_below_and_what_is_attained_is_met() -> None:
     spin = through([0.0, LENGTH], [EYE, EYE + np.array([0, 0, 5, 2.0, -0.4, 0, -0.3])])
-    sight = Sight(mission(), film("eye", spin), unfilmed("bird", still(at(-3.0, 25.0, 12.0))))
+    sight = CameraAndBody(mission(), film("eye", spin), unfilmed("bird", still(at(-3.0, 25.0, 12.0))))
     found = infimum(sight, np.linspace(0.0, LENGTH, 7), 0.0)
     dense = sight.out(np.linspace(0.0, LENGTH, 200_001)).min()
     assert found.proven <= dense <= found.attained + 1e-9

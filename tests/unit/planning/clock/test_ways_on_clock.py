@@ -35,7 +35,7 @@ from shotc.planning.free_space import FreeSpace
 from shotc.planning.obstacles import FreeSpaces, free_spaces_of
 from shotc.planning.path.legs import LegContext, Pose, way_to
 from shotc.planning.timing.estimate import leg_time
-from shotc.planning.timing.straight import Bounds
+from shotc.planning.timing.straight import LineLimits
 from tests.support.few import few
 from tests.support.front_passes import placed
 from tests.support.owners import owner
@@ -174,7 +174,7 @@ def test_a_shot_begins_as_its_target_comes_by_and_the_run_up_is_no_longer_than_i
     times = np.arange(0.0, float(earliest[1]), 0.01)
     speed = np.linalg.norm(curve.derivative()(times)[:, :2], axis=1)
     rest = times[speed < 1e-3][-1]
-    least = Bounds(20.0, 3.0, 8.0).least_time(14.0)
+    least = LineLimits(20.0, 3.0, 8.0).least_time(14.0)
     assert float(earliest[1]) - rest < 1.15 * least
     assert float(np.trapezoid(speed[times >= rest], times[times >= rest])) < 1.15 * 35.3
     assert least == pytest.approx(5.04, abs=0.01)

@@ -14,8 +14,8 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.planning.framing.candidates import (
     TOUCH_M,
+    FixedCamera,
     ScreenLine,
-    Setting,
     nearest_candidate,
     nearest_on_verticals,
     roomiest,
@@ -29,7 +29,7 @@ THIRDS = Composition("thirds", points=((0.0, 0.0), *CORNERS))
 LINES = Composition("thirds-lines", u_lines=(-THIRD, THIRD), v_lines=(-THIRD, THIRD))
 
 settings = st.builds(
-    lambda distance, azimuth, rise, radius, height, hfov: Setting(
+    lambda distance, azimuth, rise, radius, height, hfov: FixedCamera(
         offset=(distance * cos(azimuth), distance * sin(azimuth), rise),
         shape=CylinderShape(radius, height),
         hfov=hfov,
@@ -44,13 +44,13 @@ settings = st.builds(
     st.floats(radians(25), radians(100)),
 )
 # On the line v = 1/3 it fits on two short stretches, left and right, with nothing between them.
-TWO_STRETCHES = Setting(
+TWO_STRETCHES = FixedCamera(
     (5.0, 0.0, -16.75), CylinderShape(0.8125, 9.0), 0.6875, 16 / 9, (radians(-90), radians(30))
 )
 places = st.tuples(st.floats(-1, 1), st.floats(-1, 1))
 
 
-def whole(setting: Setting, uv: tuple[float, float]) -> bool:
+def whole(setting: FixedCamera, uv: tuple[float, float]) -> bool:
     """Tell independently of the frustum planes whether the silhouette is in the frame."""
     aim = setting.aim(uv)
     if aim is None or not setting.pitch[0] - 1e-9 <= aim[1] <= setting.pitch[1] + 1e-9:
@@ -63,7 +63,9 @@ def whole(setting: Setting, uv: tuple[float, float]) -> bool:
 
 @pytest.mark.slow
 @given(settings, places)
-def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Setting, asked: Vec2) -> None:
+def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(
+    setting: FixedCamera, asked: Vec2
+) -> None:
     chosen = nearest_candidate(setting, THIRDS, asked)
     good = [p for p in THIRDS.points if whole(setting, p)]
     # Places on the very edge of being cropped may fall to either side.
@@ -79,7 +81,9 @@ def test_the_chosen_point_is_the_nearest_that_shows_the_target_whole(setting: Se
 @given(settings, places)
 @example(TWO_STRETCHES, (1.0, 1.0))
 @example(TWO_STRETCHES, (-1.0, 1.0))
-def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Setting, asked: Vec2) -> None:
+def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(
+    setting: FixedCamera, asked: Vec2
+) -> None:
     chosen = nearest_candidate(setting, LINES, asked)
     lines = [*(ScreenLine(c, True) for c in LINES.u_lines), *(ScreenLine(c, False) for c in LINES.v_lines)]
     sampled = [line.point(-1 + i / 100) for line in lines for i in range(201)]
@@ -96,7 +100,7 @@ def test_no_sampled_point_of_the_lines_is_nearer_than_the_chosen_one(setting: Se
 
 
 def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -> None:
-    near = Setting(
+    near = FixedCamera(
         (10.627, -6.247, -0.99), CylinderShape(3.84, 4.02), radians(50), 16 / 9, (radians(-90), radians(30))
     )
     chosen = nearest_on_verticals(near, THIRDS, (0.0, -0.9))
@@ -106,7 +110,9 @@ def test_a_target_moved_until_it_fits_is_whole_and_not_only_but_for_rounding() -
 
 @pytest.mark.slow
 @given(settings, places)
-def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: Setting, asked: Vec2) -> None:
+def test_the_verticals_give_the_nearest_whole_place_where_points_crop(
+    setting: FixedCamera, asked: Vec2
+) -> None:
     chosen = nearest_on_verticals(setting, THIRDS, asked)
     sampled = [(u, -1 + i / 100) for u in (0.0, -THIRD, THIRD) for i in range(201)]
     good = [p for p in sampled if setting.slack(p) >= 0]
@@ -119,7 +125,7 @@ def test_the_verticals_give_the_nearest_whole_place_where_points_crop(setting: S
 
 
 def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance() -> None:
-    setting = Setting((20.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 1.0, (-pi / 2, pi / 2))
+    setting = FixedCamera((20.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 1.0, (-pi / 2, pi / 2))
     # On u = 1 the direction (1, v, 1) is nearest to (0, 1, 1) / sqrt 2 where v = (1 + 1) / (0 + 1) * 1 / 1,
     # past the frame's edge: the angle pulls it beyond the pixel foot v = 1.
     assert ScreenLine(1.0, True).foot(setting, (0.0, 1.0)) == 1.0
@@ -128,7 +134,7 @@ def test_the_foot_on_a_line_is_the_least_angle_not_the_least_pixel_distance() ->
 
 
 def test_a_stretch_that_just_fits_is_found_between_the_samples() -> None:
-    tower = Setting((40.0, 0.0, 0.0), CylinderShape(1.0, 24.0), radians(70), 16 / 9, (-pi / 2, pi / 2))
+    tower = FixedCamera((40.0, 0.0, 0.0), CylinderShape(1.0, 24.0), radians(70), 16 / 9, (-pi / 2, pi / 2))
     low, high = 0.1, 1.0
     for _ in range(60):  # the nearest distance at which the tower fits on u = 0.2
         middle = (low + high) / 2
@@ -144,14 +150,16 @@ def test_a_stretch_that_just_fits_is_found_between_the_samples() -> None:
 
 
 def test_ties_fall_to_the_first_point_of_the_set() -> None:
-    setting = Setting((30.0, 0.0, 0.0), CylinderShape(0.5, 1.0), radians(60), 1.5, (-pi / 2, pi / 2))
+    setting = FixedCamera((30.0, 0.0, 0.0), CylinderShape(0.5, 1.0), radians(60), 1.5, (-pi / 2, pi / 2))
     corners = Composition("corners", points=CORNERS)
     assert nearest_candidate(setting, corners, (0.0, 0.0)) == CORNERS[0]
     assert nearest_candidate(setting, corners, (1e-13, 1e-13)) == CORNERS[0]
 
 
 def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate() -> None:
-    above = Setting((20.0, 0.0, 10.0), CylinderShape(0.5, 1.0), radians(60), 16 / 9, (-pi / 2, radians(20)))
+    above = FixedCamera(
+        (20.0, 0.0, 10.0), CylinderShape(0.5, 1.0), radians(60), 16 / 9, (-pi / 2, radians(20))
+    )
     # Looking straight at it takes 26.6 deg; putting it high in the frame takes less.
     chosen = nearest_candidate(above, Composition("u0", u_lines=(0.0,)), (0.0, 0.0))
     assert chosen is not None
@@ -164,7 +172,7 @@ def test_a_place_that_the_gimbal_cannot_reach_is_no_candidate() -> None:
 
 
 def test_directions_are_unit_vectors_of_the_pinhole() -> None:
-    setting = Setting((1.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 2.0, (-1.0, 1.0))
+    setting = FixedCamera((1.0, 0.0, 0.0), CylinderShape(0.1, 0.1), radians(90), 2.0, (-1.0, 1.0))
     assert hypot(*setting.direction((0.7, -0.3))) == pytest.approx(1.0)
     x, y, z = setting.direction((1.0, 1.0))
     assert (x / z, y / z) == pytest.approx((1.0, 0.5))
@@ -174,7 +182,7 @@ THIRDS_FIRST = COMPOSITIONS["thirds-first"]
 
 
 def test_a_set_that_prefers_the_thirds_takes_the_centre_only_where_neither_third_fits() -> None:
-    slim = Setting((0.0, 20.0, 0.0), CylinderShape(0.5, 2.0), radians(70), 16 / 9, (-1.5, 0.5))
+    slim = FixedCamera((0.0, 20.0, 0.0), CylinderShape(0.5, 2.0), radians(70), 16 / 9, (-1.5, 0.5))
     place = nearest_candidate(slim, THIRDS_FIRST, (0.0, 0.0))
     assert place is not None
     assert place == pytest.approx((-1 / 3, 0.0))
@@ -184,5 +192,5 @@ def test_a_set_that_prefers_the_thirds_takes_the_centre_only_where_neither_third
 
 
 def test_a_set_that_prefers_the_thirds_keeps_the_side_that_is_asked() -> None:
-    slim = Setting((0.0, 20.0, 0.0), CylinderShape(0.5, 2.0), radians(70), 16 / 9, (-1.5, 0.5))
+    slim = FixedCamera((0.0, 20.0, 0.0), CylinderShape(0.5, 2.0), radians(70), 16 / 9, (-1.5, 0.5))
     assert nearest_candidate(slim, THIRDS_FIRST, (0.2, 0.1)) == pytest.approx((1 / 3, 0.1), abs=0.02)

@@ -12,7 +12,7 @@ from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
-from shotc.ir.transits import Way, ways
+from shotc.ir.transits import TransitInterval, ways
 from shotc.passes.verify import judge
 from tests.support.records import replace
 
@@ -51,7 +51,7 @@ def plan_of(*mission: str) -> VerifiedIR:
     return plan
 
 
-def gaps(plan: VerifiedIR, target: str, way: Way) -> tuple[np.ndarray, np.ndarray]:
+def gaps(plan: VerifiedIR, target: str, way: TransitInterval) -> tuple[np.ndarray, np.ndarray]:
     """Distances of the body from a target on a way, and from its ends as the target sees them."""
     ir = plan.trajectory
     solid = ir.keyframes.mission.target(target)

@@ -12,10 +12,10 @@ from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW, CHANNELS, HFOV, X, Y, Z
 from shotc.planning.timing import move
 from shotc.planning.timing.limits import Ceiling
 from shotc.planning.timing.move import time_move
-from shotc.planning.timing.straight import Bounds, rate_of_line
+from shotc.planning.timing.straight import LineLimits, rate_of_line
 
 CEILING = Ceiling(8.0, 3.0, 2.0, 4.0, 10.0, 1.5, 3.0, 1.0, 4.0)
-BOUNDS = st.builds(Bounds, *[st.floats(0.5, 20.0)] * 3)
+BOUNDS = st.builds(LineLimits, *[st.floats(0.5, 20.0)] * 3)
 
 
 def line(**goes: float) -> Piecewise:
@@ -29,7 +29,9 @@ def line(**goes: float) -> Piecewise:
 
 
 @given(BOUNDS, st.floats(1e-2, 1e3))
-def test_the_motion_keeps_its_limits_and_ends_at_rest_where_it_is_to(bounds: Bounds, distance: float) -> None:
+def test_the_motion_keeps_its_limits_and_ends_at_rest_where_it_is_to(
+    bounds: LineLimits, distance: float
+) -> None:
     profile = bounds.profile(2.0, 2.0 + distance)
     assert profile.duration == pytest.approx(bounds.rest_to_rest(distance), rel=1e-9)
     assert (profile.s[0], profile.s[-1], profile.sd[-1], profile.sdd[-1]) == (2.0, 2.0 + distance, 0.0, 0.0)
@@ -42,7 +44,7 @@ def test_the_motion_keeps_its_limits_and_ends_at_rest_where_it_is_to(bounds: Bou
 @pytest.mark.parametrize("distance", [0.01, 1.0, 10.0, 200.0])
 def test_no_other_peak_takes_less_time(distance: float) -> None:
     """What is flown in the time reckoned is the distance, by the trapezoid's own sums."""
-    bounds = Bounds(8.0, 3.0, 8.0)
+    bounds = LineLimits(8.0, 3.0, 8.0)
     peaks = np.linspace(1e-3, bounds.speed, 4000)
     turns = np.array([bounds.least_time(float(v)) for v in peaks])
     flown = peaks * turns

@@ -18,7 +18,7 @@ from shotc.ir.passes import PassContext
 from shotc.ir.show import Picture, Wave
 from shotc.passes.verify import judge
 from shotc.show.assignment import AssignGoals
-from shotc.show.assignment.score import Score
+from shotc.show.assignment.score import FlightScore
 from shotc.show.assignment.waves import Waves, departures
 from shotc.show.separation import KeepApart
 from shotc.show.solvers.match import matched
@@ -76,7 +76,7 @@ def asked(**changes: object) -> Picture:
 def least_sampled(ends: tuple[Array, Array], waves: Waves, drawn: Picture) -> float:
     """Return how near two come at 300 instants of the move that is planned, heights stretched, metres."""
     move = waves.move(ends, display(drawn), drawn)
-    score = Score(ends[0])
+    score = FlightScore(ends[0])
     score.move(ends[1], move)
     breaks, coef = score.spline()
     at = places(breaks, coef, np.linspace(0.0, move.duration, 300))

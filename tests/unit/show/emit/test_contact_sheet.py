@@ -13,7 +13,7 @@ from shotc.emit.palette import QUIET
 from shotc.emit.storyboard.canvas import PageRectangle
 from shotc.emit.storyboard.sheet import Sheet
 from shotc.geom.fleet_spline import places
-from shotc.ir.fleet import Shown
+from shotc.ir.fleet import FrameTimes
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.contact_sheet import EMITTER
 from shotc.show.emit.contact_sheet.moments import MOST_MOMENTS, boards, lights
@@ -45,7 +45,7 @@ def crowded(count: int, apart: float) -> VerifiedIR:
     displays = (display._replace(pictures=(display.pictures * count)[:count]),)
     plan = show_flights.plan(show_flights.mission(displays=displays))
     flight = plan.trajectory.fleets[0]
-    shown = tuple(Shown("shapes", i, 0, 26.0 + i, 26.2 + i) for i in range(count))
+    shown = tuple(FrameTimes("shapes", i, 0, 26.0 + i, 26.2 + i) for i in range(count))
     coef = flight.coef + apart * np.linspace(0.0, 1.0, flight.coef.shape[1])[:, None] * [1.0, 0.3, 0.0]
     flight = replace(flight, shown=shown, coef=coef)
     return replace(plan, trajectory=replace(plan.trajectory, fleets=(flight,)))
@@ -86,7 +86,7 @@ def test_moments_are_pictures_at_their_holds() -> None:
 
 def test_an_animation_is_shown_by_a_few_of_its_frames() -> None:
     plan = show_flights.plan()
-    shown = tuple(Shown("shapes", 0, i, 26.0 + i * 0.5, 26.0 + i * 0.5) for i in range(30))
+    shown = tuple(FrameTimes("shapes", 0, i, 26.0 + i * 0.5, 26.0 + i * 0.5) for i in range(30))
     (board,) = boards(with_shown(plan, shown))
     assert [m.part for m in board.moments] == [(1, 30), (11, 30), (20, 30), (30, 30)]
     assert board.total == 30
@@ -97,13 +97,13 @@ def test_many_pictures_are_thinned() -> None:
     display = show_flights.display()
     many = display._replace(pictures=display.pictures * 20)
     plan = show_flights.plan(show_flights.mission(displays=(many,)))
-    shown = tuple(Shown("shapes", i, 0, 26.0 + 0.4 * i, 26.2 + 0.4 * i) for i in range(40))
+    shown = tuple(FrameTimes("shapes", i, 0, 26.0 + 0.4 * i, 26.2 + 0.4 * i) for i in range(40))
     (board,) = boards(with_shown(plan, shown))
     assert len(board.moments) == MOST_MOMENTS
     assert (board.moments[0].start, board.moments[-1].start) == (shown[0].start, shown[-1].start)
 
 
-def with_shown(plan: VerifiedIR, shown: tuple[Shown, ...]) -> VerifiedIR:
+def with_shown(plan: VerifiedIR, shown: tuple[FrameTimes, ...]) -> VerifiedIR:
     flight = replace(plan.trajectory.fleets[0], shown=shown)
     return replace(plan, trajectory=replace(plan.trajectory, fleets=(flight,)))
 

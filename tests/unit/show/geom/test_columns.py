@@ -7,7 +7,7 @@ import pytest
 
 from shotc.geom.bernstein import Array
 from shotc.show.geom.columns import (
-    Spans,
+    ColumnPieces,
     column_at,
     columns_below,
     drawn,
@@ -69,8 +69,8 @@ def test_a_ring_of_edges_by_winding_and_by_parity() -> None:
 
 
 def test_spans_that_overlap_unite() -> None:
-    a = Spans(np.array([0, 1]), np.array([0.0, 0]), np.array([2.0, 1]))
-    b = Spans(np.array([0, 1]), np.array([1.0, 3]), np.array([4.0, 5]))
+    a = ColumnPieces(np.array([0, 1]), np.array([0.0, 0]), np.array([2.0, 1]))
+    b = ColumnPieces(np.array([0, 1]), np.array([1.0, 3]), np.array([4.0, 5]))
     both = united([a, b])
     assert np.bincount(both.column, both.high - both.low).tolist() == [4.0, 3.0]
 

@@ -11,7 +11,7 @@ from shotc.ir.show import Model
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.frames import model_bodies
 from shotc.show.goals.model import mesh_body, open_edges
-from shotc.show.goals.model_file import Mesh, Unreadable, read_model
+from shotc.show.goals.model_file import ModelMesh, UnreadableModel, read_model
 from tests.support.meshes import box_mesh, chunks, glb, obj, ply, sphere_mesh, stl
 
 BALL = sphere_mesh(10.0)
@@ -19,9 +19,9 @@ PLACES = b"property float x\nproperty float y\nproperty float z\n"
 HEADER = b"ply\nformat ascii 1.0\nelement vertex 2\n" + PLACES + b"end_header\n"
 
 
-def read(name: str, data: bytes) -> Mesh:
+def read(name: str, data: bytes) -> ModelMesh:
     mesh = read_model(name, data)
-    assert isinstance(mesh, Mesh), mesh
+    assert isinstance(mesh, ModelMesh), mesh
     return mesh
 
 
@@ -82,7 +82,7 @@ def test_faces_that_do_not_run_alike_are_counted_by_parity() -> None:
 )
 def test_files_that_are_no_models(name: str, data: bytes, told: str) -> None:
     fault = read_model(name, data)
-    assert isinstance(fault, Unreadable)
+    assert isinstance(fault, UnreadableModel)
     assert told in fault.note
     assert "\n" not in fault.note
     assert fault.help
@@ -211,10 +211,10 @@ def test_numbers_that_a_glb_promises_and_does_not_hold_are_refused() -> None:
         "accessors": [{"componentType": 5126, "count": 10**12, "type": "VEC3"}],
     }
     found = read_model("a.glb", chunks(json.dumps(header).encode(), b""))
-    assert isinstance(found, Unreadable)
+    assert isinstance(found, UnreadableModel)
     assert "promises" in found.note
 
 
 @pytest.mark.parametrize("data", [b"", b"glTF", b"glTF" + bytes(60), chunks(b"[]", b""), chunks(b"{", b"")])
 def test_a_broken_glb_is_told(data: bytes) -> None:
-    assert isinstance(read_model("a.glb", data), Unreadable)
+    assert isinstance(read_model("a.glb", data), UnreadableModel)

@@ -17,7 +17,7 @@ from shotc.ir.show import Apart, Easing
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.show.assignment import AssignGoals
 from shotc.show.separation import KeepApart
-from shotc.show.solvers.qcqp import Bounds, overdraft
+from shotc.show.solvers.qcqp import DerivativeBounds, overdraft
 from shotc.show.splines import BoundSplines
 from tests.support.few import few
 from tests.support.fleet_scenes import (
@@ -70,7 +70,7 @@ def turning(count: int, frames: int, period: float, spacing: float) -> GoalIR:
 
 
 def within_limits(flight: FleetTrajectory) -> bool:
-    return bool((overdraft(flight.breaks, flight.coef, Bounds(LIMITS)) <= 0.0).all())
+    return bool((overdraft(flight.breaks, flight.coef, DerivativeBounds(LIMITS)) <= 0.0).all())
 
 
 def test_ball_cube_ring() -> None:

@@ -19,7 +19,7 @@ from shotc.show.assignment import AssignGoals, order
 from shotc.show.separation import KeepApart
 from shotc.show.separation.faults import Tried, too_near
 from shotc.show.separation.longer import MoveBetweenStops
-from shotc.show.solvers.qcqp import Bounds, overdraft
+from shotc.show.solvers.qcqp import DerivativeBounds, overdraft
 from shotc.show.splines import BoundSplines
 from tests.support.fleet_scenes import LIMITS, animation, display, fleet, goals, morph, picture
 
@@ -62,7 +62,7 @@ def swapped(transition: float) -> GoalIR:
 def apart(ir: TrajectoryIR, asked: Apart) -> None:
     flight = ir.fleets[0]
     assert closest(flight.breaks, flight.coef, asked).proven >= asked.across - 1e-6
-    assert (overdraft(flight.breaks, flight.coef, Bounds(LIMITS)) <= 0.0).all()
+    assert (overdraft(flight.breaks, flight.coef, DerivativeBounds(LIMITS)) <= 0.0).all()
 
 
 def told(found: Diagnostic, key: str) -> float:

@@ -10,7 +10,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import differences, knots, places
 from shotc.ir.limits import Limits
 from shotc.show.solvers import qcqp as fleet_qcqp
-from shotc.show.solvers.qcqp import Bounds, bounded, deviation, overdraft
+from shotc.show.solvers.qcqp import DerivativeBounds, bounded, deviation, overdraft
 
 LIMITS = Limits(3.5, 2.5, 1.5, 2.0, 8.0, 1.0, 1.0)
 
@@ -22,7 +22,7 @@ def walks(count: int, frames: int, size: float, period: float) -> tuple[Array, A
     return period * np.arange(coef.shape[1] - 2.0), coef
 
 
-def optimum(breaks: Array, wanted: Array, bounds: Bounds) -> float:
+def optimum(breaks: Array, wanted: Array, bounds: DerivativeBounds) -> float:
     """Return the least deviation of one drone, modelled independently in cvxpy."""
     x = cp.Variable(wanted.shape)
     root = np.linalg.cholesky(deviation(breaks) + 1e-13 * np.eye(len(wanted)))
@@ -51,7 +51,7 @@ def cost(breaks: Array, coef: Array, wanted: Array) -> Array:
 @pytest.mark.parametrize(("size", "period"), [(2.0, 1.5), (0.4, 0.4)])
 def test_the_deviation_is_the_least_there_is(size: float, period: float, per_axis: bool) -> None:
     breaks, wanted = walks(4, 30, size, period)
-    bounds = Bounds(LIMITS, per_axis)
+    bounds = DerivativeBounds(LIMITS, per_axis)
     done = bounded(breaks, wanted, bounds)
     assert not done.failed.size
     assert done.changed
@@ -65,7 +65,7 @@ def test_the_deviation_is_the_least_there_is(size: float, period: float, per_axi
 
 def test_the_bounds_hold_between_samples_and_the_ends_stay() -> None:
     breaks, wanted = walks(20, 60, 2.0, 1.5)
-    coef = bounded(breaks, wanted, Bounds(LIMITS)).coef
+    coef = bounded(breaks, wanted, DerivativeBounds(LIMITS)).coef
     times = np.linspace(breaks[0], breaks[-1], 6001)
     velocity = places(breaks, coef, times, 1)
     assert np.hypot(velocity[..., 0], velocity[..., 1]).max() <= LIMITS.speed
@@ -80,14 +80,14 @@ def test_the_bounds_hold_between_samples_and_the_ends_stay() -> None:
 def test_whoever_keeps_the_limits_is_left_alone() -> None:
     breaks, wanted = walks(8, 20, 1.5, 1.5)
     wanted[3] = wanted[3, :1] + 0.05 * (wanted[3] - wanted[3, :1])
-    done = bounded(breaks, wanted, Bounds(LIMITS))
+    done = bounded(breaks, wanted, DerivativeBounds(LIMITS))
     assert (done.coef[3] == wanted[3]).all()
     assert done.changed == 7
 
 
 def test_stragglers_are_solved_by_the_interior_point_method(monkeypatch: pytest.MonkeyPatch) -> None:
     breaks, wanted = walks(2, 20, 2.0, 1.5)
-    bounds = Bounds(LIMITS)
+    bounds = DerivativeBounds(LIMITS)
     usual = bounded(breaks, wanted, bounds)
     monkeypatch.setattr(fleet_qcqp, "ROUNDS", 1)
     monkeypatch.setattr(fleet_qcqp, "ROUND", 1)
@@ -99,7 +99,7 @@ def test_stragglers_are_solved_by_the_interior_point_method(monkeypatch: pytest.
 def test_what_nobody_could_fly_fails() -> None:
     breaks, wanted = walks(2, 6, 0.1, 0.5)
     wanted[1, -3:] += 100.0
-    done = bounded(breaks, wanted, Bounds(LIMITS))
+    done = bounded(breaks, wanted, DerivativeBounds(LIMITS))
     assert done.failed.tolist() == [1]
     assert (done.coef[1] == wanted[1]).all()
 

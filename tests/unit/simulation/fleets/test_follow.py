@@ -8,7 +8,7 @@ import pytest
 
 from shotc.geom.fleet_spline import places
 from shotc.simulation.fleets.fly import FleetConditions, fly
-from shotc.simulation.fleets.follow import Gains, Reference, preferred
+from shotc.simulation.fleets.follow import FleetReference, Gains, preferred
 from shotc.simulation.fleets.vehicle import Gusts
 
 
@@ -36,7 +36,7 @@ def square(side):
 def test_a_reference_is_the_spline():
     breaks, coef = spline(square(7.0), 3)
     coef = coef + np.arange(3)[:, None, None]
-    reference = Reference.of(breaks, coef)
+    reference = FleetReference.of(breaks, coef)
     times = np.array([0.3, 7.77, 21.9])
     for order, found in enumerate(reference.each(times)):
         wanted = places(breaks, coef, times, order)
@@ -44,7 +44,7 @@ def test_a_reference_is_the_spline():
 
 
 def test_on_its_path_and_in_time_a_drone_is_told_the_paths_velocity():
-    reference = Reference.of(*spline([[3.0 * k, 0, 5] for k in range(12)]))
+    reference = FleetReference.of(*spline([[3.0 * k, 0, 5] for k in range(12)]))
     place, rate, bend = reference.each(np.array([6.0]))
     assert bend == pytest.approx(np.zeros((1, 3)), abs=1e-9)
     asked = preferred(reference, Gains(), 6.0, place, rate)
@@ -54,7 +54,7 @@ def test_on_its_path_and_in_time_a_drone_is_told_the_paths_velocity():
 def test_the_four_errors_of_a_drone_beside_its_path():
     # A metre behind and half a metre to the left, moving at (2.5, 0.2, 0); the path goes east at 3 m/s.
     gains = Gains(along=(2.0, 0.4), across=(1.5, 0.3), forward=0.3)
-    reference = Reference.of(*spline([[3.0 * k, 0, 5] for k in range(12)]))
+    reference = FleetReference.of(*spline([[3.0 * k, 0, 5] for k in range(12)]))
     place, _, _ = reference.each(np.array([6.0]))
     asked = preferred(reference, gains, 6.0, place + np.array([-1.0, 0.5, 0.0]), np.array([[2.5, 0.2, 0.0]]))
     along = 3.0 + 2.0 * 1.0 + 0.4 * (3.0 - 2.5)
@@ -63,7 +63,7 @@ def test_the_four_errors_of_a_drone_beside_its_path():
 
 
 def test_a_hover_draws_back_from_any_side():
-    reference = Reference.of(*spline([[1.0, 2.0, 5.0]] * 3))
+    reference = FleetReference.of(*spline([[1.0, 2.0, 5.0]] * 3))
     away = np.array([[0.3, -0.4, 0.0]])
     asked = preferred(reference, Gains(along=(2.0, 0.4)), 1.0, np.array([[1.0, 2.0, 5.0]]) + away, 0 * away)
     assert asked == pytest.approx(-2.0 * away, abs=1e-9)

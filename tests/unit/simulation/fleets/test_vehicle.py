@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from shotc.simulation.fleets.vehicle import Gusts, State, Vehicle, moved, within
+from shotc.simulation.fleets.vehicle import FleetState, FleetVehicle, Gusts, moved, within
 
 
 def at_rest(n=1, gust=(0.0, 0.0, 0.0)):
     still = np.zeros((n, 3))
-    return State(still, still, still, still + gust)
+    return FleetState(still, still, still, still + gust)
 
 
 def test_a_small_command_is_followed_as_two_lags_in_a_row():
     # 0.15 s a' = (c - v) / 0.3 s - a, so v'' + v'/0.15 + v/0.045 = c/0.045: damped, (1/0.15)^2 < 4/0.045.
-    vehicle, command, h = Vehicle(), np.array([[0.5, 0.0, 0.0]]), 0.01
+    vehicle, command, h = FleetVehicle(), np.array([[0.5, 0.0, 0.0]]), 0.01
     state, seen = at_rest(), []
     for _ in range(200):
         state = moved(vehicle, state, command, h)
@@ -27,7 +27,7 @@ def test_a_small_command_is_followed_as_two_lags_in_a_row():
 def test_neither_acceleration_nor_command_goes_beyond_the_limits():
     state, speeds, accelerations = at_rest(), [], []
     for _ in range(300):
-        state = moved(Vehicle(), state, np.array([[30.0, 40.0, 0.0]]), 0.02)
+        state = moved(FleetVehicle(), state, np.array([[30.0, 40.0, 0.0]]), 0.02)
         speeds.append(np.linalg.norm(state.velocity))
         accelerations.append(np.linalg.norm(state.acceleration))
     assert max(accelerations) <= 4.0 + 1e-9
@@ -38,7 +38,7 @@ def test_neither_acceleration_nor_command_goes_beyond_the_limits():
 def test_a_steady_wind_is_leant_into():
     state = at_rest(gust=(1.0, 0.0, 0.0))
     for _ in range(200):
-        state = moved(Vehicle(), state, np.zeros((1, 3)), 0.05)
+        state = moved(FleetVehicle(), state, np.zeros((1, 3)), 0.05)
     assert state.over_ground == pytest.approx(np.zeros((1, 3)), abs=1e-3)
     assert 0.2 < state.position[0, 0] < 0.5
 

@@ -7,12 +7,12 @@ from math import acos, atan2, ceil, cos, degrees, hypot, radians, sin
 from shotc.geom.vec import wrapped
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.checks.grammar.sight import Sight
+from shotc.passes.resolve.checks.grammar.sight import ShotFrame
 
 _KEYS = ("azimuth", "start_azimuth")
 
 
-def to_the_side(mission: MissionIR, after: Shot, left: Sight, right: Sight, apart: float) -> str:
+def to_the_side(mission: MissionIR, after: Shot, left: ShotFrame, right: ShotFrame, apart: float) -> str:
     """Return a remedy with a start at least ``apart`` rad from the view before the cut.
 
     The camera keeps its height and distance. Empty where these heights allow no such place, because from high
@@ -47,7 +47,7 @@ def _azimuth(left: Vec3, right: Vec3, apart: float) -> int | None:
     return min(ways, key=lambda way: abs(wrapped(radians(way - now))))
 
 
-def _place(right: Sight, azimuth: int) -> str:
+def _place(right: ShotFrame, azimuth: int) -> str:
     (x, y, _), (cx, cy, _) = right.offset, right.centres[0]
     far, angle = hypot(x, y), radians(azimuth)
     return f"[{cx + far * sin(angle):.2f}, {cy + far * cos(angle):.2f}, {right.eye[2]:.2f}]"

@@ -16,7 +16,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.aside import to_the_side
 from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.line import check_line
-from shotc.passes.resolve.checks.grammar.sight import Sight, sight
+from shotc.passes.resolve.checks.grammar.sight import ShotFrame, sight
 from shotc.rounding import at_least, at_most
 
 APART = radians(30.0)  # least angle between two views of one subject: the 30-degree rule
@@ -48,7 +48,9 @@ def film_order(shots: Sequence[Shot]) -> tuple[Shot, ...]:
     return tuple(shot if shot.timing.start is None else next(risen) for shot in flown)
 
 
-def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
+def check_jump(
+    mission: MissionIR, before: Shot, after: Shot, left: ShotFrame, right: ShotFrame
+) -> Diagnostic | None:
     """Return the warning about a cut between two pictures of one subject that are too similar, or None."""
     if left.names[0] != right.names[0] or carries_on(left, right):
         return None
@@ -73,7 +75,7 @@ def check_jump(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
     )
 
 
-def _as_far(mission: MissionIR, after: Shot, right: Sight, ratio: float) -> list[str]:
+def _as_far(mission: MissionIR, after: Shot, right: ShotFrame, ratio: float) -> list[str]:
     """Return the distances at which the subject's size changes enough, for a shot with a distance.
 
     ratio : size after the cut over that before
@@ -92,14 +94,14 @@ def _as_far(mission: MissionIR, after: Shot, right: Sight, ratio: float) -> list
     return remedies
 
 
-def between(left: Sight, right: Sight) -> float:
+def between(left: ShotFrame, right: ShotFrame) -> float:
     """Return the angle between two views of a subject, rad."""
     a, b = left.offset, right.offset
     product = sum(p * q for p, q in zip(a, b, strict=True))
     return acos(max(-1.0, min(1.0, product / (hypot(*a) * hypot(*b)))))
 
 
-def carries_on(left: Sight, right: Sight) -> bool:
+def carries_on(left: ShotFrame, right: ShotFrame) -> bool:
     """Return whether a shot begins with the picture with which the last one ends, so that no cut is
     visible.
     """

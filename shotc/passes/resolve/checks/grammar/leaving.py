@@ -11,7 +11,7 @@ from shotc.ir.ideal import ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.labels import framing
 from shotc.passes.resolve.checks.grammar.sight import start_of
-from shotc.planning.framing.candidates import Setting
+from shotc.planning.framing.candidates import FixedCamera
 
 EMPTY = 0.5  # seconds that a shot may be without its subject
 STEPS = 200  # samples of a shot
@@ -58,5 +58,5 @@ def _seen(mission: MissionIR, shot: Shot, name: str, start: float, t: float) -> 
     assert shot.ideal.aim is not None
     drone, target = mission.drone(shot.drone), mission.target(name)
     offset = minus(target.at(t), ideal_place(mission, shot, start, t))
-    setting = Setting(offset, target.shape_at(t), drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2)
+    setting = FixedCamera(offset, target.shape_at(t), drone.hfov, drone.aspect, drone.gimbal.pitch, pi / 2)
     return setting.shows(shot.ideal.aim)

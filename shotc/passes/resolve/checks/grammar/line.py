@@ -13,13 +13,15 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.vec import minus
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.labels import placing
-from shotc.passes.resolve.checks.grammar.sight import Sight, sight
+from shotc.passes.resolve.checks.grammar.sight import ShotFrame, sight
 
 NEUTRAL = sin(radians(15.0))  # sine of the angle from the line within which a camera is on no side
 STEPS = 24  # samples of a shot for a visible crossing
 
 
-def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right: Sight) -> Diagnostic | None:
+def check_line(
+    mission: MissionIR, before: Shot, after: Shot, left: ShotFrame, right: ShotFrame
+) -> Diagnostic | None:
     """Return the warning about a cut across the line, from a last frame to the next first one, or None."""
     pair = len(left.names) > 1 and set(left.names[:2]) == set(right.names[:2])
     if not pair and left.names[0] != right.names[0]:
@@ -46,7 +48,7 @@ def check_line(mission: MissionIR, before: Shot, after: Shot, left: Sight, right
     )
 
 
-def side(seen: Sight, *, pair: bool) -> float | None:
+def side(seen: ShotFrame, *, pair: bool) -> float | None:
     """Return the side of the line on which a camera is: the sine of its angle from it, positive to the left.
 
     None where there is no line. A camera overhead is as near to the line as one on it.

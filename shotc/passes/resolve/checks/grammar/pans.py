@@ -20,7 +20,7 @@ from shotc.rounding import at_least
 STEPS = 120  # most pieces of such a shot
 
 
-class Pan(NamedTuple):
+class PanStretch(NamedTuple):
     """An interval of a shot with its turn.
 
     widths : frame widths that pass through the picture
@@ -69,7 +69,7 @@ def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     )
 
 
-def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
+def _slower(mission: MissionIR, shot: Shot, pan: PanStretch) -> tuple[Label, str]:
     """Return a label on the time or duration that ends a pan between keyframes, and the value to write."""
     last, end = shot.keyframes[pan.last], pan.start + pan.held + pan.least
     if last.time is None:
@@ -81,7 +81,7 @@ def _slower(mission: MissionIR, shot: Shot, pan: Pan) -> tuple[Label, str]:
     return mission.origins.value((*last.path, "time")), f"write `time: {at_least(end, 1)} s` or more{with_it}"
 
 
-def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
+def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[PanStretch]:
     """Yield the pans of a camera that follows a moving subject, over a second each."""
     start, duration = start_of(mission, shot), shot.timing.duration
     kept = shot.ideal is not None and shot.ideal.aim is not None
@@ -101,10 +101,10 @@ def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
     seconds = duration * ahead / pieces
     for i, (a, b) in enumerate(zip(looks, looks[ahead:], strict=False)):
         if a is not None and b is not None:
-            yield Pan(_angle(a, b) / width, seconds, who, when=start + duration * i / pieces)
+            yield PanStretch(_angle(a, b) / width, seconds, who, when=start + duration * i / pieces)
 
 
-def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
+def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[PanStretch]:
     """Yield the intervals of a shot between keyframes with known times, each with its mean rate."""
     keyframes, duration = shot.keyframes, shot.timing.duration
     times: dict[int, float] = {0: 0.0}
@@ -116,7 +116,7 @@ def _between_keyframes(mission: MissionIR, shot: Shot) -> Iterator[Pan]:
         stretch = keyframes[i : j + 1]
         held = sum(k.hold for k in stretch[:-1])
         widths = sum(_turned(keyframes, looks, k) for k in range(i, j))
-        yield Pan(widths, times[j] - times[i] - held, _followed(stretch), held, start=times[i], last=j)
+        yield PanStretch(widths, times[j] - times[i] - held, _followed(stretch), held, start=times[i], last=j)
 
 
 def _looks(mission: MissionIR, keyframes: Sequence[Keyframe]) -> list[Vec2]:

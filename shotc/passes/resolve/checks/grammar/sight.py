@@ -11,7 +11,7 @@ from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR, Shot
 
 
-class Sight(NamedTuple):
+class ShotFrame(NamedTuple):
     """One frame of a shot.
 
     eye : place of the camera, W, metres
@@ -43,7 +43,7 @@ class Sight(NamedTuple):
         return self.height / (2 * hypot(*self.offset) * self.half)
 
 
-def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
+def sight(mission: MissionIR, shot: Shot, share: float) -> ShotFrame | None:
     """Return what a shot shows at its start (0), its end (1) or between; None without a target or a time.
 
     For a shot with standing keyframes only start and end are known.
@@ -57,7 +57,7 @@ def sight(mission: MissionIR, shot: Shot, share: float) -> Sight | None:
     target = mission.target(keyframe.target)
     half = tan(keyframe.hfov / 2) / drone.aspect
     return _sound(
-        Sight(keyframe.at, (target.name,), (target.centre,), None, half, target.height, False, None)
+        ShotFrame(keyframe.at, (target.name,), (target.centre,), None, half, target.height, False, None)
     )
 
 
@@ -78,7 +78,7 @@ def start_of(mission: MissionIR, shot: Shot) -> float | None:
     return None
 
 
-def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sight | None:
+def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> ShotFrame | None:
     start, duration = start_of(mission, shot), shot.timing.duration
     if start is None or duration is None or not shot.subjects:
         return None
@@ -95,7 +95,7 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
     targets = [mission.target(name) for name in names]
     first = targets[0]
     return _sound(
-        Sight(
+        ShotFrame(
             ideal_place(mission, shot, start, t),
             tuple(target.name for target in targets),
             tuple(target.at(t) for target in targets),
@@ -108,6 +108,6 @@ def _on_clock(mission: MissionIR, shot: Shot, drone: Drone, share: float) -> Sig
     )
 
 
-def _sound(seen: Sight) -> Sight | None:
+def _sound(seen: ShotFrame) -> ShotFrame | None:
     """Return the frame, or None if the camera is at the target's place."""
     return seen if hypot(*seen.offset) > 1e-6 else None
