@@ -170,7 +170,7 @@ def listing(group: str) -> list[Listed]:
 
 
 def is_optional(missing: ModuleNotFoundError) -> bool:
-    """Tell whether what could not be imported is one of the optional libraries."""
+    """Return whether what could not be imported is one of the optional libraries."""
     return (missing.name or "").partition(".")[0] in OPTIONAL
 
 

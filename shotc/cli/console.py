@@ -55,12 +55,14 @@ def configure(color: Color = Color.AUTO, *, quiet: bool = False) -> None:
 
 
 def is_quiet() -> bool:
-    """Tell whether the user asked for findings and results only."""
+    """Return whether the user asked for findings and results only."""
     return _settings.quiet
 
 
 def colored(stream: TextIO) -> bool:
-    """Tell whether ``stream`` gets colour: the flag, then NO_COLOR, FORCE_COLOR, TERM, then the terminal."""
+    """Return whether ``stream`` gets colour: the flag, then NO_COLOR, FORCE_COLOR, TERM, then the
+    terminal.
+    """
     if _settings.color is not Color.AUTO:
         return _settings.color is Color.ALWAYS
     if os.environ.get("NO_COLOR"):

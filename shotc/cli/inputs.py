@@ -68,7 +68,7 @@ def gather(specs: Sequence[str], stdin_name: str | None = None) -> Gathered:
 
 
 def is_folder(spec: str) -> bool:
-    """Tell whether an argument names a folder."""
+    """Return whether an argument names a folder."""
     try:
         return Path(spec).is_dir()
     except OSError:  # a name that is too long; reading the file will say so

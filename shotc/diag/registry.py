@@ -60,12 +60,12 @@ def severity_of(diagnostic: Diagnostic) -> Severity:
 
 
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
-    """Tell whether any of the diagnostics rejects the mission."""
+    """Return whether any of the diagnostics rejects the mission."""
     return any(severity_of(d) is Severity.ERROR for d in diagnostics)
 
 
 def stops(diagnostics: Iterable[Diagnostic]) -> bool:
-    """Tell whether any of the diagnostics keeps later passes from running.
+    """Return whether any of the diagnostics keeps later passes from running.
 
     Every error does, but for one that knows a bound only: a later pass has the exact number.
     """

@@ -1,23 +1,24 @@
-"""The metric in which a fleet keeps its distance, and how far apart its goals have to be. Plain Python.
+"""The metric of a fleet's separation, and the spacing of its goals. Plain Python.
 
-Heights are stretched so that what two drones keep free between them is a ball, or lies in one. Between two
-formations matched by least squared stretched distance, straight synchronous moves keep
-|(1-s) r0 + s r1|^2 >= ((1-s)^2 + s^2) d^2 >= d^2 / 2, for r0.r1 >= 0: goals that are sqrt(2) balls apart
-stay one ball apart all the way. On elliptic arcs (``show.geom.arcs``) goals may be as near as the separation.
+Heights are stretched so that the separation of two drones is a ball, or lies in one. If two formations are
+matched by least squared stretched distance, then r0.r1 >= 0 for the relative positions of each pair, and
+straight synchronous moves keep |(1-s) r0 + s r1|^2 >= ((1-s)^2 + s^2) d^2 >= d^2 / 2. So goals that are
+sqrt(2) balls apart stay one ball apart on the whole move. On elliptic arcs (``show.geom.arcs``) goals may be
+as near as the separation.
 """
 
 from math import sqrt
 from typing import Protocol
 
 ROOMIER = 1.001
-"""Goals are farther apart than the separation by this factor, so that moves have something to round."""
+"""Factor of the goals' spacing over the separation, as a reserve for rounding in moves."""
 
 SLACK_SHARE = 1e-6
-"""What the proof may fall short of, a share of the distance and of a metre at least, as in verification."""
+"""Tolerance of a proved distance, as a share of the distance but at least of a metre, as in verification."""
 
 
 class Distances(Protocol):
-    """What ``ir.show.Apart`` says: the shape that is kept free, and its half axes with the margin, metres."""
+    """The separation of ``ir.show.Apart``: its shape, and its half axes with the margin, metres."""
 
     @property
     def shape(self) -> str:
@@ -26,38 +27,40 @@ class Distances(Protocol):
 
     @property
     def across(self) -> float:
-        """Return the horizontal distance."""
+        """Return the horizontal distance, metres."""
         ...
 
     @property
     def upright(self) -> float:
-        """Return the vertical distance."""
+        """Return the vertical distance, metres."""
         ...
 
 
 def stretch(apart: Distances) -> float:
-    """Return the factor for heights that makes the ellipsoid a ball, the cylinder as high as wide."""
+    """Return the factor on heights that makes the ellipsoid a ball, and the cylinder as high as wide."""
     return apart.across / apart.upright
 
 
 def ball(apart: Distances) -> float:
-    """Return the stretched distance at which two drones are apart whatever the direction, metres.
+    """Return the stretched distance at which two drones are separated in every direction, metres.
 
-    It is exact for an ellipsoid; a cylinder lies in a ball that is sqrt(2) larger.
+    It is exact for an ellipsoid. A cylinder lies in a ball that is larger by sqrt(2).
     """
     return apart.across * (sqrt(2.0) if apart.shape == "cylinder" else 1.0)
 
 
 def spacing(apart: Distances) -> float:
-    """Return the least distance of two goals of one formation, in the fleet's own sense, metres."""
+    """Return the least distance of two goals of one formation, in the fleet's metric, metres."""
     return ROOMIER * apart.across
 
 
 def straight_spacing(apart: Distances) -> float:
-    """Return the stretched distance of two goals at which straight moves between formations need no proof."""
+    """Return the stretched distance of two goals at which straight moves between formations are always
+    safe.
+    """
     return sqrt(2.0) * ball(apart)
 
 
 def kept(proven: float, across: float) -> bool:
-    """Tell whether a proved distance is the one to be kept, metres."""
+    """Return whether a proved distance keeps the required one, metres, within SLACK_SHARE."""
     return proven >= across - SLACK_SHARE * max(1.0, across)

@@ -1,7 +1,7 @@
 """Piecewise polynomials in Bernstein form: evaluation, derivatives, hulls, subdivision.
 
-A polynomial of degree n on one piece lies in the convex hull of its n + 1 control points, which is
-what lets a limit be proved for every instant instead of sampled.
+A polynomial of degree n on one piece lies in the convex hull of its n + 1 control points. So a limit can be
+proved for every instant instead of sampled.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Piecewise:
     ctrl: Array
 
     def __post_init__(self) -> None:
-        """Freeze the arrays and check their shapes; ValueError where they do not fit."""
+        """Freeze the arrays and check their shapes; raise ValueError if they do not fit."""
         breaks = np.ascontiguousarray(self.breaks, dtype=np.float64)
         ctrl = np.ascontiguousarray(self.ctrl, dtype=np.float64)
         if breaks.ndim != 1 or ctrl.ndim != 3 or len(breaks) != len(ctrl) + 1 or len(ctrl) == 0:
@@ -119,12 +119,12 @@ def quintic_hermite(breaks: Array, value: Array, rate: Array, acceleration: Arra
 
 
 def lift_off(curve: Piecewise) -> float:
-    """Return the parameter up to which a curve stays where it starts, its start where it moves at once."""
+    """Return the parameter up to which a curve rests at its first point; its start if it moves at once."""
     still = (curve.ctrl == curve.ctrl[0, 0]).all(axis=(1, 2))
     return float(curve.breaks[int(np.argmin(still))] if not still.all() else curve.end)
 
 
 def concatenate(curves: list[Piecewise]) -> Piecewise:
-    """Join curves of one degree whose ranges follow one another."""
+    """Join curves of the same degree with consecutive ranges."""
     breaks = [curves[0].breaks, *(c.breaks[1:] for c in curves[1:])]
     return Piecewise(np.concatenate(breaks), np.concatenate([c.ctrl for c in curves]))

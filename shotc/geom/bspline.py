@@ -1,8 +1,8 @@
 """Quintic B-splines on clamped knots, written as linear maps onto Bernstein control points.
 
-A spline with P pieces has P + 5 coefficients and is C4 at its interior breaks. Everything a convex
-programme asks of it (values, derivatives, hulls, energies) is a sum of six neighbouring coefficients,
-so constraints are rows of six weights: ``SplineFunctionals``.
+A spline with P pieces has P + 5 coefficients and is C4 at its interior breaks. All its functionals in a
+convex programme (values, derivatives, hulls, energies) are sums over six neighbouring coefficients. So
+constraints are rows of six weights: ``SplineFunctionals``.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ IntArray = NDArray[np.intp]
 class SplineFunctionals:
     """Linear functionals of a spline's coefficients.
 
-    piece  : shape (R,), the first of the six coefficients each row weighs
+    piece  : shape (R,), index of the first of the six coefficients of each row
     weight : shape (R, 6)
     """
 
@@ -46,8 +46,8 @@ def extraction(breaks: Array) -> Array:
     """Return the maps from six coefficients to six Bernstein points; shape (P, 6, 6).
 
     Row k of piece p is the blossom of the piece at (a, ..., a, b, ..., b) with k times b (Ramshaw's
-    polar form), unrolled by de Boor's recursion. Not to be written to: the last ones are kept, since all
-    the rows of a programme ask for them.
+    polar form), computed by de Boor's recursion. The result is read-only and cached, because all rows of a
+    programme use it.
     """
     return _extraction(np.asarray(breaks, dtype=np.float64).tobytes())
 
@@ -58,7 +58,7 @@ def _extraction(of: bytes) -> Array:
     pieces = len(breaks) - 1
     knots = np.concatenate([[breaks[0]] * DEGREE, breaks, [breaks[-1]] * DEGREE])
     first = np.arange(pieces)[:, None] + np.arange(1, 2 * DEGREE + 1)
-    local = knots[first]  # the ten knots that matter to each piece
+    local = knots[first]  # the ten knots of each piece
     rows = []
     for k in range(DEGREE + 1):
         points = np.broadcast_to(np.eye(DEGREE + 1), (pieces, DEGREE + 1, DEGREE + 1))
@@ -74,14 +74,14 @@ def _extraction(of: bytes) -> Array:
 
 
 def greville(breaks: Array) -> Array:
-    """Return where coefficients sit: a spline with coefficients f(greville), f linear, is f; (P + 5,)."""
+    """Return the Greville abscissae, (P + 5,): a spline with coefficients f(greville) is f, for linear f."""
     knots = np.concatenate([[breaks[0]] * DEGREE, breaks, [breaks[-1]] * DEGREE])
     windows = np.lib.stride_tricks.sliding_window_view(knots[1:-1], DEGREE)
     return np.asarray(windows.mean(axis=1))
 
 
 def spline(breaks: Array, coef: Array) -> Piecewise:
-    """Return the spline with these coefficients, shape (P + 5, D), in Bernstein form."""
+    """Return the spline with coefficients of shape (P + 5, D), in Bernstein form."""
     index = np.arange(len(breaks) - 1)[:, None] + np.arange(DEGREE + 1)
     return Piecewise(breaks, np.einsum("pij,pjd->pid", extraction(breaks), coef[index]))
 
@@ -105,7 +105,9 @@ def control_rows(breaks: Array, order: int = 0) -> SplineFunctionals:
 
 
 def _points(breaks: Array, order: int) -> Array:
-    """Return by pieces what makes the Bernstein points of a derivative of coefficients, (P, 6 - order, 6)."""
+    """Return the maps from coefficients to Bernstein points of a derivative, piece by piece, (P, 6 - order,
+    6).
+    """
     maps = extraction(breaks)
     widths = np.diff(breaks)[:, None, None]
     for _ in range(order):
@@ -114,10 +116,10 @@ def _points(breaks: Array, order: int) -> Array:
 
 
 def hull_rows(breaks: Array, order: int) -> SplineFunctionals:
-    """Return the rows of ``control_rows``, without those that a piece shares with the one before it.
+    """Return the rows of ``control_rows`` without those that a piece shares with the one before it.
 
     breaks : shape (P + 1,)
-    order : at most 4, up to which the derivatives of two pieces meet
+    order : at most 4, because the derivatives of adjacent pieces are equal at a break up to this order
     """
     rows = control_rows(breaks, order)
     points = DEGREE + 1 - order
@@ -170,7 +172,7 @@ def restrict(curve: Piecewise, breaks: Array) -> Piecewise:
 
 
 def held_until(curve: Piecewise, end: float) -> Piecewise:
-    """Return a curve that stands still from its own end to a later one."""
+    """Return a curve extended by rest from its end to a later time."""
     if curve.end >= end:
         return curve
     still = np.repeat(curve.ctrl[-1:, -1:], curve.degree + 1, axis=1)

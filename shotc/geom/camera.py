@@ -1,4 +1,4 @@
-"""The pinhole camera, and how far in its frame what has a shape is (``geom.shapes``).
+"""The pinhole camera, and the margins of shapes (``geom.shapes``) in its frame.
 
 Frames: W is East, North, Up; C is x right, y down, z forward; roll is zero. Yaw is counter-clockwise
 from East, pitch is positive up. Screen (u, v) lies in [-1, 1]^2, u right, v up. The functions use
@@ -11,14 +11,14 @@ from typing import Any, NamedTuple, Protocol
 from shotc.geom.vec import Vec2, Vec3, direction
 
 ROUNDING_M = 1e-6
-"""Metres out of the frame that are rounding, as in every other limit: a target may touch the frame's edge."""
+"""Tolerance at the frame's edge for rounding, metres: a target may touch the edge."""
 
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
 Offset = tuple[S, S, S]
 
 
 class OnScreen(NamedTuple):
-    """A place on screen, and its depth, metres; only depth > 0 is seen."""
+    """A place on screen, and its depth, metres; it is visible only if depth > 0."""
 
     u: S
     v: S
@@ -36,7 +36,7 @@ class View(NamedTuple):
     half_height: S
 
     def to_camera(self, d: tuple[S, S, S]) -> tuple[S, S, S]:
-        """Turn a vector of W into C: components right, down, forward."""
+        """Return a vector of W in C: components right, down, forward."""
         along = self.cos_yaw * d[0] + self.sin_yaw * d[1]
         right = self.sin_yaw * d[0] - self.cos_yaw * d[1]
         forward = self.cos_pitch * along + self.sin_pitch * d[2]
@@ -44,7 +44,7 @@ class View(NamedTuple):
         return right, down, forward
 
     def project(self, d: tuple[S, S, S]) -> OnScreen:
-        """Project an offset from the camera (W, metres) to (u, v, depth); only depth > 0 is seen."""
+        """Project an offset from the camera (W, metres) to (u, v, depth); visible only if depth > 0."""
         right, down, forward = self.to_camera(d)
         return OnScreen(right / (forward * self.half_width), -down / (forward * self.half_height), forward)
 
@@ -56,7 +56,7 @@ def view(yaw: float, pitch: float, hfov: float, aspect: float) -> View:
 
 
 class UnitVector(NamedTuple):
-    """A direction in C, and how much of it is W's up."""
+    """A direction in C, and its component along W's up."""
 
     right: S
     down: S
@@ -65,7 +65,7 @@ class UnitVector(NamedTuple):
 
 
 class ScreenBox(NamedTuple):
-    """What is taken of the screen, half frames."""
+    """A box on the screen, half frames."""
 
     u_min: S
     u_max: S
@@ -74,21 +74,21 @@ class ScreenBox(NamedTuple):
 
 
 class Reaching(Protocol):
-    """What extends about its centre."""
+    """A body that extends about its centre."""
 
     def reach(self, camera: View, n: UnitVector, /) -> S:
-        """Return how far it reaches from its centre along a unit vector, metres."""
+        """Return its extent from its centre along a unit vector, metres."""
 
 
 class VisibleShape(Reaching, Protocol):
-    """What a target is like about its centre, as far as a camera sees it (``geom.shapes``)."""
+    """The shape of a target about its centre, as a camera needs it (``geom.shapes``)."""
 
     @property
     def height(self) -> float:
-        """How high it is, metres."""
+        """Its height, metres."""
 
     def half_width(self, across: tuple[S, S], /) -> S:
-        """Return how far it reaches along a level unit vector of W, metres."""
+        """Return its extent along a horizontal unit vector of W, metres."""
 
     def nearest_depth(self, camera: View, offset: Offset, /) -> S:
         """Return the depth of its point nearest to the image plane, metres; offset : of its centre, W."""
@@ -98,7 +98,7 @@ class VisibleShape(Reaching, Protocol):
 
 
 class FrustumMargins(NamedTuple):
-    """How far inside each plane of the frustum, metres; negative is cropped."""
+    """Distances inside each plane of the frustum, metres; negative is cropped."""
 
     left: S
     right: S
@@ -107,11 +107,12 @@ class FrustumMargins(NamedTuple):
 
 
 def frustum_margins(camera: View, offset: Offset, shape: Reaching | None = None) -> FrustumMargins:
-    """Return how far inside each frustum plane all of a shape lies, metres; of a point where none is given.
+    """Return the distance of a whole shape inside each frustum plane, metres; of a point without a shape.
 
-    offset : its centre less the camera, W. Order left, right, bottom, top; negative is cropped.
-    Exact: a body lies inside a plane with inward unit normal n through the camera iff n.p is at least how
-    far it reaches from its centre p along -n: an upright cylinder h/2 |n.up| + r sqrt(1 - (n.up)^2).
+    offset : its centre minus the camera, W, metres. Negative is cropped.
+    The value is exact: a body lies inside a plane with inward unit normal n through the camera iff n.p is at
+    least its extent from its centre p along -n. For an upright cylinder this extent is
+    h/2 |n.up| + r sqrt(1 - (n.up)^2).
     """
     right, down, forward = camera.to_camera(offset)
     across = 1.0 / (1.0 + camera.half_width**2) ** 0.5
@@ -139,12 +140,12 @@ def frustum_margins(camera: View, offset: Offset, shape: Reaching | None = None)
 
 
 def point_margins(camera: View, offset: Offset, shape: VisibleShape) -> FrustumMargins:
-    """Return how far inside each frustum plane the least of four points of a target lies, metres.
+    """Return the least distance of four points of a target inside each frustum plane, metres.
 
-    Arguments and order as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7:
-    the axis at top and bottom, and half-way up its half width to either side, square to the line of sight.
-    World up stands for the camera's, which is right at any pitch. The points lie within the outline of a
-    cylinder, mostly not on it, so that they may all be in a frame that crops the target.
+    Arguments as in ``frustum_margins``. The points are those of Gebhardt and Hilliges, Eq. 4-7: the axis at
+    top and bottom, and the half width to either side at half height, perpendicular to the line of sight.
+    World up replaces the camera's up, which is correct at any pitch. The points lie within the outline of a
+    cylinder, so all of them may be in a frame that crops the target.
     """
     x, y, z = offset
     level = (x * x + y * y + 1e-18) ** 0.5
@@ -169,10 +170,10 @@ def _smaller(a: S, b: S) -> S:
 
 
 def aim_at(offset: Vec3, uv: Vec2, hfov: float, aspect: float, yaw_if_vertical: float = 0.0) -> Vec2 | None:
-    """Return (yaw, pitch) that shows the point ``offset`` from the camera at screen place ``uv``.
+    """Return the (yaw, pitch), rad, that shows the point ``offset`` from the camera at screen place ``uv``.
 
-    None where no roll-free camera does (the point too steeply above or below for that u). Of the
-    two solutions for a pitch the one with the smaller magnitude is taken.
+    None if no camera without roll does so (the point is too steeply above or below for that u). Of the two
+    solutions for the pitch, the one with the smaller magnitude is returned.
     """
     half = tan(hfov / 2)
     ray = (uv[0] * half, uv[1] * half / aspect, 1.0)  # right, up, forward

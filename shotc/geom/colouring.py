@@ -1,9 +1,8 @@
-"""Places given colours so that two of one colour are a distance apart, with few colours. Plain Python.
+"""Graph colouring of places: two places of one colour are at least a distance apart. Plain Python.
 
-Two places conflict where they are nearer than the distance. Of a square grid the best lattice is taken: a
-sublattice of index N whose shortest vector is long enough colours it with N colours, whatever its size. Else,
-and where it takes fewer, colours are given one after another, each place the first that no neighbour has, in
-the order that puts last who has fewest neighbours left (Matula and Beck, Smallest-last ordering, 1983).
+Two places conflict if they are nearer than the distance. For a square grid, a sublattice of index N whose
+shortest vector is long enough gives a colouring with N colours. Other layouts, and grids where it needs fewer
+colours, use greedy colouring in smallest-last order (Matula and Beck, Smallest-last ordering, 1983).
 """
 
 from __future__ import annotations
@@ -15,11 +14,11 @@ from math import dist, floor, hypot, inf, sqrt
 from shotc.geom.vec import Vec2
 
 ROUNDING_M = 1e-6
-"""Metres by which two places may be nearer than the distance."""
+"""Tolerance of the distance, metres."""
 
 
 def coloured(places: Sequence[Vec2], least: float) -> tuple[int, ...]:
-    """Return a colour for every place, from 0 on; two of one colour are ``least`` metres apart or more."""
+    """Return a colour for every place, from 0; two of one colour are at least ``least`` metres apart."""
     around = conflicts(places, least)
     colours = _smallest_last(around)
     fewest = max(colours, default=0) + 1
@@ -30,7 +29,7 @@ def coloured(places: Sequence[Vec2], least: float) -> tuple[int, ...]:
 
 
 def fewest_colours(places: Sequence[Vec2], least: float) -> int:
-    """Return a number of colours that any colouring takes: the most places in a square that is a clique."""
+    """Return a lower bound on the number of colours: the most places in a square that is a clique."""
     side = (least - ROUNDING_M) / sqrt(2.0) * (1.0 - 1e-9)
     cells: dict[tuple[int, int], int] = defaultdict(int)
     for x, y in places:
@@ -39,7 +38,7 @@ def fewest_colours(places: Sequence[Vec2], least: float) -> int:
 
 
 def conflicts(places: Sequence[Vec2], least: float) -> list[list[int]]:
-    """Return for every place the others that are nearer to it than ``least`` metres."""
+    """Return for every place the indices of the others that are nearer to it than ``least`` metres."""
     cells: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, (x, y) in enumerate(places):
         cells[floor(x / least), floor(y / least)].append(i)
@@ -58,7 +57,7 @@ def _near(cells: dict[tuple[int, int], list[int]], place: Vec2, width: float) ->
 
 
 def _smallest_last(around: Sequence[Sequence[int]]) -> list[int]:
-    """Return the colours that the smallest-last order gives."""
+    """Return the greedy colouring in smallest-last order."""
     left = [len(near) for near in around]
     buckets: dict[int, list[int]] = defaultdict(list)
     for i, count in enumerate(left):
@@ -87,7 +86,9 @@ def _smallest_last(around: Sequence[Sequence[int]]) -> list[int]:
 
 
 def _on_lattice(places: Sequence[Vec2], least: float, fewest: int) -> list[int] | None:
-    """Return the colours of the best sublattice; None for other layouts, or where it takes more."""
+    """Return the colouring by the best sublattice; None for other layouts, or if it needs more than
+    ``fewest``.
+    """
     index = _grid(places)
     if index is None:
         return None
@@ -102,7 +103,7 @@ def _on_lattice(places: Sequence[Vec2], least: float, fewest: int) -> list[int] 
 
 
 def _shortest(a: int, b: int, d: int) -> float:
-    """Return the length of the shortest vector of the lattice of (a, 0) and (b, d)."""
+    """Return the length of the shortest vector of the lattice with basis (a, 0) and (b, d)."""
     best = float(a)
     rows = 1
     while rows * d < best:
@@ -113,7 +114,9 @@ def _shortest(a: int, b: int, d: int) -> float:
 
 
 def _grid(places: Sequence[Vec2]) -> tuple[float, list[tuple[int, int]]] | None:
-    """Return the spacing of a square grid, and the steps to each place from the first; None for others."""
+    """Return the spacing of a square grid, and the grid steps from the first place; None for other
+    layouts.
+    """
     (x0, y0) = places[0]
     spacing = min((dist(places[0], place) for place in places[1:]), default=inf)
     if not 0.0 < spacing < inf:

@@ -1,4 +1,4 @@
-"""Steps from rest to rest: the one of least jerk, 10 x^3 - 15 x^4 + 6 x^5, and slower ones."""
+"""Steps from rest to rest: the minimum-jerk step 10 x^3 - 15 x^4 + 6 x^5, and steps of lower peak speed."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ if TYPE_CHECKING:
     from shotc.geom.bernstein import Array
 
 PEAK = 15.0 / 8.0
-"""Greatest speed of the step of least jerk over its mean."""
+"""Peak speed of the minimum-jerk step over its mean speed."""
 
 MOST_PARTS = 40
-"""Of the time, the first and the last of which may be all there is for speeding up and slowing down."""
+"""Most parts of the time; the first one is the shortest admissible acceleration, the last one the braking."""
 
 _Share = TypeVar("_Share", float, "Array")
 
@@ -26,11 +26,11 @@ def minimum_jerk(x: _Share) -> _Share:
 
 
 def parts_of(room: float) -> int | None:
-    """Return into how many equal parts of its time a step is cut to keep a speed, or None where it cannot.
+    """Return the number n of equal time parts of a step that keeps a speed limit; None if it cannot.
 
-    room : that speed over the mean speed of the step
-    In the first part the speed rises, in the last it falls, and it is even between: n / (n - 1) of the mean.
-    One part stands for the step of least jerk.
+    room : the limit over the mean speed of the step
+    The speed rises in the first part, falls in the last, and is constant between: n / (n - 1) of the mean.
+    One part means the minimum-jerk step.
     """
     if room >= PEAK:
         return 1
@@ -39,9 +39,10 @@ def parts_of(room: float) -> int | None:
 
 
 def control(parts: int) -> list[tuple[float, float, list[float]]]:
-    """Return the pieces of a step of some parts: from and to which share of the time, and control points.
+    """Return the pieces of a step with so many parts: start and end as shares of the time, and control
+    points.
 
-    Those are of the fifth degree in Bernstein form. The speed of a ramp is 3 y^2 - 2 y^3 of the even one.
+    These are of degree 5 in Bernstein form. The speed in a ramp is 3 y^2 - 2 y^3 of the constant one.
     """
     if parts == 1:
         return [(0.0, 1.0, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0])]

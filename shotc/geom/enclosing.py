@@ -1,8 +1,8 @@
-"""Few upright boxes and cylinders that hold what stands, and little beside. Plain Python.
+"""A few upright boxes and cylinders that contain upright prisms tightly. Plain Python.
 
-What stands is given as upright prisms. A ring that fills its smallest rectangle badly, as that of an L does,
-is cut at its corners along the sides of that rectangle; prisms that make one box are joined, and so are the
-smallest until there are few. Every body holds the prisms that it is made of, to rounding.
+A ring that fills its smallest rectangle badly, such as an L, is cut at its corners along the sides of that
+rectangle. The smallest prisms are joined until there are few, and prisms that make one box are joined. Every
+body contains its prisms, up to rounding.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ from shotc.geom.solids import convex_hull, edges, signed_area
 from shotc.geom.vec import Vec2, Vec3
 
 FILLED = 0.8
-"""Share of its body's base that a ring fills, at least; one that fills less is cut."""
+"""Least share of its body's base that a ring fills; a ring with less is cut."""
 GAIN = 0.12
-"""Share of a base that a cut takes away, at least."""
+"""Least share of a base that a cut removes."""
 ON_M = 1e-6
-"""Metres from a cut within which a corner is on it."""
-MOST_CUTS = 40  # that are tried along one side of a ring
-MOST_TURNS = 90  # directions of sides that rectangles are tried along
+"""Distance from a cut up to which a corner is on it, metres."""
+MOST_CUTS = 40  # cuts that are tried along one axis of a ring
+MOST_TURNS = 90  # directions of sides that are tried for rectangles
 MOST_PIECES = 6  # of one ring
 SAME = 1.02
-"""Volume of a box about two, over theirs, up to which they are one."""
+"""Largest volume of a box around two bodies, over theirs, at which they are joined."""
 
 Ring = tuple[Vec2, ...]
 
 
 class UprightPrism(NamedTuple):
-    """An upright prism over a ring that does not cross itself, metres of W.
+    """An upright prism over a simple ring, metres of W.
 
-    name : of the part of a building that it is
+    name : of its part of a building
     """
 
     ring: Ring
@@ -43,7 +43,7 @@ class UprightPrism(NamedTuple):
 
 
 class EnclosingShape(NamedTuple):
-    """A shape about its centre, metres of W; name : that of all prisms in it, empty where they differ."""
+    """A shape about its centre, metres of W; name : of all prisms in it, empty if they differ."""
 
     centre: Vec3
     shape: BodyShape
@@ -51,7 +51,7 @@ class EnclosingShape(NamedTuple):
 
 
 class _Base(NamedTuple):
-    """The base of a body: half its sides along its course and across it, or a radius alone."""
+    """The base of a body: half its sides along its course and across it, or a radius."""
 
     middle: Vec2
     ahead: Vec2
@@ -64,9 +64,9 @@ class _Base(NamedTuple):
 
 
 class _Aligned(NamedTuple):
-    """Prisms that one body shall hold, and the box about them along common axes.
+    """Prisms for one body, and their bounding box along common axes.
 
-    low, high : its corners, along, across and up
+    low, high : its corners: along, across and up
     """
 
     blocks: tuple[UprightPrism, ...]
@@ -80,14 +80,14 @@ class _Aligned(NamedTuple):
 
 
 def bodies_about(blocks: Sequence[UprightPrism], most: int) -> tuple[EnclosingShape, ...]:
-    """Return at most ``most`` bodies that hold all prisms together; there is one prism or more."""
+    """Return at most ``most`` bodies that together contain all prisms; there is at least one prism."""
     course = _base(tuple(p for block in blocks for p in block.ring)).ahead
     pieces = [b._replace(ring=ring) for b in blocks for ring in _cut(b.ring, MOST_PIECES)]
     return tuple(_body(found.blocks) for found in _few([_aligned((p,), course) for p in pieces], most))
 
 
 def _base(points: Ring) -> _Base:
-    """Return the smallest rectangle about points, or the circle about its middle where that is smaller."""
+    """Return the smallest rectangle around points, or the circle about its middle if that is smaller."""
     hull = convex_hull(points)
     turns = [atan2(b[1] - a[1], b[0] - a[0]) for a, b in edges(hull)]
     boxes = [_rectangle(hull, turn) for turn in turns[:: max(1, len(turns) // MOST_TURNS)]]
@@ -97,7 +97,7 @@ def _base(points: Ring) -> _Base:
 
 
 def _rectangle(hull: Ring, turn: float) -> _Base:
-    """Return the rectangle about points whose sides lie at an angle, its length first."""
+    """Return the rectangle around points with sides at an angle, rad; its longer side is its length."""
     c, s = cos(turn), sin(turn)
     (low_a, high_a), (low_b, high_b) = _reach(hull, (c, s)), _reach(hull, (-s, c))
     a, b = (low_a + high_a) / 2, (low_b + high_b) / 2
@@ -107,13 +107,13 @@ def _rectangle(hull: Ring, turn: float) -> _Base:
 
 
 def _reach(points: Sequence[Vec2], axis: Vec2) -> Vec2:
-    """Return from where to where points reach along an axis."""
+    """Return the extent of points along an axis: minimum and maximum."""
     along = [x * axis[0] + y * axis[1] for x, y in points]
     return min(along), max(along)
 
 
 def _cut(ring: Ring, most: int) -> list[Ring]:
-    """Return pieces of a ring that fill their bases, or that no cut makes fill them better."""
+    """Return pieces of a ring that fill their bases, or that no cut improves."""
     base = _base(ring)
     if most < 2 or abs(signed_area(ring)) >= FILLED * base.area:
         return [ring]
@@ -127,7 +127,7 @@ def _cut(ring: Ring, most: int) -> list[Ring]:
 
 
 def _halved(ring: Ring, axes: tuple[Vec2, Vec2]) -> Iterator[tuple[Ring, Ring]]:
-    """Yield both sides of a ring, cut through its corners along an axis."""
+    """Yield both parts of a ring for each cut through its corners perpendicular to an axis."""
     for axis in axes:
         along = (x * axis[0] + y * axis[1] for x, y in ring)
         places = sorted({round(at, 2): at for at in along}.values())[1:-1]
@@ -138,9 +138,9 @@ def _halved(ring: Ring, axes: tuple[Vec2, Vec2]) -> Iterator[tuple[Ring, Ring]]:
 
 
 def _clipped(ring: Ring, axis: Vec2, at: float) -> Ring:
-    """Return what of a ring lies below a place along an axis (Sutherland and Hodgman).
+    """Return the part of a ring below a place along an axis (Sutherland and Hodgman).
 
-    A corner at the place counts where a side of it leads below.
+    A corner at the place counts if one of its sides leads below.
     """
     over = [x * axis[0] + y * axis[1] - at for x, y in ring]
     out: list[Vec2] = []
@@ -155,7 +155,7 @@ def _clipped(ring: Ring, axis: Vec2, at: float) -> Ring:
 
 
 def _extent(points: Ring, axes: tuple[Vec2, Vec2]) -> float:
-    """Return the area of the rectangle about points along two axes."""
+    """Return the area of the rectangle around points along two axes."""
     (a, b), (c, d) = (_reach(points, axis) for axis in axes)
     return (b - a) * (d - c)
 
@@ -168,7 +168,9 @@ def _aligned(blocks: tuple[UprightPrism, ...], course: Vec2) -> _Aligned:
 
 
 def _few(found: list[_Aligned], most: int) -> list[_Aligned]:
-    """Join the smallest with what grows least by it, until there are few; then all that make one box."""
+    """Join the smallest body with the one that grows least, until there are few; then join those of one
+    box.
+    """
     while len(found) > most:
         smallest = min(range(len(found)), key=lambda i: found[i].volume)
         one = found.pop(smallest)
@@ -181,7 +183,7 @@ def _few(found: list[_Aligned], most: int) -> list[_Aligned]:
 
 
 def _one_box(found: list[_Aligned]) -> Iterator[tuple[int, int]]:
-    """Yield pairs, the lower number first, that a box about both holds without much beside."""
+    """Yield pairs, the lower index first, whose common box is hardly larger than they are."""
     for j in range(len(found)):
         for i in range(j):
             both = found[i].volume + found[j].volume - _common(found[i], found[j])
@@ -190,7 +192,7 @@ def _one_box(found: list[_Aligned]) -> Iterator[tuple[int, int]]:
 
 
 def _common(a: _Aligned, b: _Aligned) -> float:
-    """Return the volume that two boxes have in common."""
+    """Return the volume of the intersection of two boxes."""
     low = (max(a.low[0], b.low[0]), max(a.low[1], b.low[1]), max(a.low[2], b.low[2]))
     high = (min(a.high[0], b.high[0]), min(a.high[1], b.high[1]), min(a.high[2], b.high[2]))
     return _Aligned((), low, high).volume
@@ -203,7 +205,7 @@ def _joined(a: _Aligned, b: _Aligned) -> _Aligned:
 
 
 def _body(blocks: tuple[UprightPrism, ...]) -> EnclosingShape:
-    """Return the body about prisms."""
+    """Return the smallest body around prisms."""
     base = _base(tuple(p for block in blocks for p in block.ring))
     low, high = min(block.bottom for block in blocks), max(block.top for block in blocks)
     shape: BodyShape = CylinderShape(base.radius or 0.0, high - low)

@@ -13,7 +13,7 @@ from shotc.geom.pieces import Pieces
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetPieces:
-    """Polynomials of n drones over intervals that all of them share.
+    """Polynomials of n drones over common intervals.
 
     low, high : ends of the intervals, shape (Q,)
     ctrl : Bernstein control points, shape (n, Q, k, D)
@@ -34,7 +34,7 @@ class FleetPieces:
         return Pieces(self.low, self.high, self.ctrl[drone])
 
     def between(self, spans: list[tuple[float, float]]) -> FleetPieces:
-        """Return what lies within some spans of time, the outermost pieces of each cut to fit."""
+        """Return the parts within some time intervals; pieces at their ends are cut."""
         parts = [self._cut(low, high) for low, high in spans if high > low]
         empty = FleetPieces(self.low[:0], self.high[:0], self.ctrl[:, :0])
         parts = [empty, *parts]
@@ -61,9 +61,10 @@ class FleetPieces:
 def rates(breaks: Array, coef: Array, order: int) -> Array:
     """Return the B-spline control points of a derivative, shape (n, P + 3 - order, 3).
 
-    coef : shape (n, P + 3, 3). By differences of neighbours, which lose nothing where they are equal. The
-    second derivative is linear between its values at the breaks, and these are its control points; the
-    third is even on every piece.
+    coef : shape (n, P + 3, 3). Differences of neighbours are exact where these are equal. The second
+        derivative
+    is linear between its values at the breaks, and these are its control points. The third is constant on
+    every piece.
     """
     t = knots(breaks)
     slopes = coef
@@ -78,7 +79,7 @@ def rates(breaks: Array, coef: Array, order: int) -> Array:
 def velocity(breaks: Array, coef: Array) -> FleetPieces:
     """Return the velocity of a fleet in Bernstein form, three control points a piece.
 
-    Arguments and their shapes as of ``rates``.
+    Arguments as in ``rates``.
     """
     control, width = rates(breaks, coef, 1), np.diff(knots(breaks)[DEGREE - 1 : 1 - DEGREE])
     # At a break the velocity divides its two control points as the break divides their knots.
@@ -89,7 +90,7 @@ def velocity(breaks: Array, coef: Array) -> FleetPieces:
 
 
 def _split(ctrl: Array, x: float) -> tuple[Array, Array]:
-    """Cut polynomials of shape (n, k, D) at a share of their interval (de Casteljau)."""
+    """Split polynomials of shape (n, k, D) at a share of their interval (de Casteljau)."""
     left, right = [ctrl[:, 0]], [ctrl[:, -1]]
     while ctrl.shape[1] > 1:
         ctrl = (1.0 - x) * ctrl[:, :-1] + x * ctrl[:, 1:]

@@ -1,8 +1,8 @@
 """The motion of a whole fleet: cubic B-splines over one set of breaks, one row of control points a drone.
 
-The curve of *display* Eq. 4, with breaks that need not be even. Before the first break and after the last
-one the knots go on in steps of the first and the last piece, so that three equal control points at an end
-are a start or an end at rest.
+The curve is that of *display* Eq. 4, with breaks that need not be uniform. Beyond the first and the last
+break the knots continue in steps of the first and the last piece. So three equal control points at an end are
+a start or an end at rest.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from shotc.geom.bernstein import Array
 DEGREE = 3
 
 NEAR_S = 0.02
-"""Seconds to the next break at which the rest of a spline begins there instead."""
+"""Seconds to the next break below which the rest of a spline starts at that break."""
 
 
 def knots(breaks: Array) -> Array:
@@ -27,7 +27,7 @@ def knots(breaks: Array) -> Array:
 
 
 def centres(breaks: Array) -> Array:
-    """Return the time that each control point stands for (its Greville abscissa), shape (P + 3,)."""
+    """Return the Greville abscissa of each control point, shape (P + 3,), seconds."""
     t = knots(breaks)
     return np.asarray((t[1:-3] + t[2:-2] + t[3:-1]) / 3.0)
 
@@ -35,16 +35,17 @@ def centres(breaks: Array) -> Array:
 def rest_of(breaks: Array, coef: Array, time: float) -> tuple[Array, Array]:
     """Return the breaks and the control points of the same splines from a time on, exactly.
 
-    breaks : shape (P + 1,); coef : shape (n, P + 3, 3). From their end on everybody stands, for a second.
-    A break that comes less than ``NEAR_S`` later is where they begin instead. What is new are the first
-    control points: the blossom of the first piece at the knots that count there.
+    breaks : shape (P + 1,); coef : shape (n, P + 3, 3). After their end the result is one second of rest. If
+        a
+    break is less than ``NEAR_S`` later, the result starts there. Only the first control points are new: the
+    blossom of the first piece at the new knots.
     """
     if time >= breaks[-1]:
         return np.array([time, time + 1.0]), np.repeat(places(breaks, coef, breaks[-1:]), DEGREE + 1, axis=1)
     k = int(np.clip(np.searchsorted(breaks, time + NEAR_S, side="right") - 1, 0, len(breaks) - 2))
     left = np.concatenate([[max(time, float(breaks[k]))], breaks[k + 1 :]])
     old, new = knots(breaks)[k:], knots(left)
-    # The knots of the fourth point are others, too, where one piece is left.
+    # If one piece is left, the knots of the fourth point change too.
     first = [_blossom(old, coef[:, k : k + 4], new[j + 1 : j + 4]) for j in range(4)]
     return left, np.concatenate([np.stack(first, axis=1), coef[:, k + 4 :]], axis=1)
 
@@ -82,11 +83,11 @@ def places(breaks: Array, coef: Array, times: Array, order: int = 0) -> Array:
 
 
 def places_of(breaks: Array, coef: Array, order: int = 0) -> Callable[[Array], Array]:
-    """Return ``places`` as a function of the times, for whoever asks often: it is set up once.
+    """Return ``places`` as a function of the times, set up once for many evaluations.
 
     coef : shape (n, P + 3, 3); result of the function : shape (n, T, 3) at times of shape (T,)
     """
-    from scipy.interpolate import BSpline  # films do without
+    from scipy.interpolate import BSpline  # films do not need it
 
     spline = BSpline(knots(breaks), np.moveaxis(coef, 1, 0), DEGREE)
     if order:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import atan, tan
 
 FULL_FRAME_M = 0.036
-"""Width of the frame that focal lengths count on where no sensor is known: they are equivalents then."""
+"""Width of the frame for focal lengths without a known sensor, which are full-frame equivalents."""
 
 
 def focal_length(hfov: float, width: float = FULL_FRAME_M) -> float:
-    """Return the focal length of a field of view, rad, on a frame of that width; both in one unit."""
+    """Return the focal length of a field of view, rad, on a frame of that width, in the unit of the width."""
     return width / 2.0 / tan(hfov / 2.0)
 
 

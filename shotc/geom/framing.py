@@ -1,7 +1,7 @@
-"""What a moving camera sees of a target: position on screen, size, margins and sight lines, sampled.
+"""The sampled view of a target from a moving camera: position on screen, size, margins, lines of sight.
 
-The formulas are those of geom.camera, applied to whole arrays of poses. Between samples a margin
-changes no faster than ``margin_rate`` says, which is what closes the gaps.
+The formulas are those of geom.camera, applied to arrays of poses. ``margin_rate`` bounds the rate of a margin
+between samples.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ class Frames:
     u, v   : screen position of its centre; NaN where the centre is behind the camera
     depth  : of its centre, metres
     size   : height of its silhouette over the frame's height; NaN unless all of it is in front
-    margin : how far inside the nearest edge of the frustum all of it lies, metres
-    hidden : whether another solid stands on the line of sight to its centre
+    margin : distance of the whole shape inside the nearest plane of the frustum, metres
+    hidden : whether another solid is on the line of sight to its centre
     """
 
     u: Array
@@ -69,9 +69,9 @@ class Frames:
 
 
 def frames(cameras: Cameras, centre: Vec3, shape: VisibleShape, hiding: Sequence[Solid] = ()) -> Frames:
-    """Look at one target from every pose.
+    """Return the view of one target from every pose.
 
-    centre : p_W; shape : maybe one for every pose; hiding : the solids that may stand before it
+    centre : p_W; shape : one, or with an array of values for all poses; hiding : the possible occluders
     """
     camera = cameras.view
     x, y, z = (np.array(centre) - cameras.position).T
@@ -91,16 +91,16 @@ def frames(cameras: Cameras, centre: Vec3, shape: VisibleShape, hiding: Sequence
 
 
 def points_in_frame(cameras: Cameras, centre: Vec3, shape: VisibleShape) -> Mask:
-    """Tell in which frames the four points of ``camera.point_margins`` are in the frame, shape (M,)."""
+    """Return whether the four points of ``camera.point_margins`` are in each frame, shape (M,)."""
     x, y, z = (np.array(centre) - cameras.position).T
     margins = point_margins(cameras.view, (x, y, z), shape)
     return np.asarray(np.min(margins, axis=0) >= 0.0)
 
 
 def hidden(eyes: Array, point: Array, hiding: Sequence[Solid]) -> Mask:
-    """Tell from which eyes (M, 3) a solid stands before ``point``, (3,) or one for each eye (M, 3).
+    """Return from which eyes (M, 3) a solid hides ``point``, (3,) or one for each eye (M, 3); shape (M,).
 
-    A solid that holds the point hides it, and one that holds the eye hides nothing.
+    A solid that contains the point hides it. One that contains the eye hides nothing.
     """
     blocked = np.zeros(len(eyes), dtype=bool)
     for solid in hiding:
@@ -109,7 +109,7 @@ def hidden(eyes: Array, point: Array, hiding: Sequence[Solid]) -> Mask:
 
 
 def margin_rate(reach: float, speed: float, turn: float, zoom: float, aspect: float) -> float:
-    """Return how fast a frustum margin of a standing cylinder may change at most, m/s.
+    """Return the largest rate of a frustum margin of a standing cylinder, m/s.
 
     reach : largest distance from the camera to the centre, plus half the height and the radius, metres
     speed : of the camera, m/s; turn : yaw rate plus pitch rate, rad/s; zoom : rate of hfov, rad/s

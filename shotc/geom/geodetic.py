@@ -1,4 +1,4 @@
-"""WGS84 places to points of W. Plain Python, so that `check` can use it without numpy."""
+"""WGS84 positions to points of W. Plain Python, so that `check` can use it without numpy."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _E2 = FLATTENING * (2 - FLATTENING)
 def to_world(place: Vec3, origin: Vec3) -> Vec3:
     """Return a place as a point of W: East, North, Up of the origin, metres.
 
-    place, origin : (latitude, longitude, altitude) in degrees and metres. Exact: through the
-    earth-centred frame (e.g. Hofmann-Wellenhof et al., GNSS, Sec. 8.2), without a flat-earth step.
+    place, origin : (latitude, longitude, altitude) in degrees and metres. The transformation is exact, by the
+    earth-centred frame (e.g. Hofmann-Wellenhof et al., GNSS, Sec. 8.2), without a flat-earth approximation.
     """
     d = [a - b for a, b in zip(_earth_centred(place), _earth_centred(origin), strict=True)]
     lat, lon = radians(origin[0]), radians(origin[1])
@@ -29,24 +29,25 @@ def to_world(place: Vec3, origin: Vec3) -> Vec3:
 
 
 def above_ground(place: Vec3, origin: Vec3) -> Vec3:
-    """Return a place given by its height over the ground, the plane z = 0, as a point of W: z is the height.
+    """Return a place with a height over the plane z = 0 as a point of W, whose z is that height.
 
-    place : (latitude, longitude, height) in degrees and metres; origin : as ``to_world`` takes it.
-    East and North are those of the point at that height on the vertical of the place, so the way back gives
-    the same latitude and longitude. The plane is the tangent at the origin, and the sea curves away below it:
-    the altitude on the way back is d^2 / 2R more than the origin's and the height, 7 mm at d = 300 m, 8 cm at
-    1 km, 8 m at 10 km. An elevation above sea level goes through ``to_world``.
+    place : (latitude, longitude, height) in degrees and metres; origin : as in ``to_world``
+    East and North are those of the point at that height on the vertical of the place, so the inverse gives
+    the same latitude and longitude. The plane is the tangent at the origin. At distance d the sea is d^2 / 2R
+    below it, so the altitude of the inverse exceeds the origin's plus the height by 7 mm at 300 m, 8 cm at 1
+    km, and 8 m at 10 km. Use ``to_world`` for an elevation above sea level.
     """
     lat, lon, height = place
     _, _, z = to_world((lat, lon, origin[2] + height), origin)
-    x, y, _ = to_world((lat, lon, origin[2] + 2 * height - z), origin)  # the vertical is all but upright
+    x, y, _ = to_world((lat, lon, origin[2] + 2 * height - z), origin)  # the vertical is almost along z
     return (x, y, height)
 
 
 def onto_plane(origin: Vec3) -> Callable[[float, float], Vec2]:
-    """Return what puts latitude and longitude, degrees, onto the plane z = 0, as ``above_ground`` does.
+    """Return a function from latitude and longitude, degrees, to x, y on the plane z = 0, as
+    ``above_ground``.
 
-    For many places: what depends on the origin alone is computed once.
+    It is for many places: the parts that depend only on the origin are computed once.
     """
     base = _earth_centred(origin)
     lat, lon = radians(origin[0]), radians(origin[1])

@@ -1,10 +1,10 @@
-"""How far a heading is off the direction of a motion over ground, bounded at every instant.
+"""A proved bound on the angle between a heading and the course of a motion over ground.
 
-On a piece of a polynomial whose velocity stays in a half-plane the course is between those of the velocity's
-control points, and the heading between its own; so their difference is between the differences of these ends.
-By the mean value theorem it is also no farther from its value in the middle than half the piece times its
-largest rate, which is d heading/dt - (v x a) / |v|^2: near a maximum, where that rate vanishes, this closes
-quadratically. Pieces that may hold the worst value are halved, as in ``geom.proof``.
+On a piece whose velocity stays in a half-plane, the course is between the courses of the velocity's control
+points, and the heading is between its own control points. So their difference is between the differences of
+these ends. By the mean value theorem the difference also deviates from its value in the middle by at most
+half the piece times its largest rate, d heading/dt - (v x a) / |v|^2. Near a maximum this rate vanishes, so
+the error falls quadratically. Pieces that may contain the worst value are halved, as in ``geom.proof``.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ class _Motion(NamedTuple):
 
 
 def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -> ProvedExtreme:
-    """Bound the angle between a heading and the course, rad, 0 to pi, wherever a motion is not slow.
+    """Bound the angle between a heading and the course, rad, 0 to pi, where the motion is not slow.
 
     pieces : channels x, y, metres, and a heading, rad, shape (M, n + 1, 3), over seconds
-    slow : m/s over ground, up to which nothing counts; gap : as in ``geom.proof.sup_convex``
-    Where the motion is slow all along both values are -inf.
+    slow : speed over ground up to which the angle does not count, m/s; gap : as in ``geom.proof.sup_convex``
+    If the whole motion is slow, both values are -inf.
     """
     velocity, heading = pieces.channels(0, 1).derivative(), pieces.channels(2)
     motion = _Motion(velocity, velocity.derivative(), heading, heading.derivative())
@@ -68,7 +68,7 @@ def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -
 
 
 def _bounds(motion: _Motion) -> tuple[Array, Array]:
-    """Return the most that the angle can be on each piece, and what it is in the middle, (M,)."""
+    """Return an upper bound of the angle on each piece, and its value in the middle, (M,) each."""
     v, a, heading = motion.velocity.ctrl, motion.acceleration.ctrl, motion.heading.ctrl[:, :, 0]
     middle = _middle(v)
     course = np.arctan2(middle[:, 1], middle[:, 0])
@@ -100,7 +100,7 @@ def _speed(motion: _Motion) -> Array:
 
 
 def _turned(v: Array, course: Array) -> tuple[Array, Array]:
-    """Return the parts of vectors (M, K, 2) along courses (M,), and to the left of them, (M, K) each."""
+    """Return the components of vectors (M, K, 2) along courses (M,), and to the left of them, (M, K) each."""
     c, s = np.cos(course)[:, None], np.sin(course)[:, None]
     return v[:, :, 0] * c + v[:, :, 1] * s, v[:, :, 1] * c - v[:, :, 0] * s
 

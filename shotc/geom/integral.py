@@ -1,4 +1,4 @@
-"""Bounds of an integral that hold: Bernstein hulls, halved until they are tight enough."""
+"""Proved bounds on an integral, by Bernstein hulls that are halved until the bounds are tight."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from shotc.geom.pieces import Pieces
 from shotc.geom.proof import Value
 
 ROUNDS = 12
-"""Halvings at most; each divides the gap by four."""
+"""Most halvings; each divides the gap by four."""
 
 
 class Between(NamedTuple):
-    """An integral lies between these two."""
+    """Bounds on an integral."""
 
     low: float
     high: float
@@ -23,10 +23,11 @@ class Between(NamedTuple):
 def integral_convex(pieces: Pieces, value: Value, share: float) -> Between:
     """Bound the integral of a convex function along polynomial pieces, over their parameter.
 
-    value : convex, maps control points (..., D) to numbers (...), none negative
-    share : of the integral, by which the bounds may differ
-    The curve is a mean of its control points with weights that integrate to 1 / (n + 1), so the function's
-    mean is at most the mean of its values there, and (Jensen's inequality) at least its value at their mean.
+    value : convex and not negative, maps control points (..., D) to numbers (...)
+    share : admissible difference of the bounds, as a share of the integral
+    The curve is a mean of its control points with weights that integrate to 1 / (n + 1). So the function's
+    mean is at most the mean of its values at the control points and, by Jensen's inequality, at least its
+    value at their mean.
     """
     low, high = 0.0, 0.0
     for left in range(ROUNDS, -1, -1):

@@ -1,4 +1,4 @@
-"""Whether a solid stands between two points. Plain Python."""
+"""Whether a solid is between two points. Plain Python."""
 
 from math import dist
 
@@ -15,7 +15,7 @@ from shotc.geom.vec import Vec2, Vec3
 
 
 def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
-    """Tell whether the straight line from one point to another meets a solid."""
+    """Return whether the segment from a to b meets a solid."""
     span = _level(solid, a, b)
     if span is None:
         return False
@@ -27,7 +27,7 @@ def crosses(solid: Solid, a: Vec3, b: Vec3) -> bool:
 
 
 def _level(solid: Solid, a: Vec3, b: Vec3) -> tuple[float, float] | None:
-    """Return the stretch of a line, as shares, that is between a solid's bottom and its top."""
+    """Return the part of a segment, as shares, between a solid's bottom and its top; None without one."""
     rise = b[2] - a[2]
     if abs(rise) < 1e-12:
         return (0.0, 1.0) if solid.bottom <= a[2] <= solid.top else None

@@ -1,8 +1,8 @@
-"""How near any two of many flights of one clock come, each with breaks of its own: a bound that is proved.
+"""A proved bound on the least distance of any two of many flights on one clock, each with its own breaks.
 
-As ``geom.separation``, for cubics without common breaks. Time is cut into slabs; within each a drone's boxes
-are those of its control points, less the motion that all drones have in common, and a k-d tree of the balls
-about them gives every pair that could be the nearest. A flight stands before it begins and after it ends.
+It does what ``geom.separation`` does, for cubics without common breaks. Time is cut into slabs. Within a slab
+a drone has the bounding ball of its control points, minus the common motion of all drones. A k-d tree of
+these balls gives every pair that may be the nearest. A flight stands before its start and after its end.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ SLAB_S = 0.5
 """Seconds of a slab of flights without common breaks."""
 MOST_SLABS = 20_000
 BLOCK_PAIRS = 20_000
-"""Pairs looked at together, which bounds the memory."""
+"""Pairs that are processed together, to bound the memory."""
 
 
 def closest_of(
@@ -35,12 +35,12 @@ def closest_of(
     first: int | None = None,
     spans: Array | None = None,
 ) -> Nearest:
-    """Return the nearest that two flights ever come, in the sense of ``apart``.
+    """Return the nearest approach of two flights, in the metric of ``apart``.
 
-    flights : cubics x, y, z over seconds, metres, two at least
-    first : of how many of them one of two has to be, and the other one of the rest; None for any
-    spans : between which of its breaks each flight counts, or before and after all, shape (n, 2), seconds;
-        None for always
+    flights : cubics x, y, z over seconds, metres, at least two
+    first : one flight of a pair is among the first so many, the other among the rest; None for any pair
+    spans : interval in which each flight counts, shape (n, 2), seconds; its ends are breaks of the flight or
+        beyond all of them; None for always
     """
     search = NearestPair(upright=apart.shape == "cylinder")
     high = stretch(apart)
@@ -58,7 +58,7 @@ def closest_of(
 
 
 def _ball(search: NearestPair) -> float:
-    """Return how much larger a ball is that holds what is kept free."""
+    """Return the factor from the separation to the radius of a ball that contains its shape."""
     return float(np.sqrt(2.0)) if search.upright else 1.0
 
 
@@ -73,10 +73,10 @@ def _between(flights: Sequence[Piecewise], search: NearestPair) -> tuple[float, 
 class _Slabs:
     """Flights cut at the ends of slabs.
 
-    ends : (S + 1,), seconds; cut : the flights on breaks that hold these ends
-    at : places at the ends, (n, S + 1, 3); centre, radius : of balls that hold each flight in each slab, less
-        what all have in common, (n, S, 3) and (n, S)
-    spans : when each flight counts, (n, 2)
+    ends : (S + 1,), seconds; cut : the flights on breaks that include these ends
+    at : positions at the ends, (n, S + 1, 3)
+    centre, radius : of bounding balls of each flight in each slab, minus the common motion, (n, S, 3), (n, S)
+    spans : interval in which each flight counts, (n, 2), seconds
     """
 
     ends: Array
@@ -87,11 +87,11 @@ class _Slabs:
     spans: Array
 
     def counted(self, low: float, high: float) -> Index:
-        """Return which flights count at some time of an interval."""
+        """Return the indices of the flights that count at any time of an interval."""
         return np.flatnonzero((self.spans[:, 0] <= high) & (self.spans[:, 1] >= low))
 
     def apart(self, pairs: Index, slab: Index) -> Array:
-        """Return how far the balls of pairs are apart, (M,)."""
+        """Return the gaps between the balls of pairs, (M,)."""
         one, other = pairs[:, 0], pairs[:, 1]
         away = norm(self.centre[one, slab] - self.centre[other, slab])
         return np.asarray(away - self.radius[one, slab] - self.radius[other, slab])
@@ -148,7 +148,7 @@ def _slabs(flights: Sequence[Piecewise], spans: Array | None) -> _Slabs:
 
 
 def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
-    """Return a curve that stands before its beginning and after its end."""
+    """Return a curve extended by rest, from time ``begin`` to time ``end``."""
     if curve.start > begin:
         still = np.repeat(curve.ctrl[:1, :1], curve.degree + 1, axis=1)
         curve = Piecewise(np.insert(curve.breaks, 0, begin), np.concatenate([still, curve.ctrl]))
@@ -156,7 +156,7 @@ def _standing(curve: Piecewise, begin: float, end: float) -> Piecewise:
 
 
 def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
-    """Look for the nearest pair at the ends of slabs, and for one of which both count somewhere."""
+    """Search the nearest pair at the ends of slabs, and one pair whose flights both count at some time."""
     begins = np.argsort(slabs.spans[:, 0], kind="stable")
     for one, other in pairwise(begins.tolist()):
         begin = float(np.clip(slabs.spans[other, 0], slabs.ends[0], slabs.ends[-1]))
@@ -182,7 +182,9 @@ def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
 
 
 def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[Index, Index]:
-    """Return pairs, and slabs in which they could be nearer than the nearest found so far, nearest first."""
+    """Return pairs and the slabs in which they may be nearer than the least distance so far, nearest
+    first.
+    """
     found, where = [np.zeros((0, 2), dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
     bound = search.best * _ball(search)
     for k in range(len(slabs.ends) - 1):
@@ -199,7 +201,7 @@ def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[
             )
             pairs = np.stack([near["i"], near["j"] + first], axis=1)
         index = np.full(len(pairs), k, dtype=np.intp)
-        # What stands at a distance that is attained already is no nearer.
+        # A standing pair at an attained distance is no nearer.
         near_enough = slabs.apart(pairs, index) < bound - search.gap()
         found.append(pairs[near_enough])
         where.append(index[near_enough])

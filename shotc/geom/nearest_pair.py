@@ -1,8 +1,8 @@
-"""The nearest of many pairs of drones: relative motions as cubics, halved until the least distance is proved.
+"""The nearest of many pairs of drones, by branch and bound over cubic relative motions.
 
-Along any fixed direction a cubic is nowhere less than its control points. That bound closes quadratically as
-intervals are halved, and only those that could still hold the least value are. Space is stretched as in
-``geom.separation``.
+Along any fixed direction a cubic is at least the minimum of its control points. The error of this bound falls
+quadratically as intervals are halved. Only intervals that may contain the minimum are halved. Space is
+stretched as in ``geom.separation``.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from shotc.geom.proof import norm
 Index = NDArray[np.intp]
 
 GAP_M = 5e-7
-"""How far the proved bound may stay below a value that is attained, relative beyond one metre."""
+"""Admissible difference of the proved bound and an attained value; relative above one metre."""
 
 ROUNDS = 60
-"""Halvings before a bound is given as it is, as in ``geom.proof``."""
+"""Most halvings of an interval, as in ``geom.proof``."""
 
 OPEN_INTERVALS_LIMIT = 200_000
-"""Intervals halved at once; beyond it the bound stays proven but is not made tighter."""
+"""Most intervals that are halved together; beyond it the bound stays proven but does not get tighter."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +41,7 @@ class PairMotions:
         return PairMotions(self.pairs[which], self.ends[which], self.ctrl[which])
 
     def halves(self) -> PairMotions:
-        """Return every interval cut in two."""
+        """Return the halves of every interval."""
         left, right = split_half(self.ctrl)
         middle = self.ends.mean(axis=1)
         early = np.stack([self.ends[:, 0], middle], axis=1)
@@ -54,9 +54,10 @@ class PairMotions:
 class NearestPair:
     """Branch and bound over pairs and intervals.
 
-    upright : whether what is kept free is an upright cylinder, as high as wide, else a ball
-    best : the least distance found so far; rest : the least bound of what was not halved to the end
-    pair, time : whose it is, and when
+    upright : whether the separation is an upright cylinder, as high as wide; else a ball
+    best : the least distance found so far; rest : the least bound of intervals that were not halved to the
+        end
+    pair, time : of the least distance
     """
 
     def __init__(self, *, upright: bool) -> None:
@@ -65,12 +66,12 @@ class NearestPair:
         self.pair, self.time = (0, 0), 0.0
 
     def note(self, apart: float, pair: tuple[int, int], time: float) -> None:
-        """Keep a distance that is attained, if it is the least so far."""
+        """Store an attained distance if it is the least so far."""
         if apart < self.best:
             self.best, self.pair, self.time = apart, pair, time
 
     def close(self, bag: PairMotions) -> None:
-        """Halve intervals until none could be nearer than the nearest found."""
+        """Halve intervals until none can contain a smaller distance than the least one found."""
         for _ in range(ROUNDS):
             if not len(bag.ends):
                 return
@@ -85,17 +86,17 @@ class NearestPair:
         self.rest = min(self.rest, float(self.least(bag.ctrl).min(initial=np.inf)))
 
     def gap(self) -> float:
-        """Return how far the proved bound may stay below the least distance."""
+        """Return the admissible difference of the proved bound and the least distance."""
         return GAP_M * max(1.0, self.best)
 
     def size(self, relative: Array) -> Array:
-        """Return how near the drones are whose stretched relative positions are given, shape (M,)."""
+        """Return the distances (M,) of drones with stretched relative positions (M, 3)."""
         if self.upright:
             return np.asarray(np.maximum(norm(relative[:, :2]), np.abs(relative[:, 2])))
         return norm(relative)
 
     def least(self, ctrl: Array) -> Array:
-        """Return lower bounds of ``size`` along cubics, from planes across their middles."""
+        """Return lower bounds of ``size`` along cubics, by planes perpendicular to their middles."""
         middle = midway(ctrl)
         if not self.upright:
             return least_along(ctrl, middle)
@@ -104,7 +105,7 @@ class NearestPair:
 
 
 def joined(bags: Sequence[PairMotions]) -> PairMotions:
-    """Put bags into one."""
+    """Return the union of bags."""
     if not bags:
         return PairMotions(np.zeros((0, 2), dtype=np.intp), np.zeros((0, 2)), np.zeros((0, 4, 3)))
     return PairMotions(
@@ -120,7 +121,9 @@ def midway(ctrl: Array) -> Array:
 
 
 def least_along(ctrl: Array, towards: Array) -> Array:
-    """Return how far control points (M, 4, D) are at least along directions (M, D), 0 where there is none."""
+    """Return the least of control points (M, 4, D) along directions (M, D), shape (M,); 0 without a
+    direction.
+    """
     size = norm(towards)
     along = np.einsum("mkd,md->km", ctrl, towards)
     least = np.minimum(np.minimum(along[0], along[1]), np.minimum(along[2], along[3]))

@@ -1,10 +1,10 @@
-"""A step of least squares, of a few unknowns. Plain Python, for `check` uses it."""
+"""A least-squares step with few unknowns. Plain Python, because `check` uses it."""
 
 
 def damped_step(normal: list[list[float]], gradient: list[float], damping: float) -> list[float]:
-    """Solve damped normal equations (Marquardt) by Gaussian elimination with pivots.
+    """Solve damped normal equations (Marquardt) by Gaussian elimination with pivoting; return the n unknowns.
 
-    normal : J^T J, n rows of n; gradient : J^T r less its sign, n; damping : share added to the diagonal
+    normal : J^T J, n rows of n; gradient : right-hand side, n values; damping : share added to the diagonal
     """
     n = len(gradient)
     rows = [[*normal[i], gradient[i]] for i in range(n)]

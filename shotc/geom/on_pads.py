@@ -1,4 +1,4 @@
-"""When drones of a fleet stand on their pads, as its splines say: before they rise, and after they landed."""
+"""The pieces of a fleet's splines on which drones stand on their pads: before take-off and after landing."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
 
 ON_PAD_M = 1e-3
-"""Metres from a pad within which a drone stands on it."""
+"""Distance from a pad up to which a drone stands on it, metres."""
 
 Mask = NDArray[np.bool_]
 
 
 def on_pads(coef: Array, pads: Array) -> Mask:
-    """Tell of every drone and piece whether it stands on a pad all the while, shape (n, P).
+    """Return for every drone and piece whether it stands on a pad during the whole piece, shape (n, P).
 
-    coef : shape (n, P + 3, 3), as in ``geom.fleet_spline``; pads : shape (m, 3). All that counts on such a
-    piece are four equal control points. Nothing but standing comes before it, or nothing after it.
+    coef : shape (n, P + 3, 3), as in ``geom.fleet_spline``; pads : shape (m, 3), metres. The four control
+        points
+    of such a piece are equal, and the drone also stands on all pieces before it, or on all pieces after it.
     """
     still = (np.diff(coef, axis=1) == 0.0).all(axis=2)
     pieces = coef.shape[1] - DEGREE

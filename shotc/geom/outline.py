@@ -1,8 +1,9 @@
-"""How much of a target's outline other things cover: n x n rays a frame over what a camera sees of it.
+"""The covered share of a target's outline, by n x n rays a frame.
 
-Rays lead to the middles of cells of the least rectangle, across the line of sight to the target's centre,
-that holds its outline in perspective. Those that meet the target stand for its outline, in equal parts; each
-ends where it enters the target, so that nothing within or behind it covers it.
+Rays lead to the middles of the cells of a rectangle. It is the smallest one, perpendicular to the line of
+sight to the target's centre, that contains the outline in perspective. The rays that meet the target
+represent equal parts of its outline. Each ray ends where it enters the target, so nothing inside or behind
+the target covers it.
 """
 
 from __future__ import annotations
@@ -26,22 +27,22 @@ from shotc.geom.surface.triangles import cross
 from shotc.geom.vec import Vec3
 
 CELLS = 12
-"""Cells on a side: shares are good to 0.01 in the mean where outlines are covered in part."""
+"""Cells on a side; the mean error of a partly covered share is 0.01."""
 RIM = 12
-"""Places on each rim of a cylinder, of the rectangle that holds its outline."""
+"""Points on each rim of a cylinder for the rectangle around its outline."""
 LEAST_DEPTH_SHARE = 0.05
-"""Of the distance to a target's centre: what is nearer to the camera is not taken for larger."""
+"""Least depth in the projection of an outline, as a share of the distance to the target's centre."""
 NO_LENGTH_M = 1e-9
 CLOSE_M = 1e-6
-"""From the side of a pyramid of rays, at which a solid is still one that they may come to."""
+"""Distance from the side of a pyramid of rays up to which a solid may still meet them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OutlineRays:
     """Rays from cameras to the outline of a body, n x n a frame.
 
-    boards : where the cells lie; own : whether a ray meets the body, shape (F, n, n)
-    reach  : share of the way to a cell at which the ray enters the body, shape (F, n, n); 0 where it does not
+    boards : the rectangles of cells; own : whether a ray meets the body, shape (F, n, n)
+    reach  : share of the way to a cell at which the ray enters the body, shape (F, n, n); 0 if it does not
     """
 
     boards: Billboards
@@ -52,11 +53,11 @@ class OutlineRays:
         return len(self.own)
 
     def mapped(self, put: Callable[[Array], Array]) -> OutlineRays:
-        """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
+        """Return the same rays with ``put``, a rigid motion of each frame, applied to all points (F, 3)."""
         return OutlineRays(self.boards.mapped(put), self.own, self.reach)
 
     def segments(self, which: Mask) -> tuple[Array, Array]:
-        """Return where the K rays of a mask (F, n, n) begin and end, each of shape (K, 3), metres."""
+        """Return the start and end points, (K, 3) each, metres, of the K rays of a mask (F, n, n)."""
         frame, i, j = np.nonzero(which)
         board, n = self.boards, self.own.shape[1]
         eyes, a, b = board.eye[frame], (i + 0.5) / n, (j + 0.5) / n
@@ -66,9 +67,9 @@ class OutlineRays:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OutlineBoards:
-    """The rectangles that hold the outline of a body.
+    """The rectangles that contain the outline of a body.
 
-    through : share of the way to the body's centre that is for sure beyond the body, shape (F,)
+    through : share of the way to the body's centre, above 1, that is certainly beyond the body, shape (F,)
     """
 
     boards: Billboards
@@ -80,19 +81,19 @@ class OutlineBoards:
 
 
 def outline_boards(shape: TargetShape, centre: Vec3, eyes: Array) -> OutlineBoards:
-    """Return what holds the outlines, from eyes (F, 3), of a shape that stands about a centre, metres."""
+    """Return the rectangles around the outlines, from eyes (F, 3), of a shape at a centre, metres."""
     bodies, middle = bodies_of(shape), np.array(centre)
     contour = np.concatenate(
         [shape_contour(middle + np.array(body.offset) - eyes, body.shape, RIM) for body in bodies], axis=1
     )
-    # Cells lie in the plane of the centre; this is far enough to be through the target.
+    # Cells lie in the plane of the centre. This distance is certainly beyond the target.
     size = np.linalg.norm(contour - (middle - eyes)[:, None], axis=2).max(axis=1)
     through = 1.0 + 2.0 * size / np.maximum(np.linalg.norm(middle - eyes, axis=1), NO_LENGTH_M)
     return OutlineBoards(_holding(eyes, middle, contour), through)
 
 
 def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards, n: int = CELLS) -> OutlineRays:
-    """Return the rays to the outline of a shape that stands about a centre, metres; on : what holds it."""
+    """Return the rays to the outline of a shape at a centre, metres; on : the rectangles around it."""
     boards = on.boards
     eyes = np.repeat(boards.eye, n * n, axis=0)
     beyond = np.repeat(on.through, n * n)
@@ -102,9 +103,9 @@ def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards, n: int = C
 
 
 def entering(shape: TargetShape, centre: Vec3, eyes: Array, along: Array) -> Array:
-    """Return the shares of segments at which they enter a shape about a centre, (M,); inf where they do not.
+    """Return the shares (M,) of segments at which they enter a shape at a centre; inf if they do not.
 
-    eyes : where they begin, along : from there to their ends, (M, 3), metres
+    eyes : their starts, along : from start to end, (M, 3), metres
     """
     share = np.full(len(eyes), np.inf)
     for body in bodies_of(shape):
@@ -115,7 +116,7 @@ def entering(shape: TargetShape, centre: Vec3, eyes: Array, along: Array) -> Arr
 
 
 def near(boards: Billboards, centres: Array, radius: float) -> Mask:
-    """Tell in which frames a ray may come to balls at centres, (3,) or (F, 3), shape (F,)."""
+    """Return in which frames a ray may meet balls at centres, (3,) or (F, 3); shape (F,)."""
     along = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
     away = centres - boards.eye
     square = np.maximum(np.einsum("fd,fd->f", along, along), NO_LENGTH_M**2)
@@ -125,14 +126,14 @@ def near(boards: Billboards, centres: Array, radius: float) -> Mask:
 
 
 def near_solid(boards: Billboards, solid: Solid) -> Mask:
-    """Tell in which frames a ray may come to a solid, shape (F,): it is near, and not beside all of them."""
+    """Return in which frames a ray may meet a solid, shape (F,): it is near and not beside all rays."""
     may = near(boards, *_ball_about(solid))
     may[may] = ~_beside(boards.pick(may), solid)
     return may
 
 
 def _beside(boards: Billboards, solid: Solid) -> Mask:
-    """Tell in which frames a solid lies beyond one of the four sides of the pyramid of rays, shape (F,)."""
+    """Return in which frames a solid is beyond one of the four sides of the pyramid of rays, shape (F,)."""
     first = boards.corner - boards.eye
     corners = (first, first + boards.right, first + boards.right + boards.up, first + boards.up)
     middle = corners[0] + corners[2]
@@ -141,14 +142,14 @@ def _beside(boards: Billboards, solid: Solid) -> Mask:
         inward = cross(a, b)
         inward *= np.where(np.einsum("fd,fd->f", inward, middle) < 0.0, -1.0, 1.0)[:, None]
         inward /= np.maximum(np.linalg.norm(inward, axis=1), NO_LENGTH_M**2)[:, None]
-        with np.errstate(invalid="ignore"):  # of a solid without an end on a side that is upright
+        with np.errstate(invalid="ignore"):  # an unbounded solid at a vertical side
             reach = support(solid, inward) - np.einsum("fd,fd->f", inward, boards.eye)
         beside |= reach < -CLOSE_M
     return beside
 
 
 def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
-    """Tell which rays a solid is in the way of, (F, n, n); one that holds the eye hides nothing."""
+    """Return which rays a solid blocks, (F, n, n); a solid that contains the eye blocks none."""
     out, may = np.zeros_like(rays.own), near_solid(rays.boards, solid)
     may[may] = signed_distance(solid, rays.boards.eye[may]) > 0.0
     if may.any():
@@ -158,7 +159,9 @@ def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
 
 
 def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
-    """Tell which rays balls at centres (F, 3) are in the way of, (F, n, n), unless they hold the eye."""
+    """Return which rays balls at centres (F, 3) block, (F, n, n); a ball that contains the eye blocks
+    none.
+    """
     out, may = np.zeros_like(rays.own), near(rays.boards, centres, radius)
     may &= np.linalg.norm(centres - rays.boards.eye, axis=1) >= radius
     if may.any():
@@ -172,18 +175,20 @@ def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
 
 
 def covered_by_surface(rays: OutlineRays, surface: Surface, pairs: Pairs) -> Mask:
-    """Tell which rays a surface is in the way of, shape (F, n, n); pairs : of frames and its triangles."""
+    """Return which rays a surface blocks, shape (F, n, n); pairs : of frames and its triangles."""
     return np.asarray(stopped(surface, rays.boards, pairs, rays.reach) & rays.own)
 
 
 def share_of(rays: OutlineRays, which: Mask) -> Array:
-    """Return the share of the outline that some rays (F, n, n) stand for, (F,); 0 without an outline."""
+    """Return the share (F,) of the outline that the rays of a mask (F, n, n) represent; 0 without an
+    outline.
+    """
     count = rays.own.sum(axis=(1, 2))
     return np.asarray((which & rays.own).sum(axis=(1, 2)) / np.maximum(count, 1))
 
 
 def _ball_about(solid: Solid) -> tuple[Array, float]:
-    """Return the centre, (3,), and the radius of a ball that holds a solid, metres."""
+    """Return the centre, (3,), and the radius of a bounding ball of a solid, metres."""
     tall = 0.5 * (solid.top - solid.bottom)
     if isinstance(solid, Cylinder):
         x, y, radius = *solid.centre, solid.radius
@@ -194,7 +199,9 @@ def _ball_about(solid: Solid) -> tuple[Array, float]:
 
 
 def _holding(eyes: Array, middle: Array, contour: Array) -> Billboards:
-    """Return the rectangles across the lines of sight that hold points (F, K, 3), given less the eyes."""
+    """Return the rectangles perpendicular to the lines of sight around points (F, K, 3), given minus the
+    eyes.
+    """
     frame = billboards(eyes, np.broadcast_to(middle, eyes.shape), 1.0, 1.0)
     away = middle - eyes
     far = np.maximum(np.linalg.norm(away, axis=1), NO_LENGTH_M)

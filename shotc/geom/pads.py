@@ -1,4 +1,4 @@
-"""Pads that are too near to each other, of one fleet or of two. Plain Python."""
+"""The search for pads that are too near to each other, in one fleet or in two. Plain Python."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Cell = tuple[int, int, int]
 
 
 class Pair(NamedTuple):
-    """Two pads by index; share : of the separation that is between them, 1 where it is just kept."""
+    """Two pads by index; share : their distance over the separation, 1 if it is just kept."""
 
     one: int
     other: int
@@ -25,16 +25,16 @@ class Pair(NamedTuple):
 
 
 def nearest_pair(pads: Sequence[Vec3], apart: Distances) -> Pair | None:
-    """Return the two pads nearest to each other as the fleet measures it, if any are nearer than they may.
+    """Return the two pads nearest to each other in the fleet's metric; None if all keep the separation.
 
-    Points go one by one into cells as wide as the least distance so far; the cells are laid anew where a
-    nearer pair is found, which is seldom (Golin et al., randomized data structures for closest pairs).
+    Points are inserted one by one into cells as wide as the least distance so far. The cells are rebuilt if a
+    nearer pair is found, which is rare (Golin et al., randomized data structures for closest pairs).
     """
     points = [(x / apart.across, y / apart.across, z / apart.upright) for x, y, z in pads]
     away = _measure(apart)
     best = Pair(0, 0, 1.0 - ROUNDING)
     cells: dict[Cell, list[int]] = defaultdict(list)
-    order = sorted(range(len(points)), key=lambda i: i * 2654435761 % 2**32)  # no row after row
+    order = sorted(range(len(points)), key=lambda i: i * 2654435761 % 2**32)  # a shuffled order
     for done, i in enumerate(order):
         near = [(away(points[i], points[j]), j) for j in _around(cells, points[i], best.share)]
         share, j = min(near, default=(1.0, 0))
@@ -53,7 +53,7 @@ def nearest_pair(pads: Sequence[Vec3], apart: Distances) -> Pair | None:
 def first_nearer(one: Sequence[Vec3], other: Sequence[Vec3], reach: float) -> Pair | None:
     """Return the first pad of the second fleet that is nearer than a distance to one of the first fleet.
 
-    reach : metres, the separation that ``share`` counts in
+    reach : that distance, metres; ``share`` of the result refers to it
     """
     cells: dict[Cell, list[int]] = defaultdict(list)
     for i, pad in enumerate(one):
@@ -66,7 +66,7 @@ def first_nearer(one: Sequence[Vec3], other: Sequence[Vec3], reach: float) -> Pa
 
 
 def _measure(apart: Distances) -> Callable[[Vec3, Vec3], float]:
-    """Return the distance in shares of the separation, of points in units of it."""
+    """Return the metric in shares of the separation, for points in units of it."""
     if apart.shape == "ellipsoid":
         return dist
     return lambda p, q: max(hypot(p[0] - q[0], p[1] - q[1]), abs(p[2] - q[2]))
@@ -77,7 +77,7 @@ def _cell(p: Vec3, width: float) -> Cell:
 
 
 def _around(cells: dict[Cell, list[int]], p: Vec3, width: float) -> Iterator[int]:
-    """Yield the points in the cells at and about ``p``."""
+    """Yield the points in the cell of ``p`` and in its neighbours."""
     a, b, c = _cell(p, width)
     for i, j, k in _AROUND:
         yield from cells.get((a + i, b + j, c + k), ())

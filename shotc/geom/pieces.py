@@ -1,4 +1,4 @@
-"""Polynomial pieces as a bag of arrays: cut out of a curve, differentiated, halved where it matters."""
+"""Polynomial pieces as arrays: cut out of a curve, differentiated, halved."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pieces:
-    """Polynomials over intervals that need not adjoin.
+    """Polynomials over intervals that need not be adjacent.
 
     low, high : ends of the intervals, shape (M,)
     ctrl : Bernstein control points, shape (M, n + 1, D)
@@ -61,9 +61,9 @@ def pieces(curve: Piecewise) -> Pieces:
 
 
 def cut(curve: Piecewise, start: float, end: float) -> Pieces:
-    """Return the pieces of ``curve`` between two parameters, the outermost ones cut to fit.
+    """Return the pieces of ``curve`` between two parameters; the first and the last one are cut there.
 
-    Where the interval is empty or outside the curve, no pieces are returned.
+    If the interval is empty or outside the curve, there are no pieces.
     """
     first = int(np.searchsorted(curve.breaks, start, side="right")) - 1
     last = int(np.searchsorted(curve.breaks, end, side="left"))
@@ -80,7 +80,7 @@ def cut(curve: Piecewise, start: float, end: float) -> Pieces:
 
 
 def join(bags: Sequence[Pieces]) -> Pieces:
-    """Put pieces of one degree and dimension into one bag."""
+    """Return the union of pieces of the same degree and dimension."""
     return Pieces(
         np.concatenate([bag.low for bag in bags]),
         np.concatenate([bag.high for bag in bags]),

@@ -1,13 +1,13 @@
-"""Bounds that hold at every instant: Bernstein hulls, halved until they are tight enough.
+"""Bounds that hold at every instant, by Bernstein hulls that are halved until the bounds are tight.
 
-A convex function of a polynomial is nowhere larger on a piece than at the worst of the piece's control
-points; a polynomial is nowhere nearer to a convex solid than its control points are along any fixed
-direction. Both bounds close quadratically as pieces are halved, and only pieces that could still hold the
-worst value are halved (branch and bound).
+On a piece, a convex function of a polynomial is at most its largest value at the piece's control points. The
+distance of a polynomial from a convex solid is at least that of its control points along any fixed direction.
+The error of both bounds falls quadratically as pieces are halved. Only pieces that may contain the worst
+value are halved (branch and bound).
 
-Arithmetic is IEEE double. Control points are exact by definition; sums and differences of them lose at
-most a few units in the last place, about 1e-13 of a flight's size and, for third derivatives of pieces of a
-millisecond, 1e-7: callers allow a tolerance of 1e-6, half of which is the gap asked for here.
+Arithmetic is IEEE double. Control points are exact by definition. Their sums and differences lose at most a
+few units in the last place: about 1e-13 of a flight's size, and 1e-7 for third derivatives of pieces of a
+millisecond. Callers allow a tolerance of 1e-6, half of which is the gap here.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, hull_and_poc
 from shotc.geom.taper import Taper
 
 ROUNDS = 60
-"""Halvings before a bound is given as it is; an interval of an hour is then shorter than a nanosecond."""
+"""Most halvings of a piece; an interval of an hour is then shorter than a nanosecond."""
 
 OPEN_PIECES_LIMIT = 200_000
-"""Pieces halved at once; beyond it the bound stays proven but is not made tighter."""
+"""Most pieces that are halved together; beyond it the bound stays proven but does not get tighter."""
 
 Value = Callable[[Array], Array]
 
@@ -47,11 +47,12 @@ class ProvedExtreme:
 
 
 def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> ProvedExtreme:
-    """Bound the supremum of a convex function along polynomial pieces, or of a quasi-convex one.
+    """Bound the supremum of a convex or quasi-convex function along polynomial pieces.
 
     value : (quasi-)convex, maps control points (..., D) to numbers (...)
-    gap   : how far ``proven`` may stay above ``attained``, given the largest value found so far
-    No pieces: both are -inf.
+    gap   : admissible difference of ``proven`` and ``attained``, as a function of the largest value found so
+        far
+    Without pieces both are -inf.
     """
     best, at, closed = -np.inf, 0.0, -np.inf
     rest = -np.inf
@@ -75,7 +76,7 @@ def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> P
 
 
 def sup_norm(pieces: Pieces, gap: Callable[[float], float]) -> ProvedExtreme:
-    """Bound the supremum of the Euclidean norm of all channels."""
+    """Bound the supremum of the Euclidean norm of all channels; arguments as in ``sup_convex``."""
     return sup_convex(pieces, norm, gap)
 
 
@@ -98,8 +99,8 @@ def norm(vectors: Array) -> Array:
 def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) -> ProvedExtreme:
     """Bound the infimum of the distance from a solid along pieces of shape (M, n + 1, 3), metres.
 
-    Where the curve enters the solid the value is negative: minus the depth at the deepest place found.
-    ``gap`` as in ``sup_convex``, given the smallest distance found so far.
+    If the curve enters the solid, the value is negative: minus the largest depth that was found. ``gap`` as
+    in ``sup_convex``, as a function of the smallest distance found so far.
     """
     best = _least(pieces, _from_all(solid, _distances), gap)
     if best.attained > 0:
@@ -109,10 +110,11 @@ def inf_distance(pieces: Pieces, solid: Solid, gap: Callable[[float], float]) ->
 
 
 def inf_tapered(pieces: Pieces, solid: Solid, taper: Taper, gap: Callable[[float], float]) -> ProvedExtreme:
-    """Bound the infimum of a distance from a solid to which what a taper gives is added, metres.
+    """Bound the infimum of the distance from a solid with the allowance of a taper, metres.
 
-    That is the distance, or the clearance and by how much the distance exceeds what is needed where that is
-    less: below the clearance iff the distance is below what is needed. ``gap`` as in ``inf_distance``.
+    The value is the larger of the distance, and of the clearance plus the slack of the distance over the
+    tapered need. It is below the clearance iff the distance is below the need. ``gap`` as in
+    ``inf_distance``.
     """
     return _least(pieces, _from_all(solid, partial(_tapered, taper)), gap)
 
@@ -122,7 +124,7 @@ Nearness = Callable[[Pieces], tuple[Array, Array]]
 
 
 def _from_all(solid: Solid, of: Callable[[Pieces, Solid], tuple[Array, Array]]) -> Nearness:
-    # Of all parts at once: near one part the curve may be in another.
+    # All parts together: near one part the curve may be inside another.
     parts = convex_parts(solid)
     return lambda pieces: np.min([of(pieces, part) for part in parts], axis=0)
 
@@ -147,17 +149,19 @@ def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> Pro
 
 
 def _distances(pieces: Pieces, part: Solid) -> tuple[Array, Array]:
-    """Return lower bounds of every piece's distance from a convex solid, and the distance of its middle."""
+    """Return lower bounds of every piece's distance from a convex solid, and the distances of its middle,
+    (M,).
+    """
     distance, normal = separation(part, _middle(pieces.ctrl))
     along = np.einsum("mkd,md->mk", pieces.ctrl, normal).min(axis=1) - support(part, normal)
     return np.maximum(np.where(distance > 0.0, along, 0.0), box_gap(pieces.ctrl, part)), distance
 
 
 def _tapered(taper: Taper, pieces: Pieces, part: Solid) -> tuple[Array, Array]:
-    """Return the same as ``_distances`` of distances to which what a taper gives is added.
+    """Return the same as ``_distances``, for distances with the allowance of a taper.
 
-    On a piece the distance is at least that from a plane; less ``slope`` times the distance from an end it is
-    concave, so that it is least at a control point.
+    On a piece the distance is at least that from a plane. Minus ``slope`` times the distance from an end,
+    this is concave, so its minimum is at a control point.
     """
     middle = _middle(pieces.ctrl)
     distance, normal = separation(part, middle)
@@ -172,7 +176,7 @@ def _tapered(taper: Taper, pieces: Pieces, part: Solid) -> tuple[Array, Array]:
 
 
 def _deepest(pieces: Pieces, solid: Solid) -> ProvedExtreme:
-    # The solid is entered, which settles the proof; how deep is told from some thousand places.
+    # The curve enters the solid, so the proof is decided. The depth is sampled at some thousand places.
     for _ in range(12):
         if len(pieces) > 4096:
             break
@@ -187,11 +191,11 @@ def _deepest(pieces: Pieces, solid: Solid) -> ProvedExtreme:
 def sup_outside(
     pieces: Pieces, solid: Solid, gap: Callable[[float], float], *, floor: bool = True
 ) -> ProvedExtreme:
-    """Bound the supremum of how far the curve leaves a solid, metres; negative is the margin inside.
+    """Bound the supremum of the curve's distance outside a solid, metres; negative is the margin inside.
 
-    The value is the largest excess over any face (over the wall of a cylinder), so a sphere of radius r
-    stays inside iff it is at most -r. A footprint that is not convex is its hull less convex pockets:
-    near a pocket the value is minus the distance from it. floor=False leaves out the bottom.
+    The value is the largest excess over any face (or over the wall of a cylinder), so a sphere of radius r
+    stays inside iff it is at most -r. A non-convex footprint is its hull minus convex pockets; near a pocket
+    the value is minus the distance from it. floor=False omits the bottom.
     """
     hull, pockets = (solid, ()) if isinstance(solid, Cylinder) else hull_and_pockets(solid)
     worst = sup_convex(pieces, _excess(hull, floor), gap)
@@ -223,7 +227,7 @@ def _excess(hull: Solid, floor: bool) -> Value:
 
 
 def half_planes(hull: Prism) -> tuple[Array, Array]:
-    """Return outward unit normals (k, 2) and offsets (k,) of a convex footprint: inside, n.p <= offset."""
+    """Return outward unit normals (k, 2) and offsets (k,) of a convex footprint; inside, n.p <= offset."""
     points = np.array(hull.points)
     along = np.roll(points, -1, axis=0) - points
     lengths = norm(along)
@@ -239,7 +243,9 @@ def _middle(ctrl: Array) -> Array:
 
 
 def box_gap(ctrl: Array, part: Solid) -> Array:
-    """Return how far the boxes round control points (M, n + 1, 3) are from the box round a solid, (M,)."""
+    """Return the distances of the boxes round control points (M, n + 1, 3) from the box round a solid,
+    (M,).
+    """
     low, high = bounds(part)
     apart = np.maximum(np.maximum(ctrl.min(axis=1) - high, low - ctrl.max(axis=1)), 0.0)
     return norm(apart)

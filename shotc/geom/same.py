@@ -1,4 +1,4 @@
-"""Objects as keys of caches, without a look at the many thousand numbers that they hold."""
+"""Objects as keys of caches by identity, without comparing the many numbers in them."""
 
 from typing import Generic, TypeVar
 
@@ -6,7 +6,7 @@ T = TypeVar("T")
 
 
 class Same(Generic[T]):
-    """A key that is equal to one of the very same object."""
+    """A key that equals only a key of the identical object."""
 
     __slots__ = ("it",)
 

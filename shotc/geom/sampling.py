@@ -1,4 +1,4 @@
-"""Stretches of a sampled signal, and directions in which places about one are tried."""
+"""Runs of a sampled signal, and sampled directions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 
 
 def worst_of_runs(values: NDArray[np.float64], above: float, notice: float) -> list[int]:
-    """Return where the largest value of each run above ``above`` is, of runs that rise above ``notice``.
+    """Return the index of the maximum of each run of values above ``above``, for runs that exceed ``notice``.
 
     values : shape (M,); above, notice : in their unit
     """
@@ -22,7 +22,7 @@ def worst_of_runs(values: NDArray[np.float64], above: float, notice: float) -> l
 
 
 def directions(turns: int, rises: Sequence[float]) -> Array:
-    """Return unit vectors, ``turns`` to all sides at each rise, rad over level, then up; shape (N, 3)."""
+    """Return unit vectors, shape (N, 3): ``turns`` azimuths at each elevation in ``rises``, rad, then up."""
     turn = 2.0 * np.pi * np.arange(turns) / turns
     flat = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(turns)])
     up = np.array([0.0, 0.0, 1.0])

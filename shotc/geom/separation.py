@@ -1,13 +1,13 @@
-"""How near two drones of fleets come, over all pairs and at every instant: a bound that is proved.
+"""A proved bound on the least distance of two drones of fleets, over all pairs and at every instant.
 
-Heights are stretched (``geom.apart``), so that what is kept free is a ball or an upright cylinder as high as
-wide, and "how near" is one number, metres: the stretched distance, or the larger of the horizontal and the
-stretched vertical one. Time is cut into slabs within which no drone leaves a small ball by more than its own
-control points do; a k-d tree of the balls gives every pair that could be the nearest. Of a pair the relative
-motion is a cubic: along any fixed direction it is nowhere less than its control points. That bound closes
-quadratically as intervals are halved, and only those that could still hold the least value are.
+Heights are stretched (``geom.apart``), so that the separation is a ball, or an upright cylinder as high as
+wide. The distance is one number, metres: the stretched distance, or the larger of the horizontal and the
+stretched vertical distance. Time is cut into slabs in which each drone stays in a small ball around its
+control points. A k-d tree of the balls gives every pair that may be the nearest. The relative motion of a
+pair is a cubic; along any fixed direction it is at least the minimum of its control points. The error of this
+bound falls quadratically as intervals are halved. Only intervals that may contain the minimum are halved.
 
-Arithmetic is IEEE double, as in ``geom.proof``, with the same gap.
+Arithmetic is IEEE double with the same gap as in ``geom.proof``.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from shotc.geom.nearest_pair import Index, NearestPair, PairMotions, joined, mid
 from shotc.geom.proof import norm
 
 REACH_SHARE = 0.4
-"""Largest radius of a drone's ball in a slab, as a share of the horizontal distance that is to be kept."""
+"""Largest radius of a drone's ball in a slab, as a share of the required horizontal distance."""
 
 SAMPLE_SLABS = 128
-"""Slabs in whose middle the nearest pair is looked for first: the nearer it is, the fewer pairs count."""
+"""Slabs in whose middle the nearest pair is searched first; a smaller distance leaves fewer pairs."""
 
 BLOCK_PAIRS = 50_000
-"""Pairs looked at together, which bounds the memory."""
+"""Pairs that are processed together, to bound the memory."""
 
 
 PAIR = 2
@@ -43,11 +43,11 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Nearest:
-    """The nearest that any two drones come, metres of horizontal distance (see the module).
+    """The least distance of any two drones, metres, in the stretched metric (see the module).
 
-    proven : no two are ever nearer; attained : how near ``first`` and ``second`` are at ``time``
-    first, second : their rows, in the first and (of two fleets) the second fleet
-    position : half way between them, p_W; all of it is inf and 0 where there is no pair
+    proven : a lower bound on it; attained : the distance of ``first`` and ``second`` at ``time``
+    first, second : their rows, in the first and (for two fleets) the second fleet
+    position : half way between them, p_W. Without a pair the distances are inf and the rest is 0.
     """
 
     proven: float
@@ -59,10 +59,10 @@ class Nearest:
 
 
 def closest(breaks: Array, coef: Array, apart: Distances, counted: Mask | None = None) -> Nearest:
-    """Return the nearest that two drones of one fleet ever come.
+    """Return the nearest approach of two drones of one fleet.
 
     breaks : shape (P + 1,), seconds; coef : shape (n, P + 3, 3), metres, as in ``geom.fleet_spline``
-    counted : who counts on each piece, shape (n, P); all, if None
+    counted : whether each drone counts on each piece, shape (n, P); None for all
     """
     fleet = replace(_Fleet.of(breaks, coef, apart), counted=counted)
     return _Search(fleet, None, apart).run()
@@ -71,9 +71,9 @@ def closest(breaks: Array, coef: Array, apart: Distances, counted: Mask | None =
 def closest_between(
     breaks: Array, coef: Array, other_breaks: Array, other_coef: Array, apart: Distances
 ) -> Nearest:
-    """Return the nearest that a drone of one fleet ever comes to one of another; arguments as in ``closest``.
+    """Return the nearest approach of a drone of one fleet to one of another; arguments as in ``closest``.
 
-    A fleet stands where it begins before its first break, and where it ends after its last one.
+    A fleet stands before its first break and after its last one.
     """
     one, other = _Fleet.of(breaks, coef, apart), _Fleet.of(other_breaks, other_coef, apart)
     return _Search(one, other, apart).run()
@@ -82,10 +82,10 @@ def closest_between(
 def first_nearer(
     flown: tuple[Array, Array], beside: tuple[Array, Array], apart: Distances, marks: Array, least: float
 ) -> Nearest | None:
-    """Return the nearest of two fleets in the first span in which it is not proved that they keep a distance.
+    """Return the nearest approach of two fleets in the first interval without a proof of a distance, or None.
 
-    flown, beside : breaks and control points, as in ``closest``; least : metres
-    marks : ends of the spans, rising, shape (M,), seconds
+    flown, beside : breaks and control points, as in ``closest``; least : the distance, metres
+    marks : ends of the intervals, rising, shape (M,), seconds
     """
     one, other = _Fleet.of(*flown, apart), _Fleet.of(*beside, apart)
     found = (_Search(one, other, apart, span).run() for span in pairwise(marks.tolist()))
@@ -96,7 +96,7 @@ def first_nearer(
 class _Fleet:
     """A fleet's motion in stretched space; ctrl : Bernstein control points, shape (P, n, 4, 3).
 
-    counted : who counts on each piece, shape (n, P); all, if None
+    counted : whether each drone counts on each piece, shape (n, P); None for all
     """
 
     breaks: Array
@@ -109,14 +109,14 @@ class _Fleet:
         return _Fleet(breaks, np.ascontiguousarray(ctrl * np.array([1.0, 1.0, stretch(apart)])))
 
     def rows(self, low: float, high: float) -> Index | None:
-        """Return the drones that count on an interval that holds no break, shape (m,); None for all."""
+        """Return the rows (m,) of the drones that count on an interval without breaks; None for all."""
         if self.counted is None:
             return None
         k = int(np.searchsorted(self.breaks, 0.5 * (low + high), side="right")) - 1
         return np.flatnonzero(self.counted[:, k])
 
     def on(self, low: float, high: float) -> Array:
-        """Return control points on an interval that holds no break, shape (n, 4, 3)."""
+        """Return the control points on an interval without breaks, shape (n, 4, 3)."""
         if high <= self.breaks[0]:
             return np.repeat(self.ctrl[0, :, :1], 4, axis=1)
         if low >= self.breaks[-1]:
@@ -128,7 +128,9 @@ class _Fleet:
 
 
 def _cut(low: float, high: float) -> Array:
-    """Return the matrix from control points of a cubic to those between two parameters (its blossom)."""
+    """Return the matrix from control points of a cubic to those between two parameters, by its blossom, (4,
+    4).
+    """
     rows = []
     for k in range(4):
         row = np.array([1.0])
@@ -162,12 +164,12 @@ class _Search(NearestPair):
                 self.close(joined(bags))
                 bags = []
         self.close(joined(bags))
-        # Whatever was put aside could not be nearer than this.
+        # The discarded intervals cannot contain a smaller distance.
         proven = min(self.rest, self.best - self.gap())
         return Nearest(proven, self.best, *self.pair, self.time, self._position())
 
     def _slabs(self) -> list[tuple[float, float]]:
-        """Cut time so that no drone leaves its ball by more than the reach; nobody counts in the rest."""
+        """Cut time so that no drone's ball exceeds the reach; intervals without a pair are omitted."""
         breaks = self.one.breaks
         if self.other is not None:
             breaks = np.unique(np.concatenate([breaks, self.other.breaks]))
@@ -187,17 +189,17 @@ class _Search(NearestPair):
         return slabs
 
     def _ctrl(self, low: float, high: float) -> Array:
-        """Return the control points of all drones, of the second fleet after those of the first."""
+        """Return the control points of all drones, those of the first fleet first."""
         one = self.one.on(low, high)
         return one if self.other is None else np.concatenate([one, self.other.on(low, high)])
 
     def _counted(self, low: float, high: float) -> tuple[Array, Index | None]:
-        """Return the control points of those that count, and which they are; None for all."""
+        """Return the control points of the drones that count, and their rows; None for all."""
         rows, ctrl = self.one.rows(low, high), self._ctrl(low, high)
         return (ctrl, None) if rows is None else (ctrl[rows], rows)
 
     def _sample(self, low: float, high: float) -> None:
-        """Look for the nearest pair in the middle of a slab."""
+        """Search the nearest pair in the middle of a slab."""
         ctrl, rows = self._counted(low, high)
         middle = midway(ctrl)
         count = len(self.one.ctrl[0])
@@ -209,18 +211,18 @@ class _Search(NearestPair):
             skip = count
         first = int(np.argmin(distance))
         if not np.isfinite(distance[first]):
-            return  # There is no second drone.
+            return  # There is no pair.
         second = int(at[first])
         apart = float(self.size((middle[first] - middle[second + skip])[None])[0])
         pair = (first, second) if rows is None else (int(rows[first]), int(rows[second]))
         self.note(apart, pair, 0.5 * (low + high))
 
     def _open(self, low: float, high: float) -> Iterator[PairMotions]:
-        """Give the pairs of a slab that could be nearer than the nearest found so far."""
+        """Yield the pairs of a slab that may be nearer than the least distance so far."""
         ctrl, rows = self._counted(low, high)
         ctrl = _steady(ctrl)
         centre, radius = _balls(ctrl)
-        # A ball holds the cylinder: what is near in its sense is near in the tree's.
+        # A ball contains the cylinder: a pair that is near in its metric is near in the tree's.
         far = self.best * (np.sqrt(2.0) if self.upright else 1.0)
         skip = 0 if self.other is None else len(self.one.ctrl[0])
         candidates = self._candidates(centre, far + 2.0 * float(radius.max(initial=0.0)))
@@ -234,9 +236,9 @@ class _Search(NearestPair):
             yield bag.pick(self.least(relative) < self.best - self.gap())
 
     def _candidates(self, centre: Array, reach: float) -> Index:
-        """Return the pairs of rows, of the one fleet or of both, whose centres are within reach."""
+        """Return the pairs of rows, in one fleet or between both, whose centres are within reach."""
         if not np.isfinite(reach):
-            return np.zeros((0, 2), dtype=np.intp)  # Nowhere is there a second drone.
+            return np.zeros((0, 2), dtype=np.intp)  # There is no pair.
         if self.other is None:
             return np.asarray(cKDTree(centre).query_pairs(reach, output_type="ndarray"))
         count = len(self.one.ctrl[0])
@@ -255,13 +257,13 @@ class _Search(NearestPair):
 
 
 def _steady(ctrl: Array) -> Array:
-    """Take out the motion that all drones have in common, which changes no distance."""
+    """Return the control points minus the common motion of all drones, which changes no distance."""
     return np.asarray(ctrl - ctrl.mean(axis=0)) if len(ctrl) else ctrl
 
 
 def _balls(ctrl: Array) -> tuple[Array, Array]:
-    """Return centres (n, 3) and radii (n,) of balls that hold the control points, and so the motion."""
-    # Four at a time: numpy is ten times as slow along an axis that short.
+    """Return centres (n, 3) and radii (n,) of bounding balls of the control points, and so of the motion."""
+    # One control point at a time: numpy is ten times slower along such a short axis.
     one, two, three, four = (ctrl[:, k] for k in range(4))
     low = np.minimum(np.minimum(one, two), np.minimum(three, four))
     high = np.maximum(np.maximum(one, two), np.maximum(three, four))

@@ -1,8 +1,8 @@
-"""The shapes of targets, as a camera sees them: upright cylinders and upright boxes. Plain Python.
+"""The shapes of targets for cameras: upright cylinders, upright boxes, and groups of them. Plain Python.
 
-A shape has no place: it is about its centre, and functions take the offset of that from the camera. They use
-plain arithmetic only, as ``geom.camera`` does, so that radius, height and course may be arrays, one number
-for every camera (``S`` is either). Every shape meets ``geom.camera.Shape``.
+A shape has no position. It is about its centre, and functions take the offset of the centre from the camera.
+They use plain arithmetic only, as ``geom.camera`` does, so radius, height and course may be arrays with one
+value for each camera (``S`` is either). Every shape implements ``geom.camera.VisibleShape``.
 """
 
 from functools import reduce
@@ -16,7 +16,7 @@ from shotc.geom.vec import Vec2, Vec3
 S = Any  # float or NDArray[float64]; arithmetic is the same for both
 
 NORTH = (0.0, 1.0)
-TOUCH_M = 1e-6  # metres of rounding, so that what stands on something touches it
+TOUCH_M = 1e-6  # metres, tolerance of touching for rounding
 _CORNERS = tuple((a, b, c) for a in (-0.5, 0.5) for b in (-0.5, 0.5) for c in (-0.5, 0.5))
 
 
@@ -28,19 +28,19 @@ class CylinderShape(NamedTuple):
 
     @property
     def turns(self) -> bool:
-        """Whether it looks different when it turns about its axis."""
+        """Whether its appearance changes with its heading."""
         return False
 
     def facing(self, _ahead: tuple[S, S]) -> Self:
-        """Return the shape as it is where it goes another way."""
+        """Return the shape with another course, a horizontal unit vector of W."""
         return self
 
     def reach(self, _camera: View, n: UnitVector) -> S:
-        """Return how far it reaches from its centre along a unit vector of C, metres."""
+        """Return its extent from its centre along a unit vector of C, metres."""
         return self.height / 2 * abs(n.up) + self.radius * abs(1.0 - n.up * n.up) ** 0.5
 
     def half_width(self, across: tuple[S, S]) -> S:
-        """Return how far it reaches along a level unit vector of W, metres."""
+        """Return its extent along a horizontal unit vector of W, metres."""
         del across
         return self.radius
 
@@ -56,12 +56,12 @@ class CylinderShape(NamedTuple):
         return _union(low, high)
 
     def gap(self, offset: Vec3) -> float:
-        """Return its distance from a place ``offset`` off its centre, 0 inside, metres."""
+        """Return its distance from a point at ``offset`` from its centre, metres, 0 inside."""
         across = max(0.0, hypot(offset[0], offset[1]) - self.radius)
         return hypot(across, max(0.0, abs(offset[2]) - self.height / 2))
 
     def solid(self, centre: Vec3) -> Cylinder:
-        """Return it as a solid about a centre."""
+        """Return it as a solid at a centre."""
         x, y, z = centre
         return Cylinder((x, y), self.radius, z - self.height / 2, z + self.height / 2)
 
@@ -69,7 +69,7 @@ class CylinderShape(NamedTuple):
 class BoxShape(NamedTuple):
     """An upright box: its sides along its course, across it and up, metres.
 
-    ahead : its course, a level unit vector (x, y) of W
+    ahead : its course, a horizontal unit vector (x, y) of W
     """
 
     length: float
@@ -79,26 +79,26 @@ class BoxShape(NamedTuple):
 
     @property
     def turns(self) -> bool:
-        """Whether it looks different when it turns about its axis."""
+        """Whether its appearance changes with its heading."""
         return True
 
     @property
     def radius(self) -> float:
-        """The radius of the upright cylinder about it, metres."""
+        """The radius of its upright bounding cylinder, metres."""
         return hypot(self.length, self.width) / 2
 
     def facing(self, ahead: tuple[S, S]) -> Self:
-        """Return the shape as it is where it goes another way, a level unit vector."""
+        """Return the shape with another course, a horizontal unit vector of W."""
         return self._replace(ahead=ahead)
 
     def reach(self, camera: View, n: UnitVector) -> S:
-        """Return how far it reaches from its centre along a unit vector of C, metres."""
+        """Return its extent from its centre along a unit vector of C, metres."""
         c, s = self.ahead
         along, across = (_dot(n, camera.to_camera(axis)) for axis in ((c, s, 0.0), (-s, c, 0.0)))
         return self.length / 2 * abs(along) + self.width / 2 * abs(across) + self.height / 2 * abs(n.up)
 
     def half_width(self, across: tuple[S, S]) -> S:
-        """Return how far it reaches along a level unit vector of W, metres."""
+        """Return its extent along a horizontal unit vector of W, metres."""
         c, s = self.ahead
         along, aside = across[0] * c + across[1] * s, across[1] * c - across[0] * s
         return self.length / 2 * abs(along) + self.width / 2 * abs(aside)
@@ -113,7 +113,7 @@ class BoxShape(NamedTuple):
         return reduce(_union, [_point_bounds(camera, corner) for corner in self.corners(offset)])
 
     def wider(self, by: float) -> Self:
-        """Return the shape with each of its upright sides farther out by some metres."""
+        """Return the shape with each vertical side moved outwards by some metres."""
         return self._replace(length=self.length + 2 * by, width=self.width + 2 * by)
 
     def corners(self, centre: Offset) -> list[Offset]:
@@ -124,14 +124,14 @@ class BoxShape(NamedTuple):
         return [(x + a * c - b * s, y + a * s + b * c, z + h) for a, b, h in sides]
 
     def gap(self, offset: Vec3) -> float:
-        """Return its distance from a place ``offset`` off its centre, 0 inside, metres."""
+        """Return its distance from a point at ``offset`` from its centre, metres, 0 inside."""
         c, s = self.ahead
         along, across = offset[0] * c + offset[1] * s, offset[1] * c - offset[0] * s
         level = hypot(max(0.0, abs(along) - self.length / 2), max(0.0, abs(across) - self.width / 2))
         return hypot(level, max(0.0, abs(offset[2]) - self.height / 2))
 
     def solid(self, centre: Vec3) -> Prism:
-        """Return it as a solid about a centre."""
+        """Return it as a solid at a centre."""
         c, s = self.ahead
         x, y, z = centre
         level = [(a * self.length / 2, b * self.width / 2) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
@@ -144,25 +144,25 @@ POINT = CylinderShape(0.0, 0.0)
 
 
 class Part(NamedTuple):
-    """A part of several: its centre from theirs, W, metres, and its shape."""
+    """A part of a group: the offset of its centre from the group's, W, metres, and its shape."""
 
     offset: Vec3
     shape: BodyShape
 
 
 class GroupShape(NamedTuple):
-    """Several shapes that make one picture; its outline is the union of theirs."""
+    """A group of shapes in one picture; its outline is the union of theirs."""
 
     parts: tuple[Part, ...]
 
     @property
     def turns(self) -> bool:
-        """Whether it looks different when it turns about its axis: it does not turn."""
+        """Whether its appearance changes with its heading: False, because a group does not turn."""
         return False
 
     @property
     def radius(self) -> float:
-        """The radius of the upright cylinder about its centre that holds it, metres."""
+        """The radius of its upright bounding cylinder about its centre, metres."""
         return max(hypot(p.offset[0], p.offset[1]) + p.shape.radius for p in self.parts)
 
     @property
@@ -171,16 +171,16 @@ class GroupShape(NamedTuple):
         return max(2.0 * abs(p.offset[2]) + p.shape.height for p in self.parts)
 
     def facing(self, _ahead: tuple[S, S]) -> Self:
-        """Return the shape as it is where it goes another way."""
+        """Return the shape with another course, a horizontal unit vector of W."""
         return self
 
     def reach(self, camera: View, n: UnitVector) -> S:
-        """Return how far it reaches from its centre along a unit vector of C, metres."""
+        """Return its extent from its centre along a unit vector of C, metres."""
         reaches = [p.shape.reach(camera, n) + _dot(n, camera.to_camera(p.offset)) for p in self.parts]
         return -reduce(_smaller, [-reach for reach in reaches])
 
     def half_width(self, across: tuple[S, S]) -> S:
-        """Return how far it reaches along a level unit vector of W, or against it, metres."""
+        """Return its extent along a horizontal unit vector of W, or against it, metres."""
         x, y = across
         widths = [p.shape.half_width(across) + abs(p.offset[0] * x + p.offset[1] * y) for p in self.parts]
         return -reduce(_smaller, [-width for width in widths])
@@ -194,7 +194,7 @@ class GroupShape(NamedTuple):
         return reduce(_union, [p.shape.bounds(camera, _sum(offset, p.offset)) for p in self.parts])
 
     def gap(self, offset: Vec3) -> float:
-        """Return its distance from a place ``offset`` off its centre, 0 inside, metres."""
+        """Return its distance from a point at ``offset`` from its centre, metres, 0 inside."""
         x, y, z = offset
         return min(p.shape.gap((x - p.offset[0], y - p.offset[1], z - p.offset[2])) for p in self.parts)
 
@@ -208,7 +208,7 @@ def bodies_of(shape: TargetShape) -> tuple[Part, ...]:
 
 
 def touch(a: BodyShape, b: BodyShape, offset: tuple[S, S, S]) -> S:
-    """Tell whether two upright shapes overlap or touch, so that they are parts of one thing.
+    """Return whether two upright shapes overlap or touch, so that they are parts of one thing.
 
     offset : from the centre of b to that of a, metres
     """
@@ -217,7 +217,7 @@ def touch(a: BodyShape, b: BodyShape, offset: tuple[S, S, S]) -> S:
 
 
 def _level_touch(a: BodyShape, b: BodyShape, offset: tuple[S, S]) -> S:
-    """Tell whether two shapes meet seen from above."""
+    """Return whether two shapes overlap or touch in the plan."""
     x, y = offset
     if isinstance(a, CylinderShape):
         if isinstance(b, CylinderShape):
@@ -228,7 +228,7 @@ def _level_touch(a: BodyShape, b: BodyShape, offset: tuple[S, S]) -> S:
         along = _positive(abs(x * c + y * s) - a.length / 2)
         aside = _positive(abs(y * c - x * s) - a.width / 2)
         return along * along + aside * aside <= (b.radius + TOUCH_M) ** 2
-    # Two rectangles meet unless the direction of a side parts them.
+    # Two rectangles meet unless an axis along a side separates them.
     meets: S = True
     for p, q in (a.ahead, b.ahead):
         for axis in ((p, q), (-q, p)):

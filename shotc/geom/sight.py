@@ -1,7 +1,7 @@
-"""How far a ball is out of a camera's picture: beyond the edges in metres, or off the axis by an angle.
+"""The distance of a ball from a camera's picture: beyond the edges in metres, or off the axis as an angle.
 
-What stands before a ball does not hide it here: a zone or a target is rarely as solid as it is drawn, so
-that what is behind one counts as in the picture.
+Occlusion of the ball is ignored: zones and targets are rarely as solid as their shapes, so a ball behind one
+counts as in the picture.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from shotc.geom.camera import frustum_margins
 from shotc.geom.framing import Cameras
 
 WITHIN_RAD = -0.5 * np.pi
-"""Radians: what a ball is off the axis of a camera that is inside of it."""
+"""Angle of a ball that contains the camera, rad."""
 
 
 def outside(cameras: Cameras, places: Array, radius: float) -> Array:
-    """Return how far each ball lies beyond one of the frame's four edges, or behind the image plane.
+    """Return the distance of each ball beyond one of the frame's four edges or behind the image plane, (M,).
 
-    places : of its centre, (M, 3). Metres, (M,); negative where it reaches into the picture. It is no more
-    than the distance from the picture: over a corner of the frame it is less.
+    places : of its centre, (M, 3), metres. The result is in metres, negative if the ball reaches into the
+    picture. It is a lower bound on the distance from the picture; beyond a corner of the frame it is smaller.
     """
     camera, away = cameras.view, _away(cameras, places)
     edges = frustum_margins(camera, away)

@@ -1,8 +1,8 @@
-"""Outlines of solids as a camera sees them: of prisms by the hull of their corners, else in closed form.
+"""Outlines of solids on a camera's screen: for prisms the hull of their corners, else in closed form.
 
-The outline is taken of the cone of sight: the contour of the solid as seen from the camera's place
-is built in W and clipped at a near plane before it is projected, so a solid that reaches behind the
-camera is drawn right, too. Screen coordinates are those of ``geom.camera``.
+The contour of the solid from the camera's position is built in W and clipped at a near plane before it is
+projected. So a solid that extends behind the camera is drawn correctly too. Screen coordinates are those of
+``geom.camera``.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from shotc.geom.vec import Vec2, Vec3
 Array = NDArray[np.float64]
 
 NEAR_PLANE_M = 0.01
-"""Depth of the near plane, metres; small beside any clearance, so that the cut is never on screen."""
+"""Depth of the near plane, metres; it is small compared with any clearance, so the cut is never on screen."""
 
 
 def cylinder_contour(offset: Array, radius: float, height: float, count: int = 48) -> Array:
     """Return the closed contour of an upright cylinder seen from a point, as offsets from that point.
 
-    offset : shape (..., 3), centre of the cylinder less the eye, W, metres
+    offset : shape (..., 3), centre of the cylinder minus the eye, W, metres
     count  : points on each of the two rims
-    Result has shape (..., 2 count, 3), all NaN where the eye is inside the cylinder.
+    The result has shape (..., 2 count, 3), all NaN if the eye is inside the cylinder.
 
-    From outside its radius r an eye at distance d sees two generators, at azimuths +-acos(r / d) from
-    the direction to the eye. Between them runs one arc of each rim: the far one where the eye is
-    beyond that rim's plane, else the near one. Inside the radius it sees one whole rim.
+    From outside the radius r an eye at distance d sees two generators, at azimuths +-acos(r / d) from the
+    direction to the eye. One arc of each rim connects them: the far arc if the eye is beyond that rim's
+    plane, else the near one. From inside the radius the contour is one whole rim.
     """
     x, y, z = offset[..., 0], offset[..., 1], offset[..., 2]
     distance = np.hypot(x, y)
@@ -47,7 +47,7 @@ def cylinder_contour(offset: Array, radius: float, height: float, count: int = 4
     top = np.where(above[..., None], far, near)
     bottom = np.where(below[..., None], far, near)[..., ::-1]
     top_z, bottom_z = z + height / 2, z - height / 2
-    # Over the disc only the rim that faces the eye is contour: fold the other one onto it.
+    # Above the disc only the rim that faces the eye is contour: move the other one onto it.
     top_z, bottom_z = (
         np.where(~outside & below, bottom_z, top_z),
         np.where(~outside & above, top_z, bottom_z),
@@ -66,12 +66,12 @@ def cylinder_contour(offset: Array, radius: float, height: float, count: int = 4
 def box_contour(offset: Array, box: BoxShape) -> Array:
     """Return the closed contour of an upright box seen from a point, as offsets from that point.
 
-    offset : shape (..., 3), centre of the box less the eye, W, metres; its course may be one for each
-    Result has shape (..., 6, 3), all NaN where the eye is inside the box. Of a contour of four corners the
-    last one stands there three times.
+    offset : shape (..., 3), centre of the box minus the eye, W, metres; its course may be an array
+    The result has shape (..., 6, 3), all NaN if the eye is inside the box. A contour of four corners repeats
+    the last one three times.
 
-    Contour is an edge between a side that faces the eye and one that does not: of each pair of sides the
-    eye is beyond one, beyond the other, or between them.
+    An edge is contour if one of its sides faces the eye and the other does not. For each pair of opposite
+    sides the eye is beyond one, beyond the other, or between them.
     """
     half = np.array([box.length, box.width, box.height]) / 2
     c, s = np.broadcast_arrays(np.asarray(box.ahead[0]), np.asarray(box.ahead[1]))
@@ -92,7 +92,9 @@ def box_contour(offset: Array, box: BoxShape) -> Array:
 
 
 def _contour_of(beyond: tuple[int, int, int]) -> list[tuple[int, ...]]:
-    """Return the corners (+-1, +-1, +-1) of a cube round its contour; beyond : which sides face the eye."""
+    """Return the corners (+-1, +-1, +-1) of a cube along its contour; beyond : the sides that face the
+    eye.
+    """
     if beyond == (0, 0, 0):
         return [(0, 0, 0)]
     corners = list(product((-1, 1), repeat=3))
@@ -134,7 +136,7 @@ _CONTOURS = _contours()
 def shape_contour(offset: Array, shape: BodyShape, count: int = 48) -> Array:
     """Return the closed contour of a body seen from a point, shape (..., K, 3), as offsets from that point.
 
-    offset : shape (..., 3), its centre less the eye, W; count : points of each rim of a cylinder
+    offset : shape (..., 3), its centre minus the eye, W, metres; count : points of each rim of a cylinder
     """
     if isinstance(shape, BoxShape):
         return box_contour(offset, shape)
@@ -144,8 +146,8 @@ def shape_contour(offset: Array, shape: BodyShape, count: int = 48) -> Array:
 def project_loop(camera: View, loop: Array) -> Array:
     """Return the screen polygon of one closed contour.
 
-    loop : shape (M, 3), offsets from the camera, W; result shape (K, 2) in (u, v), K = 0 where the
-    contour is behind the camera or not defined.
+    loop : shape (M, 3), offsets from the camera, W; result shape (K, 2) in (u, v). K = 0 if the contour is
+    behind the camera or not defined.
     """
     right, down, forward = camera.to_camera((loop[:, 0], loop[:, 1], loop[:, 2]))
     seen = _clip_near(np.stack([right, down, forward], axis=-1))
@@ -164,7 +166,7 @@ def project_loops(camera: View, loops: Array) -> list[Array]:
 
 
 def shape_outline(camera: View, offset: Vec3, shape: BodyShape, count: int = 48) -> Array:
-    """Return the screen polygon of a body, shape (K, 2); offset : its centre less the camera, W."""
+    """Return the screen polygon of a body, shape (K, 2); offset : its centre minus the camera, W, metres."""
     return project_loop(camera, shape_contour(np.asarray(offset, dtype=np.float64), shape, count))
 
 
@@ -214,8 +216,8 @@ def _seen_from(eye: Vec3, solid: Cylinder) -> tuple[Vec3, CylinderShape]:
 
 
 def _prism_outline(camera: View, eye: Vec3, prism: Prism) -> Array:
-    # The part in front of the near plane is convex; its corners are those of the prism that lie in
-    # front and the points where edges cross the plane. Their hull on screen is the outline.
+    # The part in front of the near plane is convex. Its corners are the prism's corners in front, and the
+    # points where edges cross the plane. Their hull on screen is the outline.
     corners: list[Array] = []
     for strip in edge_strips(prism):
         ring = strip - np.asarray(eye)

@@ -1,8 +1,8 @@
-"""Recorded places without their noise: local regression over time. Plain Python.
+"""Smoothing of recorded positions by local regression over time. Plain Python.
 
-Every row is put where a parabola has it: the one that fits the rows about it best, by least squares with the
-weights of a normal distribution over time (local regression of degree 2; Cleveland and Devlin, J. Am. Stat.
-Assoc. 83, 1988). What moves evenly, or with one acceleration, stays as it is, and so do its ends.
+Every row moves onto the parabola that fits the rows around it by least squares, with Gaussian weights over
+time (local regression of degree 2; Cleveland and Devlin, J. Am. Stat. Assoc. 83, 1988). A motion with
+constant velocity or constant acceleration stays unchanged, also at its ends.
 """
 
 from collections.abc import Sequence
@@ -12,13 +12,13 @@ from shotc.geom.track import Track
 from shotc.geom.vec import Vec3
 
 REACH_DEVIATIONS = 3.0  # standard deviations within which rows count
-SAME_SHARE = 1e-9  # of the standard deviation, within which times are the same
+SAME_SHARE = 1e-9  # tolerance of equal times, as a share of the standard deviation
 
 _Weights = tuple[float, ...]
 
 
 def smoothed(track: Track, deviation: float) -> Track:
-    """Return a track with its places, and headings, smoothed; deviation : of the weights, seconds."""
+    """Return a track with smoothed positions and headings; deviation : of the weights, seconds."""
     columns = [*zip(*track.points, strict=True), *([track.headings] if track.headings else [])]
     x, y, z, *facing = _filtered(track.times, columns, deviation)
     points = tuple(zip(x, y, z, strict=True))
@@ -26,7 +26,7 @@ def smoothed(track: Track, deviation: float) -> Track:
 
 
 def farthest(before: Sequence[Vec3], after: Sequence[Vec3]) -> float:
-    """Return the largest distance between places and what became of them, metres."""
+    """Return the largest distance between positions before and after, metres."""
     return max((dist(p, q) for p, q in zip(before, after, strict=True)), default=0.0)
 
 
@@ -43,7 +43,7 @@ def _filtered(
         while end < len(times) and times[end] <= t + reach:
             end += 1
         offsets = [(s - t) / deviation for s in times[first:end]]
-        # Rows at one rate have the same weights over and over.
+        # Rows at a constant rate have the same weights.
         key = tuple(round(u / SAME_SHARE) for u in offsets)
         if key not in known:
             known[key] = _weights(offsets)
@@ -53,10 +53,10 @@ def _filtered(
 
 
 def _weights(offsets: Sequence[float]) -> _Weights:
-    """Return what each row counts for in the value at offset 0; offsets in standard deviations, rising.
+    """Return the weight of each row in the value at offset 0; offsets in standard deviations, rising.
 
-    The value of the parabola at 0 is e w V (V' w V)^-1, by Cramer's rule on its moments; of fewer than three
-    rows it is the row at 0 itself, through which a line of two leads, too.
+    The value of the parabola at 0 is e w V (V' w V)^-1, by Cramer's rule on its moments. With fewer than
+    three rows it is the row at 0 itself.
     """
     if len(offsets) < 3:
         return tuple(1.0 if u == 0.0 else 0.0 for u in offsets)
@@ -68,7 +68,9 @@ def _weights(offsets: Sequence[float]) -> _Weights:
 
 
 def scatter(track: Track, deviation: float, start: float, end: float) -> list[tuple[float, Vec3]]:
-    """Return the rows of a track between two times: when, and how far from their smoothed places, metres."""
+    """Return the times of a track's rows between two times, and their offsets from the smoothed track,
+    metres.
+    """
     inside = [t for t in track.times if start <= t <= end]
     if not inside:
         return []

@@ -1,7 +1,7 @@
 """Zones and targets as solids: upright cylinders and prisms. Plain Python, so that `check` can use it.
 
-Every solid is split into convex parts, and a convex part offers the two things proofs need: its
-closest point to a point, and its support function.
+A solid is split into convex parts. A convex part has the two functions that proofs need: the closest point to
+a point, and the support function.
 """
 
 from itertools import pairwise
@@ -33,7 +33,7 @@ class Cylinder(NamedTuple):
 
 
 def point(p: Vec3) -> Cylinder:
-    """Return a place as a solid of no size."""
+    """Return a point as a solid of size zero."""
     return Cylinder((p[0], p[1]), 0.0, p[2], p[2])
 
 
@@ -82,7 +82,7 @@ def box(centre: Vec3, size: Vec3, heading: float) -> Prism:
 
 
 def signed_distance(solid: Solid, p: Vec3) -> float:
-    """Return the distance of ``p`` from the solid, inside it minus its depth; metres, exact."""
+    """Return the exact distance of ``p`` from the solid, metres; inside it, minus the depth."""
     x, y, z = p
     if isinstance(solid, Cylinder):
         across = dist((x, y), solid.centre) - solid.radius
@@ -96,26 +96,26 @@ def signed_distance(solid: Solid, p: Vec3) -> float:
 
 
 def distance(solid: Solid, p: Vec3) -> float:
-    """Return how far ``p`` is from the solid, 0 inside, metres."""
+    """Return the distance of ``p`` from the solid, metres, 0 inside."""
     return max(0.0, signed_distance(solid, p))
 
 
 def depth(solid: Solid, p: Vec3) -> float:
-    """Return how deep ``p`` lies inside the solid: distance to its surface, 0 outside, metres."""
+    """Return the depth of ``p`` inside the solid: its distance from the surface, metres, 0 outside."""
     return max(0.0, -signed_distance(solid, p))
 
 
 def convex_parts(solid: Solid) -> tuple[Solid, ...]:
-    """Split a solid into convex ones that cover it exactly."""
+    """Return convex solids that cover a solid exactly."""
     if isinstance(solid, Cylinder) or is_convex(solid.points):
         return (solid,)
     return tuple(Prism(triangle, solid.bottom, solid.top) for triangle in triangles(solid.points))
 
 
 def hull_and_pockets(prism: Prism) -> tuple[Prism, tuple[Prism, ...]]:
-    """Write a prism as its convex hull less convex pockets of unbounded height.
+    """Return a prism as its convex hull minus convex pockets of unbounded height.
 
-    Staying inside the prism is staying inside the hull and out of every pocket.
+    A point is inside the prism iff it is inside the hull and outside every pocket.
     """
     points = prism.points
     hull = convex_hull(points)
@@ -136,18 +136,18 @@ def edges(points: tuple[Vec2, ...]) -> list[tuple[Vec2, Vec2]]:
 
 
 def signed_area(points: tuple[Vec2, ...]) -> float:
-    """Return the polygon's area, positive where it runs counter-clockwise, m^2."""
+    """Return the polygon's area, positive if it is counter-clockwise, m^2."""
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in edges(points)) / 2
 
 
 def is_convex(points: tuple[Vec2, ...]) -> bool:
-    """Tell whether a counter-clockwise polygon has no reflex corner."""
+    """Return whether a counter-clockwise polygon has no reflex corner."""
     n = len(points)
     return all(_cross(points[i - 1], points[i], points[(i + 1) % n]) >= -1e-12 for i in range(n))
 
 
 def is_simple(points: tuple[Vec2, ...]) -> bool:
-    """Tell whether no two edges that are not neighbours meet."""
+    """Return whether no two non-adjacent edges meet."""
     sides = edges(points)
     n = len(sides)
     return not any(
@@ -159,7 +159,7 @@ def is_simple(points: tuple[Vec2, ...]) -> bool:
 
 
 def inside_polygon(points: tuple[Vec2, ...], p: Vec2) -> bool:
-    """Tell whether ``p`` is inside the polygon, by crossing number."""
+    """Return whether ``p`` is inside the polygon, by crossing number."""
     inside = False
     for (ax, ay), (bx, by) in edges(points):
         if (ay > p[1]) != (by > p[1]) and p[0] < (bx - ax) * (p[1] - ay) / (by - ay) + ax:
@@ -178,8 +178,8 @@ def closest_on_segment(a: Vec2, b: Vec2, p: Vec2) -> Vec2:
 
 
 def segments_cross(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> bool:
-    """Tell whether two segments, a-b and c-d, cross or touch."""
-    # So do their lines, and their boxes overlap: the second tells collinear segments apart.
+    """Return whether two segments, a-b and c-d, cross or touch."""
+    # Their lines cross, and their boxes overlap; the boxes decide for collinear segments.
     boxes = all(
         max(min(a[k], b[k]), min(c[k], d[k])) <= min(max(a[k], b[k]), max(c[k], d[k])) for k in (0, 1)
     )
@@ -202,7 +202,7 @@ def convex_hull(points: tuple[Vec2, ...]) -> tuple[Vec2, ...]:
 
 
 def triangles(points: tuple[Vec2, ...]) -> list[tuple[Vec2, Vec2, Vec2]]:
-    """Cut a simple counter-clockwise polygon into triangles by ear clipping."""
+    """Return the triangles of a simple counter-clockwise polygon, by ear clipping."""
     ring = list(points)
     out: list[tuple[Vec2, Vec2, Vec2]] = []
     while len(ring) > 3:

@@ -1,7 +1,7 @@
-"""A clearance that tapers towards the ends of a way, where what begins or ends there is nearer.
+"""A clearance that tapers towards the ends of a way that are nearer to the solid.
 
-The distance from a solid changes by at most 1 with each metre flown, the clearance that is needed by at most
-``slope``, so both can be bounded from control points (``geom.proof.inf_tapered``).
+Per metre flown, the distance from a solid changes by at most 1 and the tapered need by at most ``slope``. So
+both have bounds by control points (``geom.proof.inf_tapered``).
 """
 
 from __future__ import annotations
@@ -13,18 +13,19 @@ import numpy as np
 from shotc.geom.bernstein import Array
 
 SLOPE = 0.5
-"""Metres that a clearance grows by with each metre from an end of a way.
+"""Growth of the clearance per metre from an end of a way.
 
-Straight away from a solid the distance grows by 1, aside by 0: a drone leaves within 60 deg of straight away.
+The distance from a solid grows by 1 per metre straight away from it and by 0 to the side. So a drone departs
+within 60 deg of straight away.
 """
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Taper:
-    """What is needed of the distance from one solid along a way, metres.
+    """The needed distance from one solid along a way, metres.
 
-    clearance : far from both ends; slope : what it grows by with each metre from an end
-    ends : places as the solid sees them, shape (E, 3); gaps : their distances from it, shape (E,)
+    clearance : far from both ends; slope : growth per metre from an end
+    ends : positions relative to the solid, shape (E, 3); gaps : their distances from it, shape (E,)
     """
 
     clearance: float
@@ -33,7 +34,7 @@ class Taper:
     gaps: Array
 
     def needs(self, p: Array) -> Array:
-        """Return the distance that is needed at places (..., 3); shape (...)."""
+        """Return the needed distances (...) at positions (..., 3), metres."""
         away = np.linalg.norm(p[..., None, :] - self.ends, axis=-1)
         tapered = (self.gaps + self.slope * away).min(axis=-1, initial=np.inf)
         return np.asarray(np.minimum(self.clearance, tapered))

@@ -1,8 +1,8 @@
-"""What a thin lens shows sharp, by Gauss's equation 1/f = 1/s + 1/s': blur of points, limits of sharpness.
+"""Blur and depth of field of a thin lens, by Gauss's equation 1/f = 1/s + 1/s'.
 
-A lens of focal length f and aperture f/N that is focused at s shows a point at depth d as a disc on the
-sensor of diameter f^2 |d - s| / (N (s - f) d). Depths are from the lens along its axis; all lengths are
-metres. Source: S. F. Ray, Applied Photographic Optics, on depth of field; it follows from similar triangles.
+A lens of focal length f and aperture f/N, focused at s, images a point at depth d as a disc of diameter
+f^2 |d - s| / (N (s - f) d) on the sensor. Depths are from the lens along its axis; all lengths are in metres.
+Source: S. F. Ray, Applied Photographic Optics, on depth of field; it follows from similar triangles.
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ from shotc.geom.bernstein import Array
 
 
 def blur(focal: Array, aperture: float, focus: Array, depth: Array) -> Array:
-    """Return the diameter of the disc that a point is shown as, (M,); NaN where lens or point say nothing.
+    """Return the diameter of a point's blur disc on the sensor, (M,), metres; NaN where it is not defined.
 
-    focal, focus, depth : (M,); nothing is in focus nearer than the focal length, or seen behind the lens
+    focal, focus, depth : (M,), metres. It is defined for a focus beyond the focal length and a positive
+        depth.
     """
     known = (focus > focal) & (depth > 0)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -24,10 +25,10 @@ def blur(focal: Array, aperture: float, focus: Array, depth: Array) -> Array:
 
 
 def limits(focal: Array, aperture: float, focus: Array, circle: float) -> tuple[Array, Array]:
-    """Return the depths between which discs are no larger than a circle, (M,) each.
+    """Return the near and far limits of the depth of field for a circle of confusion, (M,) each, metres.
 
-    The far one is infinite from a focus at the hyperfocal distance f^2 / (N c) + f on. NaN where nothing is
-    in focus.
+    The far limit is infinite for a focus at or beyond the hyperfocal distance f^2 / (N c) + f. Both are NaN
+    if the focus is not beyond the focal length.
     """
     known = focus > focal
     spread = aperture * circle * (focus - focal)

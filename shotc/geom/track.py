@@ -1,4 +1,4 @@
-"""The motion of a target: rows of time and place, straight and even between them. Plain Python."""
+"""The motion of a target: rows of time and position, with constant velocity between them. Plain Python."""
 
 from bisect import bisect_right
 from functools import lru_cache
@@ -9,22 +9,21 @@ from typing import NamedTuple, Self
 from shotc.geom.same import Same
 from shotc.geom.vec import Vec3
 
-HEADING_SPAN_S = 1.0  # seconds before and after, over which a heading is taken from the motion
-STILL_M = 1e-6  # metres or m/s that are rounding
-MOVES_M = 0.1  # metres over that time; less is standing still
-STRAIGHT_SINE = 1e-6  # sine of the angle between two stretches that go the same way
-LEAST_LEG_M = 1e-9  # metres of a stretch that has a direction
+HEADING_SPAN_S = 1.0  # seconds before and after, over which a heading follows from the motion
+STILL_M = 1e-6  # metres or m/s, for rounding
+MOVES_M = 0.1  # metres over that time; a target that moves less stands still
+STRAIGHT_SINE = 1e-6  # largest sine of the angle between two segments of the same direction
+LEAST_LEG_M = 1e-9  # metres, least length of a segment with a direction
 
 
 class Track(NamedTuple):
-    """Where a target's centre is over mission time.
+    """The position of a target's centre over mission time.
 
-    times : seconds, rising, one or more; points : p_WT at them, metres
-    headings : where it faces, rad counter-clockwise from East without jumps, or () where that is the
-        direction in which it moves
-    after : its velocity from the last row on, m/s
-    since, until : seconds between which anything is known; it stands at its first row before that
-    smoothed : the farthest that a row was moved by smoothing, metres
+    times : seconds, rising, at least one; points : p_WT at them, metres
+    headings : rad counter-clockwise from East, unwrapped, or () if the target faces its direction of motion
+    after : velocity after the last row, m/s
+    since, until : times between which the motion is known, seconds; before, it stands at its first row
+    smoothed : largest displacement of a row by smoothing, metres
     """
 
     times: tuple[float, ...]
@@ -36,7 +35,7 @@ class Track(NamedTuple):
     smoothed: float = 0.0
 
     def at(self, t: float) -> Vec3:
-        """Return the place at a time, metres."""
+        """Return the position at a time, metres."""
         i, share = self._row(t)
         if i == len(self.times) - 1:
             late = max(0.0, t - self.times[-1])
@@ -46,9 +45,10 @@ class Track(NamedTuple):
         return (x, y, z)
 
     def heading(self, t: float) -> float:
-        """Return where it faces at a time, rad; by its motion, of the second before and the one after.
+        """Return the heading at a time, rad; without ``headings``, from the motion of the seconds around it.
 
-        While it stands it faces where it last went, and before it has moved where it will go first.
+        While it stands it keeps its last direction of motion. Before its first motion it has that one's
+        direction.
         """
         if self.headings:
             i, share = self._row(t)
@@ -59,18 +59,18 @@ class Track(NamedTuple):
         return self._last_course(t) if moved is None else atan2(moved[1], moved[0])
 
     def course(self, t: float) -> tuple[float, float] | None:
-        """Return the unit direction in which it moves over ground about a time, None where it stands."""
+        """Return the unit direction of motion over ground around a time; None if it stands."""
         moved = self._moved(t)
         return None if moved is None else (moved[0] / hypot(*moved), moved[1] / hypot(*moved))
 
     @property
     def underway(self) -> float:
-        """A time from which on its course is known, seconds."""
+        """A time from which its course is known, seconds."""
         return self.times[0] + HEADING_SPAN_S
 
     @property
     def straight(self) -> bool:
-        """Whether it goes one way only, and faces that way."""
+        """Whether it moves in one direction only and keeps its heading."""
         legs = [(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(self.points)]
         legs = [leg for leg in (*legs, self.after[:2]) if hypot(*leg) > LEAST_LEG_M]
         if not legs:
@@ -84,7 +84,7 @@ class Track(NamedTuple):
         )
 
     def speed(self, t: float) -> float:
-        """Return its speed at a time, m/s; at a row, of the stretch that begins there."""
+        """Return its speed at a time, m/s; at a row, that after it."""
         i, _ = self._row(t)
         if i == len(self.times) - 1:
             return hypot(*self.after)
@@ -99,7 +99,7 @@ class Track(NamedTuple):
         return self._replace(times=times, since=times[0], until=times[-1])
 
     def _row(self, t: float) -> tuple[int, float]:
-        """Return the row before a time, and how far it is to the next, 0 to 1."""
+        """Return the row before a time, and the share of the time to the next row, 0 to 1."""
         i = bisect_right(self.times, t) - 1
         if i < 0:
             return 0, 0.0
@@ -108,13 +108,15 @@ class Track(NamedTuple):
         return i, (t - self.times[i]) / (self.times[i + 1] - self.times[i])
 
     def _moved(self, t: float) -> tuple[float, float] | None:
-        """Return how far it moves over ground in the second before a time and the one after, metres."""
+        """Return the displacement over ground within HEADING_SPAN_S around a time, metres; None if it
+        stands.
+        """
         a, b = self.at(t - HEADING_SPAN_S), self.at(t + HEADING_SPAN_S)
         moved = (b[0] - a[0], b[1] - a[1])
         return moved if hypot(*moved) >= MOVES_M else None
 
     def _last_course(self, t: float) -> float:
-        """Return the direction of the last stretch on which it moved by a time, or of the first one ever."""
+        """Return the direction of the last motion before a time, or of the first motion, rad."""
         i, _ = self._row(t)
         carried = hypot(self.after[0], self.after[1]) > STILL_M
         moving = _moving(Same(self.points))
@@ -129,13 +131,13 @@ class Track(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _moving(rows: Same[tuple[Vec3, ...]]) -> tuple[int, ...]:
-    """Return the rows at which a stretch begins that leads somewhere else on the map."""
+    """Return the rows after which the target moves over ground."""
     legs = enumerate(pairwise(rows.it))
     return tuple(i for i, (a, b) in legs if hypot(b[0] - a[0], b[1] - a[1]) > STILL_M)
 
 
 def unwrapped(angles: list[float]) -> tuple[float, ...]:
-    """Return angles shifted by whole turns, so that none is more than half a turn from the one before."""
+    """Return unwrapped angles: none is more than half a turn from the one before."""
     turned: list[float] = []
     for angle in angles:
         turns = round((turned[-1] - angle) / (2 * pi)) if turned else 0

@@ -1,4 +1,4 @@
-"""The motion of a target for many times at once, and curves as seen from it."""
+"""The motion of a target at arrays of times, and curves relative to it."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from shotc.geom.track import HEADING_SPAN_S, MOVES_M, Track
 
 
 def places(track: Track, t: Array) -> Array:
-    """Return where the target is at times of shape (M,), metres; shape (M, 3)."""
+    """Return the positions of the target at times (M,), metres, shape (M, 3)."""
     times, points = np.array(track.times), np.array(track.points)
     inside = np.column_stack([np.interp(t, times, points[:, k]) for k in range(3)])
     return np.asarray(inside + np.maximum(t - times[-1], 0.0)[:, None] * np.array(track.after))
 
 
 def headings(track: Track, t: Array) -> Array:
-    """Return where the target faces at times of shape (M,), rad, shape (M,); as ``Track.heading``."""
+    """Return the headings of the target at times (M,), rad, shape (M,); as ``Track.heading``."""
     if track.headings:
         return np.array([track.heading(float(u)) for u in t])
     moved = places(track, t + HEADING_SPAN_S)[:, :2] - places(track, t - HEADING_SPAN_S)[:, :2]
@@ -28,10 +28,10 @@ def headings(track: Track, t: Array) -> Array:
 
 
 def seen_from(curve: Piecewise, track: Track) -> Piecewise:
-    """Return a curve of channels x, y, z less the motion, exactly, on breaks that hold the track's rows.
+    """Return a curve of channels x, y, z minus the motion, exactly, on breaks that include the track's rows.
 
-    A target moves evenly between rows, so on each piece both are polynomials. Where a row is next to a break,
-    a piece may be too short to be derived from its control points: ``rate_seen_from`` does without.
+    A target has constant velocity between rows, so on each piece both are polynomials. If a row is close to a
+    break, the piece may be too short for a derivative by its control points; use ``rate_seen_from`` for it.
     """
     own = restrict(curve, _common(curve, track))
     ends = places(track, own.breaks)
@@ -40,14 +40,14 @@ def seen_from(curve: Piecewise, track: Track) -> Piecewise:
 
 
 def rate_seen_from(curve: Piecewise, track: Track) -> Piecewise:
-    """Return the derivative of a curve of channels x, y, z less the velocity of the motion, exactly."""
+    """Return the derivative of a curve of channels x, y, z minus the velocity of the motion, exactly."""
     own = restrict(curve.derivative(), _common(curve, track))
     middle = 0.5 * (own.breaks[:-1] + own.breaks[1:])
     return Piecewise(own.breaks, own.ctrl - velocities(track, middle)[:, None])
 
 
 def velocities(track: Track, t: Array) -> Array:
-    """Return the velocity of the target at times of shape (M,), m/s, shape (M, 3); at a row, from it on."""
+    """Return the velocities of the target at times (M,), m/s, shape (M, 3); at a row, that after it."""
     times, points = np.array(track.times), np.array(track.points)
     slopes = np.diff(points, axis=0) / np.diff(times)[:, None]
     stretches = np.concatenate([np.zeros((1, 3)), slopes, [track.after]])

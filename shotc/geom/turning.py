@@ -1,9 +1,9 @@
-"""How far what moves along a track turns between any two times, at most.
+"""An upper bound on the rotation of a target along its track between any two times.
 
-Its course is the direction of its motion over HEADING_SPAN_S to either side, m(t) = p(t + 1) - p(t - 1).
-Between the track's rows, each a second earlier or later, m runs along a straight line, so that its angle
-changes one way only, and by the difference of the ends. Where m is shorter than MOVES_M the course stays what
-it was last, and may step where that begins or ends, or at a row.
+The course is the direction of the motion over HEADING_SPAN_S to either side, m(t) = p(t + 1) - p(t - 1).
+Between the track's rows, shifted by a second either way, m moves along a straight line. So its angle is
+monotonic and changes by the difference of its ends. Where m is shorter than MOVES_M the course keeps its last
+value; it may jump where that starts or ends, or at a row.
 """
 
 from __future__ import annotations
@@ -21,10 +21,12 @@ from shotc.geom.vec import wrapped
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Turning:
-    """What is turned since the first of some times, rad; a step by half a turn changes no box, counts none.
+    """The accumulated rotation since the first of some times, rad.
 
-    times : rising, (M,); before, after : what is turned before a step at each of them, and after it, (M,)
-    leaves : the course just after each of them but the last, (M - 1,); moves : whether it follows the motion
+    A jump by half a turn does not change a box and counts as 0.
+    times : rising, (M,); before, after : rotation before and after a jump at each time, (M,)
+    leaves : course just after each time but the last, (M - 1,); moves : whether it follows the motion, (M -
+        1,)
     """
 
     track: Track
@@ -35,7 +37,9 @@ class Turning:
     moves: Mask
 
     def at(self, t: Array) -> tuple[Array, Array]:
-        """Return what is turned by times (M,) within those known: before a step there, and after it."""
+        """Return the rotation at times (M,) within the known ones, before and after a jump there, (M,)
+        each.
+        """
         k = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(self.times) - 1)
         piece = np.minimum(k, len(self.moves) - 1)
         turned = _course(self.track, t) - self.leaves[piece]
@@ -46,7 +50,7 @@ class Turning:
 
 
 def turning(track: Track, start: float, end: float) -> Turning:
-    """Return how a body turns that goes along a track between two times, seconds; start < end."""
+    """Return the rotation of a body along a track between two times, seconds; start < end."""
     rows = np.array(track.times)
     if track.headings:
         times = _within(rows, start, end)
@@ -68,7 +72,9 @@ def turning(track: Track, start: float, end: float) -> Turning:
 
 
 def _course(track: Track, t: Array) -> Array:
-    """Return the heading that a track has or, without one, the direction of its motion, rad, (M,)."""
+    """Return the headings of a track at times (M,) or, without them, the directions of its motion, rad,
+    (M,).
+    """
     if track.headings:
         return np.asarray(np.interp(t, np.array(track.times), np.array(track.headings)))
     x, y = _moved(track, t).T
@@ -76,12 +82,12 @@ def _course(track: Track, t: Array) -> Array:
 
 
 def _moved(track: Track, t: Array) -> Array:
-    """Return how far it moves over ground in the second before times and the one after, (M, 2), metres."""
+    """Return the displacements over ground within HEADING_SPAN_S around times (M,), (M, 2), metres."""
     return np.asarray(places(track, t + HEADING_SPAN_S)[:, :2] - places(track, t - HEADING_SPAN_S)[:, :2])
 
 
 def _slow(track: Track, times: Array) -> Array:
-    """Return when, between times, it begins or ends to move as little as standing: roots of quadratics."""
+    """Return the times at which the motion falls below MOVES_M or rises above it, by roots of quadratics."""
     m = _moved(track, times)
     along, first = np.diff(m, axis=0), m[:-1]
     p, q = (along**2).sum(axis=1), 2 * (along * first).sum(axis=1)

@@ -1,5 +1,5 @@
-"""Vectors of plain numbers, on the map and in space, and angles. Plain Python, so that `check` can use it;
-functions of angles take numpy arrays as well.
+"""Vectors of floats in the plan and in space, and angles. Plain Python, so that `check` can use it. Functions
+of angles take numpy arrays as well.
 """
 
 from math import pi
@@ -29,11 +29,11 @@ TURN = 2 * pi
 
 
 def wrapped(angle: A) -> A:
-    """Return an angle in [-pi, pi), rad: the shorter turn, half a turn to the right."""
+    """Return the equivalent angle in [-pi, pi), rad; half a turn becomes -pi."""
     return (angle + pi) % TURN - pi
 
 
 def direction(angle: float) -> float:
-    """Return an angle in (-pi, pi], rad, as yaws are written."""
+    """Return the equivalent angle in (-pi, pi], rad, the range of yaws."""
     least = wrapped(angle)
     return pi if least == -pi else least

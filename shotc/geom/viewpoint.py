@@ -1,9 +1,10 @@
-"""From where subjects appear as asked: place, yaw and pitch of a camera, by least squares. Plain Python.
+"""The viewpoint from which subjects appear as required: position, yaw and pitch of a camera, by least
+squares.
 
 The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
-are those of the exact outline, and enter as logarithms, so that twice and half are equally wrong. What has to
-hold enters as a steep hinge (the target whole in the frame, its clearance, the drone's speed) or as a bound
-(the floor, the pitch).
+are those of the exact outline. They enter as logarithms, so that twice and half the size have the same error.
+Hard requirements enter as a steep hinge (the whole target in the frame, its clearance, the drone's speed) or
+as a bound (the floor, the pitch). Plain Python.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,22 +21,22 @@ from shotc.geom.vec import Vec2, Vec3, minus
 Pose = tuple[float, float, float, float, float]
 Residuals = list[float]
 
-FAR_M = 1e5  # metres beyond which nothing is filmed
+FAR_M = 1e5  # metres, the largest distance of a camera
 HALVINGS = 60
-HARD_WEIGHT = 10.0  # weight of what has to hold
-NEAR_WEIGHT = 0.3  # weight of a pose that the camera stays near: a tenth of the way off is 0.03 half frames
-FAINT_WEIGHT = 0.01  # weight of what is free: that it stays as it is, and is level
-EDGE_SHARE = 0.97  # of half a frame, within which a whole target is kept
+HARD_WEIGHT = 10.0  # weight of hard requirements
+NEAR_WEIGHT = 0.3  # weight of the preferred pose: an error of a tenth of the distance costs 0.03 half frames
+FAINT_WEIGHT = 0.01  # weight of free values, which stay as they are, and of a level view
+EDGE_SHARE = 0.97  # share of half a frame within which a whole target is kept
 NUDGE = 1e-6
 ROUNDS = 100
 DAMPINGS = 12
-SETTLED_SHARE = 1e-6  # share of the cost by which a round has to lower it
-STEEPEST_RAD = 1.5  # rad of elevation that a free view is raised to
-WHOLE_SIZE = 0.4  # size of a subject that is asked none: the whole of it, in its surroundings
+SETTLED_SHARE = 1e-6  # least relative fall of the cost in an iteration
+STEEPEST_RAD = 1.5  # rad, largest elevation of a free view
+WHOLE_SIZE = 0.4  # size of a subject without a required size: whole, with its surroundings
 
 
 class Lens(NamedTuple):
-    """What the camera sees and where its gimbal turns: hfov, rad; width / height; pitch range, rad."""
+    """The field of view and the pitch range of a camera: hfov, rad; width / height; pitch range, rad."""
 
     hfov: float
     aspect: float
@@ -43,7 +44,7 @@ class Lens(NamedTuple):
 
 
 class PreferredPose(NamedTuple):
-    """A pose that a camera stays near: its place, and its yaw and pitch, rad, each None where it is free."""
+    """A pose that a camera stays near: its position, yaw and pitch, rad; each angle is None if it is free."""
 
     at: Vec3
     yaw: float | None = None
@@ -51,9 +52,9 @@ class PreferredPose(NamedTuple):
 
 
 class PlaceBounds(NamedTuple):
-    """Where the camera may be: lowest z, metres, and the distance it keeps from subjects.
+    """Bounds on the camera's position: lowest z, and the clearance from subjects, metres.
 
-    drawn : the pose that it stays near as far as the picture lets it (viewpoint Eq. 10), or None
+    drawn : the preferred pose, kept as far as the picture allows (viewpoint Eq. 10), or None
     """
 
     floor: float
@@ -62,9 +63,9 @@ class PlaceBounds(NamedTuple):
 
 
 class Wanted(NamedTuple):
-    """A subject at one instant, and how it is to appear; None is free.
+    """A subject at one time, and its required appearance; None is free.
 
-    centre : W, m; shape : as it is then
+    centre : W, m; shape : at that time
     uv : place on screen; size : of its outline, over the frame's height
     azimuth : compass bearing from it to the camera, rad; elevation : of the camera above it, rad
     """
@@ -78,12 +79,14 @@ class Wanted(NamedTuple):
 
     @property
     def whole(self) -> bool:
-        """Whether all of it is to be in the frame: it is not asked to be larger than that."""
+        """Whether the whole subject must be in the frame: its required size is not larger than the frame."""
         return self.size is None or self.size <= 1.0
 
 
 class Since(NamedTuple):
-    """The camera a moment before: where it was, where it is if it goes along, how far it may go."""
+    """The camera at the knot before: its position, the position if it moves with the subjects, the largest
+    step.
+    """
 
     eye: Vec3
     kept: Vec3
@@ -91,10 +94,11 @@ class Since(NamedTuple):
 
 
 class Appearance(NamedTuple):
-    """How a subject appears, against what was wanted.
+    """The appearance of a subject compared with the required one.
 
-    screen : distance from its place, half frames; size : over the frame's height
-    angle : off the asked view, rad; out : how far it reaches out of the frame, half frames; 0 inside
+    screen : distance from its required place, half frames; size : over the frame's height
+    angle : from the required view, rad; out : distance that it extends out of the frame, half frames; 0
+        inside
     """
 
     screen: float
@@ -110,9 +114,9 @@ def direction(azimuth: float, elevation: float) -> Vec3:
 
 
 def size_from(wanted: Wanted, lens: Lens, offset: Vec3) -> float:
-    """Return the size of a subject at its place on screen, seen from ``offset`` off its centre.
+    """Return the size of a subject at its place on screen, seen from ``offset`` from its centre, metres.
 
-    Infinite where it reaches past the image plane, NaN where no camera puts it there.
+    It is infinite if the subject extends behind the image plane, NaN if no camera shows it at that place.
     """
     back = (-offset[0], -offset[1], -offset[2])
     aim = aim_at(back, wanted.uv or (0.0, 0.0), lens.hfov, lens.aspect)
@@ -126,7 +130,9 @@ def size_from(wanted: Wanted, lens: Lens, offset: Vec3) -> float:
 
 
 def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
-    """Return the distance from a subject's centre, along a unit vector, at which its clearance is kept."""
+    """Return the least distance from a subject's centre along a unit vector that keeps the clearance
+    ``near``.
+    """
     low, high = 0.0, wanted.shape.radius + wanted.shape.height + near + 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
@@ -136,7 +142,7 @@ def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
 
 
 def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
-    """Return the distance along a unit vector from which a subject has a size; 0 where none is so near."""
+    """Return the distance along a unit vector from which a subject has a size; 0 if it is always smaller."""
     low, high = 1e-3, FAR_M
     for _ in range(HALVINGS + 20):
         middle = sqrt(low * high)
@@ -148,7 +154,9 @@ def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float
 
 
 def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | None:
-    """Return the horizontal field of view that gives a subject its size from a place, rad, or None."""
+    """Return the horizontal field of view, rad, that gives a subject its size from a place; None without
+    one.
+    """
     low, high = 0.02, 2.8
     sized = [size_from(wanted, lens._replace(hfov=h), offset) for h in (low, high)]
     if not sized[1] <= size <= sized[0]:
@@ -163,9 +171,9 @@ def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | N
 
 
 def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: float) -> Vec3:
-    """Return the camera's offset from a subject that is seen from a bearing in a size, in closed form.
+    """Return the camera's offset from a subject for a bearing, rad, and a size.
 
-    Where the elevation is free it is level, or as little above as the room's floor asks for.
+    A free elevation is level, or as little above as the floor of ``room`` needs.
     """
 
     def at(elevation: float) -> Vec3:
@@ -189,7 +197,7 @@ def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: f
 
 
 def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Appearance | None:
-    """Return how a subject appears from a pose; None where it reaches behind the camera."""
+    """Return the appearance of a subject from a pose; None if it extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
     if wanted.shape.nearest_depth(camera, offset) <= 0:
@@ -203,7 +211,7 @@ def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Appearance | None:
 
 
 def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:
-    """Tell whether all of a subject is in the frame."""
+    """Return whether all of a subject is in the frame."""
     offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     return bool(min(frustum_margins(camera, offset, wanted.shape)) >= 0.0)
@@ -216,7 +224,7 @@ def middle_of(subjects: Sequence[Wanted]) -> Vec3:
 
 
 def first_pose(subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, azimuth: float) -> Pose:
-    """Return a pose from which all subjects are in front of the camera, at a bearing from their middle."""
+    """Return a pose with all subjects in front of the camera, at a bearing from their middle, rad."""
     middle = middle_of(subjects)
     spread = max(hypot(*minus(s.centre, middle)) + s.shape.radius + s.shape.height / 2 for s in subjects)
     half = min(tan(lens.hfov / 2), tan(lens.hfov / 2) / lens.aspect)
@@ -228,7 +236,7 @@ def first_pose(subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, azimut
 
 
 class _Search(NamedTuple):
-    """What is minimised, and within which bounds; scale : what the steps of a pose's parts are shares of."""
+    """The cost, the bounds on a pose, and the scale of steps in its components."""
 
     cost: Callable[[Pose], tuple[Residuals | None, float]]
     low: Sequence[float]
@@ -237,7 +245,7 @@ class _Search(NamedTuple):
 
 
 class _Found(NamedTuple):
-    """A pose with its residuals and their cost; damping : of the step from it."""
+    """A pose with its residuals and its cost; damping : of the next step."""
 
     pose: Pose
     residuals: Residuals | None
@@ -245,13 +253,13 @@ class _Found(NamedTuple):
     damping: float
 
 
-@lru_cache(maxsize=4096)  # every pass that looks at a framing asks again, and for standing subjects the same
+@lru_cache(maxsize=4096)  # several passes solve the same framing, and standing subjects repeat
 def viewpoint(
     subjects: tuple[Wanted, ...], lens: Lens, room: PlaceBounds, start: Pose, since: Since | None = None
 ) -> tuple[Pose, float]:
-    """Return the pose nearest to all that is wanted, from a first guess, and its cost (Levenberg-Marquardt).
+    """Return the pose of least cost, by Levenberg-Marquardt from an initial guess, and its cost.
 
-    since : what it comes from, or None; what is free stays as it is then, and nothing is farther than its way
+    since : the camera at the knot before, or None; free values stay as there, and the step is at most its way
     """
     reach = max(hypot(*minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
 
@@ -275,12 +283,12 @@ def viewpoint(
 
 
 def _jacobian(search: _Search, at: _Found) -> list[Residuals] | None:
-    """Return the residuals' derivatives by the parts of a pose, by differences; None where there are none."""
+    """Return the Jacobian of the residuals by finite differences; None where the cost is not defined."""
     if at.residuals is None:
         return None
     columns = []
     for i in range(5):
-        # Away from a bound, so that what lies beyond it is not looked at.
+        # Step away from an active upper bound, so that values beyond it are not evaluated.
         nudge = NUDGE if at.pose[i] < search.high[i] else -NUDGE
         there, _ = search.cost(_moved(at.pose, i, nudge * search.scale[i]))
         if there is None:
@@ -290,10 +298,10 @@ def _jacobian(search: _Search, at: _Found) -> list[Residuals] | None:
 
 
 def _lowered(search: _Search, at: _Found, columns: list[Residuals]) -> _Found:
-    """Return a pose of lower cost, by steps that are damped more and more; the same one if none is lower."""
+    """Return a pose of lower cost, with rising damping; the same pose if no step lowers the cost."""
     assert at.residuals is not None
     gradient = [_dot(c, at.residuals) for c in columns]
-    # A step goes against the gradient; where that leads over a bound, it stays on it.
+    # A component whose descent direction leads over its bound stays on the bound.
     stopped = [
         (p <= a and g > 0) or (p >= b and g < 0)
         for p, a, b, g in zip(at.pose, search.low, search.high, gradient, strict=True)
@@ -320,7 +328,7 @@ def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) 
 def _residuals(
     pose: Pose, subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, faint: tuple[Since | None, float]
 ) -> Residuals | None:
-    """Return all terms; None where a subject reaches behind the camera."""
+    """Return all residuals; None if a subject extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     eye = (pose[0], pose[1], pose[2])
     since, reach = faint
@@ -356,13 +364,13 @@ def _residuals(
 
 
 def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted]) -> Residuals:
-    """Return how far a camera is from the pose that it stays near: shares of its distance, and rad."""
+    """Return the residuals from the preferred pose: position as shares of the distance, and angles, rad."""
     if drawn is None:
         return []
     away = max(hypot(*minus(drawn.at, middle_of(subjects))), 1.0)
     found = [NEAR_WEIGHT * (e - d) / away for e, d in zip(pose[:3], drawn.at, strict=True)]
     if drawn.yaw is not None:
-        # As the quaternion of the difference has it, whatever the pitch: to look down gains nothing.
+        # As in the quaternion of the difference, independent of the pitch: looking down does not reduce it.
         found.append(NEAR_WEIGHT * 2.0 * sin(0.5 * (pose[3] - drawn.yaw)))
     if drawn.pitch is not None:
         found.append(NEAR_WEIGHT * (pose[4] - drawn.pitch))
@@ -370,9 +378,9 @@ def _off_pose(pose: Pose, drawn: PreferredPose | None, subjects: Sequence[Wanted
 
 
 def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:
-    """Return by how much a view is off the asked one, as chords of the unit sphere (viewpoint Eq. 9).
+    """Return the residuals from the required view, as chords of the unit sphere (viewpoint Eq. 9).
 
-    offset : subject less camera
+    offset : subject minus camera
     """
     azimuth, elevation = wanted.azimuth, wanted.elevation
     length, level = max(hypot(*offset), 1e-9), max(hypot(offset[0], offset[1]), 1e-9)

@@ -1,4 +1,4 @@
-"""How near two curves come, whenever each of them is flown: a bound that is proved."""
+"""A proved bound on the distance of two curves, for any times at which they are flown."""
 
 from __future__ import annotations
 
@@ -13,17 +13,18 @@ from shotc.geom.pieces import Pieces
 from shotc.geom.proof import norm
 
 SAMPLES = 9
-"""Places of a piece at which the nearest place of the other curve is looked for first."""
+"""Samples of a piece for the first search of the nearest points."""
 ROUNDS = 40
 OPEN_PAIRS_LIMIT = 100_000
-"""Pairs of pieces halved at once; beyond it the bound stays proven but is not made tighter."""
+"""Most pairs of pieces that are halved together; beyond it the bound stays proven but does not get
+tighter."""
 
 
 @dataclass(frozen=True, slots=True)
 class CurveDistance:
     """The least distance of two curves, metres.
 
-    proven : no two places are nearer; attained : how near the places at ``one`` and ``other`` are
+    proven : a lower bound on it; attained : the distance of the points at parameters ``one`` and ``other``
     """
 
     proven: float
@@ -35,7 +36,7 @@ class CurveDistance:
 def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> CurveDistance:
     """Bound the infimum of the distance of two curves (M, n + 1, 3) over both of their parameters.
 
-    gap : as of ``proof.inf_distance``
+    gap : as in ``proof.inf_distance``
     """
     best, at = _sampled(one, other)
     pairs = _near(one, other, best)
@@ -78,7 +79,7 @@ def _sampled(one: Pieces, other: Pieces) -> tuple[float, tuple[float, float]]:
 
 
 def _near(one: Pieces, other: Pieces, reach: float) -> _Pairs:
-    """Return the pairs of pieces whose balls are within reach."""
+    """Return the pairs of pieces whose bounding balls are within reach."""
     balls = []
     for bag in (one, other):
         centre = 0.5 * (bag.ctrl.min(axis=1) + bag.ctrl.max(axis=1))
@@ -92,7 +93,7 @@ def _near(one: Pieces, other: Pieces, reach: float) -> _Pairs:
 
 
 def _halved(one: Pieces, other: Pieces, pairs: _Pairs) -> tuple[Pieces, Pieces, _Pairs]:
-    """Return the pieces of pairs cut in two, and every pair of halves."""
+    """Return the halves of the pieces of pairs, and every pair of halves."""
     kept, bags = [], []
     for bag, index in zip((one, other), pairs, strict=True):
         used, renamed = np.unique(index, return_inverse=True)

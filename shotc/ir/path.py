@@ -214,7 +214,7 @@ def from_what_was_asked(mission: MissionIR, deviations: Iterable[_Deviation]) ->
 class PathIR:
     """The mission's geometry.
 
-    drones : the drones that film only standing targets; timed : those whose legs are laid on the clock
+    drones : of a mission that is not planned on the clock; timed : of one that is
     stats : (name, value) pairs from the solvers, in a fixed order
     """
 

@@ -289,13 +289,13 @@ def placed(origin: GeoOrigin | None, ground: GroundHeight, position: Place) -> V
 
 
 def counts_from_ground(position: Place) -> bool:
-    """Tell whether the height of a position, written or not, is one over the ground there."""
+    """Return whether the height of a position, written or not, is one over the ground there."""
     height = position.height if isinstance(position, Geodetic) else position[2]
     return isinstance(height, AboveGround)
 
 
 def stands(position: Place) -> bool:
-    """Tell whether a position leaves its height out, so that what is there stands on the ground."""
+    """Return whether a position leaves its height out, so that what is there stands on the ground."""
     height = position.height if isinstance(position, Geodetic) else position[2]
     return isinstance(height, AboveGround) and height.stands
 

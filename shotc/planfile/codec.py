@@ -316,12 +316,12 @@ def _path(path: str, place: tuple[str | int, ...]) -> str:
 
 
 def is_number(value: Any) -> bool:
-    """Tell whether a JSON value is a number (true and false are none)."""
+    """Return whether a JSON value is a number (true and false are none)."""
     return type(value) in (int, float)
 
 
 def numeric(value: Any, depth: int) -> bool:
-    """Tell whether a JSON value is a list of lists (``depth`` of them) of numbers."""
+    """Return whether a JSON value is a list of lists (``depth`` of them) of numbers."""
     if not isinstance(value, list) or not value:
         return False
     if depth == 1:

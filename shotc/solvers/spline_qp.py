@@ -145,7 +145,7 @@ def _unbounded(problem: SplineProblem, squares: list[Square]) -> Array | None:
 
 
 def _keeps(problem: SplineProblem, coef: Array) -> bool:
-    """Tell whether coefficients keep every equality and bound; NaN keeps none."""
+    """Return whether coefficients keep every equality and bound; NaN keeps none."""
     miss = np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value)
     return (
         bool((miss <= MISS).all())

@@ -102,6 +102,6 @@ def _validate(
 
 
 def _is_whole(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> bool:
-    """Tell whether a mission that fits its models says its version, and has shots, all of known kinds."""
+    """Return whether a mission that fits its models says its version, and has shots, all of known kinds."""
     known = [shot["kind"] in kinds for shot in root.get("shots", [])]
     return is_version(root.get("shotc")) and bool(known) and all(known)

@@ -21,7 +21,7 @@ VERSION = 1
 
 
 def is_version(value: object) -> bool:
-    """Tell whether a value is the version of the language that this is."""
+    """Return whether a value is the version of the language that this is."""
     return value == VERSION and not isinstance(value, bool)
 
 

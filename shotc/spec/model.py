@@ -193,13 +193,13 @@ def _no_mapping(value: object, known: Mapping[str, object]) -> PydanticCustomErr
 
 
 def _is(detail: InitErrorDetails, kind: str) -> bool:
-    """Tell whether a fault is pydantic's about a key of this very mapping."""
+    """Return whether a fault is pydantic's about a key of this very mapping."""
     error = detail["type"]
     return len(detail.get("loc", ())) == 1 and not isinstance(error, str) and error.type == kind
 
 
 def _echo(detail: InitErrorDetails, details: list[InitErrorDetails]) -> bool:
-    """Tell whether pydantic calls a list too short only because it does not count faulty items."""
+    """Return whether pydantic calls a list too short only because it does not count faulty items."""
     loc = detail["loc"]
     if isinstance(detail["type"], str) or detail["type"].type != "too_short":
         return False

@@ -109,6 +109,6 @@ def each(names: Iterable[str]) -> str:
 
 
 def _alike(word: str, other: str) -> bool:
-    """Tell whether two words are one but for their case, or one a part of the other."""
+    """Return whether two words are one but for their case, or one a part of the other."""
     short, long = sorted((word, other), key=len)
     return short == long or (len(short) >= _SHORTEST_PART and short in long)

@@ -1,4 +1,4 @@
-"""Planes between convex solids and sets of points: each proves a distance of the whole hull."""
+"""Separating planes between convex solids and sets of points; each proves the distance of the whole hull."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ _TURN = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
 _UP = np.array([0.0, 0.0, 1.0])
 
 WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)]), _UP])
-"""Normals to try for points inside a solid, which have no closest point to be pushed away from."""
+"""Candidate normals for points inside a solid, which have no direction from a closest point."""
 
 TOUCHES_M = 1e-9
-"""Distance from a solid at which a point is in it."""
+"""Distance from a solid up to which a point counts as inside."""
 
 CLOSE_SHARE = 1e-3
-"""Share of a distance that a gap may fall short of it to be as wide as any."""
+"""Relative difference of a gap and the distance at which the gap counts as optimal."""
 
 
 def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]:
-    """Return planes between point sets and a solid.
+    """Return separating planes between point sets and a convex solid.
 
     hulls : shape (N, m, 3), each the hull of m points
     Returns unit normals (N, 3) that point away from the solid, and the gaps (N,): the least of
-    n.p - support(n) over each set, metres. A positive gap proves the distance; it is within a few
-    per cent of the true distance (alternating projections on the sets, best normal kept). A negative
-    one says how deep the set reaches in.
+    n.p - support(n) over each set, metres. A positive gap proves the distance and is within a few per cent of
+    it (alternating projections on the sets, the best normal is kept). A negative gap is minus the depth of
+    the set inside the solid.
     """
     starts = np.concatenate([hulls.mean(axis=1, keepdims=True), hulls], axis=1)
-    if hulls.shape[1] == 2:  # projections converge slowly along a chord; its nearest point is known
+    if hulls.shape[1] == 2:  # projections converge slowly along a chord, whose nearest point is known
         nearest = nearest_on_segments(part, hulls[:, 0], hulls[:, 1])
         starts = np.concatenate([starts, nearest[:, None]], axis=1)
     ways_out = np.broadcast_to(WAYS_OUT, (len(hulls), *WAYS_OUT.shape))
@@ -42,7 +42,7 @@ def separate(part: Solid, hulls: Array, rounds: int = 24) -> tuple[Array, Array]
     for _ in range(rounds):
         n, far = _away(part, at)
         best, best_gap = _better(best, best_gap, n, gaps(part, hulls, n))
-        # No plane has a wider gap than the distance of two points; from one inside no way leads on.
+        # No gap exceeds the distance of two points. A point inside gives no new direction.
         if ((best_gap >= (1.0 - CLOSE_SHARE) * far) | (far <= TOUCHES_M)).all():
             break
         # Frank-Wolfe step: towards the point of the hull that lies deepest along the normal.
@@ -61,7 +61,7 @@ def gaps(part: Solid, hulls: Array, normals: Array) -> Array:
 
 
 def _away(part: Solid, p: Array) -> tuple[Array, Array]:
-    """Return unit directions from a solid to points (..., 3), upwards from inside, and how far; (...)."""
+    """Return unit directions (..., 3) from a solid to points (..., 3), up if inside, and distances (...)."""
     away = p - closest_points(part, p)
     far = np.linalg.norm(away, axis=-1)
     outside = (far > TOUCHES_M)[..., None]
@@ -69,7 +69,7 @@ def _away(part: Solid, p: Array) -> tuple[Array, Array]:
 
 
 def _widest(part: Solid, hulls: Array, normals: Array) -> tuple[Array, Array]:
-    """Return, of several unit normals (N, K, 3), the one with the widest gap to each set, and that gap."""
+    """Return the normal with the widest gap to each set among unit normals (N, K, 3), and that gap."""
     least = np.einsum("nmd,nkd->nkm", hulls, normals).min(axis=2) - support(part, normals)
     k = least.argmax(axis=1)
     each = np.arange(len(hulls))

@@ -9,28 +9,28 @@ from shotc.geom.pieces import Mask
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, edges
 
 FAR_M = 1e7
-"""Stands for an unlimited height: beyond any flight, small enough for exact millimetres."""
+"""Replaces an unlimited height: beyond any flight, but small enough for exact millimetres."""
 
 NO_LENGTH_M = 1e-12
-"""Instead of a length that is none, where something is divided by it."""
+"""Replaces a zero length in a division."""
 
 NO_AREA_M2 = 1e-18
-"""The same of a squared length."""
+"""Replaces a zero squared length."""
 
 
 def bounded(part: Solid) -> Solid:
-    """Return the solid with infinite heights replaced by ones no mission reaches."""
+    """Return the solid with infinite heights replaced by FAR_M."""
     bottom, top = heights(part)
     return part._replace(bottom=bottom, top=top)
 
 
 def heights(solid: Solid) -> tuple[float, float]:
-    """Return the heights of bottom and top, metres, neither of them infinite."""
+    """Return the heights of bottom and top, metres, both finite."""
     return max(solid.bottom, -FAR_M), min(solid.top, FAR_M)
 
 
 def closest_points(part: Solid, p: Array) -> Array:
-    """Return the points of a convex solid closest to p, shape (..., 3); p itself where it is inside."""
+    """Return the points of a convex solid closest to p, shape (..., 3); p itself if it is inside."""
     z = np.clip(p[..., 2:], part.bottom, part.top)
     if isinstance(part, Cylinder):
         return np.concatenate([_closest_on_circle(part, p[..., :2]), z], axis=-1)
@@ -38,15 +38,15 @@ def closest_points(part: Solid, p: Array) -> Array:
 
 
 def distances(part: Solid, p: Array) -> Array:
-    """Return how far points of shape (..., 3) are from a convex solid, 0 inside, metres; shape (...)."""
+    """Return the distances (...) of points (..., 3) from a convex solid, metres, 0 inside."""
     return np.asarray(np.linalg.norm(p - closest_points(part, p), axis=-1))
 
 
 def separation(part: Solid, p: Array) -> tuple[Array, Array]:
     """Return distances (...) of points (..., 3) from a convex solid, and unit normals (..., 3); 0 inside.
 
-    The normal points from the nearest place of the solid to the point. Beside a cylinder it is not taken from
-    that place, which has the rounding of its coordinates.
+    The normal points from the nearest point of the solid to p. Beside a cylinder it is computed from the
+    axis, because the coordinates of the nearest point are rounded.
     """
     away = p - closest_points(part, p)
     if isinstance(part, Cylinder):
@@ -69,25 +69,27 @@ def support(part: Solid, n: Array) -> Array:
 
 
 def signed_distance(solid: Solid, p: Array) -> Array:
-    """Return distances (M,) of points (M, 3) from the solid; inside, minus the depth below its surface."""
+    """Return signed distances (M,) of points (M, 3) from the solid, metres; inside, minus the depth."""
     distance = np.min([distances(part, p) for part in convex_parts(solid)], axis=0)
     bottom, top = heights(solid)
     upright = np.minimum(p[:, 2] - bottom, top - p[:, 2])
-    # Parts of a prism leave seams of rounding between them, its footprint has none.
+    # Between the parts of a prism there are gaps by rounding; its footprint has none.
     inside = (distance <= 0) | ((upright > 0) & in_footprint(solid, p[:, :2]))
     depth = np.maximum(np.minimum(upright, _depth_in_footprint(solid, p[:, :2])), 0.0)
     return np.where(inside, -depth, distance)
 
 
 def footprint_distances(solid: Solid, xy: Array) -> Array:
-    """Return the horizontal distance of points (..., 2) to the solid's footprint, 0 inside; shape (...)."""
+    """Return the horizontal distances (...) of points (..., 2) from the solid's footprint, metres, 0
+    inside.
+    """
     if isinstance(solid, Cylinder):
         return np.maximum(_from_axis(solid, xy) - solid.radius, 0.0)
     return np.where(in_footprint(solid, xy), 0.0, np.sqrt(_from_edges(solid, xy)[0].min(axis=-1)))
 
 
 def in_footprint(solid: Solid, xy: Array) -> Mask:
-    """Tell which points (..., 2) are above or below a solid, by crossing number; shape (...)."""
+    """Return which points (..., 2) are in a solid's footprint, by crossing number; shape (...)."""
     if isinstance(solid, Cylinder):
         return np.asarray(_from_axis(solid, xy) <= solid.radius)
     inside = np.zeros(xy.shape[:-1], dtype=np.bool_)
@@ -99,7 +101,9 @@ def in_footprint(solid: Solid, xy: Array) -> Mask:
 
 
 def in_convex(corners: Array, xy: Array) -> Mask:
-    """Tell which points (..., 2) are in or on a convex polygon, corners (k, 2) counter-clockwise."""
+    """Return which points (..., 2) are in or on a convex polygon, shape (...); corners (k, 2)
+    counter-clockwise.
+    """
     sides = np.roll(corners, -1, axis=0) - corners
     offset = xy[..., None, :] - corners
     turn = sides[:, 0] * offset[..., 1] - sides[:, 1] * offset[..., 0]

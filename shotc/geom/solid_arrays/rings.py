@@ -8,11 +8,11 @@ from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
 
 SIDES = 48
-"""Of the polygon that is drawn for a circle."""
+"""Sides of the polygon for a circle."""
 
 
 def ring(radius: float, sides: int = SIDES) -> Array:
-    """Return the corners of a regular polygon about a circle, counter-clockwise from East, (sides, 2), m."""
+    """Return the corners of a regular polygon around a circle, counter-clockwise from East, (sides, 2), m."""
     turn = 2.0 * np.pi * np.arange(sides) / sides
     return np.asarray(radius / np.cos(np.pi / sides) * np.stack([np.cos(turn), np.sin(turn)], axis=-1))
 
@@ -20,7 +20,7 @@ def ring(radius: float, sides: int = SIDES) -> Array:
 def ground_plan(solid: Solid) -> Array:
     """Return the corners of a solid's footprint, counter-clockwise, shape (k, 2), metres.
 
-    A circle is a polygon about it: what stays inside a zone stays inside its corners.
+    A circle becomes a polygon around it, so that everything inside the circle is inside the polygon.
     """
     if isinstance(solid, Cylinder):
         return np.array(solid.centre) + ring(solid.radius)

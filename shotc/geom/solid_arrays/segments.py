@@ -1,4 +1,4 @@
-"""Segments and solids: how near one comes, where it is nearest, and sight lines that a solid blocks."""
+"""Segments and solids: distances, nearest points, and lines of sight that a solid blocks."""
 
 from __future__ import annotations
 
@@ -12,30 +12,32 @@ from shotc.geom.solid_arrays.points import NO_AREA_M2, closest_points, distances
 from shotc.geom.solids import Cylinder, Solid, convex_parts
 
 SEAM_M = 1e-9
-"""How far prisms reach beyond their walls against a sight line: above the rounding of a flight's
-coordinates, so that no line slips between two convex parts of one solid."""
+"""Distance by which prisms are larger against a line of sight. It is above the rounding of a flight's
+coordinates, so that no line passes between two convex parts of one solid."""
 
 SETTLED_SHARE = 1e-7
-"""Share of a segment's length to which its nearest point is found."""
+"""Tolerance of a segment's nearest point, as a share of its length."""
 
 ROUNDS = 60
-"""At most; a dozen do."""
+"""Most iterations; about twelve suffice."""
 
 
 def segment_distances(part: Solid, a: Array, b: Array) -> Array:
     """Return the distance of segments a-b, shapes (N, 3), to the convex solid; shape (N,), metres.
 
-    Good to the square of SETTLED_SHARE of their length, and to SETTLED_SHARE of it where they meet the solid.
+    The error is at most the square of SETTLED_SHARE of their length, or SETTLED_SHARE of it if they meet the
+    solid.
     """
     near = distances(part, nearest_on_segments(part, a, b))
     return np.asarray(np.minimum.reduce([near, distances(part, a), distances(part, b)]))
 
 
 def nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
-    """Return the point of each segment, shapes (N, 3), that is nearest to the solid, or one that is in it.
+    """Return the point of each segment a-b, shapes (N, 3), that is nearest to the solid or inside it, (N, 3).
 
-    The squared distance to a convex set is convex and smooth, so that its slope rises along a segment; where
-    that is 0 is found by false position, in which an end that stays twice counts half (Illinois).
+    The squared distance to a convex set is convex and smooth, so its slope rises along a segment. The root of
+    the slope is found by the Illinois variant of false position, which halves the value of an end that stays
+    twice.
     """
     side = b - a
 
@@ -61,10 +63,10 @@ def nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
 
 
 def blocks(solid: Solid, eyes: Array, point: Array, least: float = 1e-6) -> Mask:
-    """Tell which sight lines from eyes (M, 3) to a point, (3,) or (M, 3), run through the solid.
+    """Return which lines of sight from eyes (M, 3) to a point, (3,) or (M, 3), cross the solid; shape (M,).
 
-    least : metres inside that count; a line that only touches at a point is not blocked, one along a face
-    of a prism (within a nanometre of a wall) is
+    least : least length inside that counts, metres. A line that touches the solid at a point is not blocked;
+        one along a face of a prism (within a nanometre of a wall) is
     """
     along = point - eyes
     length = np.sqrt(np.einsum("md,md->m", along, along))
@@ -78,7 +80,7 @@ def blocks(solid: Solid, eyes: Array, point: Array, least: float = 1e-6) -> Mask
 def within(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
     """Return the shares of segments from eyes (M, 3) at which they enter and leave a convex solid, (M,) each.
 
-    along : from the beginnings to the ends, (M, 3); one that is never inside leaves before it enters
+    along : from start to end, (M, 3). A segment outside the solid has leave < enter.
     """
     bottom, top = heights(part)
     zero, one = np.zeros(len(eyes)), np.ones(len(eyes))
@@ -95,7 +97,7 @@ def within(part: Solid, eyes: Array, along: Array) -> tuple[Array, Array]:
 
 def _clip(enter: Array, leave: Array, excess: Array, slope: Array) -> tuple[Array, Array]:
     # Keep the shares x at which excess + slope x <= 0.
-    with np.errstate(over="ignore"):  # all but level, it is crossed beyond all numbers: at infinity
+    with np.errstate(over="ignore"):  # a nearly parallel line crosses at infinity
         crossing = -excess / np.where(slope == 0, 1.0, slope)
     never = (slope == 0) & (excess > 0)
     enter = np.where(slope < 0, np.maximum(enter, crossing), np.where(never, 1.0, enter))

@@ -1,4 +1,4 @@
-"""Parallelograms that stand in for targets, and the cells of them that rays lead to."""
+"""Parallelograms that stand in for targets, and their cells, which are the ends of rays."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.triangles import cross
 
-_NONE = 1e-300  # instead of a length that is none
+_NONE = 1e-300  # replaces a zero length
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Billboards:
-    """A parallelogram a frame, and the eye that looks at it; all of shape (F, 3), metres of W.
+    """One parallelogram a frame, and the eye that looks at it; all of shape (F, 3), metres of W.
 
     Its points are corner + a right + b up, 0 <= a, b <= 1.
     """
@@ -34,16 +34,16 @@ class Billboards:
         return Billboards(self.eye[which], self.corner[which], self.right[which], self.up[which])
 
     def mapped(self, put: Callable[[Array], Array]) -> Billboards:
-        """Return the same where all points (F, 3) are put elsewhere, by shifts and turns of each frame."""
+        """Return the same with ``put``, a rigid motion of each frame, applied to all points (F, 3)."""
         corner = put(self.corner)
         right, up = (put(self.corner + side) - corner for side in (self.right, self.up))
         return Billboards(put(self.eye), corner, right, up)
 
 
 def billboards(eye: Array, centre: Array, width: Array | float, height: Array | float) -> Billboards:
-    """Return the rectangles that face eyes (F, 3) about centres (F, 3), with level lower sides; metres.
+    """Return the rectangles at centres (F, 3) that face eyes (F, 3), with horizontal lower sides; metres.
 
-    width, height : (F,) or one for all. Seen from straight above, the lower side faces South.
+    width, height : (F,) or one for all. From straight above, the lower side faces South.
     """
     away = centre - eye
     level = np.column_stack([away[:, 1], -away[:, 0], np.zeros(len(away))])
@@ -58,7 +58,9 @@ def billboards(eye: Array, centre: Array, width: Array | float, height: Array | 
 
 
 def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
-    """Return the least such rectangles that hold what upright cylinders at centres (F, 3) show from far."""
+    """Return the least such rectangles that contain the outlines of upright cylinders at centres (F, 3) from
+    afar.
+    """
     away = centre - eye
     far = np.maximum(np.linalg.norm(away, axis=1), _NONE)
     upright = np.hypot(away[:, 0], away[:, 1]) / far
@@ -67,9 +69,9 @@ def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) ->
 
 
 def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
-    """Return upright rectangles before upright cylinders about centres (F, 3), on the sides of eyes (F, 3).
+    """Return upright rectangles in front of upright cylinders at centres (F, 3), facing eyes (F, 3).
 
-    What is within a cylinder's radius is behind its rectangle, but for what stands over the cylinder.
+    Everything within a cylinder's radius is behind its rectangle, except above the cylinder.
     """
     level = (eye - centre) * [1.0, 1.0, 0.0]
     level /= np.maximum(np.linalg.norm(level, axis=1, keepdims=True), _NONE)
@@ -79,13 +81,13 @@ def upright(eye: Array, centre: Array, radius: float, height: float) -> Billboar
 
 
 def cells_of(boards: Billboards, n: int) -> Array:
-    """Return the middles of all cells, shape (F n n, 3), metres of W."""
+    """Return the middles of all n x n cells, shape (F n n, 3), metres of W."""
     sides = np.stack([boards.corner, boards.right, boards.up], axis=1)
     return np.asarray(cells(n).T @ sides).reshape(-1, 3)
 
 
 def cells(n: int) -> Array:
-    """Return 1, a and b of all cells' middles, shape (3, n * n)."""
+    """Return the rows 1, a and b for the middles of all cells, shape (3, n * n)."""
     middle = (np.arange(n) + 0.5) / n
     a, b = np.meshgrid(middle, middle, indexing="ij")
     return np.stack([np.ones(n * n), a.ravel(), b.ravel()])

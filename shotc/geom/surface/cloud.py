@@ -1,4 +1,4 @@
-"""Clouds of points made a surface: each point a triangle without size, which stands for a ball about it."""
+"""Point clouds as surfaces: each point is a triangle without size, which represents a ball around it."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from shotc.geom.surface.near import within
 from shotc.geom.surface.tree import Surface, surface_of
 
 MOST_POINTS = 1_000_000
-"""Points of a surface; of more, each cell of a grid keeps one."""
-_SAMPLE = 2_000  # points whose neighbours are looked for
-_BESIDE = 8  # points before and after one in Morton order, of which one is near
-_FIRST_CELLS = 4096  # along the longest side of a cloud that is thinned, to begin with
-_LARGER = 1.1  # times the size of cells that should do
+"""Most points of a surface; of larger clouds each cell of a grid keeps one."""
+_SAMPLE = 2_000  # points whose neighbours are searched
+_BESIDE = 8  # points before and after one in Morton order that are tried as neighbours
+_FIRST_CELLS = 4096  # cells along the longest side of a cloud in the first attempt to thin it
+_LARGER = 1.1  # factor on the estimated size of cells
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cloud:
-    """Points, and how far they reach.
+    """A point cloud as a surface.
 
-    surface : of triangles each of which is three times one point, metres
-    moved   : the largest distance from a point of the file to the one that stands for it, metres
+    surface : its triangles are one point three times, metres
+    moved   : largest distance from a point of the file to the one that represents it, metres
     """
 
     surface: Surface
@@ -32,16 +32,16 @@ class Cloud:
 
 
 def cloud_of(points: Array) -> Cloud:
-    """Return points (N, 3), metres, or of more than MOST_POINTS one in each cell of a grid."""
+    """Return the cloud of points (N, 3), metres; of more than MOST_POINTS each cell of a grid keeps one."""
     kept, moved = (points, 0.0) if len(points) <= MOST_POINTS else _thinned(points, MOST_POINTS)
     return Cloud(surface_of(np.repeat(kept[:, None, :], 3, axis=1)), moved)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Splats:
-    """Few places that stand for a cloud: one in each cell of a grid that has points.
+    """Points that represent a cloud: one in each occupied cell of a grid.
 
-    middle : of the boxes round the points of each cell, (M, 3), metres; first : one of its points, (M,)
+    middle : of the box around the points of each cell, (M, 3), metres; first : index of one of them, (M,)
     size   : of the cells, metres
     """
 
@@ -51,17 +51,21 @@ class Splats:
 
 
 def splats(points: Array, size: float, most: int) -> Splats:
-    """Return at most so many places for points (N, 3), one at least, in cells of a size or larger, metres."""
+    """Return at most ``most`` representatives of points (N, 3), N > 0, in cells of at least ``size``,
+    metres.
+    """
     while True:
         order, begins = _in_cells(points, size)
         if len(begins) <= most:
             lowest, highest = _boxes(points[order], begins)
             return Splats(np.asarray(0.5 * (lowest + highest)), order[begins], size)
-        size *= max(_LARGER, _LARGER * float(np.sqrt(len(begins) / most)))  # most clouds are of faces
+        size *= max(_LARGER, _LARGER * float(np.sqrt(len(begins) / most)))  # most clouds are surfaces
 
 
 def _thinned(points: Array, most: int) -> tuple[Array, float]:
-    """Return the middles of the boxes round the points of each cell, and how far a point is from its own."""
+    """Return the middles of the boxes around the points of each cell, (M, 3), and the largest distance
+    moved.
+    """
     kept = splats(points, float(np.ptp(points, axis=0).max()) / _FIRST_CELLS, most)
     order, begins = _in_cells(points, kept.size)
     counts = np.diff(np.append(begins, len(points)))
@@ -70,7 +74,7 @@ def _thinned(points: Array, most: int) -> tuple[Array, float]:
 
 
 def _in_cells(points: Array, size: float) -> tuple[IntArray, IntArray]:
-    """Return an order of points, (N,), cell by cell, and where each cell begins in it."""
+    """Return an order of points, (N,), cell by cell, and the start of each cell in it, (M,)."""
     cell = ((points - points.min(axis=0)) / max(size, 1e-9)).astype(np.int64)
     key = (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]
     order = np.argsort(key, kind="stable")
@@ -82,9 +86,9 @@ def _boxes(ordered: Array, begins: IntArray) -> tuple[Array, Array]:
 
 
 def median_spacing(surface: Surface) -> float:
-    """Return the median distance of a cloud's points from their nearest neighbours elsewhere, metres.
+    """Return the median distance of a cloud's points from their nearest distinct neighbours, metres.
 
-    It is taken over at most 2,000 points, evenly picked in Morton order; 0 where all lie at one place.
+    It is taken over at most 2,000 points, evenly spaced in Morton order; 0 if all points coincide.
     """
     picked = np.unique(np.linspace(0, len(surface) - 1, _SAMPLE).astype(np.intp))
     p, nearest = surface.triangles[picked, 0], _near_in_order(surface, picked)
@@ -98,7 +102,7 @@ def median_spacing(surface: Surface) -> float:
 
 
 def _near_in_order(surface: Surface, picked: IntArray) -> Array:
-    """Return how far each point is from the nearest of those beside it in Morton order, elsewhere."""
+    """Return the distance of each point from the nearest distinct one of its neighbours in Morton order."""
     beside = np.clip(picked[:, None] + np.arange(-_BESIDE, _BESIDE + 1), 0, len(surface) - 1)
     points = surface.triangles[:, 0]
     away = np.linalg.norm(points[beside] - points[picked][:, None], axis=2)

@@ -1,7 +1,7 @@
-"""Points of clouds as what hides: each is a disc across every ray that passes it.
+"""Points of clouds as occluders: each is a disc perpendicular to every ray that passes it.
 
-A ray passes few of the points that are in its frame's way, and a point is near few rays of a frame: those
-cells of a billboard are tried about which the point is seen.
+A point is near only few rays of a frame. So only the cells of a billboard around the point's projection are
+tested.
 """
 
 from __future__ import annotations
@@ -14,18 +14,19 @@ from shotc.geom.surface.boards import Billboards
 from shotc.geom.surface.triangles import cross, dot
 
 STEEP_COSINE = 0.1
-"""Of the angle between a line of sight and the normal of a billboard: below it all its cells are tried."""
+"""Cosine of the angle between a line of sight and a billboard's normal, below which all its cells are
+tested."""
 _NONE = 1e-300
 
 
 def stopped_by_discs(
     of: tuple[Array, IntArray], boards: Billboards, reach: Array, radius: float
 ) -> tuple[IntArray, IntArray]:
-    """Return which rays discs stop: their frames and their cells, (S,), some more than once.
+    """Return which rays discs block: their frames and their cells, (S,) each, with repetitions.
 
     of : the points, (K, 3), metres of W, and the frame of each, (K,); radius : of the discs, metres
-    reach : share of the way to a cell at which its ray ends, (F, n, n); what is nearer than the radius to
-        that end is one with what the ray leads to
+    reach : share of the way to a cell at which its ray ends, (F, n, n); a point nearer than the radius to
+        that end is a part of the target
     """
     (points, frame), n = of, reach.shape[1]
     away = points - boards.eye[frame]
@@ -49,9 +50,10 @@ def stopped_by_discs(
 def _cells_about(
     away: Array, frame: IntArray, boards: Billboards, radius: float, n: int
 ) -> tuple[IntArray, IntArray]:
-    """Return the first and the last cell, along right and up, whose rays may pass points, (K, 2) each.
+    """Return the first and the last cell, along right and up, whose rays may meet discs at points, (K, 2)
+    each.
 
-    away : the points from the eyes of their frames, (K, 3), metres
+    away : the points minus the eyes of their frames, (K, 3), metres
     """
     normal = cross(boards.right, boards.up)
     normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]

@@ -1,7 +1,7 @@
-"""How near curves come to a surface, proved for every instant.
+"""Proved bounds on the distance of curves from a surface, for every instant.
 
-Pairs of a piece and a triangle are halved (branch and bound). Of a pair, no point of the piece is nearer to
-the triangle than all control points are along a fixed direction; the direction is that from the triangle
+The pieces of pairs of a piece and a triangle are halved (branch and bound). The distance of a piece from a
+triangle is at least that of its control points along a fixed direction, here the direction from the triangle
 to the middle of the piece. The surface has no inside: the distance is 0 where a curve crosses it.
 """
 
@@ -23,7 +23,7 @@ from shotc.geom.surface.triangles import closest, dot, highest, lowest
 
 Gap = Callable[[float], float]
 PIECES_LIMIT = 50_000
-"""Pieces to which curves are cut to meet fewer boxes each."""
+"""Most pieces into which curves are cut, so that each one meets fewer boxes."""
 
 LIKELIEST = 8
 """Pieces whose middles are measured exactly before the search."""
@@ -31,10 +31,10 @@ LIKELIEST = 8
 
 @dataclass(frozen=True, slots=True)
 class SurfaceBound(ProvedExtreme):
-    """A bound, and where its value is attained.
+    """A bound, and the piece and triangle at which its value is attained.
 
-    piece    : number of the piece, of those given; -1 where there is none
-    triangle : number of the triangle, of those that the surface was made of; -1 where there is none
+    piece    : index of the given piece; -1 if there is none
+    triangle : index of the triangle that the surface was made of; -1 if there is none
     """
 
     piece: int = -1
@@ -43,7 +43,7 @@ class SurfaceBound(ProvedExtreme):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Numbered:
-    """Pieces, and which of the given ones each is a part of, shape (M,)."""
+    """Pieces with the index of the given piece that each is a part of, shape (M,)."""
 
     pieces: Pieces
     source: IntArray
@@ -52,22 +52,24 @@ class Numbered:
         return len(self.source)
 
     def pick(self, which: Mask | IntArray) -> Numbered:
-        """Return some of them, by a mask of shape (M,) or by their numbers."""
+        """Return some of them, by a mask of shape (M,) or by indices."""
         p = self.pieces
         return Numbered(Pieces(p.low[which], p.high[which], p.ctrl[which]), self.source[which])
 
     def halves(self) -> Numbered:
-        """Return every piece cut in two, the left halves first."""
+        """Return the halves of every piece, the left ones first."""
         return Numbered(self.pieces.halves(), np.concatenate([self.source, self.source]))
 
     def and_also(self, other: Numbered) -> Numbered:
-        """Return these and others."""
+        """Return the union with other pieces."""
         return Numbered(join([self.pieces, other.pieces]), np.concatenate([self.source, other.source]))
 
 
 @dataclass(slots=True)
 class LeastSearch:
-    """What a search for the least value knows: the least one met, and the least bound it stopped at."""
+    """The state of a minimisation: the least value found, and the least bound of what was not halved
+    further.
+    """
 
     best: float = np.inf
     at: float = 0.0
@@ -77,7 +79,7 @@ class LeastSearch:
     rest: float = np.inf
 
     def meet(self, values: Array, parts: Numbered, index: IntArray, triangles: IntArray) -> None:
-        """Take the least of the values (K,) that the middles of some pieces have at some triangles."""
+        """Update the least value with values (K,) of the middles of pieces at triangles."""
         k = int(np.argmin(values)) if len(values) else -1
         if k >= 0 and values[k] < self.best:
             i, pieces = int(index[k]), parts.pieces
@@ -85,14 +87,16 @@ class LeastSearch:
             self.piece, self.triangle = int(parts.source[i]), int(triangles[k])
 
     def keep_open(self, pairs: Pairs, lower: Array, gap: Gap) -> tuple[Pairs, Array]:
-        """Return the pairs whose bounds (K,) leave room for less than is known, and these bounds."""
+        """Return the pairs whose bounds (K,) are below the least known value minus the gap, and these
+        bounds.
+        """
         is_open = lower < self.best - gap(self.best)
         self.closed = min(self.closed, float(lower[~is_open].min(initial=np.inf)))
         self.rest = float(lower[is_open].min(initial=np.inf))
         return pairs.pick(is_open), lower[is_open]
 
     def bound(self, surface: Surface) -> SurfaceBound:
-        """Return what is proved."""
+        """Return the proved bound."""
         triangle = int(surface.source[self.triangle]) if self.triangle >= 0 else -1
         proven = min(self.closed, self.best, self.rest)
         return SurfaceBound(proven, self.best, self.at, self.piece, triangle)
@@ -101,9 +105,9 @@ class LeastSearch:
 def inf_distance(pieces: Pieces, surface: Surface, gap: Gap) -> SurfaceBound:
     """Bound the infimum of the distance from a surface along pieces of shape (M, n + 1, 3), metres.
 
-    gap : how far ``proven`` may stay below ``attained``, given the smallest distance found so far
-    No pieces, or no triangles: both are inf. Where a curve crosses the surface the value is 0, or at most
-    the gap: it has no sign.
+    gap : admissible difference of ``proven`` and ``attained``, as a function of the least distance so far
+    Without pieces or triangles both are inf. The distance has no sign: if a curve crosses the surface the
+    value is 0, or at most the gap.
     """
     known = LeastSearch()
     if len(surface) and len(pieces):
@@ -112,27 +116,27 @@ def inf_distance(pieces: Pieces, surface: Surface, gap: Gap) -> SurfaceBound:
 
 
 class DistanceProblem(Protocol):
-    """What ``run`` needs of a least value over pairs of pieces and triangles."""
+    """A minimisation over pairs of pieces and triangles, for ``run``."""
 
     @property
     def known(self) -> LeastSearch:
-        """What is known of it."""
+        """The state of the search."""
 
     def look(self, parts: Numbered) -> None:
-        """Take some values for a start."""
+        """Evaluate some values as a first bound."""
 
     def long(self, parts: Numbered) -> Mask:
-        """Tell which pieces, (M,), are to be halved where they meet too many boxes."""
+        """Return which pieces, (M,), to halve if they meet too many boxes."""
 
     def pairs(self, parts: Numbered, most: int | None) -> Pairs:
-        """Return the pairs that may hold the least value; TooMany where they are more than ``most``."""
+        """Return the pairs that may have the least value; raise TooMany if they are more than ``most``."""
 
     def close(self, parts: Numbered, pairs: Pairs) -> None:
-        """Bound the value over pairs."""
+        """Bound the value over pairs, by halving."""
 
 
 def run(problem: DistanceProblem, parts: Numbered) -> None:
-    """Find the least value, piece by piece where all at once would meet too many boxes."""
+    """Find the least value; where all pieces together meet too many boxes, process fewer or shorter ones."""
     problem.look(parts)
     rest, closed = [parts], np.inf
     while rest:
@@ -157,7 +161,7 @@ def _fewer(problem: DistanceProblem, parts: Numbered) -> list[Numbered]:
 
 
 def middles(ctrl: Array) -> Array:
-    """Return the points (M, 3) in the middle of pieces, by de Casteljau."""
+    """Return the middle points (M, 3) of pieces (M, n + 1, 3), by de Casteljau."""
     while ctrl.shape[1] > 1:
         ctrl = 0.5 * (ctrl[:, :-1] + ctrl[:, 1:])
     return ctrl[:, 0]
@@ -165,14 +169,16 @@ def middles(ctrl: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Distances:
-    """The problem of the least distance, for ``run``."""
+    """The minimisation of the distance, for ``run``."""
 
     known: LeastSearch
     surface: Surface
     gap: Gap
 
     def look(self, parts: Numbered) -> None:
-        """Take the distance of the middles of pieces for a start: of all some, of the likeliest the least."""
+        """Evaluate the middles of pieces as a first bound: an upper bound for all, the distance for the
+        likeliest.
+        """
         middle = middles(parts.pieces.ctrl)
         some = some_distance(self.surface, middle)
         likely = np.argsort(some)[:LIKELIEST]
@@ -181,12 +187,12 @@ class _Distances:
         self.known.meet(found.distance, parts, likely, found.triangle)
 
     def long(self, parts: Numbered) -> Mask:
-        """Tell which pieces meet fewer boxes once they are halved."""
+        """Return which pieces meet fewer boxes after halving."""
         size = np.ptp(parts.pieces.ctrl, axis=1)
         return np.asarray(np.sqrt(dot(size, size)) > self.known.best)
 
     def pairs(self, parts: Numbered, most: int | None) -> Pairs:
-        """Return the pairs whose boxes leave room for less than is known."""
+        """Return the pairs whose boxes are nearer than the least known distance."""
         low, high = parts.pieces.ctrl.min(axis=1), parts.pieces.ctrl.max(axis=1)
         limit = self.known.best - self.gap(self.known.best)
         met = [self.known.closed]
@@ -202,7 +208,7 @@ class _Distances:
         return pairs
 
     def close(self, parts: Numbered, pairs: Pairs) -> None:
-        """Halve pieces of pairs until no pair leaves room for less than is known, but for the gap."""
+        """Halve pieces of pairs until no pair may be nearer than the least known distance minus the gap."""
         lower = np.zeros(len(pairs))
         for _ in range(ROUNDS):
             lower = np.maximum(lower, self._boxes_apart(parts, pairs))
@@ -220,7 +226,7 @@ class _Distances:
         return box_distances(low, high, lowest(triangles), highest(triangles))
 
     def _bounds(self, parts: Numbered, pairs: Pairs) -> Array:
-        """Return lower bounds (K,) of the distances of pairs, and take those of the middles."""
+        """Return lower bounds (K,) of the distances of pairs, and update the least value with the middles."""
         triangles = self.surface.triangles[pairs.triangle]
         middle = middles(parts.pieces.ctrl)[pairs.item]
         found = closest(triangles, middle)
@@ -229,7 +235,7 @@ class _Distances:
         ctrl = parts.pieces.ctrl[pairs.item] - found.point[:, None]
         along = np.einsum("kmd,kd->km", ctrl, normal).min(axis=1)
         behind = np.einsum("kvd,kd->kv", triangles - found.point[:, None], normal).max(axis=1)
-        # Next to a crossing the direction is noise, and a bound below 0 tells nothing.
+        # Near a crossing the direction is noise. A bound below 0 has no information.
         length = np.maximum(np.sqrt(dot(normal, normal)), 1.0)
         return np.asarray(np.maximum((along - behind) / length, 0.0))
 

@@ -1,7 +1,6 @@
-"""Ground made of triangles: its height under points, and whether curves stay above it.
+"""Ground of triangles: its height below points, and a proof that curves have ground below them.
 
-Height is vertical: z - h(x, y). Outside of all triangles there is no ground; nothing is continued beyond the
-last one.
+Height is vertical: z - h(x, y). Outside of all triangles there is no ground; it is not extrapolated.
 """
 
 from __future__ import annotations
@@ -19,12 +18,12 @@ from shotc.geom.surface.tree import Surface, surface_of, under_points
 from shotc.geom.surface.triangles import TINY
 
 EDGE = 1e-6
-"""Metres: a curve that comes as near as this to where the ground ends is not proved to stay above it."""
+"""Least distance from the edge of the ground, metres; a nearer curve is not proved to stay above ground."""
 LOOKS = 9
-"""Places a piece at which it is looked how far a curve leaves the ground."""
+"""Samples a piece for the distance by which a curve leaves the ground."""
 _NEXT = [1, 2, 0]
 _WEIGHT = 1e-9
-"""Share of a triangle by which a point may be outside and still be in it: points on edges are in both."""
+"""Tolerance of a point in a triangle, as a barycentric coordinate: points on edges are in both triangles."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +31,7 @@ class Ground:
     """Ground.
 
     surface : its triangles
-    edge    : the sides that only one triangle has, at z = 0; where the ground ends, holes included
+    edge    : the sides of one triangle only, at z = 0: the boundary of the ground, with that of holes
     """
 
     surface: Surface
@@ -41,11 +40,11 @@ class Ground:
 
 @dataclass(frozen=True, slots=True)
 class NoGround:
-    """A curve leaves the ground.
+    """A curve that leaves the ground.
 
-    at    : the parameter at which it is farthest out, of the places that were looked at
+    at    : the parameter of the farthest sample outside
     place : (x, y) there, metres of W
-    by    : how far out, metres; 0 where it comes too near to the end of the ground, or crosses a gap
+    by    : its distance from the ground, metres; 0 if the curve comes too near to the edge, or crosses a gap
     """
 
     at: float
@@ -54,10 +53,10 @@ class NoGround:
 
 
 def ground_of(corners: Array, faces: IntArray) -> Ground:
-    """Make ground of corners (V, 3), metres of W, and of triangles of their numbers (T, 3).
+    """Return the ground of corners (V, 3), metres of W, and of triangles (T, 3) of their indices.
 
-    Neighbours share corners, and no triangle lies above another. Upright ones are no ground, for their
-    neighbours are. ValueError where a corner is not finite.
+    Adjacent triangles share corners, and no triangle is above another. Vertical triangles are no ground;
+    their neighbours are. Raise ValueError if a corner is not finite.
     """
     surface = surface_of(corners[faces].reshape(-1, 3, 3))
     ends = corners[_lone_sides(faces, len(corners))] * np.array([1.0, 1.0, 0.0])
@@ -65,7 +64,7 @@ def ground_of(corners: Array, faces: IntArray) -> Ground:
 
 
 def _lone_sides(faces: IntArray, count: int) -> IntArray:
-    """Return the sides, as pairs of corners (E, 2), that one triangle has alone."""
+    """Return the sides of one triangle only, as pairs of corner indices (E, 2)."""
     low, high = np.minimum(faces, faces[:, _NEXT]), np.maximum(faces, faces[:, _NEXT])
     side, times = np.unique((low.astype(np.int64) * count + high).ravel(), return_counts=True)
     lone = side[times == 1]
@@ -74,10 +73,10 @@ def _lone_sides(faces: IntArray, count: int) -> IntArray:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Under:
-    """What is under points.
+    """The ground below points.
 
-    height   : (K,), metres of W; NaN where there is no ground
-    triangle : (K,), in the order of the surface; -1 where there is no ground
+    height   : (K,), metres of W; NaN without ground
+    triangle : (K,), index in the surface; -1 without ground
     """
 
     height: Array
@@ -85,12 +84,12 @@ class Under:
 
 
 def height_at(ground: Ground, xy: Array) -> Array:
-    """Return the height of the ground at points (K, 2), metres of W; NaN where there is none."""
+    """Return the heights (K,) of the ground at points (K, 2), metres of W; NaN without ground."""
     return under(ground, xy).height
 
 
 def under(ground: Ground, xy: Array) -> Under:
-    """Return the ground under points (K, 2), metres of W."""
+    """Return the ground below points (K, 2), metres of W."""
     out = Under(np.full(len(xy), np.nan), np.full(len(xy), -1))
     for start in range(0, len(xy), AT_ONCE):
         part = slice(start, start + AT_ONCE)
@@ -108,7 +107,7 @@ def _under(surface: Surface, xy: Array, out: Under) -> None:
 
 
 def heights(triangles: Array, xy: Array) -> Array:
-    """Return the height of each triangle (K, 3, 3) at a point (K, 2), NaN where it is not in it."""
+    """Return the heights (K,) of triangles (K, 3, 3) at points (K, 2), metres; NaN if a point is outside."""
     plan = triangles[..., :2]
     edges, offset = plan[:, _NEXT] - plan, xy[:, None] - plan
     areas = edges[..., 0] * offset[..., 1] - edges[..., 1] * offset[..., 0]
@@ -122,14 +121,14 @@ def heights(triangles: Array, xy: Array) -> Array:
 
 
 def leaves(ground: Ground, pieces: Pieces) -> NoGround | None:
-    """Prove that curves stay above ground, or return where they do not: in the plan, at any height.
+    """Prove that curves have ground below them, at any height; return None, or where they leave the ground.
 
     pieces : shape (M, n + 1, 3), metres of W
-    A piece that begins above ground and never comes to where it ends is above it all the way.
+    A piece that starts over ground and never comes to the edge of the ground stays over it.
     """
     if not len(pieces):
         return None
-    begins = np.ones(len(pieces), dtype=bool)  # a piece that goes on where another ended is that one's heir
+    begins = np.ones(len(pieces), dtype=bool)  # a piece that continues another needs no test of its start
     begins[1:] = (pieces.ctrl[1:, 0, :2] != pieces.ctrl[:-1, -1, :2]).any(axis=1)
     if np.isnan(height_at(ground, pieces.ctrl[begins, 0, :2])).any():
         return _farthest_out(ground, pieces)

@@ -1,11 +1,11 @@
-"""One half-space a piece above the ground, for convex programmes: the plane that costs it the least height.
+"""One half-space above the ground a piece, for convex programmes, with the most vertical space for the piece.
 
-Of all planes that are nowhere under the ground about a piece, the one sought leaves the most room, upright,
-between it and the piece. In the two slopes that is a linear programme: over differences d of a point of the
-piece and one of the ground, the least height at which their hull meets the vertical through 0. A basis is
-three differences round 0 in the plan; the one that lies deepest below their plane enters, by the ratio test
-of the simplex method. Whatever the slopes, the plane is put above the ground: only how well it fits
-depends on them.
+Among all planes that are nowhere below the ground around a piece, the best one has the largest vertical
+distance from the piece. In its two slopes this is a linear programme: over differences d of a point of the
+piece and a point of the ground, the least height at which their hull meets the vertical through 0. A basis is
+three differences around 0 in the plan. The difference that lies deepest below their plane enters the basis,
+by the ratio test of the simplex method. For any slopes the plane is then put above the ground, so the result
+is always valid; the slopes only determine how tight it is.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ from shotc.geom.surface.tree import Pairs, in_plan
 from shotc.geom.surface.triangles import TINY, cross, dot
 
 PIVOTS = 40
-"""Exchanges of a basis; a dozen do."""
+"""Most exchanges of a basis; about twelve suffice."""
 DEEPER = 1e-6
-"""Metres that a difference has to lie below the plane of a basis to enter it."""
+"""Least depth of a difference below the plane of a basis to enter it, metres."""
 FAR = 1e4
-"""Metres: how far out in the plan, and how high, the differences lie with which the search begins."""
+"""Distance in the plan and height of the first basis, metres."""
 _NEXT = [1, 2, 0]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Corners:
-    """Points of the ground about pieces: corners of its triangles cut to the pieces' boxes.
+    """Points of the ground around pieces: corners of its triangles, cut to the pieces' boxes.
 
     piece : shape (C,), in order; place : (C, 3), metres of W
     """
@@ -42,11 +42,11 @@ class Corners:
 
 
 def ground_planes(ground: Ground, hulls: Array, width: float, clearance: float, kept: Kept) -> Planes:
-    """Return a half-space above the ground for every piece that has ground about it.
+    """Return a half-space above the ground for every piece with ground around it.
 
-    hulls : shape (P, m, 3), points whose hull holds each piece
-    width : how far beyond the box round a piece, in the plan, its plane is above the ground, metres
-    Inside of that box a point that keeps the half-space is the clearance above the ground, upright.
+    hulls : shape (P, m, 3), points whose hull contains each piece, metres
+    width : distance beyond a piece's box, in the plan, up to which its plane is above the ground, metres
+    A point inside that box that keeps the half-space has the vertical clearance above the ground.
     """
     low, high = hulls[..., :2].min(axis=1) - width, hulls[..., :2].max(axis=1) + width
     corners = _about(ground, low, high)
@@ -66,7 +66,7 @@ def ground_planes(ground: Ground, hulls: Array, width: float, clearance: float, 
 
 
 def _about(ground: Ground, low: Array, high: Array) -> Corners:
-    """Return the corners of the triangles that meet boxes low-high (P, 2), cut to these."""
+    """Return the corners of the triangles that meet boxes low-high (P, 2), cut to the boxes."""
     pairs = in_plan(ground.surface, low, high)
     triangles = ground.surface.triangles[pairs.triangle]
     its_low, its_high = low[pairs.item][:, None], high[pairs.item][:, None]
@@ -80,7 +80,7 @@ def _about(ground: Ground, low: Array, high: Array) -> Corners:
 
 
 def _cut(triangles: Array, pairs: Pairs, low: Array, high: Array) -> Corners:
-    """Return the corners of what boxes cut out of triangles (K, 3, 3), in the plan."""
+    """Return the corners of triangles (K, 3, 3) cut to boxes in the plan."""
     low, high = low[pairs.item], high[pairs.item]
     found = [triangles]
     sides = triangles[:, _NEXT] - triangles
@@ -99,7 +99,9 @@ def _cut(triangles: Array, pairs: Pairs, low: Array, high: Array) -> Corners:
 
 
 def _over(triangles: Array, low: Array, high: Array) -> Array:
-    """Return the corners of boxes (K, 2) that are in triangles, on these, (K, 4, 3); NaN for others."""
+    """Return the corners of boxes (K, 2) inside triangles, at the triangles' height, (K, 4, 3); NaN for
+    others.
+    """
     x = np.stack([low[:, 0], high[:, 0], high[:, 0], low[:, 0]], axis=1)
     y = np.stack([low[:, 1], low[:, 1], high[:, 1], high[:, 1]], axis=1)
     one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
@@ -114,7 +116,7 @@ def _over(triangles: Array, low: Array, high: Array) -> Array:
 
 
 def _slopes(hulls: Array, places: Array, begin: IntArray) -> Array:
-    """Return the slopes (P, 2) of the planes that leave the most room under hulls (P, m, 3)."""
+    """Return the slopes (P, 2) of the planes with the most space below hulls (P, m, 3)."""
     count = len(hulls)
     turn = 2 * np.pi * np.arange(3) / 3
     start = FAR * np.column_stack([np.cos(turn), np.sin(turn), np.ones(3)])
@@ -135,7 +137,7 @@ def _slopes(hulls: Array, places: Array, begin: IntArray) -> Array:
 
 
 def _deepest(hulls: Array, places: Array, planes: tuple[Array, Array, IntArray]) -> tuple[Array, Array]:
-    """Return the differences (P, 3) that lie deepest for the slopes, and how high they lie, (P,)."""
+    """Return the deepest differences (P, 3) for the slopes, and their heights, (P,)."""
     slope, above, begin = planes
     under = hulls[..., 2] - np.einsum("pmd,pd->pm", hulls[..., :2], slope)
     point = hulls[np.arange(len(hulls)), under.argmin(axis=1)]
@@ -155,7 +157,7 @@ def _plane(basis: Array) -> tuple[Array, Array]:
 
 
 def _exchanged(basis: Array, enters: Array) -> Array:
-    """Return the bases (K, 3, 3) with one difference each put in place of another, still round 0."""
+    """Return the bases (K, 3, 3) with one difference exchanged; they still surround 0."""
     shares, its = _weights(basis, np.zeros((len(basis), 2))), _weights(basis, enters[:, :2])
     ratio = np.where(its > 1e-12, np.maximum(shares, 0.0) / np.maximum(its, 1e-12), np.inf)
     basis = basis.copy()
@@ -164,7 +166,7 @@ def _exchanged(basis: Array, enters: Array) -> Array:
 
 
 def _weights(basis: Array, p: Array) -> Array:
-    """Return the shares (K, 3) of the corners of a basis that make up points (K, 2) in the plan."""
+    """Return the barycentric coordinates (K, 3) of points (K, 2) in the corners of bases, in the plan."""
     plan = basis[..., :2]
     sides, offset = plan[:, _NEXT] - plan, p[:, None] - plan
     areas = (sides[..., 0] * offset[..., 1] - sides[..., 1] * offset[..., 0])[:, _NEXT]

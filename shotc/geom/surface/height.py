@@ -1,8 +1,8 @@
-"""How high curves are above ground, proved for every instant.
+"""Proved bounds on the height of curves above ground, for every instant.
 
-Pairs of a piece and a triangle are halved (branch and bound). Over one triangle the height above its plane is
-a polynomial, nowhere less than at a control point. A triangle that one of its own sides parts from all
-control points, in the plan, is not under the piece.
+The pieces of pairs of a piece and a triangle are halved (branch and bound). Over one triangle the height
+above its plane is a polynomial, which is at least the minimum of its control points. A triangle is not under
+a piece if one of its sides separates it from all control points in the plan.
 """
 
 from __future__ import annotations
@@ -21,23 +21,24 @@ from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
 from shotc.geom.surface.triangles import TINY, dot, highest, lowest
 
 PARTED = 1e-9
-"""Metres by which a side has to part a triangle from a piece: on a common side, both triangles count."""
+"""Least separation of a triangle from a piece by a side, metres; at a common side both triangles count."""
 SLIVER = 1e-9
-"""Area over the square of the longest side, in the plan, below which a plane is not trusted."""
+"""Area over the square of the longest side, in the plan, below which a triangle's plane is not used."""
 _NEXT = [1, 2, 0]
 
 
 def inf_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGround:
     """Bound the infimum of the height above ground along pieces of shape (M, n + 1, 3), metres.
 
-    gap : how far ``proven`` may stay below ``attained``, given the smallest height found so far
-    Negative is under the ground. No pieces: both are inf. NoGround where a piece is not all above ground.
+    gap : admissible difference of ``proven`` and ``attained``, as a function of the least height so far
+    Negative is below ground. Without pieces both are inf. The result is NoGround if a piece leaves the
+    ground.
     """
     return leaves(ground, pieces) or _least(pieces, ground, gap, 1.0)
 
 
 def sup_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGround:
-    """Bound the supremum of the height above ground; no pieces: both are -inf. Else as ``inf_height``."""
+    """Bound the supremum of the height above ground, as ``inf_height``; without pieces both are -inf."""
     found = leaves(ground, pieces)
     if found is not None:
         return found
@@ -46,7 +47,7 @@ def sup_height(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound | NoGro
 
 
 def least_where_ground(pieces: Pieces, ground: Ground, gap: Gap) -> SurfaceBound:
-    """Bound the infimum as ``inf_height``, of what of the curves is above ground; inf of none."""
+    """Bound the infimum as ``inf_height``, over the parts of curves that have ground; inf without any."""
     return _least(pieces, ground, gap, 1.0)
 
 
@@ -59,7 +60,7 @@ def _least(pieces: Pieces, ground: Ground, gap: Gap, sign: float) -> SurfaceBoun
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Heights:
-    """The problem of the least of ``sign`` times the height above ground, for ``run``."""
+    """The minimisation of ``sign`` times the height above ground, for ``run``."""
 
     known: LeastSearch
     ground: Ground
@@ -67,7 +68,7 @@ class _Heights:
     sign: float
 
     def look(self, parts: Numbered) -> None:
-        """Take the heights of the middles of all pieces for a start."""
+        """Evaluate the heights of the middles of all pieces as a first bound."""
         middle = middles(parts.pieces.ctrl)
         found = under(self.ground, middle[:, :2])
         there = np.flatnonzero(found.triangle >= 0)
@@ -75,11 +76,11 @@ class _Heights:
         self.known.meet(values, parts, there, found.triangle[there])
 
     def long(self, parts: Numbered) -> Mask:
-        """Tell which pieces meet fewer boxes once they are halved: all."""
+        """Return which pieces meet fewer boxes after halving: all."""
         return np.ones(len(parts), dtype=bool)
 
     def pairs(self, parts: Numbered, most: int | None) -> Pairs:
-        """Return the pairs that meet in the plan and whose heights leave room for less than is known."""
+        """Return the pairs that meet in the plan and may have less than the least known value."""
         ctrl = parts.pieces.ctrl
         low, high = ctrl[..., :2].min(axis=1), ctrl[..., :2].max(axis=1)
         lowest_z = (self.sign * ctrl[..., 2]).min(axis=1)
@@ -97,7 +98,7 @@ class _Heights:
         return pairs
 
     def close(self, parts: Numbered, pairs: Pairs) -> None:
-        """Halve pieces of pairs until no pair leaves room for less than is known, but for the gap."""
+        """Halve pieces of pairs until no pair may have less than the least known value minus the gap."""
         lower = np.full(len(pairs), -np.inf)
         for _ in range(ROUNDS):
             triangles = self.ground.surface.triangles[pairs.triangle]
@@ -112,11 +113,13 @@ class _Heights:
             lower = np.concatenate([lower, lower])
 
     def _top(self, low: Array, high: Array) -> Array:
-        """Return ``sign`` times z of boxes, (K,), where it is most."""
+        """Return the maximum of ``sign`` times z over boxes, (K,)."""
         return np.asarray(high[:, 2] if self.sign > 0 else -low[:, 2])
 
     def _bounds(self, parts: Numbered, pairs: Pairs, triangles: Array) -> Array:
-        """Return lower bounds (K,) of values over pairs: above the plane, and above the highest corner."""
+        """Return lower bounds (K,) of values over pairs, by the triangle's plane and by its extreme
+        corner.
+        """
         ctrl = parts.pieces.ctrl[pairs.item]
         lowest_z = (self.sign * ctrl[..., 2]).min(axis=1)
         above = lowest_z - self._top(lowest(triangles), highest(triangles))
@@ -140,9 +143,10 @@ class _Heights:
 
 
 def _parted(triangles: Array, ctrl: Array) -> Mask:
-    """Tell which triangles (K, 3, 3) a side of theirs parts from control points (K, n + 1, 3), in the plan.
+    """Return which triangles (K, 3, 3) one of their sides separates from control points (K, n + 1, 3), in the
+    plan.
 
-    Triangles without an area are parted from all: they are no ground.
+    Triangles without area in the plan are no ground and always separated.
     """
     plan = triangles[..., :2]
     edges = plan[:, _NEXT] - plan

@@ -1,7 +1,7 @@
-"""What rays meet first of a surface: one packet of rays a frame, as in ``sight``.
+"""The first intersections of rays with a surface, with one packet of rays a frame as in ``sight``.
 
-Triangles are met where a ray passes all their sides on the same side, which is watertight on common ones.
-Points, triangles without a size, are met as discs that face the ray.
+A ray meets a triangle if it passes all its sides on the same side; this is watertight at common sides. Points
+(triangles without size) are met as discs that face the ray.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from shotc.geom.surface.tree import Surface
 from shotc.geom.surface.triangles import cross, dot, without_size
 
 FRAMES_AT_ONCE = 64
-"""Frames whose pairs with triangles fit the memory, as far as rays without an end go."""
+"""Frames that are processed together, so that pairs of triangles with unbounded rays fit the memory."""
 NOTHING = -1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Hits:
-    """What each ray of some frames meets first; shapes (F, n, n), along right and up of the billboards.
+    """The first intersections of rays; shapes (F, n, n), along right and up of the billboards.
 
-    share    : of the way from the eye to the billboard, which may be more than 1; inf where nothing is met
-    triangle : of the surface, NOTHING where none is
+    share    : of the way from the eye to the billboard, which may exceed 1; inf without an intersection
+    triangle : index in the surface, NOTHING without an intersection
     """
 
     share: Array
@@ -35,9 +35,10 @@ class Hits:
 
 
 def first_hits(surface: Surface, boards: Billboards, n: int, disc: float = 0.0) -> Hits:
-    """Return what rays meet first that lead from eyes through n x n cells of billboards, without an end.
+    """Return the first intersections of unbounded rays from eyes through n x n cells of billboards, (F, n,
+    n).
 
-    disc : radius of the discs that stand for points, metres; where it is 0 no ray meets a point
+    disc : radius of the discs that stand for points, metres; with 0 no ray meets a point
     """
     share = np.full((len(boards), n * n), np.inf)
     triangle = np.full((len(boards), n * n), NOTHING, dtype=np.intp)
@@ -65,7 +66,7 @@ def first_hits(surface: Surface, boards: Billboards, n: int, disc: float = 0.0) 
 
 
 def _shares(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Array:
-    """Return at which share of their way rays of the frames (K,) meet triangles (K, 3, 3); (K, n * n)."""
+    """Return the shares (K, n * n) at which rays of frames (K,) meet triangles (K, 3, 3)."""
     corners = triangles - boards.eye[frame][:, None]
     planes = cross(corners, corners[:, [1, 2, 0]])
     volume = dot(corners[:, 0], planes[:, 1])
@@ -78,7 +79,7 @@ def _shares(triangles: Array, boards: Billboards, frame: IntArray, n: int) -> Ar
 
 
 def _disc_shares(points: Array, boards: Billboards, frame: IntArray, disc: tuple[int, float]) -> Array:
-    """Return at which share rays meet the discs about points (K, 3); disc : n, and their radius."""
+    """Return the shares (K, n * n) at which rays meet discs at points (K, 3); disc : n, and their radius."""
     n, radius = disc
     ways = np.einsum("fpd,pc->fcd", _ways(boards), cells(n))
     away = points - boards.eye[frame]
@@ -89,5 +90,5 @@ def _disc_shares(points: Array, boards: Billboards, frame: IntArray, disc: tuple
 
 
 def _ways(boards: Billboards) -> Array:
-    """Return the ways from the eyes to the corner, and the sides, of the billboards; (F, 3, 3)."""
+    """Return the vectors from the eyes to the corner, and the sides, of the billboards, (F, 3, 3)."""
     return np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)

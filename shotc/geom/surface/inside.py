@@ -1,4 +1,4 @@
-"""Which points are inside of what is closed: by how often a ray from them crosses its triangles."""
+"""Points inside closed bodies, by the number of crossings of a ray with their triangles."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from shotc.geom.pieces import Mask
 from shotc.geom.surface.tree import Surface, search
 from shotc.geom.surface.triangles import pierced
 
-SAME_M = 1e-6  # metres: corners that are nearer are one
+SAME_M = 1e-6  # metres; nearer corners are the same
 RAYS = np.array([[0.0719, 0.0331, 1.0], [-0.0417, 0.0973, 1.0], [0.0233, -0.0871, 1.0]])
-"""Ways that rays go, along no edge of what people build: of three, one may pass through an edge."""
+"""Directions of rays, parallel to no edge of usual buildings. Of the three, one may cross an edge."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bodies:
-    """The body of each triangle, shape (N,), and which bodies have an inside."""
+    """The body of each triangle, shape (N,), and whether each body has an inside."""
 
     body: IntArray
     closed: Mask
 
 
 def bodies(triangles: Array) -> Bodies:
-    """Tell what triangles, shape (N, 3, 3), metres, make: bodies are connected by edges.
+    """Return the bodies of triangles (N, 3, 3), metres: their components connected by edges.
 
-    One has an inside if every edge is an edge of two of its triangles, or of four.
+    A body has an inside if every edge belongs to an even number of its triangles.
     """
     if not len(triangles):
         return Bodies(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=bool))
@@ -52,7 +52,7 @@ def bodies(triangles: Array) -> Bodies:
 
 
 def _numbered(rows: IntArray) -> IntArray:
-    """Return the number of each row (N, 3) among those that differ; shape (N,)."""
+    """Return the index of each row (N, 3) among the distinct rows; shape (N,)."""
     order = np.lexsort(rows.T)
     ordered = rows[order]
     number = np.empty(len(rows), dtype=np.int64)
@@ -61,11 +61,11 @@ def _numbered(rows: IntArray) -> IntArray:
 
 
 def _connected(count: int, of: IntArray, begins: IntArray, times: IntArray) -> IntArray:
-    """Return the least triangle of the body of each of ``count`` triangles, which edges connect.
+    """Return for each of ``count`` triangles the least index in its body; edges connect triangles.
 
-    of : triangles edge by edge; begins, times : where each edge's begin in it, and how many there are
-    Every round, all triangles of an edge take the least of theirs, and each the one of that one: the number
-    of rounds grows as the logarithm of the longest chain (Shiloach and Vishkin 1982).
+    of : triangles edge by edge; begins, times : start of each edge's triangles in it, and their number
+    In every round all triangles of an edge take their least label, then each takes the label of its label.
+    The number of rounds grows with the logarithm of the longest chain (Shiloach and Vishkin 1982).
     """
     label = np.arange(count)
     while len(begins):
@@ -80,7 +80,7 @@ def _connected(count: int, of: IntArray, begins: IntArray, times: IntArray) -> I
 
 
 def inside(surface: Surface, body: IntArray, closed: Mask, p: Array) -> Mask:
-    """Tell which points (K, 3) are inside of a closed body; (K,).
+    """Return which points (K, 3) are inside a closed body, by a majority of rays; (K,).
 
     body : shape (n,), of each triangle that the surface was made of; closed : of each body
     """
@@ -89,7 +89,7 @@ def inside(surface: Surface, body: IntArray, closed: Mask, p: Array) -> Mask:
 
 
 def _odd(surface: Surface, body: IntArray, closed: Mask, p: Array, way: Array) -> Mask:
-    """Tell of which points a ray crosses some closed body an odd number of times; (K,)."""
+    """Return for which points a ray crosses some closed body an odd number of times; (K,)."""
     out = np.zeros(len(p), dtype=bool)
     if not len(surface) or not closed.any() or not len(p):
         return out
@@ -97,7 +97,7 @@ def _odd(surface: Surface, body: IntArray, closed: Mask, p: Array, way: Array) -
     end = p + np.maximum(top + 1.0 - p[:, 2:], 0.0) * way
 
     def meets(item: IntArray, low: Array, high: Array) -> Mask:
-        """Tell which boxes a ray may meet: by the stretch of it between their lower and upper sides."""
+        """Return which boxes a ray may meet, by its part between their lower and upper sides."""
         z = p[item, 2]
         first, last = np.maximum(low[:, 2] - z, 0.0), high[:, 2] - z
         met = last >= 0.0

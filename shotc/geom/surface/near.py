@@ -1,4 +1,4 @@
-"""What of a surface is near: to points, to boxes, to segments."""
+"""The parts of a surface near points, boxes and segments."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from shotc.geom.surface.tree import FAN, Pairs, Surface, box_distances, search
 from shotc.geom.surface.triangles import closest, dot, segment_distances
 
 AT_ONCE = 2048
-"""Things sought together: their pairs fit the cache."""
+"""Queries that are processed together, so that their pairs fit the processor's cache."""
 ROUNDING = 1e-9
-"""Metres, and share of a distance, that a box may seem farther than a triangle in it."""
+"""Tolerance of the distance of a box compared with a triangle in it: metres, and share of the distance."""
 CENTRED = 0.25
-"""What the distance from a box's middle counts beside that from the box, squared, on the way down."""
+"""Weight of the squared distance from a box's middle, relative to that from the box, in the descent."""
 SHORT = 4.0
-"""Metres: longer segments are cut into such parts, for the box of a slanting one holds too much."""
+"""Longest part of a segment, metres; longer segments are cut, because an oblique one has too large a box."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NearestOnSurface:
-    """What of a surface is nearest to points.
+    """The nearest points of a surface.
 
-    distance : (K,), metres; inf where nothing is nearer than the limit
-    point    : (K, 3), of the surface; NaN where nothing is
-    triangle : (K,), in the order of the surface; -1 where nothing is
+    distance : (K,), metres; inf if nothing is nearer than the limit
+    point    : (K, 3), on the surface; NaN if there is none
+    triangle : (K,), index in the surface; -1 if there is none
     """
 
     distance: Array
@@ -37,7 +37,9 @@ class NearestOnSurface:
 
 
 def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> NearestOnSurface:
-    """Return what is nearest to points (K, 3), if it is nearer than ``limit``, one for all or one each."""
+    """Return the nearest points of a surface to points (K, 3), within ``limit``, metres, one for all or
+    (K,).
+    """
     count = len(p)
     found = NearestOnSurface(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
     limits = np.broadcast_to(np.asarray(limit, dtype=np.float64), (count,))
@@ -73,9 +75,10 @@ def _nearest(surface: Surface, p: Array, limit: Array, out: NearestOnSurface) ->
 
 
 def _surely_within(p: Array, low: Array, high: Array) -> Array:
-    """Return how far something in each box is from a point at most, shapes (K, 3) (Roussopoulos et al. 1995).
+    """Return upper bounds (K,) on the distance of points from the triangles in boxes, shapes (K, 3).
 
-    Each face of a box touches a triangle: the nearer face of some axis, at the farther ends of the others.
+    Each face of a box touches a triangle. The bound is that of the nearer face of some axis, at the farther
+    ends of the other axes (Roussopoulos et al. 1995).
     """
     to_low, to_high = (p - low) ** 2, (p - high) ** 2
     nearer, farther = np.minimum(to_low, to_high), np.maximum(to_low, to_high)
@@ -83,14 +86,14 @@ def _surely_within(p: Array, low: Array, high: Array) -> Array:
 
 
 def some_distance(surface: Surface, p: Array) -> Array:
-    """Return how far points (K, 3) are from some triangle that is near: no less than the distance, (K,)."""
+    """Return the distances (K,) of points (K, 3) from some near triangle: upper bounds on the distance."""
     top = len(surface.low) - 1
     each = np.arange(len(p))
     nodes = np.broadcast_to(np.arange(len(surface.low[top])), (len(p), len(surface.low[top])))
     for level in range(top, -1, -1):
         low, high = surface.low[level][nodes], surface.high[level][nodes]
         apart = np.maximum(np.maximum(low - p[:, None], p[:, None] - high), 0.0)
-        off = 0.5 * (low + high) - p[:, None]  # of boxes that the point is in, the middle tells
+        off = 0.5 * (low + high) - p[:, None]  # the middle decides between boxes that contain the point
         node = nodes[each, (dot(apart, apart) + CENTRED * dot(off, off)).argmin(axis=1)]
         below = len(surface.low[level - 1]) if level else len(surface)
         nodes = np.minimum(FAN * node[:, None] + np.arange(FAN), below - 1)
@@ -100,7 +103,9 @@ def some_distance(surface: Surface, p: Array) -> Array:
 
 
 def within(surface: Surface, low: Array, high: Array, reach: Array | float) -> Pairs:
-    """Return the triangles whose boxes are nearer than ``reach`` to boxes low-high, shapes (K, 3), metres."""
+    """Return the triangles whose boxes are nearer than ``reach``, metres, to boxes low-high, shapes (K,
+    3).
+    """
     reaches = np.broadcast_to(np.asarray(reach, dtype=np.float64), (len(low),))
 
     def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:
@@ -110,7 +115,7 @@ def within(surface: Surface, low: Array, high: Array, reach: Array | float) -> P
 
 
 def comes_within(surface: Surface, a: Array, b: Array, distance: Array | float) -> Mask:
-    """Tell which segments a-b, shapes (K, 3), come nearer to a surface than a distance, metres; (K,)."""
+    """Return which segments a-b, shapes (K, 3), come nearer to a surface than a distance, metres; (K,)."""
     out = np.zeros(len(a), dtype=bool)
     limits = np.broadcast_to(np.asarray(distance, dtype=np.float64), (len(a),))
     parts = np.maximum(1, np.ceil(np.linalg.norm(b - a, axis=1) / SHORT)).astype(np.intp)

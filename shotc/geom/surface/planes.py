@@ -1,7 +1,7 @@
 """Half-spaces that keep pieces of a curve away from the triangles of a surface, for convex programmes.
 
-They grow greedily: a plane between a piece and the nearest triangle that no plane of the piece leaves behind
-it yet, then the next, for all pieces at once.
+The method is greedy, for all pieces at once: it adds a plane between a piece and the nearest triangle that is
+not behind a plane of the piece yet, and repeats.
 """
 
 from __future__ import annotations
@@ -19,30 +19,31 @@ from shotc.geom.surface.tree import Pairs, Surface
 from shotc.geom.surface.triangles import closest, cross, dot
 
 MOST = 32
-"""Planes of a piece: one that needs more is crowded."""
+"""Most planes of a piece; a piece that needs more is crowded."""
 STEPS = 24
-"""Towards the nearest point of a hull."""
+"""Steps towards the nearest point of a hull."""
 CLOSE = 1e-3
-"""Share of a distance that a gap may fall short of it to be as wide as any."""
+"""Relative difference of a gap and the distance at which the gap counts as optimal."""
 TOUCHES = 1e-9
-"""Metres from a triangle at which a point is on it."""
+"""Distance from a triangle up to which a point is on it, metres."""
 _TURN = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
 WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)]), [[0.0, 0.0, 1.0]]])
-"""Normals that are tried beside others, (9, 3)."""
+"""Additional candidate normals, (9, 3)."""
 
 Kept = Callable[[Array], Array]
-"""The margin that is kept beyond a clearance, >= 0, given how much more than it there is; metres."""
+"""The margin added to a clearance, >= 0, as a function of the slack over the clearance; metres."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Planes:
     """Half-spaces n . p >= offset for all points of pieces.
 
-    piece    : shape (R,), of the hulls given
-    triangle : shape (R,), of those that the surface was made of: what the plane was put before; -1 is ground
-    normal   : shape (R, 3), units
-    offset   : shape (R,), metres, clearance and margin included
-    crowded  : shape (P,), pieces of the hulls given that are not kept from all that is near
+    piece    : shape (R,), index of the hull
+    triangle : shape (R,), index of the plane's triangle among those that the surface was made of; -1 for
+        ground
+    normal   : shape (R, 3), unit vectors
+    offset   : shape (R,), metres, with clearance and margin
+    crowded  : shape (P,), whether near triangles of a piece are left without a plane
     """
 
     piece: IntArray
@@ -53,11 +54,12 @@ class Planes:
 
 
 def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, kept: Kept) -> Planes:
-    """Put planes between pieces and the triangles that are nearer than clearance and reach, metres.
+    """Return half-spaces between pieces and the triangles that are nearer than clearance plus reach, metres.
 
-    hulls : shape (P, m, 3), points whose hull holds each piece
-    A piece all of whose points keep its half-spaces keeps the clearance from those triangles, unless it
-    is crowded. One that is itself too near gets planes at the full clearance, which its points do not meet.
+    hulls : shape (P, m, 3), points whose hull contains each piece
+    If all points of a piece keep its half-spaces, the piece keeps the clearance from these triangles, unless
+    it is crowded. A piece that is already too near gets planes at the full clearance, which its points
+    violate.
     """
     found: list[Planes] = []
     none = np.zeros(len(hulls), dtype=bool)
@@ -80,7 +82,7 @@ def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, 
 
 
 def _together(found: list[Planes], crowded: Mask) -> Planes:
-    """Return all planes in one, of pieces some of which are crowded."""
+    """Return the union of planes; crowded : shape (P,)."""
     return Planes(
         np.concatenate([np.zeros(0, dtype=np.intp), *(f.piece for f in found)]),
         np.concatenate([np.zeros(0, dtype=np.intp), *(f.triangle for f in found)]),
@@ -91,7 +93,7 @@ def _together(found: list[Planes], crowded: Mask) -> Planes:
 
 
 def _candidates(surface: Surface, hulls: Array, reach: float) -> tuple[Pairs, Array]:
-    """Return the pairs that may be nearer than ``reach``, and about how far they are, metres."""
+    """Return the pairs that may be nearer than ``reach``, and their approximate distances, metres."""
     pairs = within(surface, hulls.min(axis=1), hulls.max(axis=1), reach)
     middle = hulls.mean(axis=1)
     size = np.sqrt(dot(hulls - middle[:, None], hulls - middle[:, None]).max(axis=1))
@@ -107,7 +109,7 @@ def _candidates(surface: Surface, hulls: Array, reach: float) -> tuple[Pairs, Ar
 def _still_before(
     surface: Surface, pairs: Pairs, far: Array, planes: tuple[IntArray, Array, Array]
 ) -> tuple[Pairs, Array]:
-    """Return the pairs whose triangles the new planes, one a piece, do not leave behind them."""
+    """Return the pairs whose triangles are not behind the new planes, one a piece."""
     piece, normal, behind = planes
     which = np.searchsorted(piece, pairs.item)
     reaches = support(surface.triangles[pairs.triangle], normal[which])
@@ -116,17 +118,17 @@ def _still_before(
 
 
 def support(triangles: Array, normal: Array) -> Array:
-    """Return the most of n . x over each triangle (K, 3, 3) for a normal (K, 3); shape (K,)."""
+    """Return the maximum of n . x over each triangle (K, 3, 3) for normals (K, 3), shape (K,)."""
     return np.asarray(np.einsum("kvd,kd->kv", triangles, normal).max(axis=1))
 
 
 def separate(triangles: Array, hulls: Array) -> tuple[Array, Array]:
-    """Return planes between triangles (K, 3, 3) and the hulls of m points (K, m, 3).
+    """Return separating planes between triangles (K, 3, 3) and the hulls of m points (K, m, 3).
 
-    Returns unit normals (K, 3) that point away from the triangles, and the gaps (K,): the least of n . p
-    less the most of n . x, metres. A positive gap proves the distance and is all but as wide; a negative
-    one says how deep the hull reaches in. The nearest point of the hull is sought by steps towards the
-    point of it that lies deepest (Frank and Wolfe 1956), the best normal kept.
+    Returns unit normals (K, 3) that point away from the triangles, and the gaps (K,): the minimum of n . p
+    over the hull minus the maximum of n . x over the triangle, metres. A positive gap proves the distance and
+    is almost equal to it. A negative gap is minus the depth of the intersection. The nearest point of the
+    hull is found by steps towards its deepest point (Frank and Wolfe 1956); the best normal is kept.
     """
     normal, gap = _first(triangles, hulls)
     each = np.arange(len(hulls))
@@ -145,12 +147,12 @@ def separate(triangles: Array, hulls: Array) -> tuple[Array, Array]:
 
 
 def _first(triangles: Array, hulls: Array) -> tuple[Array, Array]:
-    """Return the best of the normals that are tried at once, and its gap."""
+    """Return the best of the candidate normals, (K, 3), and its gap, (K,)."""
     one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     chord = hulls[:, -1] - hulls[:, 0]
     sides = np.stack([one, other, other - one], axis=1)
     level = cross(one, other)[:, None]
-    across = cross(sides, chord[:, None])  # where the chord passes a side, the nearest way is across both
+    across = cross(sides, chord[:, None])  # the shortest line between chord and side is normal to both
     outward = cross(sides, level)
     ends = np.stack([_away(triangles, hulls[:, end])[0] for end in (0, -1)], axis=1)
     ways = np.concatenate([level, across, outward, _from_corners(triangles, hulls), ends], axis=1)
@@ -164,14 +166,14 @@ def _first(triangles: Array, hulls: Array) -> tuple[Array, Array]:
 
 
 def _from_corners(triangles: Array, hulls: Array) -> Array:
-    """Return the ways (K, 3, 3) from corners of triangles to the nearest points of the hulls' chords."""
+    """Return the vectors (K, 3, 3) from corners of triangles to the nearest points of the hulls' chords."""
     start, chord = hulls[:, :1], hulls[:, -1:] - hulls[:, :1]
     share = dot(triangles - start, chord) / np.maximum(dot(chord, chord), 1e-18)
     return np.asarray(start + np.clip(share, 0.0, 1.0)[..., None] * chord - triangles)
 
 
 def _gaps(triangles: Array, hulls: Array, normals: Array) -> Array:
-    """Return the gaps (K, W) that normals (K, W, 3) leave between triangles and hulls."""
+    """Return the gaps (K, W) between triangles and hulls along normals (K, W, 3)."""
     least = np.einsum("kmd,kwd->kwm", hulls, normals).min(axis=2)
     most = np.einsum("kvd,kwd->kwv", triangles, normals).max(axis=2)
     return np.asarray(least - most)
@@ -184,7 +186,9 @@ def _distances(triangles: Array, hulls: Array) -> Array:
 
 
 def _away(triangles: Array, p: Array) -> tuple[Array, Array]:
-    """Return unit directions from triangles to points (K, 3), upwards from points on them, and how far."""
+    """Return unit directions (K, 3) from triangles to points (K, 3), up for points on them, and distances
+    (K,).
+    """
     found = closest(triangles, p)
     away = p - found.point
     outside = (found.distance > TOUCHES)[:, None]

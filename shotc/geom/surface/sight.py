@@ -1,7 +1,8 @@
-"""What a surface hides of rectangles that stand in for targets: one packet of rays a frame.
+"""Occlusion by a surface of rectangles that stand in for targets, with one packet of rays a frame.
 
-Rays lead to the middles of n x n cells of a parallelogram, so that all that is linear in a ray is so in
-the cell: three products a triangle serve all rays (watertight on common sides, as signs of one product are).
+Rays lead to the middles of n x n cells of a parallelogram, so a linear function of a ray is linear in the
+cell. Three products a triangle serve all rays. The test is watertight at common sides, because both triangles
+use the sign of the same product.
 """
 
 from __future__ import annotations
@@ -20,23 +21,24 @@ from shotc.geom.surface.tree import Meets, Pairs, Surface, search
 from shotc.geom.surface.triangles import cross, dot, highest, lowest, without_size
 
 FRAMES_AT_ONCE = 256
-"""Frames whose pairs with triangles fit the cache."""
+"""Frames that are processed together, so that their pairs with triangles fit the processor's cache."""
 PAIRS_AT_ONCE = 16_384
 TOGETHER = 16
-"""Frames that follow one another are nearly alike: the tree is searched for them together."""
+"""Consecutive frames that share one search of the tree, because they are nearly alike."""
 ALIKE_RATIO = 0.5
-"""Of the way to a billboard: how wide the boxes of frames together are at most, all axes summed."""
+"""Largest width of the common boxes of such frames, summed over axes, as a share of the way to a
+billboard."""
 SHORT_OF = 1.0 - 1e-6
-"""Share of the way to a cell at which rays end: what a target stands on, or touches, does not hide it."""
+"""Share of the way to a cell at which rays end, so that the support of a target does not hide it."""
 BESIDE_M = 1e-6
-"""How far all rays pass a triangle that is left out: far more than what rounding moves."""
-_NONE = 1e-300  # instead of a length that is none, so that what is divided by it is far beyond any share
+"""Distance at which all rays pass an omitted triangle, metres; far above rounding."""
+_NONE = 1e-300  # replaces a zero length; a quotient by it is far above any share
 
 
 def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
-    """Tell which of n x n cells a surface hides: shape (F, n, n), along right and up.
+    """Return which of n x n cells a surface hides, shape (F, n, n), along right and up.
 
-    The mean over a frame is the share that is hidden.
+    The mean over a frame is its hidden share.
     """
     out = np.zeros((len(boards), n, n), dtype=bool)
     for start in range(0, len(boards), FRAMES_AT_ONCE):
@@ -49,10 +51,10 @@ def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
 
 
 def in_the_way(surface: Surface, boards: Billboards, n: int) -> Pairs:
-    """Return the frames and triangles of which rays to the middles of n x n cells may meet.
+    """Return the pairs of frames and triangles that rays to the middles of n x n cells may meet.
 
-    Left out are triangles in front of whose plane all rays of a frame are, and those wholly beside all
-    rays: over terrain that is nearly all that is below a line of sight.
+    Triangles are omitted if all rays of a frame end in front of their plane, or if they are beside all rays.
+    Over terrain these are nearly all triangles below a line of sight.
     """
     items, triangles = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
     for start in range(0, len(boards), FRAMES_AT_ONCE):
@@ -66,9 +68,9 @@ def in_the_way(surface: Surface, boards: Billboards, n: int) -> Pairs:
 
 
 def stopped(surface: Surface, boards: Billboards, pairs: Pairs, reach: Array) -> Mask:
-    """Tell which rays the triangles of some pairs stop, shape (F, n, n).
+    """Return which rays the triangles of pairs block, shape (F, n, n).
 
-    pairs : of a frame and a triangle, as ``in_the_way`` returns them
+    pairs : of frames and triangles, by ``in_the_way``
     reach : share of the way to a cell at which its ray ends, (F, n, n), at most 1
     """
     ends = SHORT_OF * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])
@@ -89,14 +91,14 @@ def stopped(surface: Surface, boards: Billboards, pairs: Pairs, reach: Array) ->
 
 
 def lines_hidden(surface: Surface, eyes: Array, points: Array) -> Mask:
-    """Tell of which lines of sight, from eyes (F, 3) to points (F, 3), a surface is in the way; (F,)."""
+    """Return which lines of sight, from eyes (F, 3) to points (F, 3), a surface blocks, (F,)."""
     return np.asarray(hidden(surface, billboards(eyes, points, 0.0, 0.0), 1)[:, 0, 0])
 
 
 def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: float = 0.0) -> Pairs:
-    """Return the triangles whose boxes meet the boxes that slide from the eye to the billboard, growing.
+    """Return the triangles whose boxes meet a box that moves from the eye to the billboard and grows.
 
-    far : share of the way to the billboard at which they stop; about : metres by which triangles are grown
+    far : share of the way to the billboard at which it stops; about : metres by which triangles are enlarged
     """
     on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
     grown = 0.5 * (np.abs(boards.right) + np.abs(boards.up))
@@ -119,7 +121,7 @@ def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: fl
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Pyramids:
-    """What holds all rays of a frame, from its eye.
+    """The pyramids that contain all rays of a frame, from its eye.
 
     ends : the outermost middles of cells, shape (F, 4, 3); sides : inner unit normals, (F, 4, 3), 0 for none
     """
@@ -128,9 +130,10 @@ class _Pyramids:
     sides: Array
 
     def may_meet(self, frame: IntArray, corners: Array, disc: float) -> Mask:
-        """Tell which triangles (K, 3, 3), from the eyes of frames (K,), are not parted from their rays.
+        """Return which triangles (K, 3, 3), from the eyes of frames (K,), are not separated from their rays,
+        (K,).
 
-        disc : radius of those without size, metres
+        disc : radius of triangles without size, metres
         """
         beside = max(BESIDE_M, disc)
         if disc > 0.0 and without_size(corners).all():
@@ -142,7 +145,9 @@ class _Pyramids:
         return np.asarray(may)
 
     def _reach_planes(self, frame: IntArray, corners: Array, beside: float) -> Mask:
-        """Tell the planes of which triangles rays come to, or as near as that, metres."""
+        """Return of which triangles the rays reach the plane, or come within ``beside`` metres of it,
+        (K,).
+        """
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]
         far = dot(normal, corners[:, 0])
@@ -151,7 +156,7 @@ class _Pyramids:
 
 
 def _pyramids(boards: Billboards, n: int) -> _Pyramids:
-    """Return what holds the rays to the middles of n x n cells."""
+    """Return the pyramids around the rays to the middles of n x n cells."""
     first = boards.corner + (0.5 / n) * (boards.right + boards.up) - boards.eye
     right, up = (1.0 - 1.0 / n) * boards.right, (1.0 - 1.0 / n) * boards.up
     ends = np.stack([first, first + right, first + up, first + right + up], axis=1)
@@ -165,9 +170,9 @@ def _pyramids(boards: Billboards, n: int) -> _Pyramids:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Sliding:
-    """Boxes that slide from about an eye, and grow: columns are frames, or several frames together.
+    """Boxes that move from an eye to a billboard and grow; columns are frames, or groups of frames.
 
-    low, high : of the eye, (3, F); speed : of the upper sides, and of the lower ones downwards, (6, F)
+    low, high : at the eye, (3, F); speed : of the upper sides, and of the lower sides downwards, (6, F)
     """
 
     low: Array
@@ -175,18 +180,20 @@ class _Sliding:
     speed: Array
 
     def together(self, starts: IntArray) -> _Sliding:
-        """Return the boxes that hold those of all frames from each start to the next."""
+        """Return the boxes around those of all frames from each start to the next."""
         low = np.minimum.reduceat(self.low, starts, axis=1)
         high, speed = (np.maximum.reduceat(rows, starts, axis=1) for rows in (self.high, self.speed))
         return _Sliding(low, high, speed)
 
     def alike(self, on: Array) -> bool:
-        """Tell whether frames that are together look nearly the same way; on : to their boards, (3, F)."""
+        """Return whether the frames of a group have nearly the same view; on : vectors to their boards, (3,
+        F).
+        """
         wide = (self.high - self.low) + self.speed[:3] + self.speed[3:]
         return bool((wide.sum(axis=0) <= ALIKE_RATIO * np.abs(on).sum(axis=0)).all())
 
     def meets(self, far: float, about: float) -> Meets:
-        """Return what tells whether boxes of the tree are met, as ``search`` asks."""
+        """Return the test for ``search``: whether the boxes meet boxes of the tree."""
         # At share x of the way: x speed >= low - eye, and x speed >= eye - high, axis by axis.
         speed = np.where(self.speed == 0.0, _NONE, self.speed)
         per, enters = 1.0 / speed, speed > 0.0
@@ -203,19 +210,19 @@ class _Sliding:
 
 
 def _hits(triangles: Array, boards: Billboards, to: tuple[IntArray, Array]) -> Mask:
-    """Tell which rays of frames their triangles (K, 3, 3) stop; shape (K, n * n).
+    """Return which rays of frames their triangles (K, 3, 3) block, shape (K, n * n).
 
     to : the frames, (K,), and the shares of the ways to their cells at which the rays end, (K, n * n)
     """
     frame, ends = to
     corners = triangles - boards.eye[frame][:, None]
-    # A ray passes inside of a side where its product with the plane of eye and side is positive.
+    # A ray is inside a side if its product with the plane of eye and side is positive.
     planes = cross(corners, corners[:, [1, 2, 0]])
     volume = dot(corners[:, 0], planes[:, 1])
     planes *= np.sign(volume)[:, None, None]
     sides = np.stack([boards.corner - boards.eye, boards.right, boards.up], axis=1)[frame]
     products = np.einsum("ksd,kpd->skp", planes, sides) @ cells(round(sqrt(ends.shape[1])))
     inside = np.minimum(np.minimum(products[0], products[1]), products[2]) >= 0.0
-    # The sum is the product with the triangle's own plane; the volume over it, the share of the way.
+    # The sum is the product with the triangle's own plane. The volume over it is the share of the way.
     whole = products[0] + products[1] + products[2]
     return np.asarray(inside & (whole * ends > np.abs(volume)[:, None]) & (volume != 0.0)[:, None])

@@ -1,7 +1,7 @@
 """A surface: triangles in a flat tree of boxes, in Morton order, without pointers.
 
-Four triangles make a leaf and four nodes a node: node i of a level has the nodes 4i to 4i + 3 of the
-level below it. Searches go down all levels at once, with pairs of what is sought and a node.
+Four triangles make a leaf, and four nodes make a node: node i of a level has the nodes 4i to 4i + 3 of the
+level below. A search descends level by level with an array of pairs of a query and a node.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from shotc.geom.surface.triangles import Halved, dot, halved, highest, lowest
 FAN = 4
 """Triangles of a leaf, and children of a node."""
 TOP = 16
-"""Nodes with which a search begins, at most."""
+"""Most nodes of the top level, where a search starts."""
 TOGETHER = 16
-"""Points that follow one another, which one search is for."""
+"""Consecutive points that share one search."""
 LONG = 8.0
-"""Times the median of all longest edges, from which a triangle is halved: it would swell its leaf."""
+"""Length of a triangle over the median longest edge above which it is halved; it would enlarge its leaf."""
 SPARE = 4096
-"""Halves that may be made of few long triangles; of many, half as many as there are triangles."""
+"""Most halves of a few long triangles; with many triangles the limit is half their number."""
 _SPREAD = (
     (32, 0x1F00000000FFFF),
     (16, 0x1F0000FF0000FF),
@@ -38,12 +38,12 @@ _CELLS = 2**21 - 1  # of a Morton code, along each axis
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Surface:
-    """Triangles, and boxes round them.
+    """Triangles with a tree of boxes.
 
-    triangles : shape (N, 3, 3), metres of W; those of a leaf follow one another
-    source    : shape (N,), which triangle of those given each one is, or is a part of
+    triangles : shape (N, 3, 3), metres of W; those of a leaf are consecutive
+    source    : shape (N,), index of the given triangle that each one is, or is a part of
     low, high : corners of boxes, one array (n, 3) a level: leaves first, at most TOP nodes last
-    disc      : radius of the discs as which triangles without size hide, metres; 0 where they hide nothing
+    disc      : radius of the discs by which triangles without size hide, metres; 0 if they hide nothing
     """
 
     triangles: Array
@@ -57,9 +57,9 @@ class Surface:
 
 
 def surface_of(triangles: Array) -> Surface:
-    """Put triangles (N, 3, 3), metres of W, into a tree; none are allowed.
+    """Return the tree of triangles (N, 3, 3), metres of W; N may be 0.
 
-    ValueError where a corner is not finite, or the shape is another.
+    Raise ValueError if a corner is not finite or the shape is wrong.
     """
     given = np.ascontiguousarray(triangles, dtype=np.float64)
     if given.ndim != 3 or given.shape[1:] != (3, 3) or not np.isfinite(given).all():
@@ -79,7 +79,9 @@ def surface_of(triangles: Array) -> Surface:
 
 
 def _without_long(triangles: Array) -> Halved:
-    """Halve triangles that are long beside the others: many small ones must not pay for few large ones."""
+    """Halve triangles that are long compared with the others, so that a few large ones do not slow
+    searches.
+    """
     sides = triangles[:, [1, 2, 0]] - triangles
     edges = np.sqrt(dot(sides, sides).max(axis=1))
     limit = max(LONG * float(np.median(edges)), LONG * 1e-3 * float(edges.max()), 1e-9)
@@ -91,9 +93,9 @@ def _without_long(triangles: Array) -> Halved:
 
 
 def _morton(points: Array) -> Array:
-    """Return numbers (N,) in whose order points lie near one another (Morton 1966)."""
+    """Return the Morton codes (N,) of points (N, 3); neighbours in this order are near (Morton 1966)."""
     low = points.min(axis=0)
-    size = max(float((points - low).max()), 1e-9)  # one scale: cells are cubes
+    size = max(float((points - low).max()), 1e-9)  # one scale for all axes: cells are cubes
     cells = np.minimum((points - low) * (_CELLS / size), _CELLS).astype(np.uint64)
     for shift, mask in _SPREAD:
         cells = (cells | (cells << np.uint64(shift))) & np.uint64(mask)
@@ -106,12 +108,12 @@ def _grouped(boxes: Array, extreme: np.ufunc) -> Array:
 
 
 class TooMany(Exception):
-    """A search met more pairs than it was allowed."""
+    """A search exceeded its limit of pairs."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pairs:
-    """What is sought, and triangles of the surface, number by number; shapes (K,), the sought in order."""
+    """Pairs of a query (item) and a triangle of the surface, as indices; shapes (K,), items in order."""
 
     item: IntArray
     triangle: IntArray
@@ -124,7 +126,7 @@ class Pairs:
         return Pairs(self.item[which], self.triangle[which])
 
     def best(self, value: Array) -> tuple[IntArray, IntArray]:
-        """Return the items that are there, each once, and which pair has the least value (K,) of each."""
+        """Return the distinct items, and for each the pair with the least of the values (K,)."""
         order = np.lexsort((value, self.item))
         item = self.item[order]
         first = np.flatnonzero(np.concatenate([[True], item[1:] != item[:-1]])) if len(item) else order
@@ -132,13 +134,13 @@ class Pairs:
 
 
 Meets = Callable[[IntArray, Array, Array], Mask]
-"""Whether what is sought, (K,), may meet what is in boxes: low (K, 3), high (K, 3)."""
+"""Whether queries (K,) may meet the content of boxes: low (K, 3), high (K, 3)."""
 
 
 def search(surface: Surface, count: int, meets: Meets, most: int | None = None) -> Pairs:
-    """Return the triangles whose boxes, and all boxes round these, meet each of ``count`` things.
+    """Return the triangles whose boxes, and all boxes above them, meet each of ``count`` queries.
 
-    most : pairs of a thing and a box at once; TooMany beyond that
+    most : limit of pairs of a query and a box at a time; raise TooMany beyond it
     """
     if not len(surface) or not count:
         return Pairs(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))
@@ -169,9 +171,9 @@ def in_plan(surface: Surface, low: Array, high: Array) -> Pairs:
 
 
 def under_points(surface: Surface, xy: Array) -> Pairs:
-    """Return the triangles whose boxes hold points (K, 2) in the plan.
+    """Return the triangles whose boxes contain points (K, 2) in the plan.
 
-    Points that follow one another are searched for together where they are near one another, as on a path.
+    Consecutive points share a search if they are near each other, as on a path.
     """
     starts = np.arange(0, len(xy), TOGETHER)
     if len(starts) < 2:
@@ -190,8 +192,8 @@ def under_points(surface: Surface, xy: Array) -> Pairs:
 
 
 def plan_boxes_meet(low: Array, high: Array, other_low: Array, other_high: Array) -> Mask:
-    """Tell which boxes meet others in the plan, shapes (K, 2 or 3); shape (K,)."""
-    # Column by column: a reduction over so short an axis takes far longer.
+    """Return which boxes meet others in the plan, shapes (K, 2 or 3); shape (K,)."""
+    # Column by column: a reduction over such a short axis takes far longer.
     return np.asarray(
         (low[:, 0] <= other_high[:, 0])
         & (low[:, 1] <= other_high[:, 1])
@@ -201,6 +203,6 @@ def plan_boxes_meet(low: Array, high: Array, other_low: Array, other_high: Array
 
 
 def box_distances(low: Array, high: Array, other_low: Array, other_high: Array) -> Array:
-    """Return the distances of boxes from boxes, shapes (K, 3); shape (K,), 0 where they meet."""
+    """Return the distances (K,) of boxes from boxes, shapes (K, 3), 0 if they meet."""
     apart = np.maximum(np.maximum(other_low - high, low - other_high), 0.0)
     return np.asarray(np.sqrt(dot(apart, apart)))

@@ -1,6 +1,6 @@
-"""Triangles, one by one with points and segments: closest points, distances, halves of long ones.
+"""Elementwise operations on triangles, points and segments: closest points, distances, subdivision.
 
-A triangle may be flat: a segment or a point. Then it is its edges.
+A triangle may be degenerate, a segment or a point; then it consists of its edges.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 
-TINY = 1e-300  # m^2 or m^4 instead of a length or an area that is none
+TINY = 1e-300  # m^2 or m^4, replaces a zero length or area
 _NEXT = [1, 2, 0]
 
 
@@ -30,8 +30,8 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def lowest(corners: Array) -> Array:
-    """Return the lower corners (K, 3) of boxes round triangles (K, 3, 3)."""
-    # Not corners.min(axis=1), which takes three times as long.
+    """Return the lower corners (K, 3) of boxes around triangles (K, 3, 3)."""
+    # corners.min(axis=1) takes three times as long.
     return np.asarray(np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2]))
 
 
@@ -41,14 +41,14 @@ def highest(corners: Array) -> Array:
 
 
 def without_size(triangles: Array) -> Mask:
-    """Tell which triangles (K, 3, 3) are points; (K,)."""
+    """Return which triangles (K, 3, 3) are points, (K,)."""
     first = triangles[:, 0]
     return np.asarray(((first == triangles[:, 1]) & (first == triangles[:, 2])).all(axis=1))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Closest:
-    """Points of triangles, shape (K, 3), and how far they are from what was asked, (K,), metres."""
+    """Points of triangles, shape (K, 3), and their distances from the query, (K,), metres."""
 
     point: Array
     distance: Array
@@ -57,7 +57,7 @@ class Closest:
 def closest(triangles: Array, p: Array) -> Closest:
     """Return the point of each triangle (K, 3, 3) that is closest to a point (K, 3).
 
-    What is returned is a point of the triangle whatever rounding does: a mean of its corners.
+    The result is a weighted mean of corners, so it is on the triangle in spite of rounding.
     """
     edges = triangles[:, _NEXT] - triangles
     offset = p[:, None] - triangles
@@ -68,11 +68,11 @@ def closest(triangles: Array, p: Array) -> Closest:
     each, side = np.arange(len(p)), squares.argmin(axis=1)
     point, square = feet[each, side], squares[each, side]
     normal = cross(edges[:, 0], edges[:, 1])
-    # Twice the areas of the three triangles that the foot on the plane makes with the edges, signed.
+    # Twice the signed areas of the three triangles between the foot on the plane and the edges.
     areas = dot(normal[:, None], cross(edges, offset))
     above = np.flatnonzero((areas > 0.0).all(axis=1))
     if len(above):
-        weights = areas[above][:, _NEXT]  # of a corner: the area at the edge that faces it
+        weights = areas[above][:, _NEXT]  # the weight of a corner is the area at the opposite edge
         weights /= weights.sum(axis=1, keepdims=True)
         foot = np.einsum("kv,kvd->kd", weights, triangles[above])
         its_square = dot(p[above] - foot, p[above] - foot)
@@ -83,7 +83,7 @@ def closest(triangles: Array, p: Array) -> Closest:
 
 
 def segment_distances(triangles: Array, a: Array, b: Array) -> Array:
-    """Return the distance of each triangle (K, 3, 3) from a segment a-b, (K, 3) each; shape (K,), metres."""
+    """Return the distances (K,) of triangles (K, 3, 3) from segments a-b, (K, 3) each, metres."""
     best = np.minimum(closest(triangles, a).distance, closest(triangles, b).distance)
     for corner in range(3):
         best = np.minimum(best, _between(triangles[:, corner], triangles[:, _NEXT[corner]], a, b))
@@ -104,7 +104,7 @@ def _between(a: Array, b: Array, c: Array, d: Array) -> Array:
 
 
 def pierced(triangles: Array, a: Array, b: Array) -> Mask:
-    """Tell which segments a-b, (K, 3) each, pass through triangles (K, 3, 3), their edges excepted."""
+    """Return which segments a-b, (K, 3) each, cross triangles (K, 3, 3) off their edges, (K,)."""
     edges = triangles[:, _NEXT] - triangles
     normal = cross(edges[:, 0], edges[:, 1])
     one, other = dot(a - triangles[:, 0], normal), dot(b - triangles[:, 0], normal)
@@ -115,14 +115,18 @@ def pierced(triangles: Array, a: Array, b: Array) -> Mask:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Halved:
-    """Triangles (N, 3, 3) that cover what the given ones cover; source : (N,), which of those each is of."""
+    """A subdivision of given triangles: triangles (N, 3, 3); source : (N,), index of each one's given
+    triangle.
+    """
 
     triangles: Array
     source: IntArray
 
 
 def halved(triangles: Array, longest: float) -> Halved:
-    """Cut triangles (T, 3, 3) at the middle of their longest edge until no edge is longer, metres."""
+    """Split triangles (T, 3, 3) at the middle of their longest edge until none is longer than ``longest``
+    metres.
+    """
     done: list[Halved] = []
     rest, source = triangles, np.arange(len(triangles))
     while len(rest):

@@ -1,6 +1,6 @@
-"""The lowest ground under polygons in the plan, exactly: ground is even over each of its triangles.
+"""The exact lowest ground below polygons in the plan. The ground is linear over each of its triangles.
 
-The least of an even surface over a polygon is at a corner of one of them, or where their sides cross.
+So its minimum over a polygon is at a corner of the polygon, at a corner of a triangle, or where sides cross.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from shotc.geom.surface.triangles import TINY
 
 
 def lowest_under(ground: Ground, rings: Sequence[Array]) -> Array:
-    """Return the lowest ground under simple polygons, each of corners (n, 2), metres of W; shape (K,).
+    """Return the lowest ground (K,) below simple polygons, each of corners (n, 2), metres of W.
 
-    NaN where there is none at all; what of a polygon lies beyond the ground has none.
+    It is NaN for a polygon without any ground. Parts of a polygon beyond the ground do not count.
     """
     if not rings:
         return np.zeros(0)
@@ -38,14 +38,14 @@ def lowest_under(ground: Ground, rings: Sequence[Array]) -> Array:
 
 
 def _least(triangles: Array, ring: Array) -> float:
-    """Return the least z of corners of triangles in a ring, and of where their sides cross its own."""
+    """Return the least z of triangles' corners in a ring, and of crossings of their sides with the ring."""
     a, b = triangles.reshape(-1, 3), triangles[:, [1, 2, 0]].reshape(-1, 3)
     inside = a[in_ring(ring, a[:, :2]), 2]
     c, d = ring, np.roll(ring, -1, axis=0)
     along, across = (b - a)[:, None, :2], (d - c)[None]
     apart = c[None] - a[:, None, :2]
     turn = along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]
-    turn = np.where(np.abs(turn) > TINY, turn, np.nan)  # sides that run alike end at corners
+    turn = np.where(np.abs(turn) > TINY, turn, np.nan)  # parallel sides have their minimum at corners
     share = (apart[..., 0] * across[..., 1] - apart[..., 1] * across[..., 0]) / turn
     other = (apart[..., 0] * along[..., 1] - apart[..., 1] * along[..., 0]) / turn
     cross = (share >= 0.0) & (share <= 1.0) & (other >= 0.0) & (other <= 1.0)
@@ -54,7 +54,7 @@ def _least(triangles: Array, ring: Array) -> float:
 
 
 def in_ring(ring: Array, points: Array) -> Mask:
-    """Tell which points (K, 2) are in a polygon of corners (n, 2), by crossing number; shape (K,)."""
+    """Return which points (K, 2) are in a polygon of corners (n, 2), by crossing number; shape (K,)."""
     a, b = ring[None], np.roll(ring, -1, axis=0)[None]
     x, y = points[:, :1], points[:, 1:]
     rises = b[..., 1] - a[..., 1]

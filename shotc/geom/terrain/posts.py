@@ -1,4 +1,4 @@
-"""Posts: heights on a grid, in the system of coordinates of the file that they are of."""
+"""Posts: heights on a grid, in the coordinate system of their file."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ import numpy as np
 from shotc.geom.bernstein import Array
 
 MOST_POSTS = 20_000_000
-"""Posts of a file; 3601 x 3601 are 13 million."""
+"""Most posts of a file; 3601 x 3601 are 13 million."""
 LOWEST, HIGHEST = -500.0, 9000.0
-"""Metres: no land is lower or higher, so that such a height is a mark of something else."""
+"""Range of heights on land, metres; a height beyond it is a marker for something else."""
 
 FaultKind = Literal[
-    "format",  # it is not what its name says, or no format that is read
-    "truncated",  # it ends too soon, or is longer than its header says
-    "number",  # a height or a place that cannot be
-    "grid",  # its posts are no grid, or one that is turned
-    "size",  # it has more posts than are read, or the mission's part of it more triangles
-    "system",  # its system of coordinates is not said, not known, or said twice
-    "pyproj",  # its system takes pyproj, which is not installed
-    "origin",  # it lies on the earth, and the mission has no origin
-    "outside",  # nothing of it is where the mission is
+    "format",  # its content does not match its name, or is in no supported format
+    "truncated",  # it ends too early, or is longer than its header states
+    "number",  # an impossible height or position
+    "grid",  # its posts are no grid, or a rotated one
+    "size",  # it has too many posts, or the mission's part has too many triangles
+    "system",  # its coordinate system is missing, unknown, or stated twice
+    "pyproj",  # its system needs pyproj, which is not installed
+    "origin",  # it is georeferenced, and the mission has no origin
+    "outside",  # it does not cover the mission
     "empty",  # it has no heights
 ]
 
 
 class TerrainFault(NamedTuple):
-    """What is wrong with an elevation model; line : of the file, from 1, where one is to blame."""
+    """A fault of an elevation model; line : of the file, from 1, if one line has the fault."""
 
     kind: FaultKind
     message: str
@@ -44,7 +44,7 @@ class Posts:
     heights : shape (R, C), metres; NaN where the file has none
     x : shape (C,), increasing: metres East, or degrees of longitude
     y : shape (R,), increasing: metres North, or degrees of latitude
-    system : EPSG code of x and y; None where they are metres of W
+    system : EPSG code of x and y; None for metres of W
     """
 
     heights: Array
@@ -54,9 +54,9 @@ class Posts:
 
 
 def posts_of(heights: Array, x: Array, y: Array, system: int | None) -> Posts | TerrainFault:
-    """Return posts whose rows and columns run either way, or why they cannot be.
+    """Return posts from rows and columns in either direction, or their fault.
 
-    heights : (R, C), NaN where there is none; x : (C,); y : (R,)
+    heights : (R, C), NaN where there is none; x : (C,); y : (R,); system : as in ``Posts``
     """
     if min(heights.shape) < 2:
         return TerrainFault("grid", f"it has {_posts(heights.shape)}; two rows and two columns are the least")

@@ -1,8 +1,8 @@
-"""Posts made ground of W: cut to a box, each post put where it is, triangles between them.
+"""The ground of W from posts: a part of the grid, transformed to W, with triangles between the posts.
 
-Every cell is cut from its south-west to its north-east post. The other diagonal would be another surface:
-they differ by up to half of how far four posts are from a plane. A triangle with a post that has no height is
-left out, and there is no ground.
+Every cell is split along the diagonal from its south-west to its north-east post. The other diagonal would
+give another surface; the two differ by at most half the deviation of the four posts from a plane. A triangle
+with a post without height is omitted; there is no ground there.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from shotc.geom.terrain.systems import System, system_of
 from shotc.geom.vec import Vec3
 
 MOST_CELLS = 2_000_000
-"""Cells of the grid in the mission's box: twice as many triangles, half a gigabyte."""
-_ALONG = 33  # places on each side of a box that are put into the system of the file
-_SPARE = 2  # posts beyond the box on each side: sides of boxes bulge in other systems, by far less
+"""Most cells of the grid in the mission's box: twice as many triangles, half a gigabyte."""
+_ALONG = 33  # samples on each side of a box that are transformed to the system of the file
+_SPARE = 2  # posts beyond the box on each side; sides of boxes bulge in other systems by far less
 
 
 class PlanRectangle(NamedTuple):
@@ -33,10 +33,10 @@ class PlanRectangle(NamedTuple):
 
 
 class Relief(NamedTuple):
-    """Ground made of posts.
+    """Ground from posts.
 
-    shape : rows and columns of posts that it is made of
-    holes : how many of them have no height
+    shape : rows and columns of the posts
+    holes : number of posts without height
     """
 
     ground: Ground
@@ -47,10 +47,10 @@ class Relief(NamedTuple):
 def relief_of(
     posts: Posts, box: PlanRectangle, origin: Vec3 | None, offset: float = 0.0
 ) -> Relief | TerrainFault:
-    """Return the ground of a box, and a post or two beyond it, or why there is none.
+    """Return the ground of a box and one or two posts beyond it, or the fault if there is none.
 
-    origin : of W: latitude, longitude in degrees and altitude in metres; needed by posts on the earth
-    offset : metres that are added to all heights: to count from what the origin's altitude does
+    origin : of W: latitude, longitude in degrees and altitude in metres; needed for georeferenced posts
+    offset : added to all heights, metres, for the reference of the origin's altitude
     """
     system: System | None = None
     if posts.system is not None:
@@ -102,7 +102,7 @@ def _part(
 def _sides(
     posts: Posts, box: PlanRectangle, system: System | None, origin: Vec3 | None
 ) -> tuple[Array, Array]:
-    """Return places on the sides of a box in the system of posts."""
+    """Return points on the sides of a box, x (N,) and y (N,), in the system of the posts."""
     share = np.linspace(0.0, 1.0, _ALONG)
     (x0, y0), (x1, y1) = box
     across, up = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
@@ -112,13 +112,13 @@ def _sides(
         return x, y
     places = of_world(np.column_stack([x, y, np.zeros(len(x))]), origin)
     x, y = system.of_degrees(places[:, 0], places[:, 1])
-    if system.name == "WGS84":  # files that count from 0 to 360 degrees, and the day's border
+    if system.name == "WGS84":  # for files with longitudes from 0 to 360 degrees, and at longitude 180
         x = x + 360.0 * np.round((0.5 * (posts.x[0] + posts.x[-1]) - x) / 360.0)
     return x, y
 
 
 def _about(values: Array, wanted: Array) -> slice | None:
-    """Return which of increasing values lie about those wanted, or None where none do."""
+    """Return the slice of increasing values around the wanted ones, or None if they do not overlap."""
     low, high = float(wanted.min()), float(wanted.max())
     if high < values[0] or low > values[-1]:
         return None
@@ -132,7 +132,7 @@ def _span(values: Array) -> str:
 
 
 def _in_world(posts: Posts, system: System | None, origin: Vec3 | None, offset: float) -> Array:
-    """Return all posts as points of W, (R * C, 3); z is NaN where there is no height."""
+    """Return all posts as points of W, (R * C, 3), metres; z is NaN where there is no height."""
     x, y = (a.ravel() for a in np.meshgrid(posts.x, posts.y))
     z = posts.heights.ravel() + offset
     if system is None or origin is None:
@@ -144,7 +144,7 @@ def _in_world(posts: Posts, system: System | None, origin: Vec3 | None, offset: 
 
 
 def _faces(rows: int, columns: int) -> IntArray:
-    """Return the triangles of a grid as numbers of posts, counter-clockwise from above."""
+    """Return the triangles of a grid as indices of posts, (T, 3), counter-clockwise from above."""
     post = np.arange(rows * columns).reshape(rows, columns)
     south_west, south_east = post[:-1, :-1].ravel(), post[:-1, 1:].ravel()
     north_west, north_east = post[1:, :-1].ravel(), post[1:, 1:].ravel()

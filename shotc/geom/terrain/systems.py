@@ -1,4 +1,4 @@
-"""Systems of coordinates: degrees of WGS84, UTM, and through pyproj any other that EPSG has a code for."""
+"""Coordinate systems: WGS84 degrees, UTM, and by pyproj any other with an EPSG code."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from shotc.geom.geodetic import FLATTENING, SEMI_MAJOR_M
 from shotc.geom.terrain.posts import TerrainFault
 
 GEOGRAPHIC = frozenset({4326, 4979})
-"""EPSG codes of WGS84's latitudes and longitudes, without and with heights."""
+"""EPSG codes of WGS84 latitudes and longitudes, without and with heights."""
 UTM_NORTH, UTM_SOUTH = 32600, 32700
-"""EPSG codes less the zone, 1 to 60."""
+"""EPSG codes minus the zone, 1 to 60."""
 _SCALE = 0.9996  # of the central meridian
 _FALSE_EAST, _FALSE_NORTH = 500_000.0, 10_000_000.0  # metres; the second in the South
 _N = FLATTENING / (2.0 - FLATTENING)
@@ -24,7 +24,7 @@ _RADIUS = SEMI_MAJOR_M / (1.0 + _N) * (1.0 + _N**2 / 4 + _N**4 / 64)  # metres, 
 
 
 def _series(*rows: tuple[float, ...]) -> tuple[float, ...]:
-    """Return coefficients of the sines of 2x, 4x, ...: row j is of the powers n^j, n^(j + 1), ..."""
+    """Return the coefficients of the sines of 2x, 4x, ...: row j belongs to the powers n^j, n^(j + 1), ..."""
     return tuple(sum(c * _N ** (j + k) for k, c in enumerate(row)) for j, row in enumerate(rows, 1))
 
 
@@ -43,9 +43,9 @@ Both = tuple[Array, Array]
 
 
 class System(NamedTuple):
-    """A system of coordinates, by its ways to and from WGS84.
+    """A coordinate system with its maps to and from WGS84.
 
-    to_degrees : x, y of the system to latitudes and longitudes, degrees; arrays of one shape
+    to_degrees : x, y of the system to latitudes and longitudes, degrees; arrays of the same shape
     of_degrees : latitudes and longitudes to x, y
     """
 
@@ -55,7 +55,7 @@ class System(NamedTuple):
 
 
 def system_of(code: int) -> System | TerrainFault:
-    """Return the system of an EPSG code, or why there is none."""
+    """Return the system of an EPSG code, or the fault if there is none."""
     if code in GEOGRAPHIC:
         return System("WGS84", lambda x, y: (y, x), lambda lat, lon: (lon, lat))
     for base, north in ((UTM_NORTH, True), (UTM_SOUTH, False)):
@@ -96,8 +96,8 @@ def _by_pyproj(code: int) -> System | TerrainFault:
 def utm_of_degrees(lat: Array, lon: Array, zone: int, north: bool) -> Both:
     """Return eastings and northings, metres (Krueger 1912, by Karney 2011, Eqs. 7 to 13, to n^4).
 
-    lat, lon : degrees, of one shape, which is that of both results
-    Good to a few micrometres within a zone.
+    lat, lon : degrees, of the same shape, which is that of both results
+    The error is a few micrometres within a zone.
     """
     tau, away = np.tan(np.radians(lat)), np.radians(_turned(lon - _meridian(zone)))
     sigma = np.sinh(_E * np.arctanh(_E * tau / np.hypot(1.0, tau)))
@@ -112,7 +112,7 @@ def utm_of_degrees(lat: Array, lon: Array, zone: int, north: bool) -> Both:
 
 
 def degrees_of_utm(x: Array, y: Array, zone: int, north: bool) -> Both:
-    """Return latitudes and longitudes, degrees, of eastings and northings of one shape."""
+    """Return latitudes and longitudes, degrees, of eastings and northings, metres, all of the same shape."""
     xi = (y - (0.0 if north else _FALSE_NORTH)) / (_SCALE * _RADIUS)
     eta = (x - _FALSE_EAST) / (_SCALE * _RADIUS)
     xi, eta = _bent(xi, eta, _BETA, -1.0)
@@ -134,5 +134,5 @@ def _meridian(zone: int) -> float:
 
 
 def _turned(degrees: Array) -> Array:
-    """Return the same angles from -180 to 180."""
+    """Return the equivalent angles from -180 to 180."""
     return np.asarray((degrees + 180.0) % 360.0 - 180.0)

@@ -34,7 +34,7 @@ def world(origin: GeoOrigin, lat: float, lon: float, height: float, *, absolute:
 
 
 def is_place(lat: float | None, lon: float | None) -> bool:
-    """Tell whether two numbers are a latitude and a longitude, degrees."""
+    """Return whether two numbers are a latitude and a longitude, degrees."""
     return lat is not None and lon is not None and abs(lat) < 89.9 and abs(lon) <= 360.0
 
 

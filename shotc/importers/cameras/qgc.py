@@ -225,7 +225,7 @@ def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes
 
 
 def _begins(item: CameraCommand) -> bool:
-    """Tell whether a film or photos begin with a command."""
+    """Return whether a film or photos begin with a command."""
     return item.command in (START, PHOTOS) or (item.command == PHOTOS_BY_WAY and bool(item.params[0]))
 
 

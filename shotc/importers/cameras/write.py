@@ -156,7 +156,7 @@ def _compass(heading: float) -> str:
 
 
 def _timed(take: Take, notes: Notes) -> bool:
-    """Tell whether a take is flown in its own time: one that is too fast is flown in the drone's."""
+    """Return whether a take is flown in its own time: one that is too fast is flown in the drone's."""
     if any(camera.time is None for camera in take.cameras):
         return False
     fast = too_fast(take.cameras, PRESETS[MODEL].limits)

@@ -18,7 +18,7 @@ def suffix_of(name: str) -> str:
 
 
 def is_flight(name: str) -> bool:
-    """Tell whether a file of this name is one of a flight, and no plan.json."""
+    """Return whether a file of this name is one of a flight, and no plan.json."""
     return suffix_of(name) in SUFFIXES
 
 

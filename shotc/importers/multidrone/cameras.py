@@ -68,7 +68,7 @@ def fly_through(task: RoleTask) -> Made:
 
 
 def _turned(role: Role) -> bool:
-    """Tell whether a role turns its camera by itself, and watches nothing."""
+    """Return whether a role turns its camera by itself, and watches nothing."""
     return "pan_s" in role.params or "tilt_s" in role.params
 
 

@@ -36,7 +36,7 @@ class GroundTrack(NamedTuple):
         return all(dist(self.places[0], place) < SAME for place in self.places)
 
     def moves(self, t: float) -> bool:
-        """Tell whether it moves at a time."""
+        """Return whether it moves at a time."""
         return dist(self.at(t - 0.5), self.at(t + 0.5)) >= SLOWEST
 
     def heading(self, t: float) -> float:
@@ -99,7 +99,7 @@ class _Run(NamedTuple):
     comments: list[str]
 
     def takes_up(self, t: float, place: Place) -> bool:
-        """Tell whether a target can be at a place at a time after what it did so far."""
+        """Return whether a target can be at a place at a time after what it did so far."""
         return dist(self.places[-1], place) <= max(SAME, FASTEST * (t - self.times[-1]))
 
     def add(

@@ -175,7 +175,7 @@ def _replaced(shapes: list[_Shape]) -> _Replaced:
 
 
 def _lies_in(part: _Shape, outline: _Shape) -> bool:
-    """Tell whether the middle of a part's largest triangle is in an outline."""
+    """Return whether the middle of a part's largest triangle is in an outline."""
     (ax, ay), (bx, by), (cx, cy) = max(part.lid, key=signed_area)
     middle = ((ax + bx + cx) / 3, (ay + by + cy) / 3)
     boxed = all(outline.low[k] <= middle[k] <= outline.high[k] for k in (0, 1))

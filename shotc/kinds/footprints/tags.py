@@ -76,12 +76,12 @@ def _metres(value: Any) -> float | None:
 
 
 def is_building(tags: Tags) -> bool:
-    """Tell whether tags say that there is a building, or a part of one."""
+    """Return whether tags say that there is a building, or a part of one."""
     return any(_yes(tags, key) for key in ("building", "building:part"))
 
 
 def is_part(tags: Tags) -> bool:
-    """Tell whether tags are those of a part of a building, which replaces the building's outline."""
+    """Return whether tags are those of a part of a building, which replaces the building's outline."""
     return _yes(tags, "building:part")
 
 
