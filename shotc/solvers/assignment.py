@@ -1,4 +1,6 @@
-"""Who does what: a mixed-integer linear programme over choices of 0 or 1, solved exactly by HiGHS (scipy)."""
+"""Assignment problems: a mixed-integer linear programme with binary choices, solved exactly by HiGHS
+(scipy).
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ class AssignmentProgramme:
     """Minimise cost . x with 0 <= x <= highest, once x = 1 and rows x <= most; all shapes by N unknowns.
 
     cost, highest : (N,); once : (T, N); rows : (R, N); most : (R,)
-    whole : how many of the unknowns, from the first on, are whole numbers
+    whole : number of leading unknowns that are integers
     """
 
     cost: Array
@@ -26,7 +28,7 @@ class AssignmentProgramme:
 
 
 def least_cost(programme: AssignmentProgramme) -> Array | None:
-    """Return the optimal x, of the shape of its cost, or None where nothing satisfies the programme."""
+    """Return the optimal x, shape (N,), or None if the programme is infeasible."""
     from scipy.optimize import Bounds, LinearConstraint, milp
 
     number = len(programme.cost)

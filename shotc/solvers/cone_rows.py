@@ -1,7 +1,7 @@
-"""Sparse rows of a cone program, collected in bulk, and the way to Clarabel without a modelling layer.
+"""Sparse rows of a cone programme, collected in bulk and passed to Clarabel without a modelling layer.
 
-The same shapes of problem come again for every move of every drone; cvxpy would compile each grid
-size anew, which takes longer than solving it.
+The same structures of problems repeat for every move of every drone. cvxpy would compile each grid size
+again, which takes longer than the solution.
 """
 
 from __future__ import annotations
@@ -17,17 +17,19 @@ from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-# Columns and their values, one entry a row.
+# Columns and their values, one entry for each row.
 Term = tuple[NDArray[Any], Array]
 
 USABLE = frozenset({Status.SOLVED, Status.INACCURATE})
-BESIDE = 4  # cones to each side of a broken one that are asked with it: the rows of a curve lie in its order
-REFINED = 1e-3  # of a tolerance: to which the linear systems of a step are solved
-ROUNDING = 1e-13  # the same where that is not enough
+BESIDE = (
+    4  # neighbours on each side of a violated cone that are added with it (rows are in the curve's order)
+)
+REFINED = 1e-3  # share of the tolerance to which the linear systems of a step are solved
+ROUNDING = 1e-13  # absolute value of it, if that does not suffice
 
 
 class WarmStart(NamedTuple):
-    """A guess of the unknowns, and the share of its bound at which a cone is asked at first."""
+    """A guess of the unknowns, and the share of its bound at which a cone is active at first."""
 
     x: Array
     share: float
@@ -55,19 +57,19 @@ class ConeRows:
         self._count = 0
 
     def zero(self, terms: list[Term], constant: Array | None = None) -> None:
-        """Demand constant + terms = 0."""
+        """Require constant + terms = 0."""
         self._add("zero", [np.zeros(len(terms[0][0])) if constant is None else constant], [terms])
 
     def positive(self, constant: Array, terms: list[Term]) -> None:
-        """Demand constant + terms >= 0."""
+        """Require constant + terms >= 0."""
         self._add("positive", [constant], [terms])
 
     def second_order(
         self, constant: Array, entries: list[list[Term]], rest: list[Array] | None = None
     ) -> None:
-        """Demand that the first entry bounds the norm of the others.
+        """Require that the first entry bounds the norm of the others.
 
-        constant : added to the first entry; rest : constants of the others, zero unless given
+        constant : of the first entry; rest : constants of the others, zero by default
         """
         others = rest if rest is not None else [np.zeros_like(constant)] * (len(entries) - 1)
         self._add("cone", [constant, *others], entries)
@@ -94,14 +96,15 @@ class ConeRows:
         scaled: bool = False,
         near: WarmStart | None = None,
     ) -> tuple[Status, Array]:
-        """Minimise cost.x + x.hessian.x / 2; returns the status and x (meaningless unless SOLVED).
+        """Minimise cost.x + x.hessian.x / 2; return the status and x (meaningless unless SOLVED or
+        INACCURATE).
 
-        hessian : a sparse matrix, or an array that is the diagonal of one; None for a linear cost
-        scaled : whether every unknown and every row is in a unit of its own already, so that Clarabel is not
-            to look for others, which only make it slower then
-        near : asks for constraint generation: few of a curve's bounds are ever near. The cones that a guess
-            reaches are asked, then those that the solution breaks, too. A solution that breaks none of the
-            others is the whole programme's.
+        hessian : a sparse matrix, or its diagonal as an array; None for a linear cost
+        scaled : whether unknowns and rows are scaled already; then Clarabel's equilibration is switched off,
+            because it would only be slower
+        near : switches on constraint generation, because few of a curve's bounds are active. The first
+            programme has the cones that the guess reaches. The cones that its solution violates are then
+            added. A solution that violates no other cone solves the whole programme.
         """
         from scipy.sparse import csr_matrix
 
@@ -116,7 +119,7 @@ class ConeRows:
             parts = list(zip(self._blocks, asked, strict=True))
             rows = np.concatenate([_rows(*part) for part in parts])
             cones = [cone for part in parts for cone in _cones(*part)]
-            # Clarabel's form is A x + s = rhs with s in the cone: s is our expression, so A = -terms.
+            # Clarabel's form is A x + s = rhs with s in the cone; s is our expression, so A = -terms.
             status, x = _solved((square, cost, -terms[rows].tocsc(), constants[rows], cones), settings)
             if all(part.all() for part in asked):
                 return status, x
@@ -130,9 +133,10 @@ class ConeRows:
                 asked = [np.ones_like(part) for part in asked]
 
     def _reached(self, share: float, values: Array, constants: Array) -> list[BoolArray]:
-        """Return the cones of each block that values reach a share of; equalities always.
+        """Return for each block the mask of cones whose values reach a share of their bound; equalities
+        always.
 
-        values, constants : of all rows; a half-space's bound is its constant
+        values, constants : of all rows; the bound of a half-space is its constant
         """
         reached = []
         for block in self._blocks:
@@ -146,7 +150,7 @@ class ConeRows:
         return reached
 
     def _square(self, hessian: Any) -> Any:
-        """Return the upper triangle of a hessian as ``solve`` takes one, in columns."""
+        """Return the upper triangle of a Hessian, given as in ``solve``, in sparse columns."""
         from scipy.sparse import csc_matrix, triu
 
         if hessian is None:
@@ -158,13 +162,13 @@ class ConeRows:
 
 
 def _rows(block: _Block, asked: BoolArray) -> NDArray[np.int_]:
-    """Return the rows of the cones of a block that are asked."""
+    """Return the rows of a block's active cones."""
     each = np.arange(block.rows.start, block.rows.stop).reshape(block.cones, block.dim)
     return each[asked].ravel()
 
 
 def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
-    """Return the cones of a block that are asked, as Clarabel takes them."""
+    """Return a block's active cones as Clarabel's types."""
     count = int(asked.sum())
     if block.kind == "cone":
         return [clarabel.SecondOrderConeT(block.dim)] * count
@@ -173,7 +177,7 @@ def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
 
 
 def _widened(chosen: BoolArray) -> BoolArray:
-    """Return those that are chosen, and those beside them."""
+    """Return the mask with BESIDE neighbours on each side added."""
     out = chosen.copy()
     for step in range(1, BESIDE + 1):
         out[step:] |= chosen[:-step]
@@ -192,8 +196,8 @@ def _settings(tolerance: float, *, scaled: bool) -> Any:
 
 
 def _solved(programme: tuple[Any, ...], settings: Any) -> tuple[Status, Array]:
-    """Return what Clarabel makes of a programme."""
-    # What is solved no finer than that is solved sooner, but a few programmes make no progress so.
+    """Return Clarabel's status and solution of a programme."""
+    # The coarser refinement is faster, but a few programmes make no progress with it.
     for refined in (REFINED * settings.tol_feas, ROUNDING):
         settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = refined
         solution = clarabel.DefaultSolver(*programme, settings).solve()

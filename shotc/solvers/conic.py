@@ -1,4 +1,4 @@
-"""What becomes of a convex problem, in words of our own for any solver's."""
+"""The status of a convex problem, common to all solvers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class Status(StrEnum):
-    """What became of a convex problem."""
+    """The status of a convex problem after its solution."""
 
     SOLVED = "solved"
     INFEASIBLE = "infeasible"

@@ -1,4 +1,7 @@
-"""toppra imports pyplot, for plots that we never draw; that takes longer than all the rest of toppra."""
+"""A late import of pyplot for toppra, which uses it for plots that we never draw.
+
+Loading pyplot takes longer than the rest of toppra.
+"""
 
 from __future__ import annotations
 
@@ -13,17 +16,17 @@ PYPLOT = "matplotlib.pyplot"
 
 
 class _Late(ModuleType):
-    """A module that loads when something of it is first used."""
+    """A module that loads at the first access to an attribute."""
 
     def __getattr__(self, name: str) -> Any:
-        if sys.modules.get(self.__name__) is self:  # what is imported asks for nothing yet
+        if sys.modules.get(self.__name__) is self:  # during the import nothing is needed yet
             raise AttributeError(name)
         return getattr(import_module(self.__name__), name)
 
 
 @contextmanager
 def late_pyplot() -> Iterator[None]:
-    """Let what is imported inside see a pyplot that loads when it is used; nobody else sees that one."""
+    """Give imports inside the block a pyplot that loads at first use; other modules do not see it."""
     absent = [name for name in ("matplotlib", PYPLOT) if name not in sys.modules]
     sys.modules.update((name, _Late(name)) for name in absent)
     try:

@@ -1,16 +1,16 @@
 """One step of the jerk-bounded retiming: a second-order cone program in b = sdot^2 and a = sddot.
 
-The motion has a constant jerk in s on every cell, so that rest at both ends needs no special case
-(b1 = 1.5 h a1 on the first cell). How the speed runs inside a cell is taken from the last iterate
-(``_Shape``); with that every limit is linear in b and a of the cell's two nodes,
+The motion has a constant jerk in s on every cell, so rest at both ends needs no special case (b1 = 1.5 h a1
+on the first cell). The shape of the speed inside a cell is that of the last iterate (``_Shape``). Then every
+limit is linear in b and a of the cell's two nodes,
 
     |q'' b + q' a| <= 1                                 at nodes and middles,
     |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1 / v  at both ends and the middle,
 
 with derivatives divided by their limits, v the mean speed of the cell and r the speed over v.
-1 / v is convex in v^2, so its tangent at the last iterate is a safe under-estimate. The time of a
-cell is proportional to 1 / (d0 + d1), d <= sqrt(b), which is convex too. Unknowns are scaled by the
-last iterate, so that they are near 1 although b spans many decades towards the ends.
+1 / v is convex in v^2, so its tangent at the last iterate is a safe lower bound. The time of a cell is
+proportional to 1 / (d0 + d1), d <= sqrt(b), which is convex too. Unknowns are scaled by the last iterate, so
+they are near 1 although b spans many decades towards the ends.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
 
-# Rows of a norm that stay below this share of its limit cannot matter and are left out.
+# Rows of a norm below this share of its limit are negligible and omitted.
 NEGLIGIBLE = 1e-9
-NEAR = 0.6  # of its limit that a norm reaches in the last iterate where it may matter in the next
-NEWTON_STEPS = 6  # to the middle of a cell: five leave 1e-10 of it, six nothing
+NEAR = 0.6  # share of its limit above which a norm of the last iterate may be active in the next
+NEWTON_STEPS = 6  # to the middle of a cell; five leave an error of 1e-10, six none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NormLimit:
-    """A norm to be kept below 1, at the start, middle and end of each cell.
+    """A norm with the upper limit 1, at the start, middle and end of each cell.
 
     d1, d2, d3 : shape (N, 3, dim), derivatives with respect to s, divided by the limit
     """
@@ -68,7 +68,7 @@ class Iterate:
     a: Array
 
     def blend(self, other: Iterate, keep: float) -> Iterate:
-        """Return the other with a share of this one kept in it."""
+        """Return the other iterate, blended with a share ``keep`` of this one."""
         return Iterate(
             (1 - keep) * other.b + keep * self.b,
             (1 - keep) * other.a + keep * self.a,
@@ -76,7 +76,7 @@ class Iterate:
 
 
 def cell_times(widths: Array, b: Array, a: Array) -> Array:
-    """Return the seconds each cell takes at a constant jerk in s; shape (N,).
+    """Return the duration of each cell at a constant jerk in s, seconds, shape (N,).
 
     h = T (v0 + v1) / 2 - T^2 (a1 - a0) / 12, solved for T.
     """
@@ -87,7 +87,7 @@ def cell_times(widths: Array, b: Array, a: Array) -> Array:
 
 
 def start_from(widths: Array, b: Array) -> Iterate:
-    """Return an iterate with the given b, positive inside, and accelerations that fit it.
+    """Return an iterate with the given b, positive inside, and consistent accelerations.
 
     widths : shape (N,); b : shape (N + 1,)
     """
@@ -120,10 +120,10 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
 
 
 class _Shape:
-    """How the speed runs inside each cell, from the last iterate: quadratic in time.
+    """The shape of the speed inside each cell, from the last iterate: quadratic in time.
 
-    Over x = t / T in [0, 1] the speed over its mean is u = r0 (1 - x) + r1 x + k x (1 - x). Every
-    part gives (b0, b1, a0, a1) weights of b, (a0, a1) weights of a, and u itself.
+    Over x = t / T in [0, 1] the speed over its mean is u = r0 (1 - x) + r1 x + k x (1 - x). Every part has
+    four weights (of b0, b1, a0, a1) for b, two weights (of a0, a1) for a, and u itself.
     """
 
     def __init__(self, widths: Array, around: Iterate) -> None:
@@ -152,7 +152,7 @@ class _Shape:
         return whole - late, late
 
     def _middle(self) -> Array:
-        """Return x where half the cell is done, by Newton's method, which a way that only goes on suits."""
+        """Return x at half the length of the cell, by Newton's method; the length is monotonic in x."""
         slope = self.r1 - self.r0 + self.k
         x = np.full_like(self.r0, 0.5)
         for _ in range(NEWTON_STEPS):
@@ -191,7 +191,7 @@ class _Model:
         return 3 * self.nodes + cells, coefficient
 
     def motion(self) -> None:
-        """Rest at both ends, and b1 - b0 = 2 h (share0 a0 + share1 a1) on every cell."""
+        """Require rest at both ends, and b1 - b0 = 2 h (share0 a0 + share1 a1) on every cell."""
         ends = np.array([0, self.nodes - 1])
         for first in (0, self.nodes, 2 * self.nodes):
             self.rows.zero([(first + ends, np.ones(2))])
@@ -207,7 +207,7 @@ class _Model:
         )
 
     def caps(self, nodes: Array, middles: Array) -> None:
-        """Keep b below its caps, as shares of them; it is above zero by the cones of d."""
+        """Require b below its caps, in shares of them; the cones of d keep it above zero."""
         i = self.inside
         self.rows.positive(np.ones(len(i)), [self.b(i, -1.0 / nodes[i])])
         left, right = self.cell, self.cell + 1
@@ -217,7 +217,7 @@ class _Model:
         self.rows.positive(np.ones(len(left)), terms)
 
     def acceleration(self, limit: NormLimit) -> None:
-        """|q'' b + q' a| <= 1 at nodes and middles."""
+        """Require |q'' b + q' a| <= 1 at nodes and middles."""
         frame = triangular(np.stack([limit.d1, limit.d2], axis=-1))
         i = self.inside
         d1, d2 = frame[1:, 0, :, 0], frame[1:, 0, :, 1]
@@ -238,7 +238,7 @@ class _Model:
         self.norm(np.ones(len(left)), [], middles)
 
     def jerk(self, limit: NormLimit) -> None:
-        """v_k |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1.5 - 0.5 v^2 / v_k^2 in three places."""
+        """Require v_k |q' (a1 - a0) / h + r (3 q'' a + q''' b)| <= 1.5 - 0.5 v^2 / v_k^2 at three points."""
         frame = triangular(np.stack([limit.d1, limit.d2, limit.d3], axis=-1))
         left, right, h = self.cell, self.cell + 1, self.widths
         share = -0.5 / (self.around.b[:-1] + self.around.b[1:])
@@ -260,7 +260,7 @@ class _Model:
             self.norm(np.full(len(h), 1.5), bound, components)
 
     def norm(self, constant: Array, bound: list[Term], components: list[list[Term]]) -> None:
-        """Norm of the components <= constant + bound."""
+        """Require the norm of the components <= constant + bound."""
         if len(components) == 1:
             for sign in (1.0, -1.0):
                 self.rows.positive(constant, bound + [(c, sign * v) for c, v in components[0]])
@@ -268,7 +268,7 @@ class _Model:
             self.rows.second_order(constant, [bound, *components])
 
     def times(self) -> None:
-        """D^2 <= b at inner nodes and e (d0 + d1) >= 1 on cells, as cones, all scaled to 1."""
+        """Require d^2 <= b at inner nodes and e (d0 + d1) >= 1 on cells, as cones, all scaled to 1."""
         i = self.inside
         one, zero = np.ones(len(i)), np.zeros(len(i))
         b = self.b(i, 1.0 / self.b_unit[i])
@@ -282,23 +282,24 @@ class _Model:
         self.rows.second_order(0.0 * one, [[e, *more], [e, *less], []], rest=[0.0 * one, 2.0 * one])
 
     def start(self) -> Array:
-        """Return the last iterate."""
+        """Return the unknowns of the last iterate."""
         b, a = self.around.b, self.around.a
         parts = (b / self.b_unit, a / self.a_unit, np.sqrt(b) / self.d_unit, np.ones(len(self.cell)))
         return np.concatenate(parts)
 
     def total_time(self) -> Array:
-        """Return the cost of the fastest profile: its time, about 1."""
+        """Return the cost: the total time over that of the last iterate."""
         cost = np.zeros(self.rows.unknowns)
         cost[3 * self.nodes :] = self.shape.time / self.shape.time.sum()
         return cost
 
 
 def triangular(columns: Array) -> Array:
-    """Return the columns in a basis of their own at each point, without rows that are nothing.
+    """Return the columns in their own orthonormal basis at each point, without negligible rows.
 
-    columns : shape (N, 3, dim, k); result (N, 3, rows, k). A rotation keeps norms, so a straight
-    path needs one row and a plane one two.
+    columns : shape (N, 3, dim, k); result (N, 3, rows, k). A rotation preserves norms, so a straight path
+        needs
+    one row and a planar path two.
     """
     frame: Array = columns if columns.shape[2] == 1 else np.asarray(np.linalg.qr(columns, mode="r"))
     size = np.abs(frame).max(axis=(0, 1, 3))

@@ -1,7 +1,7 @@
-"""A smooth scalar spline near samples, exact at anchors, between bounds: the angle fits.
+"""The fit of a smooth scalar spline to samples, exact at anchors and within bounds. Angles use it.
 
-Without active bounds the optimum is one sparse linear solve; only where a bound bites is the
-quadratic programme handed to Clarabel.
+Without active bounds the optimum is one sparse linear solve. Only with an active bound Clarabel solves a
+quadratic programme.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import scalar_map, terms
 
 TOLERANCE = 1e-8
-TOUCH = 3e-7  # a third of what verification lets a limit be missed by
+TOUCH = 3e-7  # a third of verification's tolerance of a limit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """A scalar spline to be found on ``breaks``.
+    """A fitting problem for a scalar spline psi on ``breaks``, shape (P + 1,).
 
     at, value, weight : shape (M,), samples and their weights in the sum of squares
-    anchor_at, anchor : shape (K,), places where the value binds (no two at one place)
-    stiffness : (rate, third) weights of the integrals of psi'^2 and psi'''^2, numbers or one a piece
+    anchor_at, anchor : shape (K,), distinct parameters and the exact values there
+    stiffness : (rate, third) weights of the integrals of psi'^2 and psi'''^2, numbers or shape (P,)
     low, high : bounds on every Bernstein point, shape (P, 6) each, or None
-    slope_at, slope : shape (L,), places where the derivative binds; None where nowhere
+    slope_at, slope : shape (L,), parameters and the exact derivatives there, or None
     """
 
     breaks: Array
@@ -58,11 +58,11 @@ def fit(task: Fit) -> tuple[Status, Array]:
 
 
 def within(points: Array, low: Array | float, high: Array | float) -> Array:
-    """Return Bernstein points moved into their bounds, where more than rounding took them out.
+    """Return Bernstein points clipped to their bounds if they violate them by more than rounding.
 
-    points, low, high : of one shape, or shapes that broadcast
-    Every point that is moved costs the curve its smoothness at the breaks around it, and verification
-    allows for more than rounding.
+    points, low, high : of the same shape, or shapes that broadcast
+    A moved point makes the curve less smooth at the breaks around it, so smaller violations stay;
+    verification tolerates them.
     """
     inside = np.clip(points, low, high)
     return np.asarray(np.where(np.abs(inside - points) > TOUCH, inside, points))
@@ -99,7 +99,7 @@ def _unbounded(task: Fit) -> Array:
 
 
 def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:
-    """Return the rows that bind, and the values that they bind to."""
+    """Return the rows of anchors and slopes, and their exact values."""
     rows = value_rows(task.breaks, task.anchor_at)
     if task.slope_at is None or task.slope is None:
         return rows, task.anchor
@@ -111,7 +111,7 @@ def _anchors(task: Fit) -> tuple[SplineFunctionals, Array]:
 
 
 def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
-    """Solve for the change to the optimum without bounds: near it the numbers are small."""
+    """Solve for the change from the optimum without bounds, which keeps the numbers small."""
     matrix, _ = _least_squares(task)
     matrix = matrix / max(float(abs(matrix).max()), 1e-12)
     size = matrix.shape[1]

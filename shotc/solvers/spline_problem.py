@@ -1,8 +1,7 @@
-"""What is asked of a spline in three dimensions: goals, equalities, half-spaces and norm bounds.
+"""A convex problem for a spline in three dimensions: goals, equalities, half-spaces and norm bounds.
 
-Arrays in, arrays out. The unknown is a curve on one set of knots; all that is required of it is a set of
-``SplineFunctionals`` of its coefficients. ``spline_qp`` finds the best curve, ``spline_relax`` the
-requirements that conflict.
+The unknown is a curve on one set of knots. All requirements are ``SplineFunctionals`` of its coefficients.
+``spline_qp`` finds the best curve, ``spline_relax`` the conflicting requirements.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ class Goal:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Equalities:
-    """Rows that are to equal ``value``, shape (K, 3)."""
+    """Rows with the exact values ``value``, shape (K, 3)."""
 
     rows: SplineFunctionals
     value: Array
@@ -40,7 +39,7 @@ class Equalities:
 class HalfSpaceRows:
     """Rows whose component along ``normal``, shape (R, 3), is at least ``offset``, shape (R,).
 
-    owner : shape (R,), an index of whom the row belongs to; it only matters to ``relax``
+    owner : shape (R,), index of the owner of each row; only ``relax`` uses it
     """
 
     rows: SplineFunctionals
@@ -51,11 +50,11 @@ class HalfSpaceRows:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cones:
-    """Norm bounds |rows[axes] - centre| <= bound, as a second-order cone each.
+    """Norm bounds |rows[axes] - centre| <= bound, each as a second-order cone.
 
-    axes   : the components that count
+    axes   : the components in the norm
     centre : shape (R, len(axes)); bound : shape (R,)
-    price  : shape (R,), cost of each unit above the bound; None where the bound is hard
+    price  : shape (R,), cost of each unit above the bound; None for a hard bound
     owner  : shape (R,), as in HalfSpaceRows
     """
 
@@ -69,7 +68,7 @@ class Cones:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SplineProblem:
-    """All of it; ``size`` is the number of coefficients per component."""
+    """The whole problem; ``size`` is the number of coefficients of a component."""
 
     size: int
     goals: tuple[Goal, ...]
@@ -79,9 +78,9 @@ class SplineProblem:
 
 
 def centred(problem: SplineProblem, about: Array) -> SplineProblem:
-    """Return a problem with a place, shape (3,), as its origin: numbers stay small wherever in W it lies.
+    """Return the problem with a point ``about``, shape (3,), as its origin, which keeps numbers small.
 
-    Coefficients move as the curve does; rows of values weigh them by 1 in sum, derivatives by 0.
+    Coefficients shift with the curve. The weights of a row of values add up to 1, those of a derivative to 0.
     """
 
     def shift(rows: SplineFunctionals) -> Array:
@@ -111,14 +110,14 @@ def scalar_map(rows: SplineFunctionals, size: int) -> Any:
 def terms(rows: SplineFunctionals, factor: Array | float = 1.0, first: int = 0) -> list[Term]:
     """Return rows of one component, times a factor, as terms of ``ConeRows``.
 
-    factor : one, or one a row, shape (R,); first : of its columns
+    factor : a number, or shape (R,); first : first column of the component
     """
     columns = rows.piece + first
     return [(columns + k, rows.weight[:, k] * factor) for k in range(DEGREE + 1)]
 
 
 def bounded(rows: ConeRows, size: int, cone: Cones, more: list[Term]) -> None:
-    """Demand that norms are at most their bounds and what is added to them; of one component, its size."""
+    """Require norms of at most their bounds plus the terms ``more``; for one component its absolute value."""
     parts = [terms(cone.rows, first=axis * size) for axis in cone.axes]
     if len(parts) > 1:
         rows.second_order(cone.bound, [more, *parts], rest=list(-cone.centre.T))

@@ -1,7 +1,7 @@
 """The curve of least energy as a second-order cone programme over B-spline coefficients (Clarabel).
 
-The unknowns are the coefficients, component after component, then by how much each priced bound is left. A
-mission asks for many curves of many shapes, so their rows go to Clarabel directly.
+The unknowns are the coefficients, component by component, then the excess over each priced bound. A mission
+needs many curves of different structure, so their rows go to Clarabel directly.
 """
 
 from __future__ import annotations
@@ -28,16 +28,17 @@ from shotc.solvers.spline_problem import (
     terms,
 )
 
-MISS = 1e-6  # metres that a solution may miss an equality by
+MISS = 1e-6  # metres, tolerance of equalities
 TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SplineSolution:
-    """What the solver made of it.
+    """The result of the solver.
 
     coef : shape (size, 3), or None unless the status is SOLVED or INACCURATE
-    objective : the goals' sum of squares, m^2, without the price of slack; excess : that price
+    objective : the goals' sum of squares, m^2, without the cost of excess over priced bounds; excess : that
+        cost
     """
 
     status: Status
@@ -49,9 +50,9 @@ class SplineSolution:
 def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     """Return the curve of least energy under all constraints.
 
-    unit : of the objective, m^2: the solver leaves 1e-8 of it, or of what is larger
-    Where no bound bites, that is one linear solve, and no programme. A solution that misses an
-    equality by more than MISS is none: its status is FAILED.
+    unit : of the objective, m^2; the solver's tolerance is 1e-8 of it, or of the objective if that is larger
+    Without active bounds the solution is one linear solve. A solution that violates an equality by more than
+    MISS has the status FAILED.
     """
     centre = problem.equalities.value.mean(axis=0)
     problem = centred(problem, centre)
@@ -62,7 +63,7 @@ def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
     left = problem if free is None else _leaving(problem, free)
     solution = programme(left, squares, unit)
     if solution.coef is None and (dear := _dearest(problem)) > unit:
-        # Costs of many orders above the constraints pass for a certificate that there is no solution.
+        # The solver can take costs of many orders above the constraints for a certificate of infeasibility.
         solution = programme(left, squares, dear)
     if solution.coef is None:
         return solution
@@ -71,9 +72,10 @@ def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
 
 
 def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
-    """Return the problem of by how much the best curve leaves the one without bounds: its numbers are small.
+    """Return the problem for the difference of the best curve from the one without bounds, which is small.
 
-    What it costs more is the sum of squares of that alone, for along the equalities ``free`` has no slope.
+    The additional cost is the sum of squares of the difference alone, because the cost has no slope at
+    ``free`` along the equalities.
     """
 
     def of(rows: SplineFunctionals, axes: tuple[int, ...] = EVERY) -> Array:
@@ -90,9 +92,9 @@ def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Square:
-    """The part of the objective of components that have the same goals: |maps c - value|^2 for each.
+    """The objective of the components with the same goals: |maps c - value|^2 for each.
 
-    axes : these components; goals : theirs; maps : shape (R, size), sparse; gram : maps.T @ maps
+    axes : these components; goals : their goals; maps : shape (R, size), sparse; gram : maps.T @ maps
     """
 
     axes: list[int]
@@ -101,13 +103,13 @@ class Square:
     gram: Any
 
     def slope(self, goals: Sequence[Goal]) -> Array:
-        """Return maps.T @ value for each component, shape (size, len(axes)); goals : the same with values."""
+        """Return maps.T @ value for each component, shape (size, len(axes)); goals : with the values."""
         values = [goal.value[:, self.axes] for goal in goals if self.axes[0] in goal.axes]
         return np.asarray(self.maps.T @ np.concatenate([np.zeros((0, len(self.axes))), *values]))
 
 
 def squares_of(problem: SplineProblem) -> list[Square]:
-    """Return the objective, components with the same goals together."""
+    """Return the objective, grouped by components with the same goals."""
     from scipy.sparse import csr_matrix, vstack
 
     squares, left = [], list(EVERY)
@@ -122,9 +124,9 @@ def squares_of(problem: SplineProblem) -> list[Square]:
 
 
 def _unbounded(problem: SplineProblem, squares: list[Square]) -> Array | None:
-    """Return the curve of least energy through the equalities, or None where there is not one.
+    """Return the curve of least energy under the equalities alone, or None if it is not unique.
 
-    Where it breaks no bound, soft ones included, it is the optimum of the whole problem.
+    If it keeps all bounds, soft ones included, it is the optimum of the whole problem.
     """
     from scipy.sparse import bmat
     from scipy.sparse.linalg import splu
@@ -164,12 +166,12 @@ def _energy(problem: SplineProblem, coef: Array) -> float:
 
 
 def _dearest(problem: SplineProblem) -> float:
-    """Return the highest price of a unit above a bound, 0 where none has one."""
+    """Return the highest price of a unit above a bound, 0 without priced bounds."""
     return max([0.0, *(float(cone.price.max()) for cone in problem.cones if cone.price is not None)])
 
 
 def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) -> SplineSolution:
-    """Solve with the objective measured in ``unit`` m^2, of which some is left; squares : of its goals."""
+    """Solve the cone programme with the objective in units of ``unit`` m^2; squares : the objective."""
     priced = [cone for cone in problem.cones if cone.price is not None]
     slacks = sum(len(cone.bound) for cone in priced)
     rows = ConeRows(3 * problem.size + slacks)
@@ -202,7 +204,7 @@ def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) 
 
 
 def _quadratic(problem: SplineProblem, squares: list[Square], slacks: int) -> tuple[Any, Array]:
-    """Return Hessian and slope of the goals' sum of squares over all unknowns; slacks have no part in it."""
+    """Return Hessian and slope of the goals' sum of squares over all unknowns; those of slacks are 0."""
     from scipy.sparse import block_diag, csc_matrix
 
     grams, slope = [None] * len(EVERY), np.zeros((problem.size, len(EVERY)))

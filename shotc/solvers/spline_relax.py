@@ -1,7 +1,7 @@
-"""What has to give way for a spline to be found at all: an elastic second-order cone programme (Clarabel).
+"""The least relaxation of an infeasible spline problem: an elastic second-order cone programme (Clarabel).
 
-The unknowns are the coefficients, component after component, then by how much each owner gives way and each
-point moves.
+The unknowns are the coefficients, component by component, then the slack of each owner and the shift of each
+point.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from shotc.solvers.cone_rows import USABLE, ConeRows
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import EVERY, SplineProblem, bounded, centred, terms
 
-POINT_PRICE = 1.01  # of a metre that a point gives way: where a floor gives as little, the point stays
+POINT_PRICE = 1.01  # cost of a point's shift per metre; if a half-space's slack suffices, the point stays
 TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relaxation:
-    """The least changes that let an infeasible problem be solved.
+    """The least changes that make an infeasible problem feasible.
 
-    coef : shape (size, 3), the curve they allow
-    owner_lack : per owner of half-spaces and hard cones, by how much it must give way, metres
-    point_shift : per equality, by how far its point must move, metres
+    coef : shape (size, 3), the curve with these changes
+    owner_lack : slack of each owner of half-spaces and hard cones, metres
+    point_shift : displacement of the point of each equality, metres
     """
 
     status: Status
@@ -36,9 +36,9 @@ class Relaxation:
 
 
 def relax(problem: SplineProblem, owners: int) -> Relaxation:
-    """Return the smallest give-way (sum of metres) of half-spaces, hard cones and points that is feasible.
+    """Return the feasible relaxation of half-spaces, hard cones and points with the least sum of metres.
 
-    Soft cones and the energy are left out: they never stop anything.
+    Soft cones and the energy are omitted, because they cannot make a problem infeasible.
     """
     equal = problem.equalities
     centre, points = equal.value.mean(axis=0), len(equal.value)

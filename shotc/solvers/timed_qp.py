@@ -1,9 +1,9 @@
-"""A time law s(t) through places at given times: a quadratic program, with the path's limits as cones.
+"""A time law s(t) with deadlines: a quadratic programme with the path's limits as cones.
 
-Over time the places are linear: s is a cubic on every cell (constant jerk, C2), rests at both ends,
-never goes back, and has the least integral of squared jerk. The limits of the path are linear in
-sdot, sddot and the jerk of s once the path is taken at the last iterate's s(t) and powers of sdot
-are replaced by their tangents there; what cannot be kept is overdrawn at a price and returned.
+s is a cubic on every cell (constant jerk, C2), so a deadline s(t_k) = s_k is linear. s rests at both ends, is
+monotonic, and has the least integral of squared jerk. The path is taken at the last iterate's s(t), and
+powers of sdot are replaced by their tangents there. Then the limits of the path are linear in sdot, sddot and
+the jerk of s. If they cannot be kept, one overdraft of all limits is minimised at a price, and returned.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
 
-# Price of overdrawing every limit by its own size, against an integral of squared jerk of about 1.
+# Price of an overdraft by 100 % of every limit; the integral of squared jerk is about 1.
 OVERDRAFT = 1e4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PathLimits:
-    """The limits at the N + 1 knots, with the path taken at the last iterate.
+    """The limits at the N + 1 knots, with the path at the last iterate.
 
     speed : shape (N + 1,), largest sdot
     accelerations, jerks : (d1, d2, d3), each (N + 1, dim), derivatives by s over the limit
@@ -39,7 +39,7 @@ class PathLimits:
 class TimeLaw:
     """s, sdot and sddot at the knots t, each (N + 1,), and the jerk of s on the N cells.
 
-    overdraft : share by which limits are exceeded for want of a better law, 0 where all hold
+    overdraft : share by which the law exceeds its limits, 0 if it keeps all
     """
 
     status: Status
@@ -56,8 +56,8 @@ def time_law(
 ) -> TimeLaw:
     """Return the smoothest law through the places.
 
-    t : shape (N + 1,), knots, seconds; places : (knot, s), the first and the last knot among them
-    limits, last : what binds, and the iterate it was taken at; None for a law without limits
+    t : shape (N + 1,), knots, seconds; places : (knot, s), with the first and the last knot
+    limits, last : the limits and the iterate at which they are taken; None for a law without limits
     """
     model = _Model(t, places)
     if limits is not None and last is not None:
@@ -80,7 +80,7 @@ def time_law(
 
 
 class _Model:
-    """Unknowns s, v, a at knots, j on cells and the overdraft, with length and time counted as 1."""
+    """Unknowns s, v, a at knots, j on cells, and the overdraft, in units of the total length and time."""
 
     def __init__(self, t: Array, places: tuple[tuple[int, float], ...]) -> None:
         self.nodes = len(t)
@@ -102,7 +102,7 @@ class _Model:
         return np.full(len(coefficient), 4 * self.nodes - 1), coefficient
 
     def _motion(self) -> None:
-        """Constant jerk on every cell, and sdot >= 0 by its Bernstein coefficients."""
+        """Require constant jerk on every cell, and sdot >= 0 by its Bernstein coefficients."""
         i, h, n = np.arange(self.nodes - 1), self.h, self.nodes
         one = np.ones_like(h)
         s, v, a, j = i, n + i, 2 * n + i, 3 * n + i
@@ -113,7 +113,7 @@ class _Model:
         self.rows.positive(0.0 * h, [(v, one), (a, h / 2)])
 
     def limits(self, limits: PathLimits, last: TimeLaw) -> None:
-        """Keep the limits, overdrawn by one share: tangents at the last iterate, all in its units."""
+        """Require the limits with a common overdraft, by tangents at the last iterate, in its units."""
         n = self.nodes
         speed, acceleration = self.size / self.time, self.size / self.time**2
         knots = np.arange(n)
@@ -121,7 +121,7 @@ class _Model:
         self.rows.positive(np.ones(n), [(n + knots, -1.0 / bound), self.overdraft(np.ones(n))])
         v = last.v
         for d1, d2, _ in limits.accelerations:
-            # q' a + q'' v^2, v^2 by its tangent.
+            # q' a + q'' v^2 with the tangent of v^2.
             parts = [
                 ([(2 * n + knots, p1 * acceleration), (n + knots, 2 * p2 * v * speed)], -p2 * v**2)
                 for p1, p2 in zip(d1.T, d2.T, strict=True)
@@ -132,7 +132,7 @@ class _Model:
                 self._jerk(side, d1[side], d2[side], d3[side], last)
 
     def _jerk(self, side: slice, d1: Array, d2: Array, d3: Array, last: TimeLaw) -> None:
-        """Limit q' j + 3 q'' v a + q''' v^3 at one end of each cell, products by their tangents."""
+        """Limit q' j + 3 q'' v a + q''' v^3 at one end of each cell, with tangents of the products."""
         n = self.nodes
         knots, cells = np.arange(n)[side], np.arange(n - 1)
         speed, acceleration, jerk = (self.size / self.time**k for k in (1, 2, 3))
@@ -151,7 +151,7 @@ class _Model:
         self.norm(parts)
 
     def norm(self, parts: list[tuple[list[Term], Array]]) -> None:
-        """Norm of the parts (terms, constant) <= 1 + overdraft."""
+        """Require the norm of the parts (terms, constant) <= 1 + overdraft."""
         one = np.ones(len(parts[0][1]))
         constants = [constant for _, constant in parts]
         entries = [[self.overdraft(one)], *(terms for terms, _ in parts)]

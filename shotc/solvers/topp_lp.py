@@ -1,11 +1,11 @@
 """The fastest profile b(s) = sdot^2 of a path under linear limits, as one linear programme in Clarabel.
 
-On cell i the acceleration is a_i = (b_(i+1) - b_i) / (2 h_i), and the rows of both its ends hold there:
+On cell i the acceleration is a_i = (b_(i+1) - b_i) / (2 h_i). The rows of both its ends must hold:
 
     on_a_i a_i + on_b_i b_i <= 1  and  on_a_(i+1) a_i + on_b_(i+1) b_(i+1) <= 1.
 
-The fastest profile has the largest sum of b (the convex form is that of Verscheure and others, Time-optimal
-path tracking for robots, 2009). TOPP-RA solves the same rows, one cell after the other.
+The fastest profile has the largest sum of b (the convex form is that of Verscheure et al., Time-optimal path
+tracking for robots, 2009). TOPP-RA solves the same rows cell by cell.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from shotc.solvers.topp_problem import FastestProfile, LinearLimits, no_profile,
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-9  # of b in the unit of its node
+TOLERANCE = 1e-9  # of b in units of its node
 
 
 def fastest(limits: LinearLimits) -> FastestProfile:
-    """Return the fastest profile from rest to rest; its status is FAILED where Clarabel gives none."""
+    """Return the fastest profile from rest to rest; its status is FAILED if Clarabel finds none."""
     unit = _units(limits)
     nodes = np.arange(len(unit))
     inside, ends, one = nodes[1:-1], nodes[[0, -1]], np.ones(len(unit) - 2)
@@ -40,9 +40,9 @@ def fastest(limits: LinearLimits) -> FastestProfile:
 
 
 def _units(limits: LinearLimits) -> Array:
-    """Return about the largest b at each node, shape (N + 1,): the unit of the unknown there.
+    """Return an estimate of the largest b at each node, shape (N + 1,): the unit of the unknown there.
 
-    Towards the ends b falls by many decades, and a solver has one tolerance for all unknowns.
+    Towards the ends b falls by many decades, but a solver has one tolerance for all unknowns.
     """
     up, down = (
         (push[:-1] + push[1:]) * limits.widths
@@ -55,7 +55,7 @@ def _units(limits: LinearLimits) -> Array:
 
 
 def _both_ends_of_cells(rows: ConeRows, limits: LinearLimits, unit: Array) -> None:
-    """Demand the rows of the limits at the start and at the end of every cell."""
+    """Require the rows of the limits at the start and at the end of every cell."""
     count = limits.on_a.shape[1]
     left = np.repeat(np.arange(len(limits.widths)), count)
     half = np.repeat(0.5 / limits.widths, count)

@@ -1,4 +1,4 @@
-"""Time-optimal path parameterization: what is asked of a solver, and what it answers."""
+"""Time-optimal path parameterization: the problem and the result of a solver."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
 
-SLOWEST = 1e-12  # sum of two path velocities: below it a profile stands still
+SLOWEST = 1e-12  # sum of two path velocities below which a profile stands still
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,7 +19,7 @@ class LinearLimits:
     """Limits of a path on a grid, as functions of a = sddot and b = sdot^2.
 
     grid : shape (N + 1,), increasing path parameters
-    on_a, on_b : shape (N + 1, m); every row demands on_a a + on_b b <= 1
+    on_a, on_b : shape (N + 1, m); every row requires on_a a + on_b b <= 1
     cap : shape (N + 1,), 0 <= b <= cap
     """
 
@@ -35,13 +35,13 @@ class LinearLimits:
 
     @property
     def ceiling(self) -> Array:
-        """Return the largest b at which the path can be passed at a steady speed, shape (N + 1,)."""
+        """Return the largest admissible b at constant speed, shape (N + 1,)."""
         return np.asarray(np.minimum(self.cap, 1.0 / np.maximum(self.on_b.max(axis=1), 1e-12)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FastestProfile:
-    """A solver's answer.
+    """The result of a solver.
 
     b : shape (N + 1,), squared path velocity, zero at both ends; meaningless unless SOLVED
     time : seconds from rest to rest; infinite unless SOLVED
@@ -53,12 +53,12 @@ class FastestProfile:
 
 
 def profile_of(limits: LinearLimits, b: Array) -> FastestProfile:
-    """Return the profile of squared velocities of shape (N + 1,), each cell at a constant acceleration."""
+    """Return the profile of squared velocities b, shape (N + 1,), with constant acceleration on each cell."""
     sd = np.sqrt(b)
     time = float(np.sum(2.0 * limits.widths / np.maximum(sd[:-1] + sd[1:], SLOWEST)))
     return FastestProfile(Status.SOLVED, b, time)
 
 
 def no_profile(limits: LinearLimits, status: Status = Status.FAILED) -> FastestProfile:
-    """Return the answer of a solver that found none."""
+    """Return the result of a solver that found no profile."""
     return FastestProfile(status, np.zeros_like(limits.grid), float("inf"))

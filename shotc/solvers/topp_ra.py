@@ -1,8 +1,8 @@
-"""The door to toppra: the fastest profile b(s) = sdot^2 of a path under linear limits, by TOPP-RA.
+"""The adapter to toppra: the fastest profile b(s) = sdot^2 of a path under linear limits, by TOPP-RA.
 
-Left aside on purpose: toppra's own gridpoints (thousands for a long path), its default spline
-parametrizer (breaks limits) and ``compute_trajectory`` (hides failures). Constraints use the
-interpolation discretisation, which binds both ends of every cell.
+It does not use toppra's own gridpoints (thousands for a long path), its default spline parametrizer (which
+violates limits) and ``compute_trajectory`` (which hides failures). Constraints use the interpolation
+discretisation, which holds at both ends of every cell.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ Array = NDArray[np.float64]
 def fastest(limits: LinearLimits) -> FastestProfile:
     """Return the fastest profile from rest to rest (Pham and Pham, TOPP-RA, Seidel's LP).
 
-    The linear programs have absolute tolerances, so lengths are counted in path lengths and times so
-    that b is about 1; where rounding still hides a feasible step, other units of time are tried.
+    The linear programs have absolute tolerances. So the unit of length is the path length, and the unit of
+    time makes b about 1. If rounding still hides a feasible step, other units of time are tried.
     """
     length = float(limits.grid[-1] - limits.grid[0])
     unit = float(limits.ceiling.max())
@@ -38,7 +38,7 @@ def fastest(limits: LinearLimits) -> FastestProfile:
 
 
 def _in_units(limits: LinearLimits, length: float, b: float) -> LinearLimits:
-    """Return the limits with s from 0 to 1, and b counted in units of ``b``."""
+    """Return the limits with s from 0 to 1, and b in units of ``b``."""
     grid = (limits.grid - limits.grid[0]) / length
     grid[-1] = 1.0
     return LinearLimits(grid, limits.on_a * (b / length), limits.on_b * b, limits.cap / b)
@@ -57,7 +57,7 @@ def _topp(limits: LinearLimits) -> Array | None:
 
 @dataclass(frozen=True, slots=True)
 class _Interval:
-    # toppra asks a path for its range and its dimension only; the limits carry the derivatives.
+    # toppra reads only the range and the dimension of a path; the limits contain the derivatives.
     start: float
     end: float
     dof: int = 1
@@ -68,7 +68,7 @@ class _Interval:
 
 
 def load() -> None:
-    """Import toppra; ImportError where it is not installed, or does not fit what is."""
+    """Import toppra; raise ImportError if it is not installed or not compatible."""
     _algorithm_class()
     _constraint_class()
 
@@ -78,7 +78,7 @@ def _algorithm_class() -> Any:
     with late_pyplot():
         from toppra.algorithm import TOPPRA
 
-    # Without a handler of its own toppra's remarks on a failure would reach the user's terminal.
+    # toppra has no log handler, so its messages on a failure would reach the user's terminal.
     logging.getLogger("toppra").setLevel(logging.CRITICAL)
     return TOPPRA
 
@@ -111,7 +111,7 @@ def _constraint_class() -> Any:
                 gridpoints,
                 identical=True,
             )
-            # A constraint returns (..., u bound, x bound); the helper above takes them the other way.
+            # A constraint returns (..., u bound, x bound); the helper above has the opposite order.
             return a, b, c, lhs, rhs, None, bound
 
     return Limits

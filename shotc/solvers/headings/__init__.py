@@ -1,8 +1,8 @@
-"""Headings without wrap-around: wrapped yaws at keyframes to one continuous curve.
+"""Headings without wrap-around: one continuous curve through wrapped yaws at keyframes.
 
-The methods are those that the yaw paper compares (Wu et al., trajectory optimization with global yaw
-parameterization) and one more, ``winding``, which measures best. This module names them and loads
-nothing; ``solve.solve_headings`` solves.
+The methods are those of the yaw paper's comparison (Wu et al., trajectory optimization with global yaw
+parameterization) and ``winding``, which has the best measurements. This module names them and loads nothing;
+``solve.solve_headings`` solves.
 """
 
 METHODS: dict[str, str] = {
@@ -12,5 +12,5 @@ METHODS: dict[str, str] = {
     "virtual": "plan a point whose direction is the heading, kept off the origin, and fly its curve",
 }
 FLOWN = frozenset({"virtual"})
-"""Those whose curves are flown. Of the others the turns are taken, and a steady curve through them."""
+"""The methods whose curves are flown. The others only choose the turns, and another curve passes them."""
 DEFAULT = "winding"

@@ -1,7 +1,7 @@
-"""The cubic of least energy through given angles whose rate and acceleration keep their limits.
+"""The cubic of least energy through given angles that keeps limits of rate and acceleration.
 
-A quadratic programme in the free slopes. The acceleration of a cubic is linear on a piece, so its ends
-bound it exactly; the rate is a parabola, held by the Bernstein points of the parts of each piece.
+It is a quadratic programme in the free slopes. The acceleration of a cubic is linear on a piece, so its ends
+bound it exactly. The rate is a parabola, bounded by the Bernstein points of parts of each piece.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from shotc.solvers.conic import Status
 from shotc.solvers.headings.energy import Energy, cubic
 from shotc.solvers.headings.task import HeadingTask
 
-PARTS = 4  # of a piece, for its rate: the hull is then wider than the parabola by 1/16 of its bend
-INSIDE = 1e-7  # share of the limits kept free for the solver's tolerance
+PARTS = 4  # parts of a piece, for its rate; the hull exceeds the parabola by 1/16 of its curvature term
+INSIDE = 1e-7  # share of the limits that is reserved for the solver's tolerance
 TOLERANCE = 1e-9
 
 
 def bounded_cubic(task: HeadingTask, energy: Energy, angles: Array) -> Piecewise | None:
-    """Return the best curve through ``angles``, shape (K,), or None where none keeps the limits."""
+    """Return the best curve through ``angles``, shape (K,), or None if none keeps the limits."""
     slope = energy.slopes(angles)
     if within_limits(task, angles, slope):
         return cubic(task.at, angles, slope)
@@ -59,7 +59,7 @@ def within_limits(task: HeadingTask, angles: Array, slope: Array) -> bool:
 
 
 def _rows(task: HeadingTask) -> tuple[Array, Array]:
-    """Return rows over (values, slopes) and what each may be at most, in magnitude."""
+    """Return rows over (values, slopes), and the limits of their magnitudes."""
     count = len(task.at)
     rows: list[Array] = []
     limits: list[float] = []
@@ -84,7 +84,7 @@ def _blossom(points: Array, a: float, b: float) -> tuple[Array, Array, Array]:
 
 
 def _least(base: Array, spread: Array, limits: Array) -> Array | None:
-    """Return the shortest y with |base + spread y| <= limits, or None where there is none."""
+    """Return the shortest y with |base + spread y| <= limits, or None if there is none."""
     size = spread.shape[1]
     problem = ConeRows(size)
     for sign in (1.0, -1.0):

@@ -1,8 +1,9 @@
-"""The best integer points of a convex quadratic, exactly: a list sphere decoder.
+"""The best integer points of a convex quadratic function, exactly: a list sphere decoder.
 
-Depth first over the coordinates, last one first, each in Schnorr and Euchner's zig-zag from its centre
-(Closest point search in lattices, Agrell et al. 2002), within the radius of the worst of the best points
-so far. Every point left out is at least as far as every point returned, unless the cap on nodes was hit.
+The search is depth first over the coordinates from the last, each in Schnorr and Euchner's zig-zag from its
+centre (Closest point search in lattices, Agrell et al. 2002). Its radius is that of the worst of the best
+points so far. Every omitted point is at least as far as every returned one, unless the search reached its cap
+on nodes.
 """
 
 from __future__ import annotations
@@ -15,14 +16,14 @@ import numpy as np
 from shotc.geom.bernstein import Array
 
 MOST_NODES = 50_000
-SLACK = 1e-12  # of the radius, so that rounding loses no point
+SLACK = 1e-12  # relative tolerance of the radius, for rounding
 
 
 @dataclass(frozen=True, slots=True)
 class Decoded:
-    """The points found, nearest first.
+    """The best points, nearest first.
 
-    points : (squared distance, coordinates); nodes : visited; capped : whether the search was cut short
+    points : (squared distance, coordinates); nodes : visited; capped : whether the search reached its cap
     """
 
     points: tuple[tuple[float, tuple[int, ...]], ...]
@@ -33,9 +34,9 @@ class Decoded:
 def decode(gram: Array, centre: Array, count: int, most_nodes: int = MOST_NODES) -> Decoded:
     """Return the ``count`` integer points m of least (m - centre)' gram (m - centre).
 
-    gram : shape (n, n), positive definite (LinAlgError otherwise); centre : shape (n,), n >= 1
+    gram : shape (n, n), positive definite, else raise LinAlgError; centre : shape (n,), n >= 1
     """
-    # Plain lists: the vectors are too short for numpy to pay.
+    # Lists of floats, because the vectors are too short for numpy.
     rows: list[list[float]] = np.linalg.cholesky(gram).T.tolist()
     middle: list[float] = centre.tolist()
     size, nodes, level = len(middle), 0, len(middle) - 1

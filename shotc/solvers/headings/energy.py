@@ -1,9 +1,9 @@
-"""The energy of C1 piecewise cubics, and the cubic that has least of it.
+"""The energy of C1 piecewise cubics, and the cubic of least energy.
 
 The yaw paper's benchmark uses third-order pieces joined up to the first derivative (kappa = 2, Eq. 11d),
-which are fixed by values and slopes at the keyframes. For a piece of length h the integrals of the squared
-second and first derivative are quadratic forms of (p0, v0, p1, v1), known from beams as bending and
-geometric stiffness.
+which the values and slopes at the keyframes determine. For a piece of length h the integrals of the squared
+second and first derivative are quadratic forms of (p0, v0, p1, v1), known from beams as bending and geometric
+stiffness.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ class Reduced(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Energy:
-    """integral of psi''^2 + weight psi'^2 as z' hessian z with z = (values, slopes), shape (2K, 2K).
+    """The integral of psi''^2 + weight psi'^2 as z' hessian z with z = (values, slopes), shape (2K, 2K).
 
-    pinned : slopes of the first and last keyframe; the others are free
+    pinned : slopes at the first and the last keyframe; the others are free
     """
 
     at: Array
@@ -80,7 +80,7 @@ class Energy:
 
 
 def energy(at: Array, weight: float, pinned: tuple[float, float]) -> Energy:
-    """Return the energy of cubics on breaks ``at``, shape (K,), K >= 2."""
+    """Return the energy of cubics on breaks ``at``, shape (K,), K >= 2; arguments as in ``Energy``."""
     count = len(at)
     total = np.zeros((2 * count, 2 * count))
     for i, h in enumerate(np.diff(at)):

@@ -1,4 +1,4 @@
-"""What headings cost: the paper's control effort, and how far they turn."""
+"""Measures of headings: the paper's control effort, and the total rotation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import subdivide
 
-SAMPLES = 64  # per piece, for the distance
+SAMPLES = 64  # samples of a piece, for the distance
 
 
 def effort(curve: Piecewise) -> float:
@@ -25,6 +25,6 @@ def effort(curve: Piecewise) -> float:
 
 
 def distance(curve: Piecewise) -> float:
-    """Return how far the heading turns in all, rad: the sum of steps between close samples."""
+    """Return the total rotation of the heading, rad: the sum of steps between close samples."""
     values: Array = curve(subdivide(curve.breaks, SAMPLES))
     return float(np.abs(np.diff(values, axis=0)).sum())

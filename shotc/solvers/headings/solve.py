@@ -1,4 +1,4 @@
-"""Solve headings by the method of a name."""
+"""The solution of headings by a named method."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from shotc.solvers.headings.winding import by_winding
 
 
 def solve_headings(task: HeadingTask, method: str = DEFAULT) -> Headings:
-    """Return the headings by a method of ``METHODS``; KeyError for another.
+    """Return the headings by a method of ``METHODS``; raise KeyError for any other.
 
-    Keyframes are met modulo whole turns, stated turns exactly. A single keyframe has no curve.
+    The curve meets keyframes modulo whole turns, and stated turns exactly. A single keyframe has no curve.
     """
     solver = SOLVERS[method]
     if len(task.yaw) == 1:

@@ -1,4 +1,4 @@
-"""What a heading method is asked, and what it answers."""
+"""The problem and the result of a heading method."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.vec import wrapped
 from shotc.solvers.conic import Status
 
-EDGE = 1e-9  # rad from half a turn within which both ways are equally long
-WHOLE = 1e-6  # rad by which a stated turn may miss the keyframe that it leads to
+EDGE = 1e-9  # rad, tolerance of half a turn, for which both directions are equally long
+WHOLE = 1e-6  # rad, tolerance of a stated turn at its keyframe
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HeadingTask:
-    """Keyframes to be passed, K >= 1.
+    """Keyframes with yaws, K >= 1.
 
     at : shape (K,), parameters (seconds, or metres of path), increasing
     yaw : shape (K,), rad, any winding
-    stated : for each of the K - 1 intervals the exact turn in rad, or None where the method chooses
+    stated : for each of the K - 1 intervals the exact turn in rad, or None if the method chooses it
     rates : first derivative at both ends, rad per unit of ``at``
     rate, acceleration : limits of the first and the second derivative
-    weight : of the squared rate beside the squared acceleration, 1 / unit^2; ``winding`` uses it
-    ValueError where the shapes do not fit, an interval has no length, or a stated turn misses its yaw.
+    weight : of the squared rate relative to the squared acceleration, 1 / unit^2; ``winding`` uses it
+    Raise ValueError if the shapes do not fit, an interval has no length, or a stated turn misses its yaw.
     """
 
     at: Array
@@ -62,20 +62,20 @@ class HeadingTask:
 
     @property
     def excess(self) -> float:
-        """Rate at the ends beyond its limit; above 0 no curve is feasible."""
+        """Excess of the rate at the ends over its limit; above 0 no curve is feasible."""
         return max(abs(r) for r in self.rates) - self.rate
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Headings:
-    """A method's answer.
+    """The result of a method.
 
-    status : SOLVED, or INFEASIBLE where no curve of this method keeps the limits
+    status : SOLVED, or INFEASIBLE if no curve of this method keeps the limits
     angles : shape (K,), unwrapped yaws at the keyframes; without a solution those tried first
     curve : over ``at``, one channel; None without a solution, or for a single keyframe
-    nodes : that the decoder visited; 0 for methods without one
-    complete : whether no other choice of turns can be cheaper; False where the decoder stopped at its cap
-        or its list ended before that was certain
+    nodes : number of nodes that the decoder visited; 0 for methods without one
+    complete : whether no other choice of turns can be cheaper; False if the decoder stopped at its cap or its
+        list ended before this was certain
     """
 
     status: Status
@@ -88,7 +88,7 @@ class Headings:
 def nearest_turns(yaw: Array) -> Array:
     """Return the shorter turn from each yaw to the next, shape (K - 1,), in (-pi, pi]; half a turn is +pi."""
     step = np.diff(yaw)
-    # Half a turn is as far either way: rounding must not choose.
+    # Half a turn is equally far in both directions; rounding must not decide.
     return np.asarray(EDGE - wrapped(EDGE - step))
 
 
@@ -98,6 +98,6 @@ def raw_turns(yaw: Array) -> Array:
 
 
 def turned(task: HeadingTask, turns: Array) -> Array:
-    """Return the keyframes' angles for turns, where stated ones bind; shape (K,)."""
+    """Return the keyframes' angles, shape (K,), for turns (K - 1,); stated turns replace the given ones."""
     bound = [t if s is None else s for t, s in zip(turns, task.stated, strict=True)]
     return np.asarray(task.yaw[0] + np.concatenate([[0.0], np.cumsum(bound)]))

@@ -1,12 +1,12 @@
-"""``virtual``: the paper's virtual variables (Wu et al., Eq. 10 and 11), with their collapse handled.
+"""``virtual``: the paper's virtual variables (Wu et al., Eq. 10 and 11), made robust near the origin.
 
-The heading is the direction of a point s(t) in the plane, whose C1 cubic pieces need no winding. As printed
-the programme lets s pass near the origin on wide turns, where the heading whips round. So the radius at
-inner keyframes is free, each interval has a free knot in its middle, and at samples s stays beyond a line
-across the heading that turns the shorter way (n.s >= r_min), which also fixes the winding. Eq. 11e bounds
-s' and s'', which do not bound the heading: its limits are wide here, and the rate is held by
-|t.s'| <= rate n.s, t across n, which is exact where s lies along n. What counts is the check of the real
-heading, atan2 of s, written anew as quintic pieces.
+The heading is the direction of a point s(t) in the plane, whose C1 cubic pieces need no winding. The
+programme of the paper lets s pass near the origin on wide turns, where the heading turns very fast. So here
+the radius at inner keyframes is free, and each interval has a free knot in its middle. At samples s stays
+beyond a line perpendicular to n, the heading that turns the shorter way: n.s >= r_min. This also determines
+the winding. Eq. 11e bounds s' and s'', which does not bound the heading, so its limits are wide here. The
+rate has the bound |t.s'| <= rate n.s with t perpendicular to n, which is exact where s is along n. Finally
+the real heading, atan2 of s as quintic pieces, is checked.
 """
 
 from __future__ import annotations
@@ -28,18 +28,19 @@ from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, tu
 
 NEAREST, FARTHEST = 0.5, 4.0  # radii of inner keyframes
 CLEAR = 0.3  # r_min of the half-planes
-WIDE = 8.0  # times the limits, for s' and s''
-SAMPLES = 4  # per piece
-FINER = 4  # quintic pieces for each cubic one
+WIDE = 8.0  # factor on the limits, for s' and s''
+SAMPLES = 4  # samples of a piece
+FINER = 4  # quintic pieces for each cubic piece
 TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Grid:
-    """Knots, one more in the middle of each interval, and the heading to stay near at the samples.
+    """Knots, with one in the middle of each interval, and the nominal headings at the samples.
 
-    knots : shape (J,); at, piece, x : shape (M,), where samples are, in which piece, how far in it
-    along, across : shape (M, 2), unit vectors of the near heading and a quarter turn further
+    knots : shape (J,); at, piece, x : shape (M,), parameter of each sample, its piece, and the share within
+        it
+    along, across : shape (M, 2), unit vectors of the nominal heading, and a quarter turn to the left
     """
 
     knots: Array
@@ -51,7 +52,7 @@ class _Grid:
 
 
 def by_virtual(task: HeadingTask) -> Headings:
-    """Return the heading of the best virtual curve, INFEASIBLE where the real one breaks a limit."""
+    """Return the heading of the best virtual curve; INFEASIBLE if the real heading violates a limit."""
     angles = turned(task, nearest_turns(task.yaw))
     near = cubic(task.at, angles, energy(task.at, 0.0, task.rates).slopes(angles))
     grid = _grid(task, near)
@@ -75,7 +76,7 @@ def _grid(task: HeadingTask, near: Piecewise) -> _Grid:
 
 
 class _Solved(NamedTuple):
-    """How the programme ended; values and slopes of s at the knots, each (J, 2)."""
+    """The status of the programme; values and slopes of s at the knots, each (J, 2)."""
 
     status: Status
     value: Array
@@ -83,7 +84,7 @@ class _Solved(NamedTuple):
 
 
 def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> _Solved:
-    """Solve Eq. 11; returns the values and slopes of s at the knots, each of shape (J, 2)."""
+    """Solve Eq. 11; return the values and slopes of s at the knots, each of shape (J, 2)."""
     knots, count = len(grid.knots), len(angles)
     pieces = knots - 1
     radii = 4 * knots
@@ -109,7 +110,7 @@ def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> _Solved:
 
 
 def _keyframes(problem: ConeRows, task: HeadingTask, angles: Array, where: tuple[int, int]) -> None:
-    """Demand s = r psi at keyframes (11c), r = 1 and the given rates at both ends (11b)."""
+    """Require s = r psi at keyframes (11c), and r = 1 and the given rates at both ends (11b)."""
     knots, radii = where
     count = len(angles)
     direction = np.column_stack([np.cos(angles), np.sin(angles)])
@@ -127,7 +128,7 @@ def _keyframes(problem: ConeRows, task: HeadingTask, angles: Array, where: tuple
 
 
 def _bends(problem: ConeRows, grid: _Grid, bends: int) -> None:
-    """Tie 4 unknowns a piece to s'', so that the sum of their squares is twice its integral (11a)."""
+    """Equate 4 unknowns a piece with s'', so that the sum of their squares is twice the integral in (11a)."""
     h = np.diff(grid.knots)
     pieces = len(h)
     knots = pieces + 1
@@ -146,7 +147,9 @@ def _samples(grid: _Grid, order: int) -> tuple[IntArray, Array]:
 
 
 def _weights(h: Array, x: Array, order: int) -> Array:
-    """Return what (p0, v0, p1, v1) weigh in the derivative of that order at x of a piece, shape (M, 4)."""
+    """Return the weights of (p0, v0, p1, v1) in the derivative of that order at x of a piece, shape (M,
+    4).
+    """
     one, zero = np.ones_like(x), np.zeros_like(x)
     powers = [
         [one, x, x * x, x**3],
@@ -181,9 +184,9 @@ def _point(knots: Array, value: Array, slope: Array) -> Piecewise:
 
 
 def _real(task: HeadingTask, angles: Array, near: Piecewise, point: Piecewise) -> Piecewise | None:
-    """Return atan2 of the virtual curve as quintic pieces, or None where it passes through the origin.
+    """Return atan2 of the virtual curve as quintic pieces, or None if it passes through the origin.
 
-    It is C2 but where a limit made s'' jump at a knot.
+    It is C2 except at knots where a limit causes a jump of s''.
     """
     breaks = subdivide(point.breaks, FINER)
     ctrl = []
@@ -202,14 +205,14 @@ def _real(task: HeadingTask, angles: Array, near: Piecewise, point: Piecewise) -
         ctrl.append(quintic_hermite(ends, psi[:, None], rate[:, None], acceleration[:, None]).ctrl[0])
     whole = np.array(ctrl)
     step = 2 * FINER
-    # Keyframes to the last bit; both sides of each break agree to rounding already.
+    # Keyframes are met to the last bit; both sides of each break already agree but for rounding.
     whole[0, 0], whole[step - 1 :: step, -1, 0] = angles[0], angles[1:]
     whole[1:, 0] = whole[:-1, -1]
     return Piecewise(breaks, whole)
 
 
 def _keeps(task: HeadingTask, curve: Piecewise) -> bool:
-    """Prove the real rate and acceleration by Bernstein hulls."""
+    """Return whether the real rate and acceleration keep their limits, proved by Bernstein hulls."""
     pieces = Pieces(curve.breaks[:-1], curve.breaks[1:], curve.ctrl)
     for limit in (task.rate, task.acceleration):
         pieces = pieces.derivative()

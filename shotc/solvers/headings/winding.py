@@ -1,10 +1,9 @@
-"""``winding``: the turns of all keyframes chosen together, exactly.
+"""``winding``: the exact joint choice of the turns between all keyframes.
 
-Every curve that meets the keyframes makes some whole number of turns more than the shorter ways from
-keyframe to keyframe. For each such choice the least energy is a quadratic in those numbers, so the best
-choices come out of a decoder; the limits are then kept by one quadratic programme a choice, the cheapest
-first, until no other can be cheaper. Energy is acceleration^2 + weight rate^2: least acceleration alone
-likes full turns in one direction.
+Every curve through the keyframes makes a whole number of turns more than the shorter way in each interval.
+The least energy is quadratic in these numbers, so a decoder finds the best choices. Then one quadratic
+programme a choice keeps the limits, the cheapest choice first, until no other can be cheaper. The energy is
+acceleration^2 + weight rate^2. Acceleration alone would prefer full turns in one direction.
 """
 
 from __future__ import annotations
@@ -21,11 +20,11 @@ from shotc.solvers.headings.energy import Energy, energy
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, turned
 
 LIST = 12  # choices that are tried
-SAME = 1e-9  # share of the energy that makes no difference
+SAME = 1e-9  # relative tolerance of equal energies
 
 
 def by_winding(task: HeadingTask) -> Headings:
-    """Return the cheapest feasible of the best choices; the shorter ways are always among them."""
+    """Return the cheapest feasible one of the best choices; the shorter ways are always among them."""
     cost = energy(task.at, task.weight, task.rates)
     shorter = turned(task, nearest_turns(task.yaw))
     free = [i for i, s in enumerate(task.stated) if s is None]
@@ -47,7 +46,9 @@ def _decoded(cost: Energy, shorter: Array, extra: Array) -> Decoded:
 
 
 def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Decoded) -> Headings:
-    """Solve choices from the cheapest on; without limits each energy is a lower bound of that with them."""
+    """Solve the choices, the cheapest first; the energy without limits is a lower bound of that with
+    limits.
+    """
     least = [cost.of(angles, cost.slopes(angles)) for angles in choices]
     best: tuple[float, Array, Piecewise] | None = None
     certain = not decoded.points or len(choices) == 1
