@@ -1,6 +1,6 @@
-"""compile, emit, verify and write: the calls that the command line makes, with ``checking``.
+"""compile, emit and verify: with ``checking`` and ``output.write``, the functions behind the command line.
 
-Everything here takes bytes and gives values; ``write`` alone touches the disk.
+Functions here take bytes and return values. Only ``write`` writes to the disk.
 """
 
 from __future__ import annotations
@@ -58,16 +58,16 @@ def _ignore(_mission: MissionIR) -> None:
 
 
 class PlanOptions(NamedTuple):
-    """How to compile.
+    """The options of a compilation.
 
     refiner : its name; None means ``plugins.usual_refiner()``
-    deadline : seconds that the refiner may take, in a process of its own then
-    headings : how a camera that follows nothing is turned, of ``solvers.headings.METHODS``;
-        None means its ``DEFAULT``
-    autopilot : what flies every drone, instead of what its model says
-    smoothing : seconds, of all shots, instead of what the mission says: for plans that are not kept
+    deadline : seconds that the refiner may take; it then runs in its own process
+    headings : method of ``solvers.headings.METHODS`` for a camera without a target; None means its
+        ``DEFAULT``
+    autopilot : of every drone, replaces that of its model
+    smoothing : seconds, of all shots, replaces that of the mission; only for plans that are not saved
     stop_after : the name of the last pass to run; progress : called with each pass's name
-    on_mission : called with the mission once it can be planned, before the solvers load
+    on_mission : called with the mission when it can be planned, before the solvers load
     """
 
     refiner: str | None = None
@@ -84,8 +84,8 @@ class PlanOptions(NamedTuple):
 class Compilation(NamedTuple):
     """A compiled mission.
 
-    plan : the verified plan, or None after an error or where the passes were stopped early
-    mission : its name, None where the file says none
+    plan : the verified plan, or None after an error or an early stop
+    mission : its name, None if the file has none
     """
 
     plan: VerifiedIR | None
@@ -96,7 +96,7 @@ class Compilation(NamedTuple):
 
 
 class Emitted(NamedTuple):
-    """Output files of a plan, and what the formats could not carry."""
+    """Output files of a plan, and notes on what their formats cannot represent."""
 
     artifacts: tuple[Artifact, ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -104,11 +104,11 @@ class Emitted(NamedTuple):
 
 
 class PlanReport(NamedTuple):
-    """A plan file, proved again.
+    """The verification of a plan file.
 
-    plan : None where it breaks a hard claim, differs from its own certificate, or is no plan
-    certificate : every claim as proved now, broken ones included
-    sources : the mission that the diagnostics point into, as the plan holds it
+    plan : None if it violates a hard claim, differs from its own certificate, or is no plan
+    certificate : every claim as proved now, with the violated ones
+    sources : the mission in the plan, which the diagnostics refer to
     """
 
     plan: VerifiedIR | None
@@ -118,7 +118,7 @@ class PlanReport(NamedTuple):
 
 
 def json_schema() -> dict[str, Any]:
-    """Return the JSON Schema of a mission, with every kind that is installed."""
+    """Return the JSON Schema of a mission, with all installed kinds."""
     return schema_of(models_of(plugins.shot_kinds().plugins))
 
 
@@ -152,13 +152,13 @@ def compile_source(data: bytes, name: str, folder: Path | None, options: PlanOpt
         return stopped._replace(diagnostics=(*diagnostics, *refusals))
     back = _lower(with_smoothing(front.value, options.smoothing), setting, options, ctx)
     diagnostics = [*without_answered(diagnostics, back.diagnostics), *back.diagnostics]
-    # What was stopped on purpose is no plan to write, not even after the last pass.
+    # A run with ``stop_after`` gives no plan to write, even after the last pass.
     plan = None if options.stop_after or has_errors(diagnostics) else back.value
     return stopped._replace(plan=plan, reports=front.reports + back.reports, diagnostics=tuple(diagnostics))
 
 
 def _lower(checked: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx: PassContext) -> PipelineRun:
-    """Plan a mission that has passed the front passes: what fleets display, and what cameras film."""
+    """Plan a mission after the front passes: displays of fleets, and shots of cameras."""
     keyframes = with_autopilot(checked, options.autopilot)
     mission = checked.mission
     if mission.displays and not mission.shots:
@@ -178,7 +178,7 @@ def _lower(checked: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx
 def _lower_both(
     keyframes: KeyframeIR, setting: PassSettings, options: PlanOptions, ctx: PassContext
 ) -> PipelineRun:
-    """Plan what fleets display, then what cameras film out of their airspace; one judge over all."""
+    """Plan the displays of fleets, then the shots of cameras outside their airspace; verify both together."""
     shown = _lower_show(keyframes, SHOW, setting, options, ctx)
     if shown.value is None or options.stop_after == shown.reports[-1].name:
         return shown
@@ -200,29 +200,29 @@ def _lower_show(
     options: PlanOptions,
     ctx: PassContext,
 ) -> PipelineRun:
-    """Plan what fleets display, with one thread for the sums of linear algebra.
+    """Plan the displays of fleets with one BLAS thread.
 
-    They are many and short: threads cost them several times what they take, and would add up another way on
-    another machine.
+    The operations are many and short: threads would make them several times slower, and would change the
+    order of summation between machines.
     """
     from threadpoolctl import threadpool_limits
 
-    passes = passes_of(steps, setting)  # loads the libraries that are to be limited
+    passes = passes_of(steps, setting)  # loads the libraries that the limit applies to
     with threadpool_limits(1, "blas"):
         return run(passes, keyframes, ctx, options.stop_after)
 
 
 def _missing_for_choice(mission: LoadedMission) -> tuple[Diagnostic, ...]:
-    """Say what is not installed where shots leave their drone open: the choice takes a solver."""
+    """Return a diagnostic if shots leave their drone open and the solver for the choice is not installed."""
     if not any(shot.drone == AUTO for shot in mission.spec.shots):
         return ()
     return _missing_libraries("planning", SOLVERS)
 
 
 def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic, ...]]:
-    """Return who refines the path, or None and why there is nobody.
+    """Return the refiner, or None and the diagnostics.
 
-    A refiner that cannot be used does not matter to a mission that accepts the convex path in all its shots.
+    If a mission accepts the convex path in all its shots, an unusable refiner is no error.
     """
     from shotc.passes.refine_path import Seat, Unusable
 
@@ -235,10 +235,11 @@ def _seat(name: str, mission: MissionIR) -> tuple[Seat | None, tuple[Diagnostic,
 
 
 def crew(jobs: int | None = None) -> AbstractContextManager[emission.EmitterPool]:
-    """Return processes that emit side by side, this one among them; enter it before threads are started.
+    """Return a context with processes that emit in parallel, this one included; enter it before threads
+    start.
 
-    jobs : how many; None means the cores, up to a few
-    ``prepare`` tells them early what they will emit, then ``emit_plan`` uses them.
+    jobs : number of processes; None means that of the cores, up to a few
+    ``prepare`` names the emitters early; later ``emit_plan`` uses the processes.
     """
     return emission.crew(emission.usual_jobs() if jobs is None else jobs, _emitter)
 
@@ -254,12 +255,12 @@ def emit_plan(
     *,
     saved: bool = False,
 ) -> Emitted:
-    """Make the output files of a verified plan; plan.json is always among them, unless it is there already.
+    """Return the output files of a verified plan, with plan.json unless ``saved``.
 
-    names : emitters to run; None means those the mission asks for, and then an output whose library
-        is not installed is left out with a warning (P005) instead of an error (P004)
-    crew : the processes to use; what is made does not depend on them
-    saved : whether the plan was read from a plan.json, which is not made again
+    names : emitters to run; None means those of the mission; then an output without its library is omitted
+        with a warning (P005) instead of an error (P004)
+    crew : the processes to use; the files do not depend on them
+    saved : whether the plan was read from a plan.json, which is not written again
     """
     from shotc.emit.plan_json import EMITTER as PLAN_JSON
 
@@ -289,7 +290,7 @@ def emit_plan(
 
 
 def _large(plan: VerifiedIR, wanted: Collection[str]) -> Iterator[str]:
-    """Yield the outputs that are left out of a show for its size."""
+    """Yield a note on the outputs that are omitted because the show is large."""
     drones = sum(len(fleet.coef) for fleet in plan.trajectory.fleets)
     left = [name for name in LARGE_OUTPUTS if name not in wanted]
     if drones > MANY_DRONES and left:
@@ -300,14 +301,17 @@ def _large(plan: VerifiedIR, wanted: Collection[str]) -> Iterator[str]:
 
 
 def _nothing_made(name: str, made: Emission) -> Diagnostic:
-    """Return the error of an output that was asked for by name, and that has no file for this plan."""
+    """Return the error of an output that was requested by name and has no file for this plan."""
     reasons = (*(d.message for d in made.diagnostics), *made.notes)
     help_ = next((d.help for d in made.diagnostics if d.help), "leave it out of `--emit`")
     return Diagnostic("E114", f"output `{name}` has no file for this plan", notes=reasons, help=help_)
 
 
 def _not_made(name: str, fault: Exception | str, code: str) -> Diagnostic:
-    """Return why an emitter made nothing, where that is not our own bug; code : of a missing library."""
+    """Return the diagnostic of a failed emitter; raise the fault if it is our own bug.
+
+    code : of a missing library
+    """
     if isinstance(fault, ModuleNotFoundError) and plugins.is_optional(fault):
         return plugins.not_installed(code, f"output `{name}`", [str(fault.name)])
     package = plugins.package_of("emitters", name)
@@ -317,7 +321,7 @@ def _not_made(name: str, fault: Exception | str, code: str) -> Diagnostic:
 
 
 class MissionFile(NamedTuple):
-    """A mission to hold a plan to: its bytes, how to show it, and the folder of the files that it names."""
+    """A mission to compare a plan with: its bytes, its name in messages, and the folder of its files."""
 
     data: bytes
     name: str
@@ -325,11 +329,11 @@ class MissionFile(NamedTuple):
 
 
 def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> PlanReport:
-    """Prove the plan in the bytes of a plan.json; ``name`` is how to show the file.
+    """Verify the plan in the bytes of a plan.json; name : path of the file, used in messages.
 
-    Nothing else is read but the files that the plan links to, which have to be those that it was made with:
-    from the mission's folder as the plan names it, or the plan's own, which ``name`` says.
-    against : a mission that the plan has to be the plan of, besides the one in it
+    Only the files that the plan links to are read besides. They must be unchanged, and are searched in the
+    mission's folder as named in the plan, and in the folder of ``name``.
+    against : another mission that the plan must fulfil, besides the one in it
     """
     missing = _missing_libraries("reading a plan", ("numpy",))
     if missing:
@@ -346,7 +350,7 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
     report = PlanReport(verdict.plan, verdict.certificate, verdict.diagnostics, sources)
     if against is None or verdict.written is None:
         return report
-    # A choice of drones that the mission leaves open is the plan's to make.
+    # If the mission leaves the choice of drones open, the plan's choice is valid.
     asked = lower(*against, verdict.written.mission.source.chosen)
     differing = differs_from(verdict.written, asked)
     plan = None if has_errors(differing) else report.plan
@@ -356,7 +360,7 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
 
 
 def _refusals(mission: MissionIR) -> tuple[Diagnostic, ...]:
-    """Say what keeps a checked mission from being planned: its boxes, its features or missing solvers."""
+    """Return what prevents the planning of a checked mission: boxes, features, or missing solvers."""
     meant = [keyframe for shot in mission.shots for keyframe in shot.keyframes if keyframe.unidentified]
     if meant:
         return (

@@ -1,6 +1,7 @@
-"""check: what can be told of a mission without a solver.
+"""check: the diagnostics of a mission that need no solver.
 
-Apart from ``api``, for editors and hooks check at every save, and most of the time is loading.
+It is separate from ``api``, because editors and hooks check at every save, and loading takes most of the
+time.
 """
 
 from collections.abc import Mapping
@@ -17,7 +18,7 @@ from shotc.spec.load import load
 
 
 class CheckReport(NamedTuple):
-    """What is wrong with one mission text, and the texts that the diagnostics point into."""
+    """The diagnostics of one mission, and the texts that they refer to."""
 
     diagnostics: tuple[Diagnostic, ...]
     sources: dict[str, SourceFile]
@@ -26,7 +27,7 @@ class CheckReport(NamedTuple):
 def check_source(data: bytes, name: str, folder: Path | KeptFiles | None) -> CheckReport:
     """Check one mission without a solver.
 
-    data : any bytes; name : how to show it; folder : where the files that it names are, or these
+    data : any bytes; name : in messages; folder : of the files that it names, or these files
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
@@ -38,5 +39,5 @@ def check_source(data: bytes, name: str, folder: Path | KeptFiles | None) -> Che
 
 
 def models_of(kinds: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return the model of every kind, each made when it is first asked for."""
+    """Return the model of every kind, each made at its first use."""
     return plugins.OnDemand(kinds, lambda name: kinds[name].model)

@@ -1,4 +1,4 @@
-"""Work on a Dask cluster, whose workers have the same shotc installed."""
+"""Work on a Dask cluster; its workers must have the same shotc installed."""
 
 from __future__ import annotations
 
@@ -10,23 +10,24 @@ from distributed import Client, KilledWorker, as_completed
 from shotc.parallel import Lost, NoCluster
 
 ANSWERS_S = 10
-"""Seconds in which a scheduler has to answer."""
+"""Timeout for a scheduler's answer, seconds."""
 
 S = TypeVar("S")
 T = TypeVar("T")
 
 
 def on_cluster(address: str, work: Callable[[S], T], items: Sequence[S]) -> Iterator[T]:
-    """Yield what ``work`` makes of every item, as it comes; ``NoCluster`` where no scheduler answers.
+    """Yield the results of ``work`` for all items in the order of completion.
 
-    address : of the scheduler, as tcp://127.0.0.1:8786
+    address : of the scheduler, such as tcp://127.0.0.1:8786
+    Raise ``NoCluster`` if no scheduler answers, ``Lost`` if a worker dies.
     """
     try:
         client = Client(address, timeout=ANSWERS_S)
     except (OSError, ValueError) as error:
         raise NoCluster(str(error)) from None
     with client:
-        # What all items share, such as the plan that is flown, is sent once.
+        # The data that all items share, such as the plan, is sent once.
         shared = client.scatter(work, broadcast=True)
         waiting = [client.submit(_do, shared, item, pure=False) for item in items]
         try:

@@ -1,10 +1,9 @@
-"""Emitters side by side: processes that stand ready while the plan is still being made.
+"""Parallel emitters: worker processes that load their libraries while the plan is made.
 
-An emitter needs nothing but the plan, and the libraries that draw take about as long to load as a
-mission takes to plan. So workers are forked early, while this process has one thread and no solver;
-they load what their emitters need while this process solves, then get the plan. What a worker does
-not bring back (it failed, or it is gone) is made here again, so that a failure looks as it does
-without workers. Files do not depend on how many there are.
+An emitter needs only the plan, and its drawing libraries take about as long to load as a mission takes to
+plan. So workers are forked early, while this process has one thread and no solver. They load what their
+emitters need while this process solves, then they get the plan. If a worker fails or dies, this process makes
+its files, so a failure looks the same with and without workers. Files do not depend on the number of workers.
 """
 
 from __future__ import annotations
@@ -27,25 +26,25 @@ if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import VerifiedIR
 
 MOST = 4
-"""Processes that are used where nothing is said; our own emitters have no work for more."""
+"""Default number of processes; our own emitters have no work for more."""
 
 _PLAIN = re.compile(r"\w(?:[\w .-]{0,126}[\w-])?").fullmatch
-"""A file name that every system takes and that leads into no other folder."""
+"""A file name that is valid on every system and leads into no other folder."""
 
 Load = Callable[[str], Emitter | None]
 Outcome = Emission | Exception | str
-"""What an emitter made, what it raised, or what is wrong with what it returned."""
+"""The emission of an emitter, its exception, or the fault of its result."""
 
 
 def usual_jobs() -> int:
-    """Return how many processes are used where nothing is said: the cores that we may use, at most MOST."""
+    """Return the default number of processes: that of usable cores, at most MOST."""
     return min(MOST, cores()) if sys.platform == "linux" else 1
 
 
 class EmitterPool:
-    """The processes that emit: this one, and the workers of the pool that ``crew`` made beside it.
+    """The processes that emit: this one, and the workers of the pool that ``crew`` made.
 
-    plans : the ends of pipes by which each worker gets its plan
+    plans : the ends of the pipes through which workers get the plan
     """
 
     def __init__(
@@ -57,7 +56,9 @@ class EmitterPool:
         self._work: list[_Work] = []
 
     def prepare(self, names: Sequence[str]) -> None:
-        """Let the workers load what these emitters need; those that need no preparation stay here."""
+        """Let the workers load what these emitters need; emitters without preparation stay in this
+        process.
+        """
         if self._pool is None or self._load is None:
             return
         heavy = [name for name in names if isinstance(self._load(name), Prepares)]
@@ -67,22 +68,22 @@ class EmitterPool:
                     self._work.append(_Work(share, plan, self._pool.submit(_made, i, share)))
 
     def emit(self, plan: VerifiedIR, emitters: Sequence[Emitter]) -> list[Outcome]:
-        """Run emitters and return what came of each, in their order."""
+        """Run emitters and return their outcomes in order."""
         wanted = {emitter.name for emitter in emitters}
         busy = [work for work in self._work if wanted.intersection(work.names)]
         for work in busy:
-            with suppress(OSError):  # a worker that is gone shows when its result is missing
+            with suppress(OSError):  # a dead worker is noticed by its missing result
                 work.plan.send((plan, wanted))
         away = {name for work in busy for name in work.names}
         made: dict[str, Outcome] = {e.name: _outcome(e, plan) for e in emitters if e.name not in away}
         for work in busy:
-            with suppress(Exception):  # what a worker does not bring back is made here, and fails here
+            with suppress(Exception):  # without a worker's result this process makes the files, or fails
                 made |= work.made.result()
         return [made[e.name] if e.name in made else _outcome(e, plan) for e in emitters]
 
 
 class _Work(NamedTuple):
-    """The emitters that one worker has prepared, the pipe for its plan, and what it will have made."""
+    """The emitters that one worker prepares, the pipe for its plan, and its future result."""
 
     names: list[str]
     plan: Connection
@@ -94,10 +95,10 @@ ALONE = EmitterPool()
 
 @contextmanager
 def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
-    """Yield this process and ``jobs`` - 1 workers, which end with the block, however that ends.
+    """Yield this process and ``jobs`` - 1 workers, which end with the block in any case.
 
-    load : returns an emitter by its name, None for one that cannot be used; called in the workers, too
-    There are no workers where a fork is not safe: off Linux, and in a process with several threads.
+    load : returns an emitter by its name, None for an unusable one; also called in the workers
+    There are no workers if a fork is not safe: on other systems than Linux, and with several threads.
     """
     if jobs < 2 or sys.platform != "linux" or threading.active_count() > 1:
         yield EmitterPool(load=load)
@@ -107,7 +108,7 @@ def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
     try:
         with pool_of(jobs - 1, _begin, (load, orders, plans)) as pool:
             with uninterrupted():
-                pool.submit(os.getpid)  # it forks all its workers at the first task
+                pool.submit(os.getpid)  # the pool forks all its workers at the first task
             for end in orders:
                 end.close()
             yield EmitterPool(pool, plans, load)
@@ -117,18 +118,18 @@ def crew(jobs: int, load: Load) -> Iterator[EmitterPool]:
 
 
 _HERE: list[Any] = []
-"""In a worker: how emitters load, and the ends of the pipes by which plans come."""
+"""In a worker: the loader of emitters, and the ends of the pipes for plans."""
 
 
 def _begin(load: Load, orders: Sequence[Connection], plans: Sequence[Connection]) -> None:
-    """Begin as a worker: keep its own ends of the pipes."""
+    """Initialise a worker: keep its own ends of the pipes."""
     for start in plans:
         start.close()
     _HERE[:] = load, orders
 
 
 def _made(i: int, names: Sequence[str]) -> dict[str, Emission]:
-    """Prepare emitters, wait for a plan in pipe ``i``, and return what they make; what fails is left out."""
+    """Prepare emitters, wait for a plan in pipe ``i``, and return their emissions without the failed ones."""
     load, orders = _HERE
     emitters = [emitter for name in names if (emitter := load(name)) is not None]
     for emitter in emitters:
@@ -148,7 +149,7 @@ def _outcome(emitter: Emitter, plan: VerifiedIR) -> Outcome:
 
 
 def _wrong(made: Any) -> str:
-    """Return what is wrong with an emitter's answer, an empty text where nothing is."""
+    """Return the fault of an emitter's result, an empty text if there is none."""
     if not isinstance(made, Emission):
         return f"returned a {type(made).__name__}, not an Emission"
     artifacts: Any = made.artifacts

@@ -1,7 +1,7 @@
-"""A mission lowered again: what it asks for, from its own text, with what planning chose for it.
+"""The lowering of the mission in a plan, with planning's choices.
 
-A plan holds the mission's text and the tables that it names, so that verification takes from the mission
-itself what the plan is to do, and believes nothing that the plan says of it.
+A plan holds the mission's text and the tables that it names. So verification takes the requirements from the
+mission itself, and does not rely on what the plan states about it.
 """
 
 from collections.abc import Callable, Mapping
@@ -24,18 +24,18 @@ from shotc.spec.load import LoadedMission, load
 
 
 def lower_kept(source: MissionSource, name: str, folders: tuple[Path, ...] = ()) -> Lowered:
-    """Lower the mission that a plan holds.
+    """Lower the mission in a plan.
 
-    name : how to show it; folders : where the files are looked for that the plan links to, in turn
+    name : in messages; folders : searched in order for the files that the plan links to
     """
     return lower(source.text, name, kept_files(source, folders), source.chosen)
 
 
 def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chosen) -> Lowered:
-    """Lower a mission as far as it goes without a solver.
+    """Lower a mission by the front passes, which need no solver.
 
-    data, name, folder : as of ``spec.load.load``
-    chosen : what planning chose; a shot without a drone of its own takes its drone from there
+    data, name, folder : as in ``spec.load.load``
+    chosen : planning's choices, such as the drones of shots with `drone: auto`
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, name, folder, models_of(kinds.plugins), kinds.unusable)
@@ -49,10 +49,11 @@ def lower(data: bytes, name: str, folder: Path | KeptFiles | None, chosen: Chose
 def lower_for_flights(
     data: bytes, name: str, folder: Path | None, filmed: Callable[[], Mapping[str, str]]
 ) -> Lowered:
-    """Lower a mission that flights of other tools are held against.
+    """Lower a mission for the verification of flights by other tools.
 
-    filmed : tells the drones of the shots that files name, asked where the mission leaves a drone open
-    A shot of which no file tells is given to drones in turn, idle ones first; no flight is held to it.
+    filmed : returns the drones of the shots that the flight files name; called if the mission leaves a drone
+        open
+    Shots that no file names are assigned to drones in turn, idle ones first; no flight is compared with them.
     """
     kinds = plugins.shot_kinds()
     mission = load(data, name, folder, models_of(kinds.plugins), kinds.unusable).mission
@@ -79,7 +80,7 @@ def _stopped(found: Any, file: SourceFile) -> Lowered:
 
 
 def _with_chosen(mission: LoadedMission, chosen: Chosen, found: list[Diagnostic]) -> LoadedMission:
-    """Return the mission with the drones that were chosen; a shot that lacks one is told in ``found``."""
+    """Return the mission with the chosen drones; append a diagnostic to ``found`` for a shot without one."""
     drones = dict(chosen.drones)
     shots = mission.spec.shots
     left = {i: shot.id for i, shot in enumerate(shots) if shot.drone == AUTO}
@@ -96,7 +97,7 @@ def _with_chosen(mission: LoadedMission, chosen: Chosen, found: list[Diagnostic]
 
 
 def with_smoothing(keyframes: KeyframeIR, seconds: float | None) -> KeyframeIR:
-    """Return the mission with another smoothing of all its shots than it says, if there is one to try."""
+    """Return the mission with another smoothing time of all its shots, if one is given."""
     if seconds is None:
         return keyframes
     mission = keyframes.mission
@@ -106,9 +107,9 @@ def with_smoothing(keyframes: KeyframeIR, seconds: float | None) -> KeyframeIR:
 
 
 def with_autopilot(keyframes: KeyframeIR, autopilot: Autopilot | None) -> KeyframeIR:
-    """Return the mission with every drone under another autopilot than its model's, if one was chosen.
+    """Return the mission with one autopilot for every drone, if one is given.
 
-    Files for machines that are flown otherwise give way to those that it flies.
+    Emitters for other autopilots are replaced by those for this one.
     """
     if autopilot is None:
         return keyframes

@@ -1,9 +1,9 @@
-"""Writing output files: all of them, whole, or none of them.
+"""Atomic writing of output files: all of them or none.
 
-Every file is first written beside its place, under a temporary name, and flushed to the disk; only
-when all are there are they renamed into place, with interrupts held back for that moment, and if one
-cannot be, those before it are put back. A full disk, a folder or a file that cannot be written or
-Ctrl-C leave the files of an earlier run as they were.
+Every file is first written beside its place under a temporary name and flushed to the disk. When all are
+written, they are renamed into place with interrupts blocked. If a rename fails, the earlier ones are undone.
+So a full disk, a folder or file without write permission, and Ctrl-C leave the files of an earlier run
+unchanged.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ FLOWN = (
     "*.skyc",
     "*-csv.zip",
 )
-"""What is flown from, or made into something that is."""
+"""Files that are flown, or converted into flown ones."""
 
 SHOWN = (
     "framing.csv",
@@ -48,30 +48,30 @@ SHOWN = (
     "*.vviz",
     "*-report.html",
 )
-"""What else is written beside it."""
+"""Other output files."""
 
 TELL_BYTES = 10_000_000
-"""Bytes of a large file after which it is told how far it is."""
+"""Bytes between two progress messages for a large file."""
 
 HEAD = 65536
-"""Bytes of a plan.json in which its mission's name is looked for."""
+"""Bytes at the start of a plan.json that are searched for its mission's name."""
 
 
 class Earlier(NamedTuple):
-    """What an earlier run left to be flown: its mission, where a plan.json tells it, and names of files."""
+    """Flown files of an earlier run: its mission, if a plan.json names it, and the names of the files."""
 
     mission: str | None
     files: tuple[str, ...]
 
 
 def earlier(folder: Path) -> Earlier | None:
-    """Return the outputs in a folder that somebody may fly, or None where there are none."""
+    """Return the flown files in a folder, or None if there are none."""
     files = tuple(path.name for pattern in FLOWN for path in sorted(folder.glob(pattern)) if path.is_file())
     return Earlier(_mission_of(folder / FLOWN[0]), files) if files else None
 
 
 def _mission_of(plan: Path) -> str | None:
-    """Return the mission's name from the first bytes of a plan.json: that of a show is many megabytes."""
+    """Return the mission's name from the first bytes of a plan.json, which for a show has many megabytes."""
     try:
         with plan.open("rb") as stream:
             head = stream.read(HEAD).decode(errors="replace")
@@ -90,9 +90,9 @@ def left_over(folder: Path, written: Collection[str]) -> tuple[str, ...]:
 def write(
     artifacts: Sequence[Artifact], folder: Path, progress: Callable[[str], None] | None = None
 ) -> tuple[list[Path], tuple[Diagnostic, ...]]:
-    """Write artifacts into ``folder``, which is made if need be; return their paths, or an error.
+    """Write artifacts into ``folder``, which is created if necessary; return their paths, or an error.
 
-    progress : is told how much of a large file is written
+    progress : called with the progress of large files
     """
     clash = _clash(artifacts)
     if clash is not None:
@@ -111,13 +111,13 @@ def write(
     finally:
         _forget(staged)
         for made in missing:
-            with suppress(OSError):  # not empty: written, or somebody else's
+            with suppress(OSError):  # not empty: it has our files, or others
                 made.rmdir()
     return [file.place for file in staged], ()
 
 
 class _Staged(NamedTuple):
-    """A file to write: its place, where it is written first, and where the one it replaces is kept."""
+    """A file to write: its path, its temporary path, and the backup path of the file that it replaces."""
 
     place: Path
     temporary: Path
@@ -125,7 +125,7 @@ class _Staged(NamedTuple):
 
     @classmethod
     def beside(cls, place: Path) -> Self:
-        """Return the names of a file; IsADirectoryError where a folder is in its place."""
+        """Return the paths of a file; raise IsADirectoryError if a folder is in its place."""
         if place.is_dir():
             raise IsADirectoryError(f"{place.name} is a folder there")
         temporary, backup = (place.with_name(f".{place.name}.{os.getpid()}.{end}") for end in ("tmp", "old"))
@@ -133,7 +133,7 @@ class _Staged(NamedTuple):
 
 
 def _put_in_place(staged: Sequence[_Staged]) -> None:
-    """Rename all files into place; where one cannot be, put back those that were replaced, and raise."""
+    """Rename all files into place; if one fails, restore the replaced files and raise OSError."""
     for file in staged:
         if file.place.exists():
             _keep(file.place, file.backup)
@@ -193,7 +193,7 @@ def _write_through(path: Path, artifact: Artifact, progress: Callable[[str], Non
 
 @contextmanager
 def _uninterrupted() -> Iterator[None]:
-    """Hold back Ctrl-C; it is delivered afterwards. Off the main thread there is nothing to hold."""
+    """Delay Ctrl-C until the end of the block; outside the main thread do nothing."""
     pending: list[int] = []
     try:
         before = signal.signal(signal.SIGINT, lambda number, _frame: pending.append(number))

@@ -1,4 +1,4 @@
-"""Work that is done side by side: by processes of this machine, or by a cluster."""
+"""Parallel work, by processes of this machine or by a cluster."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ S = TypeVar("S")
 T = TypeVar("T")
 
 GONE_S = 5.0
-"""Seconds in which a process that is killed is gone."""
+"""Timeout for the end of a killed process, seconds."""
 
 Hands = int | str
-"""So many processes of this machine at most, or the cluster whose scheduler is at an address."""
+"""The largest number of processes of this machine, or the address of a cluster's scheduler."""
 
 
 class NoCluster(Exception):
@@ -27,7 +27,7 @@ class NoCluster(Exception):
 
 
 class Lost(Exception):
-    """A process is gone before its work was done: killed, or out of memory."""
+    """A process died before its work was done: killed, or out of memory."""
 
 
 def nothing() -> None:
@@ -35,15 +35,15 @@ def nothing() -> None:
 
 
 def cores() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
 
 
 def as_done(work: Callable[[S], T], items: Sequence[S], hands: Hands) -> Iterator[T]:
-    """Yield what ``work`` makes of every item, as it comes.
+    """Yield the results of ``work`` for all items in the order of completion.
 
-    ``work`` and the items are pickled; with one process, or one item, it works in this one.
-    Raises ``NoCluster`` where no scheduler answers, ``Lost`` where a process is killed.
+    ``work`` and the items are pickled. With one process or one item the work runs in this process.
+    Raise ``NoCluster`` if no scheduler answers, ``Lost`` if a process is killed.
     """
     if isinstance(hands, str):
         from shotc.cluster import on_cluster
@@ -67,11 +67,11 @@ def as_done(work: Callable[[S], T], items: Sequence[S], hands: Hands) -> Iterato
 def pool_of(
     workers: int, begin: Callable[..., None] = nothing, given: tuple[Any, ...] = ()
 ) -> Iterator[ProcessPoolExecutor]:
-    """Yield processes that work for this one and end with the block, however that ends.
+    """Yield a pool of worker processes, which end with the block in any case.
 
-    begin : called in each of them first, with what is given
-    They do not hear interrupts, and end when this process is killed. They are forked, at the first task that
-    they are given, where that is safe: on Linux; enter the block before threads are started.
+    begin : called first in each worker, with the arguments ``given``
+    Workers ignore interrupts, and end if this process is killed. On Linux, where it is safe, they are forked
+    at the first task; enter the block before threads start.
     """
     others = set(active_children())
     context = get_context("fork" if sys.platform == "linux" else "spawn")
@@ -84,17 +84,17 @@ def pool_of(
         with uninterrupted():
             mine = set(active_children()) - others
             for worker in mine:
-                worker.kill()  # it writes nothing to the disk
+                worker.kill()  # safe, because it writes nothing to the disk
             for worker in mine:
                 worker.join(GONE_S)
-            # One that is killed in the middle of an answer leaves half of it in the pipe, and the thread that
-            # reads answers waits for the rest for good: nobody waits for that thread then.
+            # A worker that is killed while it sends a result leaves a part of it in the pipe. The thread that
+            # reads results then waits forever, so we do not wait for that thread.
             pool.shutdown(wait=done)
 
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Hold interrupts back: no worker is to be forgotten, and none is to meet one before it ignores them."""
+    """Block interrupts, so that no worker is lost and none gets an interrupt before it ignores them."""
     if sys.platform == "win32":
         yield
         return
@@ -106,7 +106,7 @@ def uninterrupted() -> Iterator[None]:
 
 
 def _begin(begin: Callable[..., None], given: tuple[Any, ...]) -> None:
-    """Begin as a worker; one whose parent is killed ends, too."""
+    """Initialise a worker; it ends if its parent is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     begin(*given)
     threading.Thread(target=_end_with_parent, daemon=True).start()

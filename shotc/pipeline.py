@@ -1,4 +1,4 @@
-"""The compiler in one screen: its routes, and the loop that runs their passes."""
+"""The compiler on one page: its routes, and the loop that runs their passes."""
 
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -20,7 +20,7 @@ else:
 
 
 class PassReport(NamedTuple):
-    """What one pass did: its name, its output (None where it failed), wall seconds, and what it said."""
+    """The record of one pass: name, output (None if it failed), wall time in seconds, diagnostics."""
 
     name: str
     output: Any
@@ -29,7 +29,7 @@ class PassReport(NamedTuple):
 
 
 class PipelineRun(NamedTuple):
-    """A finished run: the last IR that was reached, or None after an error, and all reports."""
+    """A finished run: the last IR, or None after an error, and all reports."""
 
     value: Any
     diagnostics: tuple[Diagnostic, ...]
@@ -37,10 +37,10 @@ class PipelineRun(NamedTuple):
 
 
 class RouteStep(NamedTuple):
-    """One pass of a route, known before its module loads.
+    """One pass of a route, described before its module loads.
 
-    name : as commands call it; takes, gives : what it lowers from and to
-    home : module:class; options : the fields of ``PassSettings`` that it is made with
+    name : in commands; takes, gives : the IRs that it lowers from and to
+    home : module:class; options : the fields of ``PassSettings`` that its constructor takes
     """
 
     name: str
@@ -51,10 +51,10 @@ class RouteStep(NamedTuple):
 
 
 class PassSettings(NamedTuple):
-    """What passes are made with.
+    """The arguments of passes' constructors.
 
-    kinds : the shot kinds by name; emitters : the names of all, None where they are not known
-    seat : the refiner and where it comes from (``refine_path.Seat``); deadline : seconds that it may take
+    kinds : the shot kinds by name; emitters : the names of all, None if unknown
+    seat : the refiner and its origin (``refine_path.Seat``); deadline : seconds that it may take
     show : the flights of fleets that cameras are planned beside (TrajectoryIR)
     """
 
@@ -72,7 +72,7 @@ FRONT = (
     RouteStep("resolve", "LoadedMission", "MissionIR", "shotc.passes.resolve:Resolve", ("kinds", "emitters")),
     RouteStep("place-keyframes", "MissionIR", "KeyframeIR", "shotc.passes.place_keyframes:PlaceKeyframes"),
 )
-"""What needs no solver: ``check`` runs it."""
+"""The passes without a solver; ``check`` runs them."""
 
 VERIFY = RouteStep("verify", "TrajectoryIR", "VerifiedIR", "shotc.passes.verify:Verify")
 FILM = (
@@ -95,16 +95,18 @@ ROUTES = {
     "film": (ASSIGN, *FRONT, *FILM, VERIFY),
     "show": (ASSIGN, *FRONT, *SHOW, VERIFY),
 }
-"""From a mission to a verified plan: what cameras film, and what fleets display."""
+"""The passes from a mission to a verified plan: for films of cameras, and for displays of fleets."""
 
 BESIDE_SHOW = (*FILM, JOIN, VERIFY)
-"""What follows the passes of a show where cameras film it, too: one judge over all."""
+"""The passes after those of a show that cameras also film; one verification covers both."""
 
 PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, JOIN, VERIFY))
 
 
 def passes_of(steps: Sequence[RouteStep], setting: PassSettings) -> tuple[AnyPass, ...]:
-    """Return the passes of a part of a route; ValueError where one does not take what the last one gives."""
+    """Return the passes of a part of a route; raise ValueError if one does not take what the last one
+    gives.
+    """
     for last, step in pairwise(steps):
         if last.gives != step.takes:
             raise ValueError(f"{last.name} gives {last.gives}, {step.name} takes {step.takes}")
@@ -124,10 +126,10 @@ def run(
     stop_after: str | None = None,
     clock: Callable[[], float] = time.perf_counter,
 ) -> PipelineRun:
-    """Run passes in turn until one fails or ``stop_after`` is done.
+    """Run passes in order until one fails or ``stop_after`` is done.
 
-    An error that knows a bound only does not stop the run: a later pass has the exact number.
-    After each pass the IR's own ``check()`` runs, where it has one: a ValueError from it is a bug.
+    An error that is only a bound does not stop the run, because a later pass has the exact number. After each
+    pass the IR's ``check()`` runs, if it has one; a ValueError from it is a bug.
     """
     diagnostics: list[Diagnostic] = []
     reports: list[PassReport] = []
@@ -151,11 +153,11 @@ def run(
 def run_refined(
     passes: Sequence[AnyPass], value: Any, ctx: PassContext, seat: Any, stop_after: str | None = None
 ) -> PipelineRun:
-    """Run passes, and where a refined path is refused that could be flown unrefined, blame its refiner.
+    """Run passes with a refiner; if only the refined path is refused, report its refiner.
 
-    seat : as in ``PassSettings``. Where the mission allows it, the unrefined path is flown instead. Where
-    the refiner gives no path, the later passes judge the unrefined one, and its errors say what came of it.
-    Where a refined shot does not fit into the time of its unrefined path, all is planned again with more.
+    seat : as in ``PassSettings``. If the mission allows it, the convex path then replaces the refined one. If
+    the refiner gives no path, the later passes judge the convex one, and the errors state the result. If a
+    refined shot does not fit the duration of its convex path, the run is repeated with a longer one.
     """
     from shotc.passes.refine_path import blame, needed, shortest_refined, still_true
     from shotc.passes.solve_path_qp import SolvePathQp
@@ -193,7 +195,7 @@ def run_refined(
 
 
 def _with_convex(done: PipelineRun, later: Sequence[AnyPass], convex: Any, ctx: PassContext) -> PipelineRun:
-    """Return a run that ends at the refiner, whose errors say what becomes of the convex path."""
+    """Return a run that ends at the refiner, with errors that state the result of the convex path."""
     from shotc.passes.refine_path import with_convex
 
     judged = run(later, convex, ctx)
@@ -201,7 +203,7 @@ def _with_convex(done: PipelineRun, later: Sequence[AnyPass], convex: Any, ctx: 
 
 
 def _accounted(done: PipelineRun, seat: Any, paths: tuple[Any, Any]) -> PipelineRun:
-    """Return a run that tells of every shot whether it is refined; paths : as in ``account``."""
+    """Return a run that reports for every shot whether it is refined; paths : as in ``account``."""
     from shotc.passes.refine_path import account
 
     noted = account(seat, paths, done.diagnostics)

@@ -1,8 +1,8 @@
-"""Where plugins come from, of all groups by one route: entry points.
+"""The discovery of plugins of all groups by entry points.
 
-An entry point names an object with ``name``, ``summary`` and ``api`` (the version it was written
-against). Nothing is imported until it is asked for; a clash of names, a failed import or another api
-version is a diagnostic that names the package, never a silent choice.
+An entry point names an object with ``name``, ``summary`` and ``api`` (the api version that it is written
+for). Plugins are imported at first use. A clash of names, a failed import or another api version is a
+diagnostic that names the package, never a silent choice.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -20,7 +20,7 @@ OPTIONAL = (
     "rotorpy",
     "distributed",
 )
-"""Libraries that the base install does without: a plugin that misses one is not broken."""
+"""Libraries that the base install does not have; a plugin without its library is not broken."""
 OURS = "shotc"
 OUR_REFINER, NO_REFINER = "ours", "none"
 GROUPS = {
@@ -33,10 +33,10 @@ GROUPS = {
 
 
 class LoadedPlugins(NamedTuple):
-    """The plugins of one group that can be used, by name, and what is wrong with the others.
+    """The usable plugins of one group by name, and the faults of the others.
 
-    faults : why a plugin cannot be used, by its name; only what names it is concerned
-    lacking : names of plugins whose optional library is not installed, and that library
+    faults : diagnostics of unusable plugins by name; they concern only what names these plugins
+    lacking : names of plugins whose optional library is not installed, with that library
     """
 
     plugins: Mapping[str, Any]
@@ -45,12 +45,12 @@ class LoadedPlugins(NamedTuple):
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What is wrong with any of them."""
+        """All faults."""
         return tuple(self.faults.values())
 
     @property
     def unusable(self) -> Mapping[str, Diagnostic]:
-        """Why a name that is registered cannot be used, a missing library included."""
+        """The diagnostics of unusable registered names, with those of missing libraries."""
         if not self.lacking:
             return self.faults
         missing = {n: not_installed("P004", f"plugin `{n}`", [lib]) for n, lib in self.lacking.items()}
@@ -60,8 +60,8 @@ class LoadedPlugins(NamedTuple):
 class Source(NamedTuple):
     """One plugin and where it comes from.
 
-    plugin : None where it cannot be used; diagnostics say why
-    package : its distribution; reference : module:attribute, as its entry point says
+    plugin : None if it is unusable; then the diagnostics say why
+    package : its distribution; reference : module:attribute of its entry point
     """
 
     plugin: Any
@@ -71,7 +71,7 @@ class Source(NamedTuple):
 
 
 class OnDemand(Mapping[str, Any]):
-    """A mapping of known keys, each of whose values is made when it is first asked for."""
+    """A mapping of known keys that makes each value at its first use."""
 
     def __init__(self, keys: Iterable[str], make: Callable[[str], Any]) -> None:
         self._keys = dict.fromkeys(keys)
@@ -99,7 +99,7 @@ def discover(group: str) -> LoadedPlugins:
 
 
 def one(group: str, name: str) -> Source:
-    """Load one plugin of a group alone: what is wrong with others does not matter. KeyError: no such name."""
+    """Load one plugin of a group, independent of faults of others; raise KeyError if the name is unknown."""
     entries = _by_name(group)[name]
     source = _prove(group, {name: entries})
     owners = " and ".join(dict.fromkeys(map(_owner, entries)))
@@ -111,18 +111,18 @@ def one(group: str, name: str) -> Source:
 
 
 def package_of(group: str, name: str) -> str:
-    """Return the distribution that registers a plugin; ours where the name is not registered at all."""
+    """Return the distribution that registers a plugin; ours if the name is not registered."""
     entries = _by_name(group).get(name)
     return _owner(entries[0]) if entries else OURS
 
 
 def usual_refiner() -> str:
-    """Return the refiner that is used where none is asked for: ours where it is installed."""
+    """Return the name of the default refiner: ours if it is installed."""
     return OUR_REFINER if OUR_REFINER in names("refiners") else NO_REFINER
 
 
 def no_refiner() -> Diagnostic:
-    """Say that a mission was planned without a refiner, since ours is not installed."""
+    """Return the diagnostic for planning without a refiner because ours is not installed."""
     return Diagnostic(
         "P007",
         "planned without a refiner, the convex path is flown as it is",
@@ -132,9 +132,9 @@ def no_refiner() -> Diagnostic:
 
 @cache
 def shot_kinds() -> LoadedPlugins:
-    """Return the shot kinds: those of other packages loaded and proved, each of ours loaded when it is used.
+    """Return the shot kinds: those of other packages loaded and checked, ours each loaded at first use.
 
-    A mission uses a few of our kinds; making the models of all takes longer than checking the mission.
+    A mission uses few of our kinds, and making the models of all takes longer than checking the mission.
     """
     table = _by_name("kinds")
     ours = {name: entries[0] for name, entries in table.items() if len(entries) == 1 and _is_ours(entries[0])}
@@ -150,7 +150,7 @@ def names(group: str) -> list[str]:
 
 
 class Listed(NamedTuple):
-    """A plugin: its name, what it does, and the package that it comes from."""
+    """A plugin in a list: its name, its summary, and its package."""
 
     name: str
     summary: str
@@ -158,7 +158,7 @@ class Listed(NamedTuple):
 
 
 def listing(group: str) -> list[Listed]:
-    """Return every plugin of ``group``, those that lack a library too."""
+    """Return every plugin of ``group``, with those that lack a library."""
     known = discover(group)
     summaries = {name: plugin.summary for name, plugin in known.plugins.items()}
     summaries |= {name: f"needs {library}, which is not installed" for name, library in known.lacking.items()}
@@ -170,25 +170,25 @@ def listing(group: str) -> list[Listed]:
 
 
 def is_optional(missing: ModuleNotFoundError) -> bool:
-    """Return whether what could not be imported is one of the optional libraries."""
+    """Return whether the missing module belongs to an optional library."""
     return (missing.name or "").partition(".")[0] in OPTIONAL
 
 
 def not_installed(code: str, what: str, libraries: Sequence[str]) -> Diagnostic:
-    """Say what cannot be had without some optional libraries; P004 refuses, P005 goes on without."""
+    """Return the diagnostic for missing optional libraries; code : P004 refuses, P005 continues without."""
     return Diagnostic(
         code, f"{what} needs {', '.join(libraries)}, not installed here", help=remedy(libraries)
     )
 
 
 def forget() -> None:
-    """Forget which packages are installed, and look again when next asked."""
+    """Clear the caches of installed packages, so that the next call searches again."""
     for remembered in (discover, shot_kinds, _installed):
         remembered.cache_clear()
 
 
 def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> LoadedPlugins:
-    """Load every plugin of a table."""
+    """Load and check every plugin of a table."""
     plugins: dict[str, Any] = {}
     faults: dict[str, Diagnostic] = {}
     lacking: dict[str, str] = {}
@@ -210,7 +210,7 @@ def _prove(group: str, table: Mapping[str, list[EntryPoint]]) -> LoadedPlugins:
 
 @cache
 def _installed(group: str) -> tuple[EntryPoint, ...]:
-    """Return the entry points of installed packages in a group; of a package found twice, the first."""
+    """Return the entry points of installed packages in a group; for a package found twice, the first."""
     return tuple(entry_points(group=GROUPS[group]))
 
 
@@ -226,9 +226,9 @@ def _by_name(group: str) -> dict[str, list[EntryPoint]]:
 
 
 def _load(entry: EntryPoint, group: str) -> Any:
-    """Return the plugin, or what is wrong with it; ModuleNotFoundError where it lacks an optional library.
+    """Return the plugin, or its fault; raise ModuleNotFoundError if an optional library is missing.
 
-    A kind bears the name of its package, so that its faults can be told apart from ours.
+    A kind of another package gets the name of that package, to distinguish its faults from ours.
     """
     try:
         plugin = entry.load()

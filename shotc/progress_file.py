@@ -1,6 +1,6 @@
-"""What is done of long work that may be killed: one line of JSON an entry, in a file that goes at the end.
+"""The progress of long work that may be killed: a file with one JSON line an entry, removed at the end.
 
-A line that was not written to its end is passed over.
+An incomplete line is ignored.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class ProgressFile:
-    """The entries that are kept in a file; each is an object with a text ``key``."""
+    """The entries in a file; each is an object with a text ``key``."""
 
     path: Path
 
     def entries(self) -> Iterator[dict[str, Any]]:
-        """Yield what is kept; nothing where the file cannot be read."""
+        """Yield the entries; none if the file cannot be read."""
         try:
             lines = self.path.read_text(encoding="ascii").splitlines()
         except (OSError, ValueError):
@@ -32,7 +32,7 @@ class ProgressFile:
                     yield entry
 
     def add(self, key: str, entry: dict[str, Any]) -> None:
-        """Keep an entry; a disk that does not take it is no reason to stop."""
+        """Store an entry; ignore a failure of the disk."""
         with suppress(OSError):
             self.path.parent.mkdir(parents=True, exist_ok=True)
             with self.path.open("a", encoding="ascii") as stream:

@@ -1,4 +1,4 @@
-"""What brings optional libraries to this very installation of shotc."""
+"""Commands that install optional libraries for this installation of shotc."""
 
 import json
 import platform
@@ -14,11 +14,11 @@ PLACES = frozenset({"pyproj", "laspy", "lazrs"})
 """Libraries of the extra `geo`."""
 SENDER = "pymavlink"
 ALONE = {"rotorpy": "rotorpy", "distributed": "dask"}
-"""Libraries of which each is an extra by itself."""
+"""Libraries that each have their own extra."""
 
 
 def remedy(libraries: Sequence[str]) -> str:
-    """Return what to do where optional libraries are missing, as the help of a diagnostic."""
+    """Return the help text of a diagnostic for missing optional libraries."""
     packages = {library.partition(".")[0] for library in libraries}
     if VIEWER in packages and not has_viewer():
         packages -= {VIEWER}
@@ -39,17 +39,17 @@ def remedy(libraries: Sequence[str]) -> str:
 
 
 def has_viewer() -> bool:
-    """Whether the extra `view` brings the viewer here, as its marker in pyproject.toml says."""
+    """Return whether the extra `view` installs the viewer here, by its marker in pyproject.toml."""
     return sys.platform != "darwin" or platform.machine() == "arm64"
 
 
 def install_line(extra: str) -> str:
-    """Return the pip command that brings an extra to where shotc was installed from."""
+    """Return the pip command that installs an extra from the source of this installation."""
     return f"pip install {_requirement(extra, _source())}"
 
 
 def _source() -> dict[str, Any]:
-    """Return where pip says that shotc came from (PEP 610); empty for a package index."""
+    """Return the source of shotc as recorded by pip (PEP 610); empty for a package index."""
     try:
         text = distribution(PACKAGE).read_text("direct_url.json")
         source = json.loads(text or "{}")
@@ -59,7 +59,7 @@ def _source() -> dict[str, Any]:
 
 
 def _requirement(extra: str, source: dict[str, Any]) -> str:
-    """Return what pip is to install, as a shell reads it."""
+    """Return the requirement for pip, quoted for a shell."""
     url = source.get("url")
     if not isinstance(url, str):
         return f"'{PACKAGE}[{extra}]'"

@@ -1,36 +1,37 @@
-"""Numbers rounded to one side, so that one that is told is enough when it is written into a mission."""
+"""Numbers rounded to one side, so that a number from a message suffices when written into a mission."""
 
 from math import ceil, floor, log10
 
 EXACT = 2e-8
-"""Share of the last digit that is rounding error: a number so little over a decimal is that decimal.
+"""Share of the last digit that counts as rounding error: a number above a decimal by less is that decimal.
 
-It stays below what checks forgive, a micrometre or microsecond, so that the number told still passes them.
+It is below the tolerance of checks, a micrometre or microsecond, so the number in a message still passes
+them.
 """
 
 
 def up(value: float, digits: int = 2) -> float:
-    """Return the least number of so many decimals that is no less than a value."""
+    """Return the least number with so many decimals that is not below a value."""
     return _decimal(ceil(_steps(value, digits) - EXACT), digits)
 
 
 def down(value: float, digits: int = 2) -> float:
-    """Return the greatest number of so many decimals that is no more than a value."""
+    """Return the greatest number with so many decimals that is not above a value."""
     return _decimal(floor(_steps(value, digits) + EXACT), digits)
 
 
 def at_least(value: float, digits: int = 2) -> str:
-    """Write a value rounded up, with all its decimals."""
+    """Return a value rounded up as text, with all its decimals."""
     return f"{up(value, digits):.{max(digits, 0)}f}"
 
 
 def at_most(value: float, digits: int = 2) -> str:
-    """Write a value rounded down, with all its decimals."""
+    """Return a value rounded down as text, with all its decimals."""
     return f"{down(value, digits):.{max(digits, 0)}f}"
 
 
 def away(value: float, *, upper: bool, digits: int) -> float:
-    """Return a value rounded to so many significant digits, up if it is to be an upper limit, else down."""
+    """Return a value rounded to so many significant digits, up for an upper limit, else down."""
     if value == 0:
         return 0.0
     decimals = digits - 1 - floor(log10(abs(value)))
@@ -38,7 +39,7 @@ def away(value: float, *, upper: bool, digits: int) -> float:
 
 
 def plain(value: float, digits: int = 3) -> str:
-    """Write a value as short as it was likely asked, with no more than so many decimals."""
+    """Return a value as text with at most so many decimals, without trailing zeros."""
     return f"{value:.{digits}f}".rstrip("0").rstrip(".")
 
 
@@ -51,11 +52,11 @@ def _decimal(steps: int, digits: int) -> float:
 
 
 def as_minutes(seconds: float) -> str:
-    """Write a time as minutes, seconds and tenths."""
+    """Return a time as text: minutes, seconds and tenths."""
     tenths = round(seconds * 10)
     return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def exposure(seconds: float) -> str:
-    """Write a time of exposure as photographers do, with at most four digits."""
+    """Return an exposure time as photographers write it, with at most four digits."""
     return f"1/{1 / seconds:.4g} s" if seconds < 0.5 else f"{seconds:g} s"

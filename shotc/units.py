@@ -1,7 +1,7 @@
-"""Quantities: a number in SI or text with a unit, read against a closed table of units.
+"""Quantities: a number in SI, or text with a unit from a closed table.
 
-A bare number is SI (metres, seconds, m/s); for an angle it is refused, because degrees and radians
-look alike. Nothing is evaluated and no unit is composed: what is not in the table is unknown.
+A bare number is SI (metres, seconds, m/s). For an angle it is refused, because degrees and radians look
+alike. Nothing is evaluated and no units are composed: a unit outside the table is unknown.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ _FOOT = (0.3048, 1.0)
 _KMH = (1.0, 3.6)
 _KNOT = (1852.0, 3600.0)
 
-# Per dimension, every spelling that is understood: what to multiply with and then to divide by for SI,
-# so that 95 % is 0.95 to the last digit.
+# The accepted spellings of each dimension, with the factor and then the divisor for SI. With a divisor 95 %
+# is 0.95 to the last digit.
 UNITS: dict[Dimension, dict[str, tuple[float, float]]] = {
     "length": {"m": _SI, "mm": (1.0, 1e3), "cm": (1.0, 1e2), "km": (1e3, 1.0), "ft": _FOOT},
     "duration": {"s": _SI, "ms": (1.0, 1e3), "min": (60.0, 1.0), "h": (3600.0, 1.0)},
@@ -64,7 +64,7 @@ UNITS: dict[Dimension, dict[str, tuple[float, float]]] = {
     "energy": {"J": _SI, "kJ": (1e3, 1.0), "Wh": (3600.0, 1.0), "kWh": (3.6e6, 1.0)},
 }
 
-# Beyond these magnitudes (SI) no camera drone operates: the number is a slip of the pen.
+# No camera drone operates beyond these magnitudes (SI): a larger number is a mistake.
 LARGEST: dict[Dimension, float] = {
     "length": 1e5,
     "duration": 1e5,
@@ -80,7 +80,7 @@ LARGEST: dict[Dimension, float] = {
     "energy": 1e9,
 }
 
-# Below these magnitudes a value that has to be positive is as good as zero.
+# A value that must be positive counts as zero below these magnitudes.
 SMALLEST: dict[Dimension, float] = {
     "length": 1e-4,
     "duration": 1e-3,
@@ -114,13 +114,13 @@ EXAMPLES: dict[Dimension, str] = {
 ANGULAR: frozenset[Dimension] = frozenset({"angle", "angular rate", "angular acceleration"})
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-# Text longer than this is no quantity; the bound keeps messages and the search for a near unit short.
+# Longer text is no quantity; the bound keeps messages and the search for a similar unit short.
 _LONGEST_TEXT = 60
-# A unit begins with a letter or a sign of its own: `1,5` and `9**9` are no numbers with units.
+# A unit starts with a letter or with % ° ': `1,5` and `9**9` are no numbers with units.
 _QUANTITY = re.compile(rf"\s*({NUMBER})\s*((?:[^\W\d_]|[°%'])\S*)?\s*")
 
 _WINDS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
-# Compass bearings in words, which people write for a heading: to how many degrees.
+# Compass bearings in words, which people write for a heading, in degrees.
 _COMPASS = {
     name: 45 * i
     for i, wind in enumerate(_WINDS)
@@ -129,7 +129,7 @@ _COMPASS = {
 
 _TURNS = ("turn", "turns", "rev", "revs", "revolution", "revolutions", "rotation", "rotations")
 
-# Spellings that are near to nothing in the table by letters, or near to the wrong thing.
+# Spellings that are not similar to the intended unit in the table, or more similar to another one.
 _MEANT = {
     "meter": "m",
     "meters": "m",
@@ -166,9 +166,9 @@ _MEANT = {
 
 
 class QuantityError(ValueError):
-    """A value that is no quantity of the dimension asked for.
+    """A value that is no quantity of the required dimension.
 
-    kind : which of the unit faults it is; message, help : as a diagnostic carries them
+    kind : of the fault; message, help : for a diagnostic
     """
 
     def __init__(self, kind: Kind, message: str, help_: str = "") -> None:
@@ -181,9 +181,9 @@ class QuantityError(ValueError):
 def parse_quantity(value: object, dimension: Dimension) -> float:
     """Return ``value`` in SI (radians for angles).
 
-    value : a number (SI; refused where ``dimension`` is angular) or text such as ``12 km/h``
+    value : a number (SI; refused for an angular ``dimension``) or text such as ``12 km/h``
 
-    Raises QuantityError for anything else, for values that are not finite and for magnitudes beyond
+    Raise QuantityError for anything else, for values that are not finite, and for magnitudes beyond
     ``LARGEST``.
     """
     if isinstance(value, str):
@@ -207,7 +207,7 @@ def a(noun: str) -> str:
 
 
 def describe(value: object) -> str:
-    """Return what kind of YAML value this is, as an author would call it."""
+    """Return the kind of a YAML value in words."""
     names = {dict: "a mapping", list: "a list", bool: "true or false", int: "a number", float: "a number"}
     if value is None:
         return "nothing"
@@ -245,7 +245,7 @@ def _parse_text(text: str, dimension: Dimension) -> float:
 
 
 def _meant_by(text: str, dimension: Dimension) -> str:
-    """Return the help for text that is no quantity: what it was most likely meant to be."""
+    """Return the help for text that is no quantity: its most likely meaning."""
     bearing = _COMPASS.get(text.strip().lower()) if dimension == "angle" else None
     if bearing is not None:
         return f"write `{bearing} deg`"
@@ -263,7 +263,7 @@ def _whole_turns(number: float, unit: str, dimension: Dimension) -> str:
 
 
 def _with_unit(value: float, dimension: Dimension) -> str:
-    """Return a bare angle as it may have been meant: in degrees, or also in radians where it is small."""
+    """Return the help for a bare angle: in degrees, or also in radians if it is small."""
     degrees = f"write `{_short(value)} {_unit(dimension)}`"
     if abs(value) > 2 * pi:
         return degrees
@@ -312,7 +312,7 @@ def _such_as(dimension: Dimension) -> str:
 
 
 def _short(value: float) -> str:
-    # repr of an int can be thousands of digits long, or refused for being so.
+    # The repr of an int can have thousands of digits, or be refused for that.
     try:
         return f"{value:.10g}"
     except OverflowError:

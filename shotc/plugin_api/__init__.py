@@ -1,13 +1,13 @@
-"""All that a plugin imports. Names load when they are used, so a kind needs no numpy.
+"""The interface for plugins; they import nothing else. Names load at first use, so a kind needs no numpy.
 
-A plugin is an installable package with an entry point in one of five groups, each naming an object
-that carries ``name``, ``summary`` and ``api = 1``:
+A plugin is an installable package with an entry point in one of five groups. The entry point names an object
+with ``name``, ``summary`` and ``api = 1``:
 
 - ``shotc.kinds``: a ``Kind``, which turns a shot's parameters into keyframes
 - ``shotc.refiners``: a ``Refiner``, which improves the filmed legs of a path
 - ``shotc.emitters``: an ``Emitter``, which turns a verified plan into files
-- ``shotc.replanners``: a ``Replanner``, which plans the next seconds of a flight anew while it is flown
-- ``shotc.saliency``: a ``Saliency``, which guesses where in a picture its subject is
+- ``shotc.replanners``: a ``Replanner``, which plans the next seconds of a flight during the flight
+- ``shotc.saliency``: a ``Saliency``, which estimates where the subject is in a picture
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What a refiner may use of shotc besides ``plugin_api``: the free space, curves, timing, and the way back.
+"""The interface for refiners besides ``plugin_api``: free space, curves, timing, and the return into a path.
 
-Import it where numpy is wanted anyway; unlike ``plugin_api`` it loads all of it at once.
+Unlike ``plugin_api`` it loads all its names at once, with numpy.
 """
 
 from __future__ import annotations

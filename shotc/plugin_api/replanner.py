@@ -1,11 +1,11 @@
-"""The seat of replanners: what plans the next seconds of a flight anew while it is flown.
+"""The interface for replanners, which plan the next seconds of a flight during the flight.
 
-A package registers one in the entry-point group ``shotc.replanners``. It gets what holds for a whole shot
-and returns a planner, whose ``replan`` gets what is known at one moment and the plan that the drone flies. It
-is a pure function of the two: nothing else is kept between calls. One planner serves one thread at a time.
+A package registers a replanner in the entry-point group ``shotc.replanners``. It gets the constant part of a
+shot and returns a planner. The planner's ``replan`` gets the situation at one time and the current plan. It
+is a pure function of the two: no other state is kept between calls. One planner serves one thread at a time.
 
-Lengths are metres, times seconds, angles radians. Vectors are in W: East, North, Up. N is the number of
-stages of the horizon: stage k lies k steps after the moment of the replan, and stage 0 is that moment.
+Lengths are in metres, times in seconds, angles in radians. Vectors are in W: East, North, Up. N is the number
+of stages of the horizon: stage k is k steps after the time of the replan, and stage 0 is that time.
 """
 
 from __future__ import annotations
@@ -57,17 +57,17 @@ __all__ = [
 ]
 
 Status = Literal["planned", "stalled", "opened", "failed"]
-"""What a replan did.
+"""The result of a replan.
 
 planned : a better plan than the one before, continued from the measured state
-stalled : nothing better was found; the plan is the one before, continued from the measured state
-opened : as planned, but limits of the state are out of reach from here; they are approached
+stalled : no better plan was found; the plan is the one before, continued from the measured state
+opened : as planned, but limits of the state cannot be kept from here; the plan approaches them
 failed : there is no plan; the reason says why
 """
 
 
 class Horizon(NamedTuple):
-    """How far ahead is planned: stages, and the seconds of each."""
+    """The horizon of a plan: number of stages, and duration of a step in seconds."""
 
     stages: int
     step: float
@@ -75,18 +75,17 @@ class Horizon(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Keeping:
-    """What a drone keeps for a whole shot.
+    """The limits and clearances of a drone in a whole shot.
 
-    limits : of the drone; jerk and yaw are left to whoever flies the plan
-    pitch : (lowest, highest) angle of the line of sight to the target against the horizon, rad
-    zones : what stands and is kept clear of, or stayed inside of, with distances from the drone's centre
+    limits : of the drone; the vehicle's controller is responsible for jerk and yaw
+    pitch : (lowest, highest) angle of the line of sight to the target from the horizon, rad
+    zones : standing solids that the drone stays outside or inside of, with distances from its centre
     floor : least z of the drone's centre
     separation : least distance between the centres of two drones
-    half_angle : half the opening of the cone about the camera's axis that holds no other drone, rad; None for
-        no such cone
-    margin : metres that are added to all these distances for what the vehicle strays from its plan
-    reaction : seconds that the vehicle flies on before it brakes; from the end of every plan it can stop in
-        front of every zone, after that time at the limit of acceleration
+    half_angle : half-angle of the cone about the camera's axis without other drones, rad; None for no cone
+    margin : added to all these distances for the vehicle's tracking error, metres
+    reaction : time before the vehicle brakes, seconds. From the end of every plan it can stop in front of
+        every zone, after that time at the limit of acceleration.
     """
 
     limits: Limits
@@ -100,11 +99,12 @@ class Keeping:
 
 
 class ChaseWeights(NamedTuple):
-    """w1 to w4 of Alcantara et al., Eq. 12, and that of the height, which is theirs by the shot.
+    """The weights w1 to w4 of Alcantara et al., Eq. 12, and one for the height.
 
-    effort : per (m/s^2)^2 of acceleration; pitch, yaw : per (rad/s)^2 of the camera's rates, all a stage
-    height : per m^2 off the shot's height, a stage: stiffer ones answer to every centimetre of noise
-    end : per m^2 and (m/s)^2 off what is wanted at the end
+    effort : per (m/s^2)^2 of acceleration; pitch, yaw : per (rad/s)^2 of the camera's rates, all at each
+        stage
+    height : per m^2 of deviation from the shot's height at each stage; a higher weight amplifies noise
+    end : per m^2 and (m/s)^2 of deviation from the reference at the end
     """
 
     effort: float = 1.0
@@ -119,7 +119,7 @@ USUAL = ChaseWeights()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ChaseProblem:
-    """A shot of one target: what holds for all its replans."""
+    """The constant part of a shot of one target."""
 
     horizon: Horizon
     keeping: Keeping
@@ -128,10 +128,10 @@ class ChaseProblem:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cone:
-    """What another camera sees, at each stage.
+    """The cone that another camera sees, at each stage.
 
-    apex : place of the camera, shape (N + 1, 3); axis : unit vectors along which it looks, (N + 1, 3)
-    half_angle : half its opening, rad
+    apex : positions of the camera, shape (N + 1, 3); axis : unit vectors of its view, (N + 1, 3)
+    half_angle : of the cone, rad
     """
 
     apex: Array
@@ -141,9 +141,9 @@ class Cone:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Traffic:
-    """The plans that other drones have sent, at the stages of this replan.
+    """The plans of other drones, at the stages of this replan.
 
-    others : their places, shape (D, N + 1, 3); cones : what their cameras see and is kept out of
+    others : their positions, shape (D, N + 1, 3); cones : of their cameras, to be avoided
     """
 
     others: Array
@@ -155,12 +155,12 @@ NO_TRAFFIC = Traffic(np.zeros((0, 1, 3)))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ChaseSituation:
-    """What is known at the moment of a replan of a shot of one target.
+    """The situation at the time of a replan of a shot of one target.
 
-    time : of this moment, mission time; place, velocity : of the drone, measured, shape (3,)
+    time : mission time of the replan; place, velocity : of the drone, measured, shape (3,)
     target, target_velocity : of the target, predicted, shape (N + 1, 3)
-    wanted, wanted_velocity : of the drone at the end of the horizon, shape (3,)
-    height : z that the shot is to keep; None where it is free
+    wanted, wanted_velocity : references of the drone at the end of the horizon, shape (3,)
+    height : reference z of the shot; None if it is free
     """
 
     time: float
@@ -175,13 +175,13 @@ class ChaseSituation:
 
 
 class FramingWeights(NamedTuple):
-    """The weights of Naegeli et al., Eq. 14, each a stage; of squares where nothing else is said.
+    """The weights of Naegeli et al., Eq. 14, at each stage; of squares if not stated otherwise.
 
-    place : per half frame of a subject off its place (Eq. 7); size : of the logarithm of its size over that
-    wanted (Eq. 8); view : of the distance between unit vectors, from the subject to the camera (Eq. 9)
-    cover : by how much another body covers a subject's point, 1 where it does with its middle; not squared
-        (Eq. 11)
-    field : per metre in the field about a body (Eq. 12)
+    place : per half frame of a subject's distance from its reference (Eq. 7)
+    size : of the logarithm of its size over the reference (Eq. 8)
+    view : of the distance between unit vectors from the subject to the camera (Eq. 9)
+    cover : of the occlusion of a subject's point by another body, 1 for its middle; not squared (Eq. 11)
+    field : per metre in the field around a body (Eq. 12)
     effort : per m/s^2 of acceleration; turning : per rad/s of the camera
     """
 
@@ -199,10 +199,10 @@ USUAL_FRAMING = FramingWeights()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FramingProblem:
-    """A shot that composes subjects: what holds for all its replans.
+    """The constant part of a framing shot.
 
     half : tan of half the horizontal and half the vertical field of view
-    rates : greatest yaw and pitch rate of the camera, rad/s
+    rates : largest yaw and pitch rate of the camera, rad/s
     """
 
     horizon: Horizon
@@ -214,9 +214,9 @@ class FramingProblem:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Appearance:
-    """How a subject is to appear; None is free.
+    """The required appearance of a subject; None is free.
 
-    uv : place on screen of its point, half frames; size : of its diameter, over the frame's height
+    uv : place of its point on screen, half frames; size : of its diameter, over the frame's height
     view : unit vectors from the subject to the camera, at the stages, shape (N + 1, 3)
     """
 
@@ -227,10 +227,11 @@ class Appearance:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FilmedSubject:
-    """A subject, or another body that is kept clear of and may cover one.
+    """A subject, or another body that is an obstacle and a possible occluder.
 
-    point : what of it is framed, at the stages, predicted, shape (N + 1, 3); diameter : of what is sized
-    centre : of its ellipsoid, (N + 1, 3); semi_axes : of that along x, y and z, the drone's radius included
+    point : its framed point, predicted at the stages, shape (N + 1, 3); diameter : for its size on screen
+    centre : of its ellipsoid, (N + 1, 3); semi_axes : of the ellipsoid along x, y and z, with the drone's
+        radius
     wanted : None for a body that is not filmed
     """
 
@@ -243,9 +244,9 @@ class FilmedSubject:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnPose:
-    """A pose that the camera stays near as far as the picture lets it (Naegeli et al., Eq. 10).
+    """The preferred pose of the camera, kept as far as the picture allows (Naegeli et al., Eq. 10).
 
-    places : at the stages, (N + 1, 3); yaw, pitch : of the camera, rad, each None where it is free
+    places : at the stages, (N + 1, 3); yaw, pitch : of the camera, rad, each None if it is free
     """
 
     places: Array
@@ -255,11 +256,11 @@ class DrawnPose:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FramingSituation:
-    """What is known at the moment of a replan of a shot that composes subjects.
+    """The situation at the time of a replan of a framing shot.
 
-    time : of this moment, mission time; place, velocity : of the drone, measured, shape (3,)
+    time : mission time of the replan; place, velocity : of the drone, measured, shape (3,)
     aim : yaw and pitch of the camera, W, rad; subjects : the same ones in the same order at every replan
-    near : what the camera stays near besides
+    near : the preferred pose, or None
     """
 
     time: float
@@ -273,12 +274,12 @@ class FramingSituation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
-    """The motion that is planned.
+    """The planned motion.
 
-    times : of the stages, mission time, shape (N + 1,); places, velocities : there, shape (N + 1, 3)
-    accelerations : of the steps between them, each held over its step, shape (N, 3)
-    aim : yaw and pitch of the camera at the stages, W, rad, shape (N + 1, 2); yaw is continuous. None where
-        the camera is to look at the target.
+    times : mission times of the stages, shape (N + 1,); places, velocities : there, shape (N + 1, 3)
+    accelerations : of the steps between them, constant in each step, shape (N, 3)
+    aim : yaw and pitch of the camera at the stages, W, rad, shape (N + 1, 2), with unwrapped yaw; None if the
+        camera looks at the target
     """
 
     times: Array
@@ -290,11 +291,11 @@ class Plan:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Replan:
-    """What a replan returns.
+    """The result of a replan.
 
-    plan : None where it failed; reason : why it failed, empty otherwise
-    lack : metres or m/s by which the plan breaks what it is to keep, at worst; 0 where it keeps all
-    steps : of the solver, each with one programme solved
+    plan : None if it failed; reason : of the failure, else empty
+    lack : largest violation of limits and clearances by the plan, metres or m/s; 0 if it keeps all
+    steps : number of solver steps, each with one programme
     """
 
     plan: Plan | None
@@ -305,36 +306,37 @@ class Replan:
 
 
 class ChasePlanner(Protocol):
-    """Plans a shot of one target."""
+    """A planner for a shot of one target."""
 
     def replan(self, situation: ChaseSituation, last: Plan | None) -> Replan:
-        """Plan from the measured state on.
+        """Plan from the measured state.
 
-        last : the plan that the drone flies; None where there is none yet
-        Numbers that are not finite, or lead to such, are a failure that is told at once, never an exception.
+        last : the current plan of the drone; None at the first replan
+        Numbers that are not finite, in the input or in the computation, give the status "failed", never an
+        exception.
         """
         ...
 
 
 class FramingPlanner(Protocol):
-    """Plans a shot that composes subjects."""
+    """A planner for a framing shot."""
 
     def replan(self, situation: FramingSituation, last: Plan | None) -> Replan:
-        """Plan from the measured state on; all as for ``ChasePlanner``, and the plan has an aim."""
+        """Plan from the measured state, as ``ChasePlanner``; the plan has an aim."""
         ...
 
 
 class Replanner(Protocol):
-    """What sits in the replanner seat (entry-point group ``shotc.replanners``)."""
+    """The interface of replanners (entry-point group ``shotc.replanners``)."""
 
     name: ClassVar[str]
     summary: ClassVar[str]
     api: ClassVar[int]
 
     def chase(self, problem: ChaseProblem) -> ChasePlanner:
-        """Return the planner of a shot of one target."""
+        """Return the planner for a shot of one target."""
         ...
 
     def framing(self, problem: FramingProblem) -> FramingPlanner:
-        """Return the planner of a shot that composes subjects."""
+        """Return the planner for a framing shot."""
         ...
