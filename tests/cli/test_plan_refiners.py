@@ -170,9 +170,7 @@ def test_a_refiner_is_told_where_it_broke_the_mission(run: Run, yard: Path, inst
 @POSIX
 def test_a_refiner_that_takes_forever_is_stopped(run: Run, good: Path, install: Install, name: str) -> None:
     install("slow", *NEVER[name])
-    began = time.monotonic()
-    done = plan(run, good, "--refiner", "slow", "--deadline", "1.5")
-    assert time.monotonic() - began < 20
+    done = plan(run, good, "--refiner", "slow", "--deadline", "1.5")  # which, left alone, never ends
     assert done.code == 1
     assert "error[R004]: refiner `slow` of package odd-maker was stopped after 1.5 s" in done.err
 

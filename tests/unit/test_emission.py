@@ -206,20 +206,19 @@ with crew(3, {}.get):
 """
 
 
+@pytest.mark.timeout(120)  # workers that outlive it would be waited for without end
 def test_workers_end_when_the_process_is_killed():
     run = subprocess.run([sys.executable, "-c", ORPHANS], check=False, capture_output=True, text=True)
     workers = run.stdout.split()
     assert run.returncode == -signal.SIGKILL
     assert len(workers) == 2
-    until = time.monotonic() + 10
 
     def alive(pid):
         stat = Path(f"/proc/{pid}/stat")
         return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
 
-    while any(map(alive, workers)) and time.monotonic() < until:
+    while any(map(alive, workers)):
         time.sleep(0.01)
-    assert not any(map(alive, workers))
 
 
 def test_usual_jobs_are_few():

@@ -132,9 +132,8 @@ def test_what_is_no_number_is_told_at_once(solver, spoilt, value):
     made = task(walled())
     array = getattr(made, spoilt).copy()
     array.flat[7] = value
-    began = time.perf_counter()
-    assert solve(replace(made, **{spoilt: array}), solver).status == "nan"
-    assert time.perf_counter() - began < 5.0
+    solution = solve(replace(made, **{spoilt: array}), solver)
+    assert (solution.status, solution.iterations) == ("nan", 0)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
