@@ -46,7 +46,10 @@ Loop = Annotated[
 ]
 ReplannerName = Annotated[str, typer.Option("--replanner", metavar="NAME", help="What plans anew.")]
 Seeds = Annotated[
-    int | None, typer.Option(min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}].")
+    int | None,
+    typer.Option(
+        "--runs", "--seeds", min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}]."
+    ),
 ]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of the first run; all others follow from it.")]
 WindSpeed = Annotated[
@@ -132,7 +135,7 @@ def simulate(
     MISSION-report.html (the proof and the results of the runs, for authorities). Examples:
 
         shotc simulate tower.yaml --wind 5 --from 270 --gusts 1
-        shotc simulate out/tower --loop track --gps plain --seeds 100
+        shotc simulate out/tower --loop track --gps plain --runs 100
     """
     with Progress() as progress:
         plan, sources, folder = _plan(source, output, progress)

@@ -21,7 +21,7 @@ from shotc.spec.presets import TOP_SPEED
 WORDS = {
     "in_frame": "the whole target is in {} of a shot's frames",
     "in_sight": "the target is in sight at {} of a shot's instants",
-    "mean_error": "the target is {} of half a frame off in the mean of a shot",
+    "mean_error": "the target is on average {} of half a frame off its place in a shot",
     "clearance": "a drone's body comes within {}",
     "stray": "a drone strays {} from its plan",
 }
@@ -71,7 +71,7 @@ def not_kept(done: Rehearsed) -> Iterator[Diagnostic]:
         mission, total = done.mission, len(done.runs)
         yield Diagnostic(
             "W001",
-            f"{done.held} of {total} runs keep all that is asked; {done.needed} have to",
+            f"{done.held} of {total} runs keep all that is required; {done.needed} have to",
             (mission.origins.value(_require(mission)),),
             tuple(f"`{each.key}` holds in {each.held}" for each in done.verdicts),
             "ask for less, or for a smaller share of the runs with `of`",
@@ -82,8 +82,8 @@ def _broken(done: Rehearsed, each: RequirementVerdict) -> Diagnostic:
     total = len(done.runs)
     return Diagnostic(
         "W001",
-        f"{_words(each, each.worst)} in run {each.run}; {_amount(each, each.limit)} is asked of "
-        f"{done.needed} of {total} runs, {each.held} keep it",
+        f"{_words(each, each.worst)} in run {each.run}; {_amount(each, each.limit)} is required "
+        f"in {done.needed} of {total} runs, and {each.held} keep it",
         (done.mission.origins.value((*_require(done.mission), each.key)),),
         tuple(_where(done.run(each.run), each)),
         _help(done, each),

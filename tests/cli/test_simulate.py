@@ -89,7 +89,7 @@ def document(folder: str = "out"):
 
 @pytest.mark.long
 def test_a_film_is_flown_and_written(run: Run, given) -> None:
-    done = run("simulate", given(asking()), "--seeds", "3", "--gusts", "0.5", "--wind", "2")
+    done = run("simulate", given(asking()), "--runs", "3", "--gusts", "0.5", "--wind", "2")
     assert done.code == 0
     assert "3 runs, wind 2 m/s from any side, gusts 0.5 m/s" in done.out
     assert {path.name for path in Path("out").iterdir()} == {
@@ -129,7 +129,7 @@ def test_what_too_few_runs_keep_is_an_error_at_its_line(run: Run, given) -> None
     assert done.code == 1
     assert "W001" in done.err
     assert re.search(
-        r"a drone strays [\d.]+ m from its plan in run \d; 0.01 m is asked of 2 of 3 runs", done.err
+        r"a drone strays [\d.]+ m from its plan in run \d; 0.01 m is required in 2 of 3 runs", done.err
     )
     kept = float(re.search(r"2 of 3 runs keep: `stray: ([\d.]+)`", done.err)[1])
     strays = sorted(max(c["farthest"] for c in each["courses"]) for each in document()["runs"])

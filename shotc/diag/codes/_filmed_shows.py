@@ -39,7 +39,7 @@ NAMED: tuple[CodeInfo, ...] = (
     slip(
         "D130",
         "picture-without-size",
-        "a picture that cameras film has no size that is known in time",
+        "the size of a picture that cameras film is not known before planning",
         "A camera frames a body about the picture. That of a ball, a cube or a ring is known; how wide letters, drawings and "
         "models are drawn is not, before the show is planned. `size: [width, depth, height]` says it, and verification proves that "
         "all lights are in it.",
@@ -77,7 +77,7 @@ FIRED: tuple[CodeInfo, ...] = (
     slip(
         "D133",
         "two-products-at-once",
-        "a drone is to fire a product while another burns on it",
+        "a drone fires a product while another burns on it",
         "A product is lit `prefire` seconds before it is seen, and burns for its `duration`. A drone carries several, one after "
         "another.",
         _FIRED,

@@ -88,7 +88,7 @@ GROUPED: tuple[CodeInfo, ...] = (
     slip(
         "D136",
         "nobody-left",
-        "a display is of the drones in no group, and every drone is in one",
+        "a display is drawn by the drones in no group, but every drone is in one",
         "Without a `group`, a display is drawn by those drones of its fleet that are in no group. Where each is in one, nobody is "
         "left to draw it. Name a group. A picture by several groups is several displays, each with its part of the picture, that "
         "start at the same time.",

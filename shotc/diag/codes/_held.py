@@ -21,7 +21,7 @@ HELD: tuple[CodeInfo, ...] = (
         41,
         "plan-of-another-mission",
         (
-            "the plan says another thing of its mission than the mission itself",
+            "the plan differs from its own mission",
             "A plan holds the text of its mission and the tables that it names. `shotc verify` lowers them again, as "
             "`check` does, and holds the plan to all that comes of it: shots, keyframes, holds, times, places on screen, "
             "targets, drones, limits, zones. Here what the plan says differs, so the file was edited, or another version "
@@ -42,7 +42,7 @@ HELD: tuple[CodeInfo, ...] = (
         43,
         "plan-of-another-file",
         (
-            "the plan is not the plan of the mission that it is held to",
+            "the plan is not the plan of the given mission",
             "`shotc verify PLAN --against MISSION` holds a plan to a file besides the mission in it: the one that is "
             "reviewed, so that no plan of an earlier mission is flown. All that the file asks for is compared, its "
             "tracks and what its displays draw included; comments and the order of keys are free. Plan the file again.",
@@ -52,7 +52,7 @@ HELD: tuple[CodeInfo, ...] = (
         63,
         "no-return",
         (
-            "a show cannot be called off at some time",
+            "a show cannot be aborted at some time",
             "`shotc verify PLAN --abort-every 1s` has every fleet come home from every second of its show: it brakes along its "
             "common way, goes over its pads and lands. Each return is proved as a plan is, and where the way over the pads has no "
             "room the fleet goes on to its next stop and turns there, or goes back as it came. Here all three break a "
@@ -91,7 +91,7 @@ HELD: tuple[CodeInfo, ...] = (
         46,
         "promise-not-judged",
         (
-            "a shot promises what nothing in the plan can be held to",
+            "a shot promises something that the plan cannot be judged by",
             "Every key of `require` has a claim in the certificate. Without a target that is framed, or for "
             "`screen_error` without a place on screen that is wanted, there is none, and the promise would mean nothing. "
             "Remove the key, or give the shot a target and a composition.",

@@ -27,7 +27,7 @@ _LISTED = (
 )
 
 _IN_FILES = (
-    ("D126", "song-not-read", "nothing tells how long a song is",
+    ("D126", "song-not-read", "the length of a song is not known",
      "The length of a song is read from its file, so that a show which outlasts it is told. A file that "
      "does not read as music is carried as it is; it is not known whether players play it."),
     ("D127", "song-too-short", "a song ends before the show does",
@@ -48,7 +48,7 @@ MUSICAL: tuple[CodeInfo, ...] = (
     slip(
         "D121",
         "beat-without-music",
-        "a picture stands on a beat, and nothing says when beats fall",
+        "a picture stands on a beat, but the mission has no beats",
         "`at: {beat: 32}` and `at: {bar: 9}` count beats of the mission's `music`, which says when they fall: by a `tempo` with "
         "the `first_beat`, by `beats`, or by a `beats_file`.",
         _DANCE,
@@ -65,7 +65,7 @@ MUSICAL: tuple[CodeInfo, ...] = (
     slip(
         "D123",
         "picture-before-its-time",
-        "a picture is to stand before what comes before it can be over",
+        "a picture stands before the earlier ones can be over",
         "`at` is when a picture stands. The picture before it is held and the way flown until then, for which the message "
         "gives a lower bound; `plan` knows the exact time.",
         _DANCE,
@@ -74,7 +74,7 @@ MUSICAL: tuple[CodeInfo, ...] = (
     slip(
         "D124",
         "picture-too-late",
-        "a picture cannot stand when it is to",
+        "a picture cannot stand at its time",
         "The picture before it is held as long as it asks for, and then the way takes its time, at the pace of the display or "
         "as `transition` says. The message gives the earliest moment, in seconds and in beats.",
         _DANCE,
@@ -83,7 +83,7 @@ MUSICAL: tuple[CodeInfo, ...] = (
     slip(
         "D125",
         "start-said-twice",
-        "both the timing of a display and its first picture say when it starts",
+        "the start of a display is given twice: by its timing and by its first picture",
         "A display starts when its first picture stands, so `timing: {start: ...}` and `at` of that picture are the same.",
         _DANCE,
         ("    fleet: swarm\n", "    fleet: swarm\n    timing: {start: 30}\n"),

@@ -40,7 +40,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "G028",
         "camera-beside-obstacle",
         _ERROR,
-        "a camera is to be in the scene or a building, or too near to it",
+        "a camera stands in the scene or a building, or too near to it",
         "What a mission places binds: the plan brings the camera there. `rules.obstacle_clearance` is kept between a "
         "drone's body and every triangle of `world.scene` and `world.buildings`; half the spacing of a cloud's points "
         "is added. The note has the distance and what is near. Move the place, or lower the rule.",
@@ -57,7 +57,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "G030",
         "large-scene",
         _WARNING,
-        "a scene is so large that its unit is likely to be another",
+        "a scene is so large that its unit is probably wrong",
         "A scene of several kilometres is most often a house in millimetres. The help has the unit with "
         "which it has the usual size of a scene. If the size is right, ignore this warning.",
     ),
@@ -113,7 +113,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "G036",
         "assumed-height",
         _WARNING,
-        "some buildings are taken to be as high as the mission says, for their file does not say it",
+        "some buildings get their height from the mission, because their file has none",
         "`height` under `world.buildings` is that of every building without a height and levels. Drones do "
         "not keep clear of the part of a building that is higher than that. The notes name the first ones.",
     ),
@@ -121,7 +121,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "G037",
         "left-out",
         _WARNING,
-        "some of the file of the buildings does not become an obstacle",
+        "part of the file of the buildings does not become an obstacle",
         "Points, lines, polygons that are no buildings beside some that are, and buildings that are out of "
         "reach are left out: drones do not keep clear of them. An outline that its parts do not cover is "
         "reported as well.",
@@ -130,7 +130,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "G048",
         "unknown-building",
         _ERROR,
-        "a target is a building that is not there",
+        "a target is an unknown building",
         "`building` is the `name` of a building in the file of `world.buildings`, or its id (`id`, `@id`), "
         "as written there, or the name of a part of `world.scene`. A part of a building has its own. What "
         "was left out of the file (G037) is no building. A building beyond the terrain has no ground.",
@@ -139,7 +139,7 @@ OBSTACLES: tuple[CodeInfo, ...] = (
         "G049",
         "two-buildings-of-one-name",
         _ERROR,
-        "a target is a building whose name another has, too",
+        "a target is a building whose name is not unique",
         "The notes give the other names of each, and their places. Write the id of the right one, or "
         "several targets, and a group of them: `parts: [barn-1, barn-2]`. If a part of a building has the "
         "name of the whole, the whole is taken.",

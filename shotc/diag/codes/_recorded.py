@@ -23,7 +23,7 @@ RECORDED: tuple[CodeInfo, ...] = (
     _code(
         151,
         "flight-of-others",
-        "a recorded flight has not one track for each drone of the fleet",
+        "a recorded flight does not have one track for each drone of the fleet",
         "Every drone keeps the track and the light of one drone of the file, so there are as many of both. "
         "`shotc import show FILE` writes a mission with the right number and the pads of the file.",
     ),

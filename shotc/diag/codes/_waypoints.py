@@ -277,7 +277,7 @@ _PHOTO_CODES = (
         "E124",
         "photos-not-taken",
         Severity.WARNING,
-        "a file films a shot that is to take photos",
+        "a file films a shot instead of taking photos",
         "`photos: {every: 2 s}` of a shot takes photos in place of a film. MAVLink files do, and those for DJI Pilot 2 and Litchi where "
         "the drone moves all through the shot, no other shot begins where it ends, and the mission fits into one file: they tell "
         "intervals of legs. DJI Fly takes none. Else a film is recorded, from which pictures can be taken.",

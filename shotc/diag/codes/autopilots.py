@@ -54,7 +54,7 @@ CODES: tuple[CodeInfo, ...] = (
     _fault(
         6,
         "vehicle-silent",
-        "a vehicle does not tell what has to be known before a flight",
+        "a vehicle does not send what has to be known before a flight",
         "Read before anything is armed are the origin of the local frame (GPS_GLOBAL_ORIGIN), the home "
         "(HOME_POSITION), the position (LOCAL_POSITION_NED), and the parameters that say what happens when the link "
         "is lost. A vehicle without a position by satellites has no origin and no home yet.",
@@ -71,14 +71,14 @@ CODES: tuple[CodeInfo, ...] = (
     _fault(
         8,
         "link-loss-late",
-        "an autopilot minds a lost link too late",
+        "an autopilot notices a lost link too late",
         "COM_OF_LOSS_T, GUID_TIMEOUT and FS_GCS_TIMEOUT say how long a link is silent before it counts as lost. "
         "Until then the last setpoint is followed, which moves.",
     ),
     _fault(
         9,
         "plan-elsewhere",
-        "a plan is for another place than the one where its vehicle is",
+        "a plan is for another place than that of its vehicle",
         "The vehicle's home is more than 100 m from the pad that the plan begins on. Zones, terrain and "
         "buildings of the mission are not those round the vehicle.",
     ),
@@ -113,7 +113,7 @@ CODES: tuple[CodeInfo, ...] = (
     _fault(
         14,
         "vehicle-slower",
-        "an autopilot is not let fly as fast as the plan",
+        "an autopilot's own limits are slower than the plan",
         "PX4 follows no setpoint faster than MPC_XY_VEL_MAX, MPC_Z_VEL_MAX_UP and MPC_Z_VEL_MAX_DN, whatever the "
         "vehicle can do: it would fall behind the plan.",
     ),
@@ -127,7 +127,7 @@ CODES: tuple[CodeInfo, ...] = (
     _fault(
         21,
         "vehicle-late",
-        "a vehicle is not ready when the plan has it lift off",
+        "a vehicle is not ready at its lift-off in the plan",
         "All drones fly on one clock, so none can wait for another. A drone begins to get ready 8 s (PX4) or 15 s "
         "(ArduPilot, which takes off to 1 m by itself) before its lift-off. All other drones hold, or disarm where "
         "they stand.",
@@ -135,7 +135,7 @@ CODES: tuple[CodeInfo, ...] = (
     _fault(
         22,
         "vehicle-vanished",
-        "a vehicle is heard no more during the flight",
+        "a vehicle falls silent during the flight",
         "No heartbeat came for 2 s. Nobody knows whether setpoints still arrive; without them the autopilot does what "
         "was read of it before the flight. All other drones hold.",
     ),
@@ -148,7 +148,7 @@ CODES: tuple[CodeInfo, ...] = (
     _fault(
         24,
         "vehicle-strays",
-        "a vehicle is far from where the plan has it",
+        "a vehicle is far from its place in the plan",
         "What is proved of a plan holds along its path. More than 10 m from it a vehicle flies something else, in "
         "wind that is too strong for it or below limits of its own. A vehicle that waits for its lift-off is not "
         "armed more than 2 m from its pad. All drones in the air hold.",
@@ -163,7 +163,7 @@ CODES: tuple[CodeInfo, ...] = (
     _warning(
         26,
         "target-silent",
-        "a live target is heard no more during the flight",
+        "a live target falls silent during the flight",
         "The camera goes back to where the plan has it look, no faster than its gimbal turns, and follows again when "
         "positions come again.",
     ),
@@ -203,14 +203,14 @@ CODES: tuple[CodeInfo, ...] = (
     _warning(
         33,
         "photos-not-sent",
-        "a shot that is to take photos is filmed",
+        "a shot with photos is filmed instead",
         "`photos` of a shot are taken by MAVLink files. `shotc stream` tells cameras to begin and to end a recording, and "
         "nothing else.",
     ),
     _warning(
         34,
         "show-not-sent",
-        "the cameras of a plan are streamed, and its show is not",
+        "the cameras of a plan are streamed, but its show is not",
         "Drones of shows carry their part of a show themselves, as a .skyc file, whose clock is that of the plan. Cameras stay out of the "
         "airspace of the show from its take-off to its landing, so they are clear of it whenever either begins; what they film depends on both "
         "clocks beginning together.",

@@ -76,7 +76,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         1,
         "no-way",
-        "nothing leads from one place to the next",
+        "no way leads from one place to the next",
         "Between two keyframes, or on the way to a shot or home, zones, targets, the ground and keep-in "
         "borders leave no gap that the drone with its clearances fits through. The labels name each zone "
         "that alone would open a way; the notes say how wide the gap is and how wide it must be. Move or "

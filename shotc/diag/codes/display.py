@@ -103,7 +103,7 @@ CODES: tuple[CodeInfo, ...] = (
         "D004",
         "layout-rows",
         Severity.ERROR,
-        "a layout file has another number of rows than the fleet has drones",
+        "the number of rows of a layout file is not the number of drones",
         "Each row of a layout file is the pad of one drone, in the order of their numbers. The file is read whole, so "
         "a row too few or too many is a slip of either number. Mend `count`, or the file.",
         _PASSING.replace("{grid: {spacing: 4, origin: [0, 0, 0]}}", "{file: pads.csv}"),
@@ -164,7 +164,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "D009",
         "no-outline",
-        "an outline is asked for of what has no edges",
+        "a picture without edges is to be drawn by its outline",
         "`fill: outline` puts the drones on the edges of letters, of a drawing or of a cube. What is round, and a "
         "mesh, has an inside (`volume`) and a `surface`.",
         _PASSING,
@@ -235,7 +235,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "D016",
         "picture-in-obstacle",
-        "a picture is wholly inside a zone to keep out of, or a target",
+        "a picture is wholly inside a keep-out zone or a target",
         "No drone may be in there, so nothing of the picture can be drawn. Move the picture, or the zone.",
         _PASSING,
         ("center: [40, 40], radius: 3, height: [0, 60]", "center: [0, 0], radius: 19, height: [12, 50]"),

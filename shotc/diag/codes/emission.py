@@ -22,7 +22,7 @@ _SKYC_CODES = (
         "E112",
         "skyc-too-large",
         Severity.WARNING,
-        "the show file is skipped, because it would have more drones than one may have",
+        "the show file is skipped, because it would have too many drones",
         "Skybrush reads shows of at most 5000 drones. All other outputs are written.",
         "",
         "",

@@ -79,7 +79,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         2,
         "in-zone",
-        "a camera stands in a zone that is to be kept out of, or touches it",
+        "a camera stands in a keep-out zone, or touches it",
         "A position that the user writes is binding, so a keyframe in a keep-out zone can never be flown. "
         "The distance counts from the body sphere. The help gives the shortest move to a place that is "
         "free of all zones, targets and the ground.",
@@ -88,7 +88,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         3,
         "outside-zone",
-        "a camera stands outside a zone that is to be kept inside of",
+        "a camera stands outside a keep-in zone",
         "Keep-in zones bind every phase but take-off and landing, and where there are several, all of them "
         "bind. The whole body sphere stays inside. Move the keyframe inward, or enlarge the zone.",
         ("at: [45, 20, 15]", "at: [85, 20, 15]"),
@@ -167,7 +167,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         12,
         "cropped",
-        "a target is cropped where nothing may move it",
+        "a target is cropped, and its composition keeps it there",
         "With `keep` the user's framing stands as it is, even where it cuts the target. The note says by "
         "how much. Turn the camera, move away, or widen the field of view if the whole target is wanted.",
         ("heading: 45 deg, pitch: -4 deg", "heading: 75 deg, pitch: -4 deg, frame: keep"),
@@ -183,7 +183,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         14,
         "looks-at-itself",
-        "a camera is to look at the place where it stands",
+        "a camera looks at the place where it stands",
         "`look_at` is the point in the middle of the picture; if it is the camera's own place there is no "
         "direction. Give another point, or a heading and pitch.",
         ("at: [0, -45, 18], look_at: tower", "at: [0, -45, 18], look_at: [0, -45, 18]"),
@@ -231,7 +231,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         19,
         "homes-too-near",
-        "two drones have their homes nearer to each other than they may fly",
+        "the homes of two drones are nearer to each other than the separation",
         "`rules.separation` holds from the first second to the last, on the ground too, centre to centre: two "
         "drones that lift off side by side start apart, and one that films nothing is in the way on its pad. Move "
         "one of the homes.",
@@ -297,7 +297,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         53,
         "return-too-low",
-        "a drone would return lower than what stands in its world",
+        "the return height of a drone is lower than an obstacle",
         "`safety: {return_height: 40 m}` is the height above home at which a drone returns when its link is lost. It flies straight home then, "
         "a way that no plan proves, so it is to pass over every keep-out zone and target, with the body and `rules.obstacle_clearance`. "
         "Scenes, buildings and terrain are not looked at. Raise it.",
@@ -307,7 +307,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         54,
         "rally-in-zone",
-        "a rally point lies in a keep-out zone, or outside of a keep-in one",
+        "a rally point lies in a keep-out zone, or outside a keep-in zone",
         "`safety: {rally: [[x, y]]}` of a drone are places where it may land instead of at home. Such a "
         "place may not lie in a keep-out zone, or outside of a keep-in zone. Move it.",
         ("rally: [[40, -60]]", "rally: [[-30, 20]]"),

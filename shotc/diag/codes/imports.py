@@ -47,7 +47,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         5,
         "import-ambiguous",
-        "something in an imported file would have to be assumed, and nothing may be",
+        "something in an imported file would have to be assumed, which --strict forbids",
         "With `--strict` nothing is assumed: whatever is missing, wrong or ambiguous in the file is an error. Mend the "
         "file, or import it without `--strict` and look at the comments in the mission.",
     ),
@@ -108,7 +108,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         13,
         "flight-of-nobody",
-        "it is not known whose flight a file is",
+        "it is not known to which drone a file of a flight belongs",
         "A file is of the drone that it is named after, `cam1.kmz` of `cam1`; the parts of one flight are `cam1-1.kmz`, "
         "`cam1-2.kmz`. Where the mission has one drone, every file is of that one. `--drone NAME`, once for every file, "
         "says it otherwise. Tables and shows name their drones; a show's drones with other names are those on whose pads "

@@ -93,7 +93,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         4,
         "impossible-duration",
-        "no drone within its limits flies that far in that time",
+        "no drone within its limits flies that distance in that time",
         "Even straight from keyframe to keyframe, from rest to rest at full speed and acceleration, the "
         "time does not suffice. The numbers are a lower bound: curves, jerk and turns of the camera take "
         "more. Lengthen the shot, bring the keyframes closer, or raise the limits.",
@@ -122,7 +122,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         7,
         "starts-while-waiting",
-        "a shot starts before the one that it waits for has ended",
+        "a shot starts before the shot for which it waits has ended",
         "`start` and `after` of the same timing contradict each other. Start it later, or drop one of them.",
         ("{after: above}", "{after: above, start: 105}"),
         "T003",
@@ -194,7 +194,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         15,
         "limit-above-model",
-        "a limit is far above what the drone's model is planned with",
+        "a limit is far above that of the drone's model",
         "`limits` override the values of the `model`. The figures of a model stay at half of what its "
         "maker publishes, or more; a speed or an acceleration of more than twice as much is most likely a "
         "slip: a number in km/h without its unit, or a digit too many. Correct it, or ignore the warning "
@@ -213,14 +213,14 @@ CODES: tuple[CodeInfo, ...] = (
     _beside(
         16,
         "no-target-to-count-from",
-        "a place counts from the target of a shot that names none",
+        "a place counts from the target of a shot without a target",
         "`from: target` is the shot's own target. Name another one, as `from: runner`, or give the shot a `target`.",
         ("    target: runner\n", ""),
     ),
     _beside(
         17,
         "no-course",
-        "a place turns with the way of a target that stands",
+        "a place turns with the course of a target that stands",
         "With `turn: course` an offset is ahead of a target, to its left and up, by the way that it goes. A target "
         "that stands goes nowhere: leave `turn` out, and the offset is east, north and up.",
         ("from: target, offset", "from: tower, offset"),
@@ -228,7 +228,7 @@ CODES: tuple[CodeInfo, ...] = (
     _code(
         22,
         "lens-not-of-the-model",
-        "a drone is given a lens that the camera built into its model has not",
+        "a drone has a lens that its model's built-in camera does not have",
         "`camera` overrides the values of the `model`. A model with a built-in camera has one field of "
         "view. It most likely carries no lens that zooms or is wider, so the film does not show what is "
         "framed with one. A narrower lens gets no warning, because most of these cameras can crop.",

@@ -36,7 +36,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "D095",
         "ramp-stops",
-        "the places of a ramp's colours are not as many as these, or go back",
+        "a ramp has another number of places than colours, or its places do not rise",
         "`at` says where each colour of a ramp is, from 0 where it begins to 1 where it ends: one place a colour, each "
         "at or after the one before. Without `at` the colours are spread evenly.",
         _PASSING,
@@ -55,7 +55,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "D097",
         "no-such-frame",
-        "an effect begins or ends with a frame that the display has not",
+        "an effect begins or ends with a frame that the display does not have",
         "Effects of a display may begin and end with its frames, which are counted from 1. Give one that it has, or "
         "seconds after its first picture stands.",
         _PASSING,
@@ -90,7 +90,7 @@ CODES: tuple[CodeInfo, ...] = (
         101,
         "large-image",
         Severity.ERROR,
-        "an image is larger than is read",
+        "an image is larger than the largest that is read",
         "An image of an effect has at most 25 million pixels, and all frames of a GIF together at most 1500 frames and "
         "400 million pixels. That is judged by its header, before anything is decoded. A fleet shows about as many "
         "pixels as it has drones: scale the image down.",

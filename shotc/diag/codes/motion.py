@@ -314,7 +314,7 @@ CODES: tuple[CodeInfo, ...] = (
     _framing(
         32,
         "view-blocked",
-        "the place from which a subject is to be seen is no place for a camera",
+        "the camera cannot stand where it would see its subject as asked",
         "Size, place on screen and view say where the camera stands. Here that place is below the ground "
         "clearance, or in a zone or a target throughout the shot. If you leave the view out, it is chosen "
         "where there is room.",
@@ -343,7 +343,7 @@ CODES: tuple[CodeInfo, ...] = (
     _framing(
         36,
         "setpoint-without-start",
-        "a setpoint of a framing changes nothing, or something that nothing says at first",
+        "a setpoint of a framing changes nothing, or a value without a start",
         "A setpoint says how a subject appears from a time of the shot on: its place on screen, its size, its view. "
         "What it changes is written beside the target, too, as it is when the shot begins: the change goes from "
         "there to the setpoint.",
@@ -373,7 +373,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "M035",
         "size-not-met",
-        "a target does not have the size asked, for other numbers of its shot decide it",
+        "a target does not have the asked size, because other numbers of its shot decide it",
         "The distance, radius or places that a shot is given say how large its target appears; `size` does not move "
         "the camera of any kind but `framing`. The note gives the size that the target has, and from how far away, or "
         "through which lens, it would have the one asked.",

@@ -93,7 +93,7 @@ CODES: tuple[CodeInfo, ...] = (
         "P008",
         "plugin-failed",
         Severity.ERROR,
-        "a plugin raised, or answered what its seat does not take",
+        "a plugin raised, or returned a wrong value",
         "A shot kind or an emitter of another package failed. The note has its own words and the place in its code. A "
         "mission whose kind fails is not planned; where an emitter fails, the files of the other emitters are written, and "
         "the exit status is 1. Update the package, report the fault to its authors, or do without the plugin.",

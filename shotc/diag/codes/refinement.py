@@ -59,7 +59,7 @@ CODES: tuple[CodeInfo, ...] = (
         "R005",
         "refiner-changed-mission",
         Severity.ERROR,
-        "the refiner changed what is not its to change",
+        "the refiner changed something that the mission decides",
         "A refiner may move the camera between keyframes. The mission decides the rest: the shots and "
         "their order, their durations, pace, holds, keyframes and fixed times, the targets that they "
         "frame, and the places of these on screen. Take-off and landing are at home. This refiner handed "
@@ -114,7 +114,7 @@ CODES: tuple[CodeInfo, ...] = (
         "R009",
         "refined-path-refused",
         Severity.ERROR,
-        "the refined path cannot be flown, and the convex one can",
+        "the refined path cannot be flown, but the convex one can",
         "A later pass refuses the refined path: it takes longer than the duration asked, or breaks a limit "
         "or a promise. The convex path, which was tried instead, does not. So the refiner is at fault; the "
         "notes say what it broke. Plan with another refiner or with `--refiner none`, loosen what is "
@@ -178,7 +178,7 @@ CODES: tuple[CodeInfo, ...] = (
         "R014",
         "shot-not-refined",
         Severity.WARNING,
-        "a shot stays as the convex path has it",
+        "a shot stays on its convex path",
         "A refiner improves the filmed legs of the convex path where it can. This shot stays as it was, "
         "for the reason in the message: the refined path would come too near to something that moves or "
         "into another drone's picture, or would take longer than the flights beside it allow; the refiner "

@@ -46,7 +46,7 @@ CODES: tuple[CodeInfo, ...] = (
         "W004",
         "impossible-truth",
         Severity.ERROR,
-        "a track that a target is really to take in a rehearsal ends early or jumps",
+        "the true track of a target in a rehearsal ends early or jumps",
         "`shotc simulate --truth TARGET=FILE` says where a target really goes while the plan believes its own track. "
         "The file has to reach from the mission's start to the last landing, and nothing that is filmed jumps.",
         "",
@@ -57,7 +57,8 @@ CODES: tuple[CodeInfo, ...] = (
         "W005",
         "replanned-past-terrain",
         Severity.ERROR,
-        "a rehearsal plans anew in a world whose terrain, scene or buildings it does not know",
+        "a rehearsal plans anew in a world with terrain, a scene or buildings, which replanning does not "
+        "know",
         "With `loop: replan` a drone plans its next seconds anew while it flies. It keeps clear of zones, of targets that "
         "stand, of other drones and of level ground; terrain, scenes and buildings it does not know, and it would "
         "fly into them. `loop: track` flies what was planned and lets the camera follow.",
@@ -69,7 +70,7 @@ CODES: tuple[CodeInfo, ...] = (
         "W006",
         "no-cluster",
         Severity.ERROR,
-        "no scheduler answers where work is to be done by a cluster",
+        "the scheduler of a cluster does not answer",
         "`--workers tcp://HOST:PORT` hands the runs of `shotc simulate`, or the missions of `shotc plan FOLDER`, to the "
         "Dask scheduler at that address, which has to answer within ten seconds. Start one with `dask scheduler`, and workers with `dask worker tcp://HOST:PORT` in an environment "
         "that has the same shotc.",

@@ -87,7 +87,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "S009",
         "unknown-value",
-        "a word is none of those that may stand here",
+        "a word is not one of the allowed values",
         "Drone models, composition sets, screen points, paces and the like are chosen from a list. The "
         "nearest name is proposed. `shotc list` prints what there is.",
         LOOK,
@@ -96,7 +96,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "S010",
         "unknown-kind",
-        "there is no such kind of shot",
+        "the kind of shot does not exist",
         "The kind says how a shot's parameters are read, so they cannot be checked without it; what every "
         "shot has is checked all the same. `shotc list kinds` prints the kinds that are installed; plugins "
         "add more.",
@@ -135,7 +135,7 @@ CODES: tuple[CodeInfo, ...] = (
     slip(
         "S014",
         "out-of-range",
-        "a number lies outside what may stand here",
+        "a number lies outside its allowed range",
         "Radii, limits and durations are positive, shares lie between 0 and 1, a pitch between -90 and 90 "
         "degrees, a latitude between -90 and 90. The help names the bounds. A value in the wrong unit is a "
         "common cause.",

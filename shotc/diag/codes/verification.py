@@ -119,7 +119,7 @@ _LIMITS = (
         18,
         "field-of-view-out-of-range",
         (
-            "the field of view is none that a camera has",
+            "no camera has this field of view",
             "The horizontal field of view must lie between 1 and 170 degrees at every instant of the plan: "
             "outside of that the projection has no meaning. If `camera` describes the lens, the lens must "
             "have the field of view.",

@@ -130,7 +130,7 @@ CODES: tuple[CodeInfo, ...] = (
         9,
         "bad-indentation",
         (
-            "a line is indented like nothing above it",
+            "the indentation of a line matches nothing above it",
             "The keys of one mapping, and the items of one list, begin in the same column; what belongs to a key is "
             "indented deeper, and a key that has a value of its own on the line has nothing below it. Move the line "
             "to the column of its siblings. A missing blank after a colon above has the same effect.",
