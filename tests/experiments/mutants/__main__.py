@@ -1,9 +1,9 @@
 """`make mutants`: put seeded faults into the source, one at a time, and see whether a test fails.
 
 The suite is run once, to record which tests run which lines, and again where the source is another one. Each
-mutant then meets only the tests that run its statement, with a limit of CPU time, in a copy of the tree. The
-report lists what survived, and goes to ``out/mutants/report.txt``. The exit status is 1 where fewer are
-killed than shall be.
+mutant then meets only the tests that run its statement, with a limit of CPU time, in a copy of the tree. A
+test that fails in the copy without the fault, too, does not count. The report lists what survived, and goes
+to ``out/mutants/report.txt``. The exit status is 1 where fewer are killed than shall be.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import random
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -19,7 +20,7 @@ from queue import SimpleQueue
 from tests.experiments.mutants.changes import Mutant, mutants
 from tests.experiments.mutants.coverage_map import CoverageMap, recorded
 from tests.experiments.mutants.equivalents import EQUIVALENTS
-from tests.experiments.mutants.trial import Trial, copy_tree, failing, tried
+from tests.experiments.mutants.trial import Bench, Trial
 
 ROOT = Path(__file__).resolve().parents[3]
 OUT = ROOT / "out" / "mutants"
@@ -33,7 +34,7 @@ def main() -> None:
     options = _options()
     drawn = draw(every(options.paths), options.number, options.seed)
     print(f"{len(drawn)} mutants of {' '.join(options.paths)}, seed {options.seed}", flush=True)
-    covered = recorded(OUT / "record", PATHS, ROOT, options.tests, anew=options.record)
+    covered = recorded(OUT / "record", PATHS, ROOT, options)
     trials = list(tries(drawn, covered, options))
     text, share = report(trials)
     (OUT / "report.txt").write_text(text, encoding="utf-8")
@@ -64,34 +65,43 @@ def every(paths: Sequence[str]) -> list[Mutant]:
 
 
 def draw(found: Sequence[Mutant], number: int, seed: int) -> list[Mutant]:
-    """Return so many mutants drawn by a seed: a longer draw starts with a shorter one."""
-    return random.Random(seed).sample(found, len(found))[:number]
+    """Return so many mutants drawn by a seed: a longer draw starts with a shorter one.
+
+    Each has a random number of its own, so that a change of the source changes the draw where it is alone.
+    """
+    same: Counter[tuple[str, str, str]] = Counter()
+    ranks = []
+    for mutant in found:
+        ranks.append(random.Random(f"{seed} {same[mutant.key]} {mutant.key}").random())
+        same[mutant.key] += 1
+    return [found[k] for k in sorted(range(len(found)), key=ranks.__getitem__)[:number]]
 
 
 def tries(drawn: Sequence[Mutant], covered: CoverageMap, options: argparse.Namespace) -> Iterator[Trial]:
     """Try mutants side by side, each worker in a copy of its own, and say how each ends."""
-    copies: SimpleQueue[Path] = SimpleQueue()
-    for k in range(options.jobs):
-        copy_tree(ROOT, OUT / f"copy-{k}")
-        copies.put(OUT / f"copy-{k}")
-    tests = sorted({test for mutant in drawn for test in covered.tests(mutant)})
-    print(f"{len(tests)} tests are run without a fault first", flush=True)
-    covered.forget(failing(tests, OUT / "copy-0", options.jobs))
     equivalent = {e.key for e in EQUIVALENTS}
+    tests = sorted({test for mutant in drawn for test in covered.tests(mutant)})
+    copies = [OUT / f"copy-{k}" for k in range(options.jobs)]
+    benches = [Bench(ROOT, copy, covered, tests, options.longest) for copy in copies]
+    free: SimpleQueue[Bench] = SimpleQueue()
+    for bench in benches:
+        free.put(bench)
 
     def one(mutant: Mutant) -> Trial:
         if mutant.key in equivalent:
             return Trial(mutant, "equivalent", 0)
-        copy = copies.get()
+        bench = free.get()
         try:
-            return tried(mutant, covered, copy, options.longest)
+            return bench.tried(mutant)
         finally:
-            copies.put(copy)
+            free.put(bench)
 
     with ThreadPoolExecutor(options.jobs) as pool:
         for trial in pool.map(one, drawn):
             print(line(trial), flush=True)
             yield trial
+    for bench in benches:
+        bench.close()
 
 
 def line(trial: Trial) -> str:

@@ -3,7 +3,8 @@
 A comparison of floats is turned round, not moved to its boundary: ``<`` against ``<=`` differ on a set of
 measure zero, so that nearly all of those mutants are equivalent. Where whole numbers are compared (a length,
 a whole literal other than zero, a remainder) the boundary is tried as well. Tolerances are made a thousand
-times wider, other numbers differ by one. Texts, annotations and docstrings are left alone.
+times wider, other numbers differ by one. Texts, annotations and docstrings are left alone, and so are the
+tiny numbers that keep a divisor from zero.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 OPPOSITE = {
@@ -30,6 +32,9 @@ CALLS = {
 }  # fmt: skip
 TOLERANCE = 1e-3
 """A float nearer to zero than this one is a tolerance."""
+
+GUARD = 1e-200
+"""A float nearer to zero keeps a division from zero: any other one of that kind does as well."""
 
 WIDER = 1000.0
 
@@ -83,6 +88,7 @@ class _Finder(ast.NodeVisitor):
             self.offsets.append(self.offsets[-1] + len(line))
         self.mutants: list[Mutant] = []
         self.statement = (1, 1)
+        self.guards: set[ast.expr] = set()
 
     def at(self, line: int, column: int) -> int:
         """Return the offset of a place in the tree, whose columns count bytes."""
@@ -150,6 +156,8 @@ class _Finder(ast.NodeVisitor):
     def visit_BinOp(self, node: ast.BinOp) -> None:
         if type(node.op) in ARITHMETIC and not _is_text(node.left) and not _is_type(node):
             self.add(*self.between(node.left, node.right), ARITHMETIC[type(node.op)])
+        if isinstance(node.op, ast.Div):
+            self.guards |= set(_guards(node.right))
         self.generic_visit(node)
 
     def visit_AugAssign(self, node: ast.AugAssign) -> None:
@@ -184,15 +192,14 @@ class _Finder(ast.NodeVisitor):
         self.add(start, end, f"not ({self.text[start:end]})")
 
     def visit_Call(self, node: ast.Call) -> None:
-        function = node.func
-        name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+        name = _name(node)
         if name in CALLS:
-            _, end = self.span(function)
+            _, end = self.span(node.func)
             self.add(end - len(name), end, CALLS[name])
         self.generic_visit(node)
 
     def visit_Constant(self, node: ast.Constant) -> None:
-        if (new := _other(node.value)) is not None:
+        if node not in self.guards and (new := _other(node.value)) is not None:
             self.add(*self.span(node), new)
 
     def visit_Continue(self, node: ast.Continue) -> None:
@@ -232,6 +239,22 @@ def _whole(node: ast.expr) -> bool:
     return isinstance(node, ast.Call) and getattr(node.func, "id", "") == "len"
 
 
+def _guards(divisor: ast.expr) -> Iterator[ast.expr]:
+    """Yield the least numbers that a divisor may be, by which it is kept from zero."""
+    for call in ast.walk(divisor):
+        if isinstance(call, ast.Call) and _name(call) in {"max", "maximum", "clip"}:
+            yield from (a for a in call.args if isinstance(a, ast.Constant) and _is_tolerance(a.value))
+
+
+def _name(call: ast.Call) -> str:
+    function = call.func
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+def _is_tolerance(value: object) -> bool:
+    return isinstance(value, float) and 0.0 < abs(value) < TOLERANCE
+
+
 def _is_text(node: ast.expr) -> bool:
     return isinstance(node, ast.JoinedStr) or (isinstance(node, ast.Constant) and isinstance(node.value, str))
 
@@ -251,5 +274,7 @@ def _other(value: object) -> str | None:
     if isinstance(value, int):
         return str(value + 1)
     if isinstance(value, float):
-        return repr(value * WIDER if 0.0 < abs(value) < TOLERANCE else value + 1.0)
+        if 0.0 < abs(value) < GUARD:
+            return None
+        return repr(value * WIDER if _is_tolerance(value) else value + 1.0)
     return None

@@ -6,12 +6,19 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import Phase, settings
 
 CHOSEN = "MUTANTS_TESTS"
 """Environment: a file with the ids of the tests, one a line."""
 
 FAILED = "MUTANTS_FAILED"
 """Environment: a file to which the ids of the tests that fail are added."""
+
+
+def pytest_configure() -> None:
+    """Let hypothesis look for counterexamples, not for short ones."""
+    settings.register_profile("mutants", settings(), phases=(Phase.explicit, Phase.generate))
+    settings.load_profile("mutants")
 
 
 @pytest.hookimpl(trylast=True)

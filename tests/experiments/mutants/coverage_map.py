@@ -8,6 +8,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from argparse import Namespace
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from functools import cached_property
@@ -52,11 +53,18 @@ class CoverageMap:
 
     def tests(self, mutant: Mutant) -> list[str]:
         """Return the tests that run the statement of a mutant, those that run little else first."""
-        lines = self.lines.get(mutant.path, {})
-        contexts = set().union(*(lines.get(n, ()) for n in range(mutant.first, mutant.last + 1)))
+        contexts = self._contexts(mutant)
         if IMPORT in contexts:
-            contexts.update(*lines.values())
+            contexts.update(*self.lines[mutant.path].values())
         return sorted(self._asking(contexts), key=lambda t: (self.breadth[t], self.seconds[t], t))
+
+    def imports(self, mutant: Mutant) -> bool:
+        """Whether the statement of a mutant is run when modules are imported."""
+        return IMPORT in self._contexts(mutant)
+
+    def _contexts(self, mutant: Mutant) -> set[str]:
+        lines = self.lines.get(mutant.path, {})
+        return set().union(*(lines.get(n, ()) for n in range(mutant.first, mutant.last + 1)))
 
     def forget(self, tests: set[str]) -> None:
         """Leave tests out that fail without a fault."""
@@ -74,19 +82,19 @@ class CoverageMap:
         return {context for context in seen if context in self.seconds}
 
 
-def recorded(folder: Path, paths: Sequence[str], root: Path, tests: str, *, anew: bool) -> CoverageMap:
+def recorded(folder: Path, paths: Sequence[str], root: Path, options: Namespace) -> CoverageMap:
     """Return the map in a folder; run the suite and record it where there is none of these files.
 
-    tests : which, as pytest's command line says it; anew : whatever there is
+    options : tests, as pytest's command line names them; record, whatever there is; jobs, how many at once
     """
     digest = folder / "digest.txt"
-    now = _digest(root, paths, tests)
-    if anew or not digest.is_file() or digest.read_text(encoding="utf-8") != now:
+    now = _digest(root, paths, options.tests)
+    if options.record or not digest.is_file() or digest.read_text(encoding="utf-8") != now:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         environment = dict(os.environ) | {FOLDER: str(folder), PATHS: "\n".join(paths)}
-        chosen = ["-p", "tests.experiments.mutants.recording", *shlex.split(tests)]
-        command = [sys.executable, "-m", "pytest", "-n", "2", "--dist", "loadgroup", *chosen]
+        chosen = ["-p", "tests.experiments.mutants.recording", *shlex.split(options.tests)]
+        command = [sys.executable, "-m", "pytest", "-n", str(options.jobs), "--dist", "loadgroup", *chosen]
         subprocess.run(command, cwd=root, env=environment, check=False)
         digest.write_text(now, encoding="utf-8")
     return CoverageMap(json.loads(p.read_text(encoding="utf-8")) for p in sorted(folder.glob("*.json")))

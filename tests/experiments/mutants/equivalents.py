@@ -29,4 +29,40 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "1  ->  2",
         "slabs are sampled for a first upper bound alone; branch and bound ends within the same gap",
     ),
+    Equivalent(
+        "shotc/geom/surface/tree.py",
+        "TOP = 16",
+        "16  ->  17",
+        "how many boxes a search begins with: all of them are held against what is sought, whatever their number",
+    ),
+    Equivalent(
+        "shotc/geom/surface/inside.py",
+        "for axis in (0, 1):",
+        "1  ->  2",
+        "boxes that a ray misses are only left out early; `pierced` tells which of the rest it crosses",
+    ),
+    Equivalent(
+        "shotc/geom/surface/inside.py",
+        "for axis in (0, 1):",
+        "0  ->  1",
+        "boxes that a ray misses are only left out early; `pierced` tells which of the rest it crosses",
+    ),
+    Equivalent(
+        "shotc/geom/outline.py",
+        'square = np.maximum(np.einsum("md,md->m", along, along), NO_LENGTH_M**2)',
+        "2  ->  3",
+        "it keeps a division from zero where the eye is in the outline, and any tiny number does",
+    ),
+    Equivalent(
+        "shotc/geom/terrain/systems.py",
+        "_DELTA = _series((2, -2 / 3, -2, 116 / 45), (7 / 3, -8 / 5, -227 / 45), (56 / 15, -136 / 35), (4279 / 630,))",
+        "136  ->  137",
+        "n^4 / 35 is 2.3e-13 rad, 1.5 micrometres on the ground; the series is told to be good to a few of them",
+    ),
+    Equivalent(
+        "shotc/solvers/retiming_socp.py",
+        "unit = 1.0 / np.maximum(self.b_unit[:-1], self.b_unit[1:])",
+        "1.0  ->  2.0",
+        "it multiplies all terms of equations whose other side is zero",
+    ),
 )

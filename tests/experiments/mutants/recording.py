@@ -131,12 +131,14 @@ def _plain(item: pytest.Item) -> str:
     return item.nodeid.removesuffix(f"@{group.args[0]}") if group else item.nodeid
 
 
-def pytest_configure(config: pytest.Config) -> None:
-    """Start; the process that only hands tests out records nothing."""
-    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
-        return
+RECORDER = pytest.StashKey[Recorder]()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_load_initial_conftests(early_config: pytest.Config) -> None:
+    """Start before anything of ours is imported."""
     recorder = Recorder(Path(os.environ[FOLDER]), os.environ[PATHS].split("\n"))
-    config.pluginmanager.register(recorder)
+    early_config.stash[RECORDER] = recorder
     cache = functools.cache
 
     def cached(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -146,3 +148,12 @@ def pytest_configure(config: pytest.Config) -> None:
     functools.cache = cached  # type: ignore[assignment]
     recorder.coverage.start()
     recorder.coverage.switch_context(IMPORT)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Record; the process that only hands tests out records nothing."""
+    recorder = config.stash[RECORDER]
+    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        recorder.coverage.stop()
+    else:
+        config.pluginmanager.register(recorder)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import ast
+import shutil
+import subprocess
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -11,7 +14,9 @@ from tests.experiments.mutants.__main__ import ROOT, draw, every, report
 from tests.experiments.mutants.changes import mutants
 from tests.experiments.mutants.coverage_map import CoverageMap
 from tests.experiments.mutants.equivalents import EQUIVALENTS
-from tests.experiments.mutants.trial import Trial
+from tests.experiments.mutants.patched import NotPatchedError, patch
+from tests.experiments.mutants.recording import IMPORT
+from tests.experiments.mutants.trial import Bench, Trial
 
 SOURCE = '''\
 """Text: 1 < 2."""
@@ -49,6 +54,13 @@ def test_code_is_changed_and_texts_and_types_are_not() -> None:
     ]
 
 
+def test_a_guard_against_division_by_zero_is_left_alone() -> None:
+    assert changes("a / max(b, 1e-300)") == ["/  ->  *", "max  ->  min"]
+    assert changes("a / max(b, 1e-9)") == ["/  ->  *", "max  ->  min"]
+    found = changes("c(a, 1e-9) / max(b, 0.5)")
+    assert found == ["1e-9  ->  1.0000000000000002e-06", "/  ->  *", "max  ->  min", "0.5  ->  1.5"]
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [
@@ -77,6 +89,12 @@ def test_a_longer_draw_starts_with_a_shorter_one() -> None:
     found = every(["shotc/geom/vec.py", "shotc/geom/taper.py"])
     assert draw(found, 5, 1) == draw(found, 9, 1)[:5]
     assert draw(found, 9, 1) != draw(found, 9, 2)
+
+
+def test_a_change_of_the_source_changes_the_draw_where_it_is_alone() -> None:
+    one, other = every(["shotc/geom/vec.py"]), every(["shotc/geom/taper.py"])
+    drawn = draw([*one, *other], 12, 0)
+    assert [m for m in drawn if m in other[1:]] == [m for m in draw(other[1:], 12, 0) if m in drawn]
 
 
 def test_an_equivalent_mutant_is_one_that_there_is() -> None:
@@ -108,3 +126,96 @@ def test_equivalent_mutants_are_not_counted() -> None:
     text, share = report(trials)
     assert share == 0.9
     assert "survived   m.py:1  +  ->  -  in  a + b" in text
+
+
+BODIES = """\
+NEAR = 1
+
+
+class Held:
+    def of(self):
+        return [v + 1 for v in (1, 2)]
+
+
+def twice(a):
+    return Held().of(), a * 2
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("v + 1", "v - 1", ([0, 1], 6)),
+        ("a * 2", "a / 2", ([2, 3], 1.5)),
+        ("v + 1", "v + 1.0", ([2.0, 3.0], 6)),
+    ],
+)
+def test_a_fault_is_put_into_functions_that_are_loaded(old: str, new: str, expected: object) -> None:
+    names: dict[str, Any] = {}
+    exec(compile(BODIES, "m.py", "exec"), names)
+    patch((names["twice"], names["Held"].of), "m.py", BODIES, BODIES.replace(old, new))
+    assert repr(names["twice"](3)) == repr(expected)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("NEAR = 1", "NEAR = 2"), ("class Held", "class Hold"), ("a * 2", "a / 2")]
+)
+def test_a_fault_outside_loaded_functions_needs_a_fresh_process(old: str, new: str) -> None:
+    names: dict[str, Any] = {}
+    exec(compile(BODIES, "m.py", "exec"), names)
+    with pytest.raises(NotPatchedError):
+        patch((names["Held"].of,), "m.py", BODIES, BODIES.replace(old, new))
+
+
+HELD = """\
+NEAR = 1
+
+
+def far(a):
+    return a > NEAR
+
+
+def other(a):
+    return a - NEAR
+"""
+
+HELD_TESTS = """\
+from tests.held import NEAR, far
+
+
+def test_near():
+    assert NEAR == 1
+
+
+def test_far():
+    assert far(2)
+
+
+def test_broken():
+    assert far(1)
+"""
+
+
+@pytest.mark.long
+def test_a_mutant_meets_the_tests_of_its_line(tmp_path: Path) -> None:
+    """In a fork or, outside functions, in a fresh process; a test that fails anyway tells nothing."""
+    root = tmp_path / "root"
+    shutil.copytree(ROOT / "tests/experiments/mutants", root / "tests/experiments/mutants")
+    for name in ("tests/__init__.py", "tests/experiments/__init__.py", "pyproject.toml"):
+        (root / name).touch()
+    (root / "tests/held.py").write_text(HELD, encoding="utf-8")
+    (root / "tests/test_held.py").write_text(HELD_TESTS, encoding="utf-8")
+    subprocess.run(["git", "init", "-q"], cwd=root, check=True)
+    tests = [f"tests/test_held.py::test_{name}" for name in ("broken", "far", "near")]
+    lines = {"1": [IMPORT], "5": tests[:2], "9": tests[1:2], "12": tests[2:]}
+    record = {
+        "lines": {"tests/held.py": lines},
+        "asked": {},
+        "seconds": dict.fromkeys(tests, 0.1),
+        "failed": [],
+    }
+    bench = Bench(root, tmp_path / "copy", CoverageMap([record]), tests, 10.0)
+    trials = [(m.change, bench.tried(m).verdict) for m in mutants("tests/held.py", HELD)]
+    bench.close()
+    assert trials == [("1  ->  2", "killed"), (">  ->  <", "killed"), ("-  ->  +", "survived")]
+    assert (tmp_path / "copy/tests/held.py").read_text(encoding="utf-8") == HELD
