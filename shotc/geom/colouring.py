@@ -93,7 +93,7 @@ def _on_lattice(places: Sequence[Vec2], least: float, fewest: int) -> list[int] 
     if index is None:
         return None
     (spacing, steps) = index
-    for count in range(1, fewest + 1):
+    for count in range(2, fewest + 1):  # with one colour there is nothing to choose
         for a in (a for a in range(1, count + 1) if count % a == 0):
             d = count // a
             for b in range(a):

@@ -112,8 +112,7 @@ class _Fleet:
         """Return the rows (m,) of the drones that count on an interval without breaks; None for all."""
         if self.counted is None:
             return None
-        k = int(np.searchsorted(self.breaks, 0.5 * (low + high), side="right")) - 1
-        return np.flatnonzero(self.counted[:, k])
+        return np.flatnonzero(self.counted[:, self._piece(low, high)])
 
     def on(self, low: float, high: float) -> Array:
         """Return the control points on an interval without breaks, shape (n, 4, 3)."""
@@ -121,10 +120,13 @@ class _Fleet:
             return np.repeat(self.ctrl[0, :, :1], 4, axis=1)
         if low >= self.breaks[-1]:
             return np.repeat(self.ctrl[-1, :, -1:], 4, axis=1)
-        k = int(np.searchsorted(self.breaks, 0.5 * (low + high), side="right")) - 1
+        k = self._piece(low, high)
         start, width = self.breaks[k], self.breaks[k + 1] - self.breaks[k]
         cut = _cut(float((low - start) / width), float((high - start) / width))
         return np.asarray(np.matmul(cut, self.ctrl[k]))
+
+    def _piece(self, low: float, high: float) -> int:
+        return int(np.searchsorted(self.breaks, 0.5 * (low + high), side="right")) - 1
 
 
 def _cut(low: float, high: float) -> Array:

@@ -123,8 +123,7 @@ def _when(busy: _Drones, line: Array) -> Array:
     needs = np.hypot(speeds, np.sqrt(busy.shares(bend, 2) / ASKED_SHARE))
     wide = max(1, round(SMOOTHED_SHARE * len(line)))
     padded = np.pad(needs, wide, mode="edge")
-    kernel = np.ones(2 * wide + 1) / (2 * wide + 1)
-    smooth = np.convolve(padded, kernel, mode="valid")
+    smooth = np.convolve(padded, np.ones(2 * wide + 1), mode="valid")  # only shares of it count
     smooth = np.maximum(smooth, 1e-9 + 1e-6 * float(smooth.max()))
     passed = np.concatenate([[0.0], np.cumsum(0.5 * (smooth[1:] + smooth[:-1]))])
     return np.asarray(passed / passed[-1])

@@ -185,10 +185,10 @@ class FleetProgramme:
         blocks, self.rows, at = [], [], 0
         for order in (1, 2, 3):
             matrix = differences(breaks, order)
-            scale = 1.0 / np.linalg.norm(matrix[:, within], axis=1).clip(1e-12)
-            touched = np.flatnonzero(np.abs(matrix[:, within]).max(axis=1) > 0.0)
-            blocks.append(matrix[touched] * scale[touched, None])
-            self.rows.append(_Rows(order, slice(at, at + len(touched)), scale[touched]))
+            touched = np.flatnonzero(matrix[:, within].any(axis=1))
+            scale = 1.0 / np.linalg.norm(matrix[touched, within], axis=1)
+            blocks.append(matrix[touched] * scale[:, None])
+            self.rows.append(_Rows(order, slice(at, at + len(touched)), scale))
             at += len(touched)
         whole = np.concatenate(blocks)
         self.dense = whole

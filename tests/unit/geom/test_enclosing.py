@@ -7,7 +7,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pytest
 
-from shotc.geom.enclosing import EnclosingShape, UprightPrism, bodies_about
+from shotc.geom.enclosing import MOST_PIECES, EnclosingShape, UprightPrism, bodies_about
 from shotc.geom.shapes import BoxShape, CylinderShape
 from shotc.geom.solids import signed_area
 
@@ -102,3 +102,15 @@ def test_any_ring_is_held_and_cuts_take_away_what_is_beside_it():
         assert sum(map(volume, bodies)) <= 6.0 * circle * 1.3
         shares.append(6.0 * signed_area(ring) / sum(map(volume, bodies)))
     assert np.mean(shares) > 0.55
+
+
+@pytest.mark.parametrize("turned_round", [False, True])
+def test_a_ring_becomes_at_most_six_pieces(turned_round):
+    # Stairs of twenty steps: a cut takes an eighth away or more, again and again.
+    steps = [p for k in range(20, 0, -1) for p in ((k, k), (k - 1, k))]
+    ring = ((0, 0), (20, 0), *steps)
+    stairs = UprightPrism(turned(ring, 3.0 if turned_round else 0.0), 0.0, 5.0)
+    bodies = bodies_about([stairs], 20)
+    assert 4 <= len(bodies) <= MOST_PIECES
+    rng = np.random.default_rng(1)
+    assert all(gap(bodies, p) < 1e-9 for p in inner(stairs, rng))

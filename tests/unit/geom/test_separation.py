@@ -180,3 +180,21 @@ def test_the_first_span_in_which_two_fleets_come_too_near_is_found_not_the_neare
     assert (later.attained, later.second) == (pytest.approx(0.2), 1)
     assert first_nearer(flown, beside, BALL, marks, 0.199) is None
     assert first_nearer(flown, beside, BALL, marks[:3], 0.7) is None
+
+
+def test_pairs_are_compared_only_on_pieces_on_which_both_count() -> None:
+    # The first two are 1 m apart all the while, the third is 3 m from the second; who counts changes.
+    breaks = np.array([0.0, 1.0, 2.0, 3.0])
+    coef = np.stack([straight(breaks, [x, 0.0, 10.0], [0.0, 0.0, 0.0]) for x in (0.0, 1.0, 4.0)])
+    nobody, pair, others = [False] * 3, [True, True, False], [False, True, True]
+
+    def found(*pieces: list[bool]) -> tuple[float, tuple[int, int]]:
+        nearest = closest(breaks, coef, BALL, np.array(pieces).T)
+        return nearest.attained, (nearest.first, nearest.second)
+
+    assert found(nobody, others, nobody) == (pytest.approx(3.0), (1, 2))
+    assert found(others, pair, nobody) == (pytest.approx(1.0), (0, 1))
+    assert found([True, False, True], others, others) == (pytest.approx(3.0), (1, 2))
+    assert found([True, False, False], nobody, [False, False, True])[0] == np.inf
+    timed = closest(breaks, coef, BALL, np.array([nobody, nobody, pair]).T)
+    assert 2.0 <= timed.time <= 3.0

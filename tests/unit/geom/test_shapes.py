@@ -151,3 +151,8 @@ def test_the_cylinder_about_a_body_holds_it(shape: BoxShape | CylinderShape, yaw
     turned = surface(shape.facing((cos(yaw), sin(yaw))))
     assert np.hypot(turned[:, 0], turned[:, 1]).max() <= shape.radius + 1e-9
     assert shape.radius <= hypot(*turned[np.hypot(turned[:, 0], turned[:, 1]).argmax(), :2]) + 1e-6
+
+
+def test_a_wider_box_has_every_upright_side_farther_out_and_is_no_higher() -> None:
+    box = BoxShape(6.0, 2.0, 3.0, (0.6, 0.8)).wider(0.5)
+    assert (box.length, box.width, box.height, box.ahead) == (7.0, 3.0, 3.0, (0.6, 0.8))

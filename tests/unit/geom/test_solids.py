@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from shotc.geom.solids import segments_cross
+from shotc.geom.solids import Prism, convex_parts, segments_cross, signed_area
 
 LONG = ((0.0, 0.0), (4.0, 0.0))
 
@@ -28,3 +28,21 @@ def test_two_segments_cross_or_touch_whichever_comes_first(other, crosses: bool)
     for first, second in (((a, b), (c, d)), ((b, a), (d, c))):
         assert segments_cross(*first, *second) is crosses
         assert segments_cross(*second, *first) is crosses
+
+
+@pytest.mark.parametrize(
+    ("points", "parts"),
+    [
+        (((0, 0), (4, 0), (4, 3), (0, 3)), 1),
+        (((0, 0), (2, 0), (4, 0), (4, 3), (0, 3)), 1),  # a corner on a side
+        (((0, 0), (0.1, 0.3), (0.2, 0.6), (-3, 1)), 1),  # on a side, but for rounding
+        (((0, 0), (2, 0.1), (4, 0), (4, 3), (0, 3)), 3),  # a corner that points inside
+        (((0, 0), (4, 0), (4, 3), (3.9, 1.5)), 2),
+    ],
+)
+def test_a_footprint_is_one_part_unless_a_corner_of_it_points_inside(points, parts: int) -> None:
+    split = convex_parts(Prism(points, 0.0, 2.0))
+    assert len(split) == parts
+    areas = [signed_area(part.points) for part in split if isinstance(part, Prism)]
+    assert sum(areas) == pytest.approx(signed_area(points))
+    assert min(areas) > 0.0

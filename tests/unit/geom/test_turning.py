@@ -9,8 +9,6 @@ from shotc.geom.track import Track
 from shotc.geom.track_array import headings
 from shotc.geom.turning import turning
 
-pytestmark = pytest.mark.slow
-
 START, END = 0.5, 20.0
 
 
@@ -25,11 +23,12 @@ def drawn(seed: int) -> Track:
     return Track(tuple(times), tuple(map(tuple, points)), faced)  # type: ignore[arg-type]
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize(
+    "seed", [s if s < 7 else pytest.param(s, marks=(pytest.mark.slow, pytest.mark.long)) for s in range(60)]
+)
 def test_no_course_changes_by_more_than_is_told(seed: int) -> None:
     track = drawn(seed)
-    t = np.linspace(START, END, 20_001)
+    t = np.linspace(START, END, 20_001 if seed >= 7 else 4001)
     course = headings(track, t)
     before, after = turning(track, START, END).at(t)
     assert (after >= before).all()
@@ -50,3 +49,26 @@ def test_what_stops_and_goes_back_turns_by_nothing_that_a_box_shows() -> None:
         (0.0, 5.0, 8.0, 13.0), ((0.0, 0.0, 0.0), (20.0, 0.0, 0.0), (20.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     )
     assert turning(track, 0.0, 13.0).after[-1] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_has_headings_turns_as_they_do_and_what_only_swings_counts_both_ways() -> None:
+    way = Track((0.0, 4.0, 8.0), ((0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (9.0, 9.0, 0.0)), (0.5, 1.5, 0.9))
+    before, after = turning(way, 1.0, 7.0).at(np.array([1.0, 3.0, 4.0, 6.0, 7.0]))
+    assert after == pytest.approx([0.0, 0.5, 0.75, 1.05, 1.2])
+    assert before == pytest.approx(after)
+
+
+def test_a_course_steps_where_it_stops_and_counts_before_and_after_that() -> None:
+    # East, 6 s of rest, then North: the course steps once it has moved 0.1 m within the second after.
+    way = Track(
+        (0.0, 5.0, 11.0, 16.0), ((0.0, 0.0, 0.0), (20.0, 0.0, 0.0), (20.0, 0.0, 0.0), (20.0, 20.0, 0.0))
+    )
+    turned = turning(way, 0.0, 16.0)
+    (k,) = np.flatnonzero(turned.after - turned.before > 0.1)
+    assert turned.times[k] == pytest.approx(10.0 + 0.1 / 4.0)
+    assert (turned.before[k], turned.after[k]) == (pytest.approx(0.0, abs=1e-9), pytest.approx(pi / 2))
+    before, after = turned.at(turned.times[[k]])
+    assert (before[0], after[0]) == (turned.before[k], turned.after[k])
+    assert turned.at(turned.times[[k]] - 1e-3)[1][0] == pytest.approx(0.0, abs=1e-9)
+    assert turned.at(turned.times[[k]] + 1e-3)[0][0] == pytest.approx(pi / 2)
+    assert turned.at(np.array([0.0, 16.0]))[1] == pytest.approx([0.0, pi / 2])

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.geom.vec import TURN, direction, wrapped
+from shotc.geom.vec import TURN, direction, minus, plus, wrapped
 
 angles = st.floats(-50, 50)
 
@@ -29,3 +29,8 @@ def test_arrays_are_wrapped_to_the_bit_as_floats_are(some):
 def test_half_a_turn_is_at_the_end_that_each_convention_says(turns):
     assert wrapped(pi + turns * TURN) == -pi
     assert direction(pi + turns * TURN) == direction(-pi + turns * TURN) == pi
+
+
+def test_sums_and_differences_are_taken_axis_by_axis():
+    assert plus((1.0, 20.0, 300.0), (4.0, 50.0, 600.0)) == (5.0, 70.0, 900.0)
+    assert minus((1.0, 20.0, 300.0), (4.0, 55.0, 666.0)) == (-3.0, -35.0, -366.0)

@@ -168,3 +168,21 @@ def test_a_camera_goes_no_farther_than_its_way() -> None:
     held, _ = viewpoint(subjects, LENS, ROOM, start, since)
     assert hypot(*(a - b for a, b in zip(free[:3], start[:3], strict=True))) > 2.0
     assert hypot(*(a - b for a, b in zip(held[:3], start[:3], strict=True))) < 1.1
+
+
+@pytest.mark.parametrize("azimuth", [0.3, 2.0, -1.2])
+def test_a_side_that_is_asked_for_alone_is_the_one_that_is_seen(azimuth: float) -> None:
+    subject = MAN._replace(uv=(0.2, -0.1), size=0.3, azimuth=azimuth)
+    pose, cost = viewpoint((subject,), LENS, ROOM, first_pose([subject], LENS, ROOM, azimuth + 0.4))
+    east, north = pose[0] - MAN.centre[0], pose[1] - MAN.centre[1]
+    assert np.arctan2(east, north) == pytest.approx(azimuth, abs=1e-3)
+    assert cost < 1e-6
+
+
+@pytest.mark.parametrize("elevation", [0.3, 0.8])
+def test_a_height_that_is_asked_for_alone_is_the_one_that_is_seen(elevation: float) -> None:
+    subject = MAN._replace(uv=(0.2, -0.1), size=0.3, elevation=elevation)
+    pose, cost = viewpoint((subject,), LENS, ROOM, first_pose([subject], LENS, ROOM, 0.4))
+    x, y, z = (a - b for a, b in zip(pose[:3], MAN.centre, strict=True))
+    assert np.arctan2(z, hypot(x, y)) == pytest.approx(elevation, abs=1e-3)
+    assert cost < 1e-6

@@ -83,6 +83,15 @@ def test_a_bend_takes_its_share_of_the_acceleration(fastest) -> None:
     assert found.b[500] == pytest.approx(30.0, rel=1e-4)
 
 
+def test_units_are_what_full_acceleration_and_full_braking_leave_of_the_ceiling() -> None:
+    # 2 m/s^2 from the start, 0.5 m/s^2 to the end, cells of different widths.
+    grid = np.concatenate([np.linspace(0.0, 10.0, 41), np.linspace(10.5, 40.0, 60)])
+    limits = straight(grid, 6.0, 2.0)
+    limits.on_a[:, 1] = -2.0
+    expected = np.minimum(np.minimum(4.0 * grid, 40.0 - grid), 36.0)
+    assert topp_lp._units(limits)[1:-1] == pytest.approx(expected[1:-1])
+
+
 @pytest.mark.parametrize("fails", [Status.FAILED, Status.INFEASIBLE, Status.UNBOUNDED])
 def test_a_solver_that_gives_nothing_gives_no_profile(fails: Status, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(topp_lp.ConeRows, "solve", lambda self, *_: (fails, np.full(self.unknowns, np.nan)))

@@ -272,3 +272,27 @@ def test_a_broken_promise_names_what_bent_the_path() -> None:
     (found,) = promising(Promise(size=(0.1, 0.7)), replace(PLAN, deviations=bent))
     assert "the shot leaves its ideal path by up to 1.50 m, round zone `tree`" in found.notes
     assert not any("ground" in note for note in found.notes)
+
+
+def test_a_place_on_screen_is_held_in_the_frames_that_have_one() -> None:
+    (span,) = PLAN.drones[0].framing
+    middle = 0.5 * (span.start + span.end)
+    free = replace(span, start=middle, reference=None)
+    aside = shifted(CAM_YAW, radians(3))
+    found = claim(with_track(aside, framing=(replace(span, end=middle), free)), "tower screen error")
+    assert found.worst == pytest.approx(np.tan(radians(3)) / np.tan(radians(35)), rel=0.03)
+    assert found.time is not None
+    assert span.start <= found.time <= middle
+
+
+def test_a_size_that_is_not_known_is_the_worst_of_either_kind() -> None:
+    away = shifted(CAM_YAW, pi * 0.9)
+    assert claim(away, "tower size smallest").worst == -np.inf
+    assert claim(away, "tower size largest").worst == np.inf
+
+
+def test_nothing_is_asked_of_a_target_out_of_its_shot() -> None:
+    (span,) = PLAN.drones[0].framing
+    longer = replace(span, start=span.start - 10.0, end=span.end + 10.0)
+    for constraint in ("tower in frame", "tower size smallest", "tower screen error"):
+        assert claim(with_track(framing=(longer,)), constraint) == claim(PLAN, constraint)

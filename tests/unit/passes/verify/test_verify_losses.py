@@ -65,6 +65,7 @@ def test_it_is_told_with_its_error_frame_and_time():
     assert f"{time - start:.3f} s into the shot" in note
     assert f"frame {round(time * MISSION.rate)} at {MISSION.rate:g} Hz" in note
     assert "screen_error" in found.help
+    assert "move the keyframes next to it" in found.help  # it has one subject and a path of its own
 
 
 def test_what_bent_the_path_is_told():

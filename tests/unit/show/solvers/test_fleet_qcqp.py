@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from shotc.geom.bernstein import Array
-from shotc.geom.fleet_spline import differences, knots, places
+from shotc.geom.fleet_spline import centres, differences, knots, places
 from shotc.ir.limits import Limits
 from shotc.show.solvers import qcqp as fleet_qcqp
 from shotc.show.solvers.qcqp import DerivativeBounds, bounded, deviation, overdraft
@@ -111,3 +111,41 @@ def test_the_gram_matrix_is_the_integral() -> None:
     squares = (places(breaks, coef, times)[0] ** 2).sum(axis=-1)
     assert len(knots(breaks)) == 11
     assert cost(breaks, coef, 0.0 * coef)[0] == pytest.approx(np.trapezoid(squares, times), rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "excess"),
+    [
+        ((2.1, 2.8, 0.0), 0.0),  # 3.5 m/s across, which is the limit
+        ((2.4, 3.2, 0.0), 4.0 / 3.5 - 1.0),
+        ((0.0, 0.0, 2.5), 0.0),
+        ((0.0, 0.0, 3.0), 0.2),
+        ((0.0, 0.0, -1.8), 0.2),
+        ((2.4, 3.2, -3.0), 1.0),
+    ],
+)
+def test_what_is_too_fast_is_told_by_its_worst_share(velocity: tuple[float, ...], excess: float) -> None:
+    breaks = np.array([0.0, 1.0, 2.5, 3.0])
+    slow = np.zeros((6, 3))
+    coef = np.stack([slow, centres(breaks)[:, None] * np.array(velocity), slow])
+    assert overdraft(breaks, coef, DerivativeBounds(LIMITS)) == pytest.approx([0.0, excess, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rate", "per_axis", "excess"),
+    [
+        ((1.2, 1.6, 0.0), False, 0.0),
+        ((1.2, 1.6, 1.5), False, 0.25),
+        ((1.2, -1.6, 1.5), True, 0.0),
+        ((1.2, -2.2, 1.5), True, 0.1),
+    ],
+)
+def test_acceleration_counts_whole_or_axis_by_axis(
+    rate: tuple[float, ...], per_axis: bool, excess: float
+) -> None:
+    # x = a t^2 / 2: its control points are the products of pairs of knots, in the mean.
+    breaks = np.linspace(0.0, 0.9, 4)
+    t = knots(breaks)[1:-1]
+    halves = np.array([(a * b + a * c + b * c) / 6 for a, b, c in zip(t, t[1:], t[2:], strict=False)])
+    found = overdraft(breaks, (halves[:, None] * np.array(rate))[None], DerivativeBounds(LIMITS, per_axis))
+    assert found == pytest.approx([excess], abs=1e-9)
