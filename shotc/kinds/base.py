@@ -1,7 +1,7 @@
-"""What a shot kind is: a model of its parameters, and a function that turns them into keyframes.
+"""The interface of shot kinds: a model of the parameters, and a function from them to keyframes.
 
-A kind reads everything it may read from its ``Scene`` and gives an ``Expansion``. Third parties add
-kinds by an entry point in the group ``shotc.kinds`` that names a ``Kind``; ours come the same way.
+The function reads a ``Scene`` and returns an ``Expansion``. Other packages add kinds by an entry point in the
+group ``shotc.kinds`` that names a ``Kind``; our kinds use the same way.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -32,14 +32,14 @@ from shotc.spec.places import Spot
 from shotc.spec.shot import ShotBase
 from shotc.spec.words import nearest
 
-if TYPE_CHECKING:  # a mission of cameras loads none of it
+if TYPE_CHECKING:  # missions of cameras do not load these
     from typing import Protocol
 
     from shotc.ir.show import Display
     from shotc.kinds.files import FileFault
 
     class Aimed(Protocol):
-        """Anything that says by `look_at`, or by `heading` and `pitch`, where a camera looks."""
+        """A model that aims a camera by `look_at`, or by `heading` and `pitch`."""
 
         @property
         def look_at(self) -> "str | Place | None":
@@ -56,14 +56,14 @@ if TYPE_CHECKING:  # a mission of cameras loads none of it
 
 API_VERSION = 1
 OURS = "shotc"
-OWN = "target"  # what a place counts from where that is the target of its shot
-STILL = 5.0  # seconds that a camera which stands still films where the timing gives no duration
+OWN = "target"  # reference of a place that is relative to the target of its shot
+STILL = 5.0  # default duration of a still camera's shot, seconds
 
 Place = Spot | Geodetic
 
 
 class Stand(NamedTuple):
-    """Where a camera is: a place of W, and what it counts from where that moves."""
+    """The position of a camera in W, and the moving target that it is relative to, if there is one."""
 
     at: Vec3
     beside: Beside | None = None
@@ -74,11 +74,11 @@ Aim = tuple[Vec2 | Vec3 | None, str | None]
 
 
 class Expansion(NamedTuple):
-    """What a shot expands to: keyframes in the order they are flown, or what stands against it.
+    """The expansion of a shot: keyframes in the order of flight, or the diagnostics that prevent it.
 
-    ideal, subjects : instead of keyframes, where a target moves
-    lasts : seconds that such a shot takes where its timing does not say
-    display : instead of all these, what a fleet shows
+    ideal, subjects : instead of keyframes, for a moving target
+    lasts : default duration of such a shot, seconds
+    display : instead of all these, for a fleet
     """
 
     keyframes: tuple[Keyframe, ...] = ()
@@ -91,7 +91,9 @@ class Expansion(NamedTuple):
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:
-        """Sort parts: keyframes count only where nothing stands against them."""
+        """Return the expansion of parts; it has keyframes only if there are no diagnostics and deferred
+        parts.
+        """
         items = tuple(parts)
         diagnostics = tuple(p for p in items if isinstance(p, Diagnostic))
         deferred = tuple(p for p in items if isinstance(p, Deferred))
@@ -100,15 +102,15 @@ class Expansion(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """What the expansion of one shot may read.
+    """The inputs for the expansion of one shot.
 
-    drone : that films it; rules : of the mission
-    composition : set on which the shot's target is placed
-    targets : by name; None where a target's track cannot be used
+    drone : of the shot; rules : of the mission
+    composition : admissible places of the shot's target
+    targets : by name; None for a target with an unusable track
     path : of the shot in the mission; origins : spans of the mission file
-    origin : of W on the earth, if the mission gives one; geodetic positions need it
-    read : bytes of a file that the mission names under a key path, or what is wrong with it
-    match : names of the files that a pattern under a key path stands for, 2 before 10, or what is wrong
+    origin : geographic origin of W, if the mission has one; geodetic positions need it
+    read : returns the bytes of a file that the mission names at a key path, or a diagnostic
+    match : returns the names of the files that match a pattern at a key path, 2 before 10, or a diagnostic
     pace : of the mission's rules; fleets : the names of their groups, by name
     ground : z of the ground at x and y, metres
     music : of the mission, or None
@@ -129,7 +131,7 @@ class Scene(NamedTuple):
     music: Music | None = None
 
     def subject(self, name: str, *path: str | int) -> Target | Diagnostic | Deferred:
-        """Return the target called ``name``; ``path``, below the shot, is where the name is written."""
+        """Return the target of that name; path : of the name in the text, below the shot."""
         where = (*self.path, *path)
         if name not in self.targets:
             return unknown_target(self.origins, where, name, self.targets)
@@ -140,9 +142,9 @@ class Scene(NamedTuple):
     def stand(
         self, shot: ShotBase, at: "Place | Relative", *path: str | int
     ) -> Stand | Diagnostic | Deferred:
-        """Return where a camera is that is written at ``path`` below the shot.
+        """Return the position of a camera that is written at ``path`` below the shot.
 
-        A place that counts from a target that stands is one of W like any other.
+        A place relative to a standing target becomes a place of W.
         """
         if not isinstance(at, Relative):
             return Stand(self.place(at))
@@ -169,12 +171,12 @@ class Scene(NamedTuple):
     def aim(
         self, shot: ShotBase, aimed: "Aimed", *path: str | int, own: str | None = None
     ) -> Aim | Diagnostic | Deferred:
-        """Return (aim, target) of a camera that is aimed as ``aimed``, at ``path`` below the shot, says.
+        """Return (aim, target) of a camera by ``aimed``, which is written at ``path`` below the shot.
 
-        own : the target that is written there, which stands in for the shot's
+        own : the target that is written there; it replaces the shot's target
 
-        A target named by `look_at` is framed. A point is looked at, or a heading and pitch are
-        taken, and the shot's own target, if it has one, is framed.
+        If `look_at` names a target, that target is framed. Otherwise the camera looks at a point, or has a
+        heading and a pitch, and the shot's target, if there is one, is framed.
         """
         if isinstance(aimed.look_at, str):
             found = self.subject(aimed.look_at, *path, "look_at")
@@ -196,25 +198,27 @@ class Scene(NamedTuple):
         return Subject(name, self.composition, shot.size, None, (*self.path, key))
 
     def place(self, position: Place) -> Vec3:
-        """Return a position as a point of W; the mission has an origin wherever one is geodetic."""
+        """Return a position as a point of W; a mission with geodetic positions has an origin."""
         return placed(self.origin, self.ground, position)
 
     def raised(self, p: Vec3, target: Target, above: Above | None) -> Vec3:
-        """Return a point of W for one whose height counts from a target's foot, or ``above``."""
+        """Return the point of W for a point whose height is relative to ``above``, by default the target's
+        foot.
+        """
         return (p[0], p[1], p[2] + self._base(target, above, p))
 
     def height_of(self, target: Target, above: Above | None) -> float:
-        """Return the height of a target's centre over what a shot counts heights from, metres."""
+        """Return the height of a target's centre over the reference of a shot's heights, metres."""
         return target.centre[2] - self._base(target, above, target.centre)
 
     def _base(self, target: Target, above: Above | None, p: Vec3) -> float:
-        """Return z of what heights count from at a point, metres."""
+        """Return z of the reference of heights at a point, metres."""
         return counted_from(above or "target", self.ground, (p[0], p[1]), target.foot[2])
 
     def keyframe(self, at: Vec3, target: str | None, **changes: Any) -> Keyframe:
-        """Return a keyframe of a camera at ``at`` that looks at ``target`` and does not hold.
+        """Return a keyframe of a camera at ``at`` that looks at ``target``, without a hold.
 
-        It is a generated one, which refinement may leave, unless ``changes`` says ``placed=True``.
+        It is a generated keyframe, from which refinement may deviate, unless ``changes`` has ``placed=True``.
         changes : other values of fields
         """
         values: dict[str, Any] = {
@@ -229,7 +233,7 @@ class Scene(NamedTuple):
         return Keyframe(at=at, target=target, **{**values, **changes})
 
     def written(self) -> tuple[str, ...]:
-        """Return the keys of the shot that the mission gives, in their order."""
+        """Return the keys of the shot in the mission's text, in order."""
         return tuple(str(path[-1]) for path in self.origins.keys if path[:-1] == self.path)
 
     def fault(
@@ -239,7 +243,9 @@ class Scene(NamedTuple):
         return Diagnostic(code, message, (self.origins.value((*self.path, *path)),), notes, help)
 
     def lasting(self, code: str, message: str, *path: str | int) -> Diagnostic:
-        """Return the diagnostic of a shot that has to say how long it lasts, told on its timing if any."""
+        """Return the diagnostic of a shot without the duration that it needs, at its timing if there is
+        one.
+        """
         timing = (*self.path, "timing")
         if timing not in self.origins.values:
             return self.fault(code, message, "add `timing: {duration: ...}`", *path)
@@ -248,18 +254,18 @@ class Scene(NamedTuple):
         return self.fault(code, message, help_, "timing")
 
     def bad_file(self, name: str, wrong: "FileFault", *path: str | int) -> Diagnostic:
-        """Return the diagnostic of a file, named at ``path`` below the shot, that cannot be used."""
+        """Return the diagnostic of an unusable file, which is named at ``path`` below the shot."""
         return bad_file(self.origins, (*self.path, *path), name, wrong)
 
 
 class Kind(NamedTuple):
     """A shot kind.
 
-    name : as `kind:` says it; summary : one line for listings
+    name : value of `kind:`; summary : one line for listings
     model : of its parameters, with ``kind: Literal[name]``
     expand : takes a shot of that model and its scene
-    api : version of this contract that the kind was written against
-    package : the distribution that registers it; filled in when the kind is loaded
+    api : version of this interface that the kind is written for
+    package : the distribution that registers it; set when the kind is loaded
     """
 
     name: str
@@ -271,12 +277,12 @@ class Kind(NamedTuple):
 
     @property
     def foreign(self) -> bool:
-        """Whether another package made it: then its faults are that package's, not ours."""
+        """Whether it belongs to another package, which is then responsible for its faults."""
         return self.package != OURS
 
 
 def placed(origin: GeoOrigin | None, ground: GroundHeight, position: Place) -> Vec3:
-    """Return a position as a point of W; its height is z, or counts from the ground there."""
+    """Return a position as a point of W; its height is z, or above the ground there."""
     if isinstance(position, Geodetic):
         assert origin is not None
         base, height = (origin.lat_deg, origin.lon_deg, origin.alt), position.height
@@ -289,13 +295,13 @@ def placed(origin: GeoOrigin | None, ground: GroundHeight, position: Place) -> V
 
 
 def counts_from_ground(position: Place) -> bool:
-    """Return whether the height of a position, written or not, is one over the ground there."""
+    """Return whether the height of a position, written or not, is above the ground there."""
     height = position.height if isinstance(position, Geodetic) else position[2]
     return isinstance(height, AboveGround)
 
 
 def stands(position: Place) -> bool:
-    """Return whether a position leaves its height out, so that what is there stands on the ground."""
+    """Return whether a position has no height, so that a body there stands on the ground."""
     height = position.height if isinstance(position, Geodetic) else position[2]
     return isinstance(height, AboveGround) and height.stands
 
@@ -307,7 +313,7 @@ def unknown_target(origins: OriginMap, path: KeyPath, name: str, known: Mapping[
 
 
 def bad_file(origins: OriginMap, path: KeyPath, name: str, wrong: "FileFault") -> Diagnostic:
-    """Return the diagnostic of a file that cannot be used, blamed on the line that names it."""
+    """Return the diagnostic of an unusable file, at the line that names it."""
     where = f"{name}, line {wrong.line}" if wrong.line is not None else name
     return Diagnostic(
         "N009", f"cannot use `{name}`: {wrong.message}", (origins.value(path),), (where,), wrong.help

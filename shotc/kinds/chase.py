@@ -1,4 +1,4 @@
-"""Chase: behind a moving target, the way it goes."""
+"""Chase: behind a moving target, relative to its heading."""
 
 from typing import Literal
 
@@ -20,7 +20,7 @@ class ChaseShot(ShotBase):
 
 
 def expand(shot: ChaseShot, scene: Scene) -> Expansion:
-    """Return the place behind the target, carried along by its motion."""
+    """Return the place behind the target, which moves with it."""
     return along(shot, scene, [(-shot.distance, 0.0, shot.altitude.first)], shot.altitude.above)
 
 

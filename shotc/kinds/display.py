@@ -29,7 +29,7 @@ OF_CAMERAS = ("target", "composition", "size", "require", "refine", "allow")
 
 
 class WeightType(FieldType):
-    """A number from 0 to infinity, which is written `.inf`."""
+    """A number from 0 to infinity; infinity is written `.inf`."""
 
     label = "ViewpointWeight"
 
@@ -48,7 +48,7 @@ class WeightType(FieldType):
 
 
 class DisplayShot(ShotBase):
-    """The parameters of a display; a fleet takes the place of the drone."""
+    """The parameters of a display; it has a fleet instead of a drone."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("fleet",), ("drone",)), required=False),)
 
@@ -73,7 +73,7 @@ class DisplayShot(ShotBase):
 
 
 def expand(shot: DisplayShot, scene: Scene) -> Expansion:
-    """Return the display, or what is wrong with its own words; what is in its files is judged later."""
+    """Return the display, or the faults of its text; the content of its files is checked later."""
     frames = shot.frames
     written: tuple[FilesSpec | FlightSpec | PictureSpec, ...]
     written = (frames,) if isinstance(frames, FilesSpec | FlightSpec) else frames
@@ -126,7 +126,9 @@ def _unknown_group(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
 
 
 def _useless(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
-    """Yield the keys that say nothing of a display: those of cameras, and what its pictures say already."""
+    """Yield faults of keys without meaning in a display: those of cameras, and those that its pictures
+    replace.
+    """
     for key in OF_CAMERAS:
         if key in shot.model_fields_set:
             yield _no_such(scene, key, "it is for what a camera films", f"remove `{key}`", key)
@@ -139,7 +141,7 @@ def _useless(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
 
 
 def _twice(shot: DisplayShot, scene: Scene) -> Iterator[Diagnostic]:
-    """Yield the start that both the timing and the first picture say."""
+    """Yield the fault of a start that both the timing and the first picture give."""
     frames = shot.frames
     if shot.timing.start is None or isinstance(frames, FilesSpec | FlightSpec) or frames[0].at is None:
         return

@@ -1,7 +1,7 @@
-"""Dolly zoom: the camera moves towards the target or away from it, and zooms so that it keeps its size.
+"""Dolly zoom: the camera moves towards the target or away, and zooms so that the target keeps its size.
 
-What is behind the target seems to shrink or to grow. The field of view of every keyframe is the one with
-which the target's outline is as high in the frame as in the first.
+The background seems to shrink or to grow. At every keyframe the field of view gives the target's outline the
+same height in the frame as at the first one.
 """
 
 from math import ceil, degrees, floor, isfinite
@@ -20,7 +20,7 @@ from shotc.spec.fields import Angle, CameraAltitude, FieldOfView, Name, Positive
 from shotc.spec.shot import ShotBase
 
 PIECES = 24
-"""Of the way at least: the size then strays by a thousandth or less between them, over a threefold change."""
+"""Least number of pieces of the path; for a threefold change of distance the size error is below 0.1 %."""
 LEAST_WAY_M = 1e-3
 
 
@@ -38,7 +38,7 @@ class DollyZoomShot(ShotBase):
 
 
 def expand(shot: DollyZoomShot, scene: Scene) -> Expansion:
-    """Return keyframes along the line, each with the field of view that holds the target's size."""
+    """Return keyframes along the line, each with the field of view that keeps the target's size."""
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])
@@ -64,7 +64,7 @@ def expand(shot: DollyZoomShot, scene: Scene) -> Expansion:
 def _lenses(
     shot: DollyZoomShot, scene: Scene, target: Target, eyes: list[Vec3]
 ) -> tuple[float, ...] | Diagnostic:
-    """Return the fields of view along the way, rad, or why the lens does not have them."""
+    """Return the fields of view at the keyframes, rad, or the fault if the lens does not have them."""
     drone, places = scene.drone, scene.composition.points
     first = Lens(shot.hfov or drone.hfov, drone.aspect, drone.gimbal.pitch)
     wanted = Wanted(target.centre, target.shape, places[0] if len(places) == 1 else None)

@@ -1,4 +1,4 @@
-"""Places on the earth that cannot be meant: so far from the origin that something else is wrong with them."""
+"""The check for geographic places that are too far from the origin to be intended."""
 
 from math import hypot
 from typing import NamedTuple
@@ -6,12 +6,12 @@ from typing import NamedTuple
 from shotc.geom.geodetic import to_world
 from shotc.ir.mission import GeoOrigin
 
-FARTHEST = 10_000.0  # metres; no camera drone flies so far, and there z = 0 is 8 m above the sea's curve
-NEAR = 0.05  # degrees; both that small are 8 km at most, and files have many places
+FARTHEST = 10_000.0  # metres; no camera drone flies so far, and z = 0 is 8 m above the curved sea there
+NEAR = 0.05  # degrees; two such differences are at most 8 km, a fast test for files with many places
 
 
 class Stray(NamedTuple):
-    """What to say of a place that is too far away, and the slip of the pen that it looks like."""
+    """The texts of a diagnostic for a place that is too far away, with its likely mistake."""
 
     message: str
     note: str
@@ -19,7 +19,7 @@ class Stray(NamedTuple):
 
 
 def stray(origin: GeoOrigin, lat: float, lon: float) -> Stray | None:
-    """Return what is wrong with a place that is too far from the origin; degrees."""
+    """Return the fault of a place, degrees, that is too far from the origin; else None."""
     if abs(lat - origin.lat_deg) < NEAR and abs(lon - origin.lon_deg) < NEAR:
         return None
     away = _away((origin.lat_deg, origin.lon_deg), (lat, lon))

@@ -1,4 +1,4 @@
-"""The effects of a display made records of MissionIR: moments as pictures or seconds, places put into W."""
+"""Lowering of a display's effects to MissionIR: times as pictures or seconds, positions in W."""
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
@@ -37,9 +37,9 @@ IMAGES = (".png", ".gif")
 def effects_of(
     specs: Sequence[EffectSpec], scene: Scene, path: KeyPath, pictures: int = 0
 ) -> tuple[Effect, ...] | list[Diagnostic]:
-    """Return a stack, or all that is wrong with it.
+    """Return a stack of effects, or all its faults.
 
-    path : of the stack in the mission; pictures : of its display, for one that lies over all of them
+    path : of the stack in the mission; pictures : their number in the display, for a stack over all of them
     """
     found: list[Effect] = []
     faults: list[Diagnostic] = []
@@ -57,7 +57,7 @@ def effects_of(
 
 
 def _paint(spec: EffectSpec, scene: Scene) -> Paint:
-    """Return what an effect paints; its model has made sure that it is one thing."""
+    """Return the paint of an effect; its model ensures that there is exactly one."""
     if spec.fade is not None:
         color = spec.fade.from_ if spec.fade.to is None else spec.fade.to
         assert color is not None
@@ -129,7 +129,7 @@ def _of_image(spec: ImageSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnost
 def _span(
     spec: DisplayEffectSpec, scene: Scene, path: KeyPath, pictures: int
 ) -> tuple[DisplayTime | None, DisplayTime | None] | list[Diagnostic]:
-    """Return when an effect begins and ends, None where nothing says it, or all that is wrong with it."""
+    """Return the start and end of an effect, None where not given, or all faults."""
     written = (("from", spec.from_), ("until", spec.until))
     marks = [_mark(mark, scene, (*path, key), pictures) for key, mark in written]
     faults = [mark for mark in marks if isinstance(mark, Diagnostic)]
@@ -141,7 +141,7 @@ def _span(
 def _mark(
     spec: MarkSpec | None, scene: Scene, path: KeyPath, pictures: int
 ) -> DisplayTime | Diagnostic | None:
-    """Return a moment, or what is wrong with it; None where its beats cannot be used."""
+    """Return a time, or its fault; None if it is not given or its beats are unusable."""
     if spec is None:
         return None
     if spec.beat is not None or spec.bar is not None:
@@ -159,7 +159,7 @@ def _mark(
 def _backwards(
     since: MarkSpec | None, until: MarkSpec | None, scene: Scene, path: KeyPath
 ) -> Iterator[Diagnostic]:
-    """Yield what is wrong where an effect ends before it begins; path : of its end."""
+    """Yield the fault of an effect that ends before it starts; path : of its end."""
     if since is None or until is None:
         return
     label = scene.origins.value(path)

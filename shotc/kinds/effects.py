@@ -1,4 +1,4 @@
-"""Effects of lights as a mission writes them."""
+"""Light effects in the language."""
 
 from typing import Annotated, ClassVar, Literal
 
@@ -15,7 +15,7 @@ from shotc.spec.shorthand import QuantityModel
 
 MOST_COLORS = 32
 MOST_EFFECTS = 32
-"""Of one stack."""
+"""Most effects of one stack."""
 
 Period = Annotated[float, Quantity("LightPeriod", "duration", LEAST_PERIOD, noun="period of lights")]
 FrameNumber = Annotated[int, Integer("FrameNumber", 1, 500)]
@@ -34,7 +34,7 @@ class FadeSpec(Model):
 
 
 class RampSpec(Model):
-    """Colours that run into each other."""
+    """A colour gradient."""
 
     colors: tuple[LightColor, ...] = Field(
         min_length=2, max_length=MOST_COLORS, description="two colours or more, in order"
@@ -56,7 +56,7 @@ class RampSpec(Model):
 
 
 class ChaseSpec(Model):
-    """A band of light that goes through the picture, over and over."""
+    """A band of light that crosses the picture repeatedly."""
 
     color: LightColor = Field(default=(255, 255, 255), description="colour of the band")
     along: Way = Field(default="right", description="where it goes, as in a ramp")
@@ -68,7 +68,7 @@ class ChaseSpec(Model):
 
 
 class SparkleSpec(Model):
-    """Lights that light up by chance, and go out again."""
+    """Lights that flash at random."""
 
     color: LightColor = Field(default=(255, 255, 255), description="colour of a sparkle")
     share: PositiveShare = Field(default=0.2, description="share of the lights that sparkle at any moment")
@@ -76,7 +76,7 @@ class SparkleSpec(Model):
 
 
 class ImageSpec(Model):
-    """A picture file, or a GIF that moves, thrown onto the lights from where the audience is."""
+    """An image file or an animated GIF, projected onto the lights from the audience."""
 
     file: RelativePath = Field(description="a PNG or GIF file")
     fit: Fit = Field(
@@ -89,7 +89,7 @@ class ImageSpec(Model):
 
 
 class MarkSpec(QuantityModel):
-    """A moment of a display."""
+    """A time of a display."""
 
     SHORT: ClassVar = ("seconds", Quantity("NonNegativeDuration", "duration", 0.0))
     exclusive: ClassVar[tuple[OneOf, ...]] = (
@@ -107,7 +107,7 @@ class MarkSpec(QuantityModel):
 
 
 class EffectSpec(Model):
-    """One effect, laid over what is below it."""
+    """One effect, blended over what is below it."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (
         OneOf((("fade",), ("ramp",), ("chase",), ("sparkle",), ("image",))),

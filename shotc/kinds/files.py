@@ -1,4 +1,4 @@
-"""Tables that a mission names: text to rows of numbers, with the line of every fault."""
+"""Tables in files: text to rows of numbers, with the line of every fault."""
 
 from collections.abc import Sequence
 from math import isfinite
@@ -8,7 +8,7 @@ if TYPE_CHECKING:  # few missions name XML
     from shotc.source.xml import NotXml
 
 MOST_ROWS = 50_000
-FARTHEST = 1e7  # metres or seconds; beyond it no mission is meant
+FARTHEST = 1e7  # metres or seconds; larger values are mistakes
 BOUNDS = {"lat": 90.0, "lon": 180.0, "heading": 6.3, "heading_deg": 360.0}  # 6.3: a turn, rounded up
 UNITS = {
     "t": "`t` is in seconds from the start of the mission",
@@ -21,7 +21,7 @@ METRES, DEGREES = {"x", "y", "z"}, {"lat", "lon", "height"}
 
 
 class FileFault(NamedTuple):
-    """What is wrong with a file; line from 1, or None where no single line is to blame."""
+    """A fault of a file; line : from 1, or None if it is not in a single line."""
 
     message: str
     line: int | None = None
@@ -29,7 +29,7 @@ class FileFault(NamedTuple):
 
 
 class NumberTable(NamedTuple):
-    """Rows of finite numbers under the names of their columns; lines : of the file that they begin on."""
+    """Rows of finite numbers with the names of columns; lines : of the file, one for each row."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]
@@ -41,8 +41,8 @@ def read_table(
 ) -> NumberTable | FileFault:
     """Read a CSV file whose header is one of ``layouts``.
 
-    A file without a header is read in the order of the first layout that has as many columns.
-    Empty lines and lines that begin with # are passed over. most : rows
+    A file without a header has the columns of the first layout with the same number of columns. Empty lines
+    and lines that start with # are ignored. most : largest number of rows
     """
     text = _text(data)
     if isinstance(text, FileFault):
@@ -68,7 +68,7 @@ def read_table(
 def _rows(
     body: Sequence[tuple[int, str]], columns: tuple[str, ...]
 ) -> tuple[tuple[float, ...], ...] | FileFault:
-    """Return the numbers of every row; the long way only where the short one meets something odd."""
+    """Return the numbers of every row; ``row_of`` checks a row only if the fast conversion fails."""
     bounds = [BOUNDS.get(column, FARTHEST) for column in columns]
     rows: list[tuple[float, ...]] = []
     for number, line in body:
@@ -88,7 +88,7 @@ def _rows(
 
 
 def utf8_text(data: bytes, help_: str = "") -> str | FileFault:
-    """Return the text of a file, without a byte order mark, or the line of what is no UTF-8."""
+    """Return the text of a file without a byte order mark, or a fault at the line that is no UTF-8."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -96,7 +96,7 @@ def utf8_text(data: bytes, help_: str = "") -> str | FileFault:
 
 
 def finite(word: str) -> float | None:
-    """Return a number, or None where a word is none, is not finite, or is one to Python alone."""
+    """Return a finite number, or None for other text, also for numbers in Python's notation with `_`."""
     try:
         value = float(word)
     except ValueError:
@@ -112,7 +112,7 @@ def _text(data: bytes) -> str | FileFault:
 
 
 def _no_table(line: int, first: str) -> FileFault | None:
-    """Tell a file of another format by its first line."""
+    """Return a fault if the first line shows another format."""
     if first.lstrip().startswith("<"):
         return FileFault("the file is XML, no table", line, "export it as GPX, with `.gpx` as its ending")
     for mark, name in ((";", "semicolons"), ("\t", "tabs")):
@@ -151,7 +151,7 @@ def _columns(
 
 
 def row_of(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple[float, ...] | FileFault:
-    """Return the numbers of one row under its columns, or what is wrong with it; line from 1."""
+    """Return the numbers of one row, or its fault; line : from 1."""
     if len(cells) != len(columns):
         help_ = f"every row has the columns {','.join(columns)}; decimals have a point"
         return FileFault(f"the row has {len(cells)} columns, not {len(columns)}", line, help_)

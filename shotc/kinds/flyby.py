@@ -24,7 +24,7 @@ class FlybyShot(ShotBase):
 
 
 def expand(shot: FlybyShot, scene: Scene) -> Expansion:
-    """Return the way past the target, carried along by its motion."""
+    """Return the way past the target, relative to its motion."""
     up = shot.altitude.first
     ends = [(-shot.behind, shot.offset, up), (shot.ahead, shot.offset, up)]
     return along(shot, scene, ends, shot.altitude.above)

@@ -21,9 +21,9 @@ from shotc.spec.model import OneOf
 from shotc.spec.shot import ShotBase
 
 LAYOUTS = (("x", "y", "z"), ("lat", "lon", "height"))
-THINNED = 0.5  # metres; a recorded track is reproduced to this
-STRETCH = 128  # points that are thinned at a time
-MOST = 400  # keyframes; more is no camera path but noise
+THINNED = 0.5  # metres, tolerance to which a recorded track is reproduced
+STRETCH = 128  # points that are thinned together
+MOST = 400  # most keyframes; a path with more is noise
 Along = Annotated[str, NamedOr("Along", {"along": "along"}, "heading")]
 
 
@@ -48,7 +48,7 @@ class FollowPathShot(ShotBase):
 
 
 def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
-    """Return one keyframe a point; a file's points are thinned to half a metre first."""
+    """Return one keyframe for each point; the points of a file are first thinned to half a metre."""
     points = _listed(shot, scene) if shot.points is not None else _from_file(shot, scene)
     if isinstance(points, Diagnostic):
         return Expansion.of([points])
@@ -65,14 +65,14 @@ def expand(shot: FollowPathShot, scene: Scene) -> Expansion:
 
 
 def _moving(shot: FollowPathShot, scene: Scene) -> str | None:
-    """Return the name of the moving target that the camera looks at, if it is one."""
+    """Return the name of the target that the camera looks at, if it moves."""
     name = shot.target if shot.look_at is None else shot.look_at
     target = scene.targets.get(name) if isinstance(name, str) else None
     return target.name if target is not None and target.track is not None else None
 
 
 def _paced(points: list[Vec3]) -> Ideal:
-    """Return the way along points at one speed."""
+    """Return the ideal along points at constant speed."""
     way = list(accumulate((dist(a, b) for a, b in pairwise(points)), initial=0.0))
     shares = ((s / way[-1], p) for s, p in zip(way, points, strict=True))
     return Ideal("world", None, tuple(shares), placed=True)
@@ -110,7 +110,7 @@ def _from_file(shot: FollowPathShot, scene: Scene) -> _Points | Diagnostic:
 
 
 def _distinct(points: list[Vec3]) -> list[Vec3]:
-    """Drop points at which the track stands still."""
+    """Return the points without those at which the track stands still."""
     kept = points[:1]
     for p in points[1:]:
         if dist(kept[-1], p) > 1e-3:
@@ -119,9 +119,9 @@ def _distinct(points: list[Vec3]) -> list[Vec3]:
 
 
 def thin(points: list[Vec3], tolerance: float = THINNED) -> list[Vec3]:
-    """Return few of the points, such that none lies farther than ``tolerance`` from their lines.
+    """Return few of the points, such that all points are within ``tolerance`` of the polyline through them.
 
-    Ramer, Douglas and Peucker's rule on stretches of bounded length, for it is quadratic.
+    It is the Ramer-Douglas-Peucker algorithm on parts of bounded length, because it is quadratic.
     """
     kept: set[int] = {0, len(points) - 1}
     for start in range(0, len(points), STRETCH):
@@ -158,7 +158,7 @@ def _courses(points: list[Vec3]) -> list[float]:
         reach = hypot(*leg)
         if reach > 1e-6:
             units.append((leg[0] / reach, leg[1] / reach))
-        else:  # straight up or down: keep the course
+        else:  # a vertical leg keeps the course
             first = level[0]
             units.append(units[-1] if units else (first[0] / hypot(*first), first[1] / hypot(*first)))
     sums = [(a[0] + b[0], a[1] + b[1]) for a, b in pairwise(units)]
@@ -168,7 +168,7 @@ def _courses(points: list[Vec3]) -> list[float]:
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """The aim of every point of a path that looks at one thing, or at its target."""
+    """The aim of every point of a path whose camera looks at one point or at its target."""
 
     look_at: str | Place | None
     heading: None = None

@@ -1,4 +1,4 @@
-"""Framing: the camera goes where its subjects appear as asked, and goes along with them."""
+"""Framing: the camera moves with its subjects and keeps their required appearance."""
 
 from typing import Any, Literal
 
@@ -21,7 +21,7 @@ ORIGIN = (0.0, 0.0, 0.0)
 
 
 class SubjectSpec(Model):
-    """One subject and how it is to appear."""
+    """One subject and its required appearance."""
 
     target: Name = Field(description="name of the target")
     frame: Frame | None = Field(default=None, description="where on screen its centre goes")
@@ -35,7 +35,7 @@ class SubjectSpec(Model):
 
 
 class NearSpec(Model):
-    """A pose that the camera stays near; a position, or a place that counts from a target, is enough."""
+    """The preferred pose of the camera; a position, or a place relative to a target, is enough."""
 
     at: Station = Field(description="place of the camera, or a place that counts from a target")
     heading: Angle | None = Field(default=None, description="compass heading of the camera")
@@ -51,7 +51,7 @@ class NearSpec(Model):
     def __get_pydantic_json_schema__(
         cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Return the mapping's schema beside those of places."""
+        """Return the schema of the mapping or of a place."""
         schema = handler.resolve_ref_schema(handler(core_schema))
         return {"anyOf": [STATION.reference(), schema]}
 
@@ -67,7 +67,7 @@ class FramingShot(ShotBase):
 
 
 def expand(shot: FramingShot, scene: Scene) -> Expansion:
-    """Return the subjects; where the camera goes is settled once all shots and zones are known."""
+    """Return the subjects; the course of the camera is computed later, when all shots and zones are known."""
     found = [scene.subject(s.target, "subjects", i, "target") for i, s in enumerate(shot.subjects)]
     against = [f for f in found if isinstance(f, Diagnostic | Deferred)]
     against += _twice(shot, scene)
@@ -116,7 +116,7 @@ def _setpoint_faults(shot: FramingShot, scene: Scene) -> list[Diagnostic]:
 
 
 def _twice(shot: FramingShot, scene: Scene) -> list[Diagnostic]:
-    """Return the fault of every target that is a subject a second time."""
+    """Return the fault of every target that is a subject twice."""
     first: dict[str, int] = {}
     faults = []
     for i, subject in enumerate(shot.subjects):

@@ -1,4 +1,4 @@
-"""GPX tracks that a mission names: XML to rows of numbers, with the line of the first fault."""
+"""GPX files: XML to rows of numbers, with the line of the first fault."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ PLACE = ("lat", "lon", "ele")
 def read_gpx(data: bytes, *, timed: bool = False) -> NumberTable | FileFault:
     """Read the track points of a GPX file, or its route points if it has no track: lat, lon, ele.
 
-    A document type declaration is refused, for entities could grow without bound.
-    timed : also read when the points were passed, as a first column t: seconds from the first point on. Such
-        a track may have no elevations at all; it has no column ele then
+    A document type declaration is refused, because entities could grow without bound.
+    timed : also read the times, as a first column t: seconds since the first point. Such a track may have no
+        elevations at all; then it has no column ele.
     """
     reader = _Gpx(timed)
     wrong = feed(data, reader)
@@ -41,7 +41,7 @@ def read_gpx(data: bytes, *, timed: bool = False) -> NumberTable | FileFault:
 class _Point:
     """A point of the file.
 
-    place : lat, lon and, if it has one, ele; line : on which it begins; time : as written, if it is
+    place : lat, lon and, if present, ele; line : where it starts; time : as written, or None
     """
 
     __slots__ = ("line", "place", "time")
@@ -53,7 +53,7 @@ class _Point:
 
 
 def _timed(points: list[_Point]) -> tuple[tuple[float, ...], ...] | FileFault:
-    """Return rows of t, lat, lon, ele; a time without a zone is UTC, as the format says."""
+    """Return rows of t, lat, lon, ele; a time without a zone is UTC, by the format."""
     if all(point.time is None for point in points):
         help_ = "export it with times, or write `points` with `speed` or `times`"
         return FileFault("its points have no times", points[0].line, help_)
@@ -75,7 +75,7 @@ def _timed(points: list[_Point]) -> tuple[tuple[float, ...], ...] | FileFault:
 
 
 class _Gpx:
-    """Expat's handlers; collects points until the first fault."""
+    """Expat's handlers; they collect points until the first fault."""
 
     def __init__(self, timed: bool) -> None:
         self.parser: Any = None
@@ -84,7 +84,7 @@ class _Gpx:
         self._wanted = {"ele", "time"} if timed else {"ele"}
         self._open: tuple[str, str, str, int] | None = None
         self._texts: dict[str, str] = {}
-        self._depth = 0  # of elements inside the point: an extension may have a time of its own
+        self._depth = 0  # of elements inside the point; an extension may have its own time
         self._reading = ""
 
     def doctype(self, *_: Any) -> None:

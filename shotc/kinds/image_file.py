@@ -1,6 +1,6 @@
-"""Images that a mission names, by their bytes alone: are they PNG or GIF, whole, and no larger than is read.
+"""Checks of image files: whether the bytes are a complete PNG or GIF within the size limits.
 
-Nothing is decoded here, so that a file which would fill the memory is refused before it can.
+Nothing is decoded here, so a file that would fill the memory is refused before that.
 """
 
 import zlib
@@ -10,10 +10,10 @@ from typing import NamedTuple
 from shotc.kinds.files import FileFault
 
 MOST_PIXELS = 25_000_000
-"""Of one frame."""
+"""Most pixels of one frame."""
 MOST_FRAMES = 1500
 MOST_DECODED = 400_000_000
-"""Pixels of all frames."""
+"""Most pixels of all frames together."""
 
 _PNG = b"\x89PNG\r\n\x1a\n"
 _GIF = (b"GIF87a", b"GIF89a")
@@ -21,14 +21,14 @@ _EXPORT = "export it again as PNG or GIF"
 
 
 class ImageFault(NamedTuple):
-    """What is wrong with an image; size : whether it is too large, not damaged."""
+    """A fault of an image; size : whether it is too large, not damaged."""
 
     fault: FileFault
     size: bool = False
 
 
 def image_fault(data: bytes) -> ImageFault | None:
-    """Return why a file cannot be thrown onto lights, or None."""
+    """Return the fault of an image file, or None if it can be projected onto lights."""
     if data.startswith(_PNG):
         found = _png(data)
     elif data.startswith(_GIF):
@@ -101,19 +101,19 @@ def _gif(data: bytes) -> tuple[int, int, int] | ImageFault:
             return _cut(at, data)
         end = _blocks(data, start)
         if end is None:
-            # Many writers leave the last byte out; a frame that ends in its middle is another matter.
+            # Many writers omit the last byte, but a frame that ends in its middle is a fault.
             return _cut(at, data)
         at = end
     return (width, height, frames) if frames else _cut(at, data)
 
 
 def _colors(packed: int) -> int:
-    """Return how many bytes a table of colours has, by the byte that tells of it."""
+    """Return the size of a colour table in bytes, from its packed field."""
     return 3 << ((packed & 7) + 1) if packed & 0x80 else 0
 
 
 def _blocks(data: bytes, at: int) -> int | None:
-    """Return where a row of sub-blocks ends, None where the file does before."""
+    """Return the end of a sequence of sub-blocks, None if the file ends before."""
     while at < len(data):
         if not data[at]:
             return at + 1

@@ -1,4 +1,4 @@
-"""Keyframes: the camera poses that the user framed, in order."""
+"""Keyframes: the camera poses by the user, in order."""
 
 from math import degrees
 from typing import Literal

@@ -24,7 +24,7 @@ class LateralShot(ShotBase):
 
 
 def expand(shot: LateralShot, scene: Scene) -> Expansion:
-    """Return the place beside the target, carried along by its motion."""
+    """Return the place beside the target, which moves with it."""
     left = shot.distance if shot.side == "left" else -shot.distance
     return along(shot, scene, [(0.0, left, shot.altitude.first)], shot.altitude.above)
 

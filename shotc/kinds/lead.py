@@ -20,7 +20,7 @@ class LeadShot(ShotBase):
 
 
 def expand(shot: LeadShot, scene: Scene) -> Expansion:
-    """Return the place ahead of the target, carried along by its motion."""
+    """Return the place ahead of the target, which moves with it."""
     return along(shot, scene, [(shot.distance, 0.0, shot.altitude.first)], shot.altitude.above)
 
 

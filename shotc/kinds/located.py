@@ -1,4 +1,4 @@
-"""Rows of places that a file gives, put into the world: for routes and for tracks alike."""
+"""Positions from the rows of a file as points of W, for routes and for tracks."""
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.geodetic import above_ground, to_world
@@ -12,9 +12,9 @@ from shotc.kinds.files import NumberTable
 def in_world(
     table: NumberTable, name: str, origin: GeoOrigin | None, origins: OriginMap, path: KeyPath
 ) -> list[Vec3] | Diagnostic:
-    """Return a table's places as points of W, or what keeps those on the earth from it.
+    """Return a table's places as points of W, or a diagnostic.
 
-    A `height` is z, over the ground; an `ele` counts from the sea. Without any height z is 0.
+    A `height` is z; an `ele` is above the sea. Without a height z is 0.
     name : of the file, which the mission names at ``path``
     """
     if "x" in table.columns:
@@ -50,5 +50,5 @@ def _column(table: NumberTable, i: int) -> list[float]:
 
 
 def _heights(table: NumberTable, name: str) -> list[float]:
-    """Return a column of heights, metres; 0 of a table without."""
+    """Return a column of heights, metres; 0 for a table without one."""
     return _column(table, table.columns.index(name)) if name in table.columns else [0.0] * len(table.rows)

@@ -1,4 +1,4 @@
-"""Moments of a show that a mission writes in seconds, beats or bars, on the mission's clock."""
+"""Times of a show from seconds, beats or bars in a mission."""
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.music import beat_of_bar
@@ -8,15 +8,15 @@ from shotc.spec.music import MomentSpec
 
 
 def moment(spec: MomentSpec, scene: Scene, path: KeyPath) -> float | Diagnostic | None:
-    """Return seconds of the mission's clock, or None where its beats cannot be used.
+    """Return the mission time of a moment, seconds; a diagnostic for an invalid one, None for unusable beats.
 
-    path : where the moment is written
+    path : of the moment in the mission
     """
     return spec.time if spec.time is not None else on_beat(spec.beat, spec.bar, scene, path)
 
 
 def on_beat(beat: float | None, bar: float | None, scene: Scene, path: KeyPath) -> float | Diagnostic | None:
-    """Return when a beat falls, as ``moment`` does; beside a bar it is counted in that bar."""
+    """Return the mission time of a beat, as ``moment``; with a bar, the beat is counted in that bar."""
     music = scene.music
     if music is not None and music.unread:
         return None

@@ -1,4 +1,4 @@
-"""Shots of moving targets: the place that the camera keeps to them, carried along by their motion."""
+"""Shots of moving targets: the ideal relative to their motion."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -13,10 +13,10 @@ from shotc.spec.shot import ShotBase
 
 
 def along(shot: ShotBase, scene: Scene, offsets: Sequence[Vec3], above: Above | None = None) -> Expansion:
-    """Return a way told ahead of and to the left of the shot's target, which has to move.
+    """Return the expansion of a way relative to the heading of the shot's target, which must move.
 
-    offsets : (ahead, left, up), passed evenly over the shot's time; one alone is kept
-    above : what up counts from; the target's foot at that moment where that is None
+    offsets : (ahead, left, up), passed evenly over the shot's time; a single one is constant
+    above : reference of up; None for the target's foot at that time
     """
     assert shot.target is not None
     target = scene.subject(shot.target, "target")
@@ -36,10 +36,9 @@ def timed(
     subjects: tuple[Subject, ...] | None = None,
     lasts: float | None = None,
 ) -> Expansion:
-    """Return the expansion of a shot on its own clock; it has to say how long it lasts.
+    """Return the expansion of a shot on its own clock, which needs a duration.
 
-    subjects : None for the shot's own target; lasts : seconds where the timing does not say, if there is
-    a usual time
+    subjects : None for the shot's own target; lasts : default duration, seconds, or None
     """
     if shot.timing.duration is None and lasts is None:
         message = f"how long does this {shot.kind} last? its target moves, so its time is the mission's"
@@ -50,9 +49,9 @@ def timed(
 
 
 def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
-    """Return keyframes of what moves as a shot on its own clock; a camera that stands still has one twice.
+    """Return keyframes with moving targets as a shot on its own clock; a still camera repeats its keyframe.
 
-    The last keyframe's time, where it has one, says how long the shot lasts if nothing else does.
+    Without another duration, the last keyframe's time and hold determine it.
     """
     keyframes, lasts = given.keyframes, given.lasts
     last = keyframes[-1]
@@ -67,13 +66,13 @@ def on_clock(shot: ShotBase, scene: Scene, given: Expansion) -> Expansion:
         for k in reversed(named.values())
         if k.target is not None
     )
-    # Nobody gave the ways between keyframes of the author's own, but where these are in one place.
+    # The author's keyframes do not determine the ways between them, unless the camera stays in one place.
     placed = shot.kind != "keyframes" or all(stays(a, b) for a, b in pairwise(keyframes))
     found = timed(shot, scene, KEYED._replace(placed=placed), subjects, lasts)
     return found if found.ideal is None else found._replace(keyframes=keyframes)
 
 
 def evenly(points: Sequence[Vec3]) -> tuple[tuple[float, Vec3], ...]:
-    """Return points with the shares of the time at which they are passed; one alone is kept throughout."""
+    """Return points with evenly spaced shares of the time; a single point is kept for the whole time."""
     every = (points[0], points[0]) if len(points) == 1 else tuple(points)
     return tuple((i / (len(every) - 1), p) for i, p in enumerate(every))

@@ -13,7 +13,7 @@ from shotc.spec.fields import Angle, CameraAltitude, Name, PositiveLength
 from shotc.spec.quantities import Quantity
 from shotc.spec.shot import ShotBase
 
-# Ten turns: more is a slip of the pen, and a plan would take hours.
+# Ten turns; more is a mistake, and a plan would take hours.
 Sweep = Annotated[float, Quantity("Sweep", "angle", -20 * pi, 20 * pi)]
 
 
@@ -39,7 +39,7 @@ class OrbitShot(ShotBase):
 
 
 def expand(shot: OrbitShot, scene: Scene) -> Expansion:
-    """Return keyframes round the target, at most 15 deg apart."""
+    """Return keyframes around the target, at most 15 deg apart."""
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])

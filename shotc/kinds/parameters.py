@@ -1,4 +1,4 @@
-"""The parameters by which the kinds that generate a path about a target keep their distance from it."""
+"""The distance parameters of the kinds that generate a path about a target."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ DISTANCES = {
     "dolly-zoom": "distance",
     "crane": "distance",
 }
-"""By kind; each counts from the target's axis, and each of these kinds has `altitude`, which is z, too."""
+"""Name of the distance from the target's axis, by kind; each of these kinds also has `altitude`."""
 
 
 def at_distance(centre: Vec3, keyframe: Keyframe, distance: float) -> Keyframe:
-    """Return a keyframe moved level, straight from the axis through ``centre`` or to it, metres."""
+    """Return a keyframe moved horizontally to a distance from the axis through ``centre``, metres."""
     x, y, z = keyframe.at
     share = distance / max(hypot(x - centre[0], y - centre[1]), 1e-9)
     return keyframe._replace(at=(centre[0] + (x - centre[0]) * share, centre[1] + (y - centre[1]) * share, z))
 
 
 def distance_of(centre: Vec3, keyframe: Keyframe) -> float:
-    """Return how far a keyframe is from the upright axis through ``centre``, metres."""
+    """Return the distance of a keyframe from the vertical axis through ``centre``, metres."""
     return hypot(keyframe.at[0] - centre[0], keyframe.at[1] - centre[1])
 
 
 def span(first: float, last: float) -> str:
-    """Write one value, or two that differ as [from, to], in tenths of a metre."""
+    """Return one value, or two different ones as [from, to], as text in tenths of a metre."""
     a, b = f"{first + 0.0:.1f}", f"{last + 0.0:.1f}"
     return a if a == b else f"[{a}, {b}]"

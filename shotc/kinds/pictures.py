@@ -1,4 +1,4 @@
-"""The pictures of a display as a mission writes them: shapes, letters, drawings, models."""
+"""The pictures of a display in the language: shapes, letters, drawings, models."""
 
 from functools import partial
 from typing import Annotated, Any, ClassVar, Literal
@@ -62,7 +62,7 @@ class TorusSpec(Model):
 
 
 class TextSpec(Model):
-    """A text that stands upright."""
+    """An upright text."""
 
     text: Letters = Field(description="what it says, one line")
     center: Position = Field(description="middle of the text")
@@ -74,7 +74,7 @@ class TextSpec(Model):
 
 
 class DrawingSpec(Model):
-    """A drawing that stands upright."""
+    """An upright drawing."""
 
     file: RelativePath = Field(description="an SVG file")
     center: Position = Field(description="middle of the drawing")
@@ -103,7 +103,7 @@ class FilesSpec(Model):
 
 
 class WaveSpec(QuantityModel):
-    """Drones that set out one after another, swept through a picture."""
+    """Departures of drones one after another, as a wave through a picture."""
 
     SHORT: ClassVar = ("time", Quantity("Duration", "duration", SMALLEST["duration"]))
 
@@ -122,7 +122,7 @@ class WaveSpec(QuantityModel):
 
 
 class FlightSpec(Model):
-    """The flight of a fleet that another tool made, in place of pictures."""
+    """The flight of a fleet by another tool, instead of pictures."""
 
     flight: RelativePath = Field(
         description="zipped CSV (.zip) or a show of Skybrush (.skyc); every drone keeps its track and light"
@@ -130,7 +130,7 @@ class FlightSpec(Model):
 
 
 class TransitionSpec(QuantityModel):
-    """How a fleet comes to a picture from the one before, or from its pads."""
+    """The move of a fleet to a picture from the one before, or from its pads."""
 
     SHORT: ClassVar = ("duration", Quantity("Duration", "duration", SMALLEST["duration"]))
 
@@ -199,7 +199,7 @@ class PictureSpec(Model):
 
 
 class FramesType(FieldType):
-    """What a display shows: a list of pictures, the files of an animation alone, or a recorded flight."""
+    """The content of a display: a list of pictures, the files of one animation, or a recorded flight."""
 
     label = "Frames"
 
@@ -218,7 +218,7 @@ class FramesType(FieldType):
         return tuple(read_each(((i,), partial(_picture, item)) for i, item in enumerate(value)))
 
     def schema(self) -> JsonSchemaValue:
-        """Return nothing of its own: the schema is that of both forms."""
+        """Return an empty schema; pydantic makes that of all forms."""
         return {}
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:

@@ -1,4 +1,4 @@
-"""Pyrotechnics that drones of a fleet carry, as a display writes them."""
+"""Pyrotechnics of a fleet's drones in the language."""
 
 from math import pi
 from typing import Annotated, NamedTuple
@@ -21,7 +21,7 @@ Product = Annotated[str, one_line("Product", 80, "silver fountain 30 s")]
 
 
 class PyroSpec(Model):
-    """One product, fired from one drone or several at one moment."""
+    """One product that one or several drones fire at the same time."""
 
     at: MomentSpec = Field(description="when it is seen: seconds, `{beat: 32}` or `{bar: 9}`")
     drones: tuple[DroneNumber, ...] = Field(
@@ -38,14 +38,14 @@ class PyroSpec(Model):
 
 
 class Cues(NamedTuple):
-    """The cues of a display, and what is wrong with others."""
+    """The cues of a display, and the faults of invalid ones."""
 
     cues: tuple[PyroCue, ...]
     faults: tuple[Diagnostic, ...]
 
 
 def cues_of(specs: tuple[PyroSpec, ...], scene: Scene) -> Cues:
-    """Return the pyro cues of a display; those whose moment cannot be told are left out."""
+    """Return the pyro cues of a display without those of unknown time."""
     cues: list[PyroCue] = []
     faults: list[Diagnostic] = []
     for i, spec in enumerate(specs):

@@ -1,7 +1,7 @@
 """Ideal paths about an upright axis: rings and straight lines, sampled as keyframe positions.
 
-Azimuth is a compass bearing from the axis (clockwise from North), rad; altitude is a height over what
-the shot counts it from, and becomes z in W last.
+Azimuth is a compass bearing from the axis (clockwise from North), rad. Altitude is a height over the shot's
+reference, and is converted to z in W at the end.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from shotc.spec.words import each
 
 Span = tuple[float, float]
 
-ARC = pi / 12  # most of a turn between two keyframes
-FEWEST = 4  # pieces of any path
-MOST = 48  # pieces of a straight path
+ARC = pi / 12  # rad, largest turn between two keyframes
+FEWEST = 4  # fewest pieces of a path
+MOST = 48  # most pieces of a straight path
 
 
 def bearing(axis: Vec3, azimuth: float, distance: float, altitude: float) -> Vec3:
@@ -30,7 +30,7 @@ def bearing(axis: Vec3, azimuth: float, distance: float, altitude: float) -> Vec
 
 
 def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -> list[Vec3]:
-    """Return points along a turn about an axis; radius and altitude change evenly with the angle.
+    """Return points along a turn about an axis; radius and altitude are linear in the angle.
 
     start : azimuth of the first point; sweep : turn, positive counter-clockwise seen from above
     """
@@ -44,10 +44,11 @@ def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -
 def line(
     axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float, least: int = FEWEST
 ) -> list[Vec3]:
-    """Return points along a straight line in the upright plane of one azimuth.
+    """Return points along a straight line in the vertical plane of one azimuth.
 
-    height : that the camera looks at, counted as altitude is; the points lie as dense as its view of it turns
-    least : pieces of the line
+    height : that the camera looks at, with the reference of altitude; points are denser where its view turns
+        more
+    least : fewest pieces of the line
     """
     first, last = (atan2(z - height, d) for d, z in zip(distance, altitude, strict=True))
     turn = abs(last - first)
@@ -61,7 +62,7 @@ def line(
 
 
 def axis_of(target: Target) -> Vec3:
-    """Return the point that a ring or a line counts from: of a target that moves, its own axis."""
+    """Return the point that a ring or a line is relative to; for a moving target it is on its own axis."""
     return target.centre if target.track is None else (0.0, 0.0, target.centre[2])
 
 
@@ -73,10 +74,10 @@ def filmed(
     turn: str = "",
     above: Above | None = None,
 ) -> Expansion:
-    """Return an ideal path along ``points`` about ``axis_of(target)`` that frames it.
+    """Return the expansion of a path along ``points`` about ``axis_of(target)`` that frames the target.
 
-    turn : the parameter that makes it move, where that is an angle and no pair [from, to]
-    above : what the points' heights count from; the target's foot where that is None
+    turn : name of the parameter of the motion, if it is an angle and no pair [from, to]
+    above : reference of the points' heights; None for the target's foot
     """
     if max(hypot(*(a - b for a, b in zip(p, points[0], strict=True))) for p in points) >= 1e-3:
         if target.track is not None:
@@ -89,7 +90,7 @@ def filmed(
 
 
 def _standing(shot: ShotBase, scene: Scene, at: Vec3) -> str:
-    """Say which keys make it a shot of a camera that stands, and which ones they replace."""
+    """Return a help text with the keys of a still camera, and the keys that they replace."""
     place = ", ".join(f"{c + 0.0:.2f}" for c in at)
     own = [key for key in scene.written() if key not in ShotBase.model_fields]
     return f"write `kind: static, at: [{place}], look_at: {shot.target}` in place of {each(own)}"

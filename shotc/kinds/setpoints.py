@@ -1,4 +1,4 @@
-"""Setpoints of a framing: how a subject is to appear later in the shot."""
+"""Setpoints of a framing: the required appearance of a subject later in the shot."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -15,7 +15,7 @@ WHAT = {"frame": "place on screen", "size": "size", "azimuth": "bearing", "eleva
 
 
 class ViewSpec(Model):
-    """The side from which a subject is seen; a key that is not given is free."""
+    """The side from which a subject is seen; an omitted key is free."""
 
     azimuth: Angle | None = Field(default=None, description="compass bearing from the subject to the camera")
     elevation: Pitch | None = Field(default=None, description="how high the camera stands above the subject")
@@ -27,7 +27,7 @@ class ViewSpec(Model):
 
 
 class SetpointSpec(Model):
-    """How a subject is to appear from a time of the shot on; a key that is not given stays."""
+    """The required appearance of a subject at a time of the shot; an omitted key does not change."""
 
     time: Duration = Field(description="when it appears so, from the shot's start")
     frame: ScreenPoint | None = Field(default=None, description="where on screen its centre is then")
@@ -38,7 +38,7 @@ class SetpointSpec(Model):
 
     @property
     def written(self) -> tuple[tuple[str, ...], ...]:
-        """The key paths below the setpoint of what it changes."""
+        """The key paths, below the setpoint, of the values that it changes."""
         view = self.view or ViewSpec()
         values = {
             ("frame",): self.frame,
@@ -50,7 +50,7 @@ class SetpointSpec(Model):
 
 
 def setpoints_of(specs: tuple[SetpointSpec, ...], scene: Scene, *path: str | int) -> tuple[Setpoint, ...]:
-    """Return setpoints; path : of their list, below the shot."""
+    """Return the setpoints of a subject; path : of their list, below the shot."""
     return tuple(
         Setpoint(
             spec.time,
@@ -70,9 +70,9 @@ def setpoint_faults(
     duration: float | None,
     *path: str | int,
 ) -> Iterator[Diagnostic]:
-    """Yield setpoints out of order, after the end of their shot, and those that change what nothing says.
+    """Yield faults of setpoints: out of order, after the end of the shot, or without an initial value.
 
-    subject : its name, and which of ``WHAT`` is said of it at first; path : of the list, below the shot
+    subject : its name, and the keys of ``WHAT`` that it has at first; path : of the list, below the shot
     """
     name, known = subject
     for k, spec in enumerate(specs):
@@ -98,7 +98,7 @@ class _Fault(NamedTuple):
 
 
 def _out_of_time(time: float, before: float, duration: float | None) -> _Fault | None:
-    """Return what is wrong with the time of a setpoint; before : the last one's."""
+    """Return the fault of the time of a setpoint; before : time of the one before."""
     if time <= before:
         note = f"it is at {time:g} s, the one before it at {before:g} s"
         return _Fault("the times of setpoints do not rise", note, f"set it later than {before:g} s")

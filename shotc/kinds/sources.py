@@ -1,4 +1,4 @@
-"""The pictures of a display made records of MissionIR: places put into W, files named one by one."""
+"""Lowering of a display's pictures to MissionIR: positions in W, patterns as lists of files."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ from shotc.kinds.pictures import DrawingSpec, FilesSpec, FlightSpec, PictureSpec
 
 MESHES = (".ply", ".obj", ".stl", ".glb")
 METRES = (".glb",)
-"""Endings of files whose format says that they are in metres."""
+"""Endings of formats that are in metres by definition."""
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
 FONTS = (".ttf", ".otf", ".ttc")
 DRAWINGS = (".svg",)
@@ -22,9 +22,9 @@ FLIGHTS = (".zip", ".skyc")
 def picture_of(
     spec: PictureSpec | FilesSpec | FlightSpec, scene: Scene, index: int
 ) -> Picture | list[Diagnostic]:
-    """Return one picture of a display, or what is wrong with it: of what it shows, the first thing.
+    """Return one picture of a display, or its faults; of its source only the first one.
 
-    spec : a picture, or the files that a display gives in place of its list of pictures
+    spec : a picture, or the files or the flight that a display has instead of a list of pictures
     """
     path: KeyPath = (*scene.path, "frames")
     if isinstance(spec, FlightSpec):
@@ -55,7 +55,7 @@ def picture_of(
 
 
 def _wave(spec: TransitionSpec, scene: Scene, path: KeyPath) -> Wave | Diagnostic | None:
-    """Return in what wave drones come to a picture, or what is wrong with it; path : of the transition."""
+    """Return the wave of a transition, or its fault; path : of the transition."""
     wave = spec.wave
     if wave is None:
         return None
@@ -69,7 +69,7 @@ def _wave(spec: TransitionSpec, scene: Scene, path: KeyPath) -> Wave | Diagnosti
 
 
 def _drawable(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:
-    """Return what a picture shows, if it has the fill and the layers that are asked for."""
+    """Return the source of a picture, or a fault if it cannot have the given fill or layers."""
     source = _source(spec, scene, path)
     if isinstance(source, Diagnostic):
         return source
@@ -86,7 +86,7 @@ def _drawable(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagno
 
 
 def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnostic:
-    """Return what a picture shows; its model has made sure that it is one thing."""
+    """Return the source of a picture; its model ensures that there is exactly one."""
     if spec.sphere is not None:
         return Sphere(scene.place(spec.sphere.center), spec.sphere.radius)
     if spec.cube is not None:
@@ -105,7 +105,7 @@ def _source(spec: PictureSpec, scene: Scene, path: KeyPath) -> Source | Diagnost
 
 def _lettering(spec: TextSpec, scene: Scene, path: KeyPath) -> Lettering | Diagnostic:
     font = spec.font
-    if font is not None and "." in font:  # a file; names of fonts have no ending
+    if font is not None and "." in font:  # a file, because names of fonts have no ending
         wrong = _unreadable(scene, [font], FONTS, "a font", (*path, "font"))
         if wrong is not None:
             return wrong
@@ -141,7 +141,7 @@ def _model(spec: FilesSpec, scene: Scene, path: KeyPath) -> Model | Diagnostic:
 
 
 def _without_units(scene: Scene, name: str, path: KeyPath) -> Diagnostic:
-    """Return the diagnostic of a model whose size nobody says."""
+    """Return the diagnostic of a model without units or height."""
     return Diagnostic(
         "D025",
         f"nothing says how large `{name}` is",
@@ -154,7 +154,7 @@ def _without_units(scene: Scene, name: str, path: KeyPath) -> Diagnostic:
 def _unreadable(
     scene: Scene, names: Sequence[str], endings: Sequence[str], what: str, path: KeyPath
 ) -> Diagnostic | None:
-    """Return the diagnostic of the first file that is of another format, by its ending."""
+    """Return the diagnostic of the first file with an ending of another format, or None."""
     strange = next((name for name in names if not name.lower().endswith(tuple(endings))), None)
     if strange is None:
         return None

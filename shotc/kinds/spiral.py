@@ -29,7 +29,7 @@ class SpiralShot(ShotBase):
 
 
 def expand(shot: SpiralShot, scene: Scene) -> Expansion:
-    """Return keyframes round the target, at most 15 deg apart."""
+    """Return keyframes around the target, at most 15 deg apart."""
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
         return Expansion.of([target])

@@ -15,12 +15,12 @@ from shotc.spec.fields import Angle, LookAt, Pitch, Position
 from shotc.spec.model import OneOf
 from shotc.spec.shot import AIM, ShotBase
 
-SAME = 1e-3  # metres within which a camera looks at its own place
+SAME = 1e-3  # metres, distance below which a camera looks at its own position
 WATCH = Composition("fixed")  # the camera does not turn to its target
 
 
 class StaticShot(ShotBase):
-    """The parameters of a still camera; it films for ``timing.duration``, 5 s where none is given."""
+    """The parameters of a still camera; it films for ``timing.duration``, by default 5 s."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (AIM,)
 
@@ -32,7 +32,7 @@ class StaticShot(ShotBase):
 
 
 def expand(shot: StaticShot, scene: Scene) -> Expansion:
-    """Return one keyframe, held for the shot's duration; of a target that moves, the place to watch from."""
+    """Return one keyframe, held for the shot's duration; for a moving target, an ideal at one place."""
     followed = shot.look_at if isinstance(shot.look_at, str) else shot.target
     target = None if followed is None else scene.targets.get(followed)
     if followed is not None and target is not None and target.track is not None:
@@ -59,7 +59,9 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
 
 
 def _kept(shot: StaticShot, scene: Scene) -> Vec2 | Diagnostic | None:
-    """Return (yaw, pitch) of a camera that looks one way while its target goes through the picture."""
+    """Return the constant (yaw, pitch) of a camera whose target moves through the picture; None without
+    one.
+    """
     if shot.heading is not None and shot.pitch is not None:
         return (yaw_of(shot.heading), shot.pitch)
     if shot.look_at is None or isinstance(shot.look_at, str):

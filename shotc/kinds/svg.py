@@ -1,4 +1,4 @@
-"""Drawings that a mission names: is the SVG well-formed, and nothing but a drawing."""
+"""Checks of SVG files: whether they are well-formed and contain only a drawing."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from shotc.source.xml import StopParsing, feed
 
 SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"}
 _ACTIVE = {"script": "a script", "foreignObject": "a page of another sort"}
-# Possessive, so that no run of spaces is gone through twice.
+# Possessive quantifiers, so that runs of spaces are not scanned twice.
 _OUTSIDE = re.compile(r"@import|url\(\s*+['\"]?+\s*+[^#\s'\"]", re.IGNORECASE)
 _OWN = "export it as a plain SVG, with all that it draws in the file itself"
 
 
 class DrawingFault(NamedTuple):
-    """What is wrong with a drawing; unsafe : whether it asks for more than to be drawn."""
+    """A fault of a drawing; unsafe : whether it contains more than a drawing."""
 
     fault: FileFault
     unsafe: bool = False
 
 
 def svg_fault(data: bytes) -> DrawingFault | None:
-    """Return why a file cannot be drawn, or None.
+    """Return the fault of an SVG file, or None if it can be drawn.
 
-    A document type declaration is refused, for entities could grow without bound; so are scripts and
-    all that refers to anything outside of the file: nothing is ever fetched.
+    A document type declaration is refused, because entities could grow without bound. Scripts and references
+    outside the file are refused too; nothing is ever fetched.
     """
     reader = _Svg()
     wrong = feed(data, reader)
@@ -41,14 +41,14 @@ def svg_fault(data: bytes) -> DrawingFault | None:
 
 
 class _Svg:
-    """Expat's handlers; count shapes until the first fault."""
+    """Expat's handlers; they count shapes until the first fault."""
 
     def __init__(self) -> None:
         self.parser: Any = None
         self.wrong: DrawingFault | None = None
         self.shapes = 0
         self._root = ""
-        self._style = 0  # how many style elements are open
+        self._style = 0  # number of open style elements
 
     def doctype(self, *_: Any) -> None:
         self._stop("it has a document type declaration", "remove the <!DOCTYPE ...> line")

@@ -18,7 +18,7 @@ NORTH = pi / 2
 
 
 class TopDownShot(ShotBase):
-    """The parameters of a view from above; without drift it films for ``timing.duration``, or 5 s."""
+    """The parameters of a view from above; without drift it films for ``timing.duration``, by default 5 s."""
 
     kind: Literal["top-down"] = Field(description="what sort of shot it is")
     target: Name = Field(description="name of the target below the camera")
@@ -31,8 +31,8 @@ class TopDownShot(ShotBase):
 def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     """Return keyframes above the target that look straight down, the top of the picture along the drift.
 
-    Looking down is what this kind is for, so the camera tilts only for a composition that the shot
-    itself asks for.
+    The camera tilts only if the shot itself has a composition, because this kind is for looking straight
+    down.
     """
     target = scene.subject(shot.target, "target")
     if not isinstance(target, Target):
@@ -67,9 +67,9 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
 
 
 def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) -> Diagnostic | None:
-    """Return what is wrong with a drift that no drone averages from rest to rest.
+    """Return the fault of a drift whose mean speed no drone reaches from rest to rest, or None.
 
-    A longer shot would drift farther, so this is no fault of its timing.
+    A longer shot would drift farther, so the timing is not at fault.
     """
     east, north, up = shot.drift or (0.0, 0.0, 0.0)
     limits = scene.drone.limits
@@ -79,7 +79,7 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
         ("down", -up, limits.descent),
     ):
         most = _mean_speed(speed, limits.acceleration, duration)
-        if speed > 0 and drift > most:  # wind that leaves no speed is told elsewhere
+        if speed > 0 and drift > most:  # another check reports wind that leaves no speed
             notes = [
                 f"from rest to rest in {duration:.1f} s, at up to {speed:.2f} m/s and "
                 f"{limits.acceleration:.2f} m/s^2, it averages {most:.2f} m/s at most"
@@ -98,9 +98,10 @@ def _too_fast(shot: TopDownShot, scene: Scene, target: Target, duration: float) 
 
 
 def _seen(shot: TopDownShot, scene: Scene, target: Target) -> float:
-    """Return how far from above its target the camera sees its middle, metres.
+    """Return the horizontal distance up to which the camera sees its target's middle, metres.
 
-    It looks straight down, the top of the picture along the drift, unless a composition tilts it.
+    The camera looks straight down, with the top of the picture along the drift, unless a composition tilts
+    it.
     """
     if shot.composition is not None:
         return inf

@@ -1,1 +1,1 @@
-"""Elevation models that a mission names: bytes of ASCII grids, SRTM, CSV and GeoTIFF to posts."""
+"""Elevation models: bytes of ASCII grids, SRTM, CSV and GeoTIFF files to posts."""

@@ -1,4 +1,4 @@
-"""ASCII grids (.asc) of Esri: a header of names and numbers, then rows of heights from the north."""
+"""Esri ASCII grids (.asc): a header of names and numbers, then rows of heights from the north."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ NEEDED = ("ncols", "nrows")
 CORNERS = (("xllcorner", "xllcenter"), ("yllcorner", "yllcenter"))
 STEPS = ("dx", "dy")
 NAMES = {*NEEDED, "cellsize", *STEPS, "nodata_value", *(name for both in CORNERS for name in both)}
-NO_HEIGHT = -9999.0  # where the header names no other
+NO_HEIGHT = -9999.0  # default no-data value
 DEGREES = 0.1
-"""Smaller cells, at places that may be degrees, are in degrees: no grid has them in metres."""
+"""Largest cell in degrees, for coordinates that may be degrees; no grid has smaller cells in metres."""
 
 
 class GridHeader(NamedTuple):
-    """Names and numbers, and how many lines they take."""
+    """Names and numbers, and the number of header lines."""
 
     values: dict[str, float]
     lines: int
 
 
 class Steps(NamedTuple):
-    """From post to post, East and North, and the number of columns and rows."""
+    """Distances of posts, East and North, and the number of columns and rows."""
 
     x: float
     y: float
@@ -38,7 +38,9 @@ class Steps(NamedTuple):
 
 
 def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a grid: the middles of its cells. Grids that look like degrees are in WGS84."""
+    """Return the posts of a grid (the middles of its cells), or its fault; grids in degrees are taken as
+    WGS84.
+    """
     try:
         lines = data.decode("ascii").splitlines()
     except UnicodeDecodeError as error:
@@ -116,7 +118,7 @@ def _first(values: dict[str, float], axis: int, step: float) -> float:
 
 def _heights(lines: list[str], skipped: int, shape: tuple[int, int]) -> Array | TerrainFault:
     body = lines[skipped:]
-    try:  # the short way: a line a row, and numbers alone
+    try:  # fast path: one line for each row, and only numbers
         found = np.loadtxt(io.StringIO("\n".join(body)), dtype=np.float64, ndmin=2, comments=None)
     except ValueError:
         found = np.zeros((0, 0))
@@ -126,7 +128,7 @@ def _heights(lines: list[str], skipped: int, shape: tuple[int, int]) -> Array | 
 
 
 def _word_by_word(body: list[str], skipped: int, shape: tuple[int, int]) -> Array | TerrainFault:
-    """Return heights whose lines are broken anywhere, or the first fault and its line."""
+    """Return heights with line breaks anywhere, or the first fault with its line."""
     values: list[float] = []
     for number, line in enumerate(body, skipped + 1):
         for word in line.split():

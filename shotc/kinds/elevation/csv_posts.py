@@ -1,4 +1,4 @@
-"""Posts as a table (.csv): x, y, z in metres of W, or lat, lon, alt; a row a post, in any order."""
+"""Posts in a table (.csv): x, y, z in metres of W, or lat, lon, alt; one row for each post, in any order."""
 
 from __future__ import annotations
 
@@ -14,15 +14,17 @@ from shotc.kinds.files import FileFault, read_table
 LAYOUTS = (("x", "y", "z"), ("lat", "lon", "alt"))
 MOST_ROWS = 1_000_000
 FULL = 0.5
-"""Share of a grid's places that have a post, at least: fewer are points that lie anywhere."""
+"""Least share of a grid's places with a post; with fewer, the points are no grid."""
 SAME = 1e-6
-"""Share of an axis's extent within which places are one: tables are rounded."""
+"""Tolerance of equal coordinates, as a share of the axis's extent, because tables are rounded."""
 USUAL = 0.25
-"""Share of the gaps between columns, or rows, that are no wider than the step of a grid: others lack some."""
+"""Quantile of the gaps between columns or rows that is the step of the grid; larger gaps lack some."""
 
 
 def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a table; places of its grid that it leaves out, and whole rows, have no height."""
+    """Return the posts of a table, or its fault; omitted places of the grid, and omitted rows, have no
+    height.
+    """
     table = read_table(data, LAYOUTS, most=MOST_ROWS)
     if isinstance(table, FileFault):
         return TerrainFault("format", *table)
@@ -51,7 +53,9 @@ def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFau
 
 
 def _places(values: Array) -> tuple[Array, IntArray]:
-    """Return the places along an axis, increasing, with those that lack, and of which each value is."""
+    """Return the coordinates along an axis, increasing and with missing ones added, and the index of each
+    value.
+    """
     order = np.argsort(values, kind="stable")
     ordered = values[order]
     begins = np.concatenate([[True], np.diff(ordered) > SAME * (ordered[-1] - ordered[0])])

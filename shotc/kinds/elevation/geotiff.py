@@ -1,7 +1,7 @@
-"""GeoTIFF by Pillow: heights of its first image, and the tags that say where they are.
+"""GeoTIFF files, read by Pillow: the heights of the first image, and its georeference tags.
 
-What Pillow does not read (64-bit floats, LERC, JPEG) is a fault. Tags and keys are those of GeoTIFF 1.1 (OGC
-19-008r4); 42113 is GDAL's.
+Formats that Pillow does not read (64-bit floats, LERC, JPEG) are faults. Tags and keys are those of GeoTIFF
+1.1 (OGC 19-008r4); 42113 is GDAL's.
 """
 
 from __future__ import annotations
@@ -19,32 +19,32 @@ from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
 PIXEL_SCALE, TIE_POINTS, MATRIX, KEYS, NO_DATA = 33550, 33922, 34264, 34735, 42113
 MODEL, RASTER, GEOGRAPHIC, ANGLES, PROJECTED, UNITS_UP = 1024, 1025, 2048, 2054, 3072, 4099
 IS_POINT = 2
-"""Of RASTER: a post is where its pixel is tied; else at the pixel's middle."""
+"""Value of RASTER for posts at the tie point of their pixel; else they are at the pixel's middle."""
 DEGREES = 9102
 USER_DEFINED = 32767
 METRE = 9001
 METRES = {METRE: 1.0, 9002: 0.3048, 9003: 1200 / 3937}
-"""Metres of a unit of heights: metre, foot, and the foot of surveys in the United States."""
+"""Metres of a unit of heights: metre, foot, and US survey foot."""
 BANDS = frozenset({"L", "I", "F", "I;16", "I;16B", "I;16L", "I;16N"})
 SAVE_AS = "save it as float32 or int16, uncompressed or with deflate or LZW: `gdal_translate -ot Float32`"
 
 
 class HeightRaster(NamedTuple):
-    """Heights (R, C) as the file has them, and its tags."""
+    """Heights (R, C) in the file's unit, and its tags."""
 
     heights: Array
     tags: dict[int, Any]
 
 
 class Along(NamedTuple):
-    """Where columns or rows are: at first + step * k for pixel k."""
+    """The coordinate of columns or rows: first + step * k for pixel k."""
 
     first: float
     step: float
 
 
 class RasterTags(NamedTuple):
-    """What tags say: along columns and rows, in which system, and metres of a unit of heights."""
+    """The georeference: coordinates of columns and rows, EPSG code, and metres of a unit of heights."""
 
     x: Along
     y: Along
@@ -53,7 +53,7 @@ class RasterTags(NamedTuple):
 
 
 def read_geotiff(data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a file, heights in metres."""
+    """Return the posts of a file with heights in metres, or its fault."""
     raster = _raster(data)
     if isinstance(raster, TerrainFault):
         return raster
@@ -89,7 +89,7 @@ def _placed(tags: dict[int, Any], system: int | None) -> RasterTags | TerrainFau
 def _raster(data: bytes) -> HeightRaster | TerrainFault:
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of damaged tags, and of sizes, which have a cap of their own
+            warnings.simplefilter("ignore")  # about damaged tags, and about sizes, which we check ourselves
             with Image.open(io.BytesIO(data), formats=("TIFF",)) as image:
                 return _pixels(image)
     except Image.DecompressionBombError:
@@ -119,7 +119,7 @@ def _pixels(image: Image.Image) -> HeightRaster | TerrainFault:
 
 
 def _keys(directory: Any) -> dict[int, int]:
-    """Return the keys whose values stand in the directory itself: codes, all that are needed here."""
+    """Return the keys with values in the directory itself: codes; no others are needed here."""
     numbers = [int(n) for n in directory] if isinstance(directory, tuple) else []
     rows = [numbers[k : k + 4] for k in range(4, len(numbers) - 3, 4)]
     return {key: value for key, place, _, value in rows if place == 0}
@@ -165,7 +165,7 @@ def _axes(tags: dict[int, Any], at_points: bool) -> tuple[Along, Along] | Terrai
 
 
 def _mark_unknown(raster: HeightRaster) -> TerrainFault | None:
-    """Make heights NaN that the file marks as none; a NaN of the file is one anyway."""
+    """Set heights with the file's no-data value to NaN; return a fault if this value is no number."""
     said = raster.tags.get(NO_DATA)
     if said is None:
         return None
@@ -173,6 +173,6 @@ def _mark_unknown(raster: HeightRaster) -> TerrainFault | None:
         mark = float(str(said).strip("\0 \t\r\n"))
     except ValueError:
         return TerrainFault("format", f"its mark of no height is `{str(said)[:30]}`, which is no number")
-    # Marks such as -3.4e38 are written with fewer digits than the pixels have.
+    # No-data values such as -3.4e38 are written with fewer digits than the pixels have.
     raster.heights[np.isclose(raster.heights, mark, rtol=1e-6, atol=0.0)] = np.nan
     return None

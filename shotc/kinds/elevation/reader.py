@@ -1,4 +1,4 @@
-"""An elevation model by the ending of its name."""
+"""The reader of elevation models, chosen by the file ending."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ ENDINGS = (".tif", ".tiff", ".asc", ".hgt", ".csv")
 
 
 def read_elevation(name: str, data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a file, or the first thing that is wrong with it. The bytes may be anything.
+    """Return the posts of a file, or its first fault. The bytes may be anything.
 
-    name   : of the file; SRTM's says where it is
-    system : EPSG code that the mission gives, for files that say none
+    name   : of the file; for SRTM it gives the position
+    system : EPSG code in the mission, for files without one
     """
     ending = "." + name.rsplit(".", 1)[-1].lower()
     if ending in (".tif", ".tiff"):

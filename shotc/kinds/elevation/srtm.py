@@ -1,4 +1,4 @@
-"""SRTM tiles (.hgt): big-endian 16-bit heights of one degree by one degree, rows from the north."""
+"""SRTM tiles (.hgt): big-endian 16-bit heights of one square degree, rows from the north."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from shotc.geom.terrain.posts import Posts, TerrainFault, posts_of
 from shotc.geom.terrain.systems import GEOGRAPHIC
 
 SIDES = (1201, 3601)
-"""Posts along a side: three seconds of arc, and one."""
+"""Posts along a side, for three arc seconds and for one."""
 VOID = -32768
 WGS84 = 4326
 _NAME = re.compile(r"(?:^|[/\\])([NS])(\d{2})([EW])(\d{3})[^/\\]*$", re.IGNORECASE)
 
 
 def read_srtm(name: str, data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a tile, whose name gives its south-west corner, such as N46E007.hgt."""
+    """Return the posts of a tile, or its fault; the name gives its south-west corner, such as N46E007.hgt."""
     side = next((s for s in SIDES if 2 * s * s == len(data)), None)
     if side is None:
         sizes = " or ".join(str(2 * s * s) for s in SIDES)

@@ -1,1 +1,1 @@
-"""Footprints of buildings that a mission names: bytes of GeoJSON to rings and heights. Plain Python."""
+"""Footprints of buildings: GeoJSON bytes to rings and heights. Plain Python."""

@@ -1,6 +1,6 @@
 """GeoJSON (RFC 7946) to footprints: outer rings of polygons, and their properties. Plain Python.
 
-Longitude stands before latitude, both in degrees of WGS84. Holes are filled.
+Longitude is before latitude, both in WGS84 degrees. Holes are filled.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from shotc.kinds.footprints.tags import Tags, name_of
 
 MOST_FEATURES = 200_000
 MOST_CORNERS = 1_000
-"""Corners of one ring; no house has more."""
+"""Most corners of one ring; no house has more."""
 _WGS84 = re.compile(r"(CRS:?84|EPSG:+([\d.]+:)?(4326|4979)|OGC:[\d.]*:?CRS84h?)$", re.IGNORECASE)
 _NO_DEGREES = 1e9
 _EXPORT = "export it as GeoJSON in WGS84 (EPSG:4326)"
@@ -25,12 +25,12 @@ _SIMPLE = ("Point", "MultiPoint", "LineString", "MultiLineString", "GeometryColl
 
 
 class Footprint(NamedTuple):
-    """A ring on the earth.
+    """A ring in geographic coordinates.
 
-    ring   : (longitude, latitude), degrees, the last one not the first again
+    ring   : (longitude, latitude), degrees, without a repeated first corner
     tags   : the properties of its feature
     name   : of its feature, else its id; number : of the feature in the file, from 1
-    called : its name and its ids, those that it has
+    called : its name and its ids, as far as it has them
     """
 
     ring: tuple[Vec2, ...]
@@ -41,18 +41,18 @@ class Footprint(NamedTuple):
 
 
 class FeatureCollection(NamedTuple):
-    """The polygons of a file, and how many features of other types it has, by their type."""
+    """The polygons of a file, and the number of features of other types, by type."""
 
     footprints: tuple[Footprint, ...]
     others: Mapping[str, int]
 
 
 class _Wrong(Exception):
-    """What is wrong with a feature."""
+    """A fault of a feature."""
 
 
 def read_geojson(data: bytes) -> FeatureCollection | FileFault:
-    """Return the footprints of a file, or the first thing that is wrong with it; bytes may be anything."""
+    """Return the footprints of a file, or its first fault; the bytes may be anything."""
     value = _parsed(data)
     if isinstance(value, FileFault):
         return value
@@ -115,7 +115,7 @@ def _features(value: Any) -> list[Any] | FileFault:
 
 
 def _foreign_system(value: Mapping[str, Any]) -> str:
-    """Return the system that the member `crs` of earlier GeoJSON names, where it is another than WGS84."""
+    """Return the coordinate system in the old GeoJSON member `crs`, empty for WGS84 or none."""
     crs = value.get("crs")
     if crs is None:
         return ""
@@ -138,7 +138,7 @@ def _type_of(feature: Any) -> str:
 
 
 def _rings(feature: Any) -> list[Any] | None:
-    """Return the outer rings of a feature's polygons; None for one that has no polygon."""
+    """Return the outer rings of a feature's polygons; None for a feature without a polygon."""
     geometry = _geometry(feature)
     if geometry is None:
         return None
@@ -155,7 +155,7 @@ def _rings(feature: Any) -> list[Any] | None:
 
 
 def _ring(written: Any) -> tuple[Vec2, ...]:
-    """Return the corners of a ring, none of them twice in a row."""
+    """Return the corners of a ring without consecutive repetitions."""
     if not isinstance(written, list) or not written:
         raise _Wrong("a ring of its polygon is no list of positions")
     if len(written) > MOST_CORNERS:
@@ -175,7 +175,7 @@ def _position(written: Any) -> Vec2:
 
 
 def _tags(feature: Mapping[str, Any]) -> Tags:
-    """Return the properties; some exports put those of OpenStreetMap below `tags`."""
+    """Return the properties; some exports store those of OpenStreetMap under `tags`."""
     properties = feature.get("properties")
     if not isinstance(properties, dict):
         return {}
@@ -191,6 +191,6 @@ def _called(feature: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def described(others: Mapping[str, int]) -> Iterator[str]:
-    """Yield how many features of each type there are, the most first."""
+    """Yield the number of features of each type in words, the most frequent first."""
     for kind, count in sorted(others.items(), key=lambda item: -item[1]):
         yield f"{count} of type {kind}" if kind != "no geometry" else f"{count} without geometry"

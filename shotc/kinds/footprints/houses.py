@@ -1,6 +1,6 @@
-"""Footprints made houses: rings of W, from where to where they reach, and what is wrong with the others.
+"""Houses from footprints: rings in W, their height extents, and the faults of the others.
 
-A part of a building stands in place of the outline that it lies in, as Simple 3D Buildings has it.
+As in Simple 3D Buildings, the parts of a building replace the outline around them.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from shotc.kinds.footprints.tags import HeightExtent, extent_of, is_building, is
 
 LEAST_AREA_M2 = 0.01
 COVERED = 0.9
-"""Share of an outline that its parts cover, at least: of less, the outline stays."""
+"""Least share of an outline that its parts cover; with less, the outline stays."""
 SAME_AREA = 1e-6
-"""Share of a ring's area that its triangles may lack."""
+"""Tolerance of the area of a ring's triangles, as a share of the ring's area."""
 
 Project = Callable[[Vec2], Vec2]
 """(longitude, latitude) in degrees to East and North in metres of W."""
@@ -26,7 +26,7 @@ Triangle2 = tuple[Vec2, Vec2, Vec2]
 
 
 class Feature(NamedTuple):
-    """What a building is called by one feature of the file: its name, its ids."""
+    """The name and the ids of a building in one feature of the file."""
 
     number: int
     called: tuple[str, ...]
@@ -35,10 +35,10 @@ class Feature(NamedTuple):
 class House(NamedTuple):
     """A building, or a part of one.
 
-    ring : corners of W, counter-clockwise, metres; lid : the triangles that it is cut into
-    bottom, top : metres over the lowest ground under the ring
+    ring : corners in W, counter-clockwise, metres; lid : its triangles
+    bottom, top : above the lowest ground under the ring, metres
     number : of its feature in the file
-    features : what it is called by: its own feature, and that of the outline that a part lies in
+    features : with its names: its own feature, and that of the outline around a part
     """
 
     name: str
@@ -51,7 +51,7 @@ class House(NamedTuple):
 
 
 class BuildingFault(NamedTuple):
-    """What is wrong with one building."""
+    """A fault of one building."""
 
     name: str
     number: int
@@ -62,9 +62,9 @@ class Houses(NamedTuple):
     """The buildings of a file.
 
     wrong     : rings that enclose nothing, or cross themselves; tops that are not above bottoms
-    unknown   : buildings whose height the file does not say; assumed : those that are given one
-    uncovered : outlines whose parts cover too little of them, which stay
-    passed    : polygons without a building; far : buildings farther away than can be flown
+    unknown   : buildings without a height in the file; assumed : those that get the default height
+    uncovered : outlines whose parts cover too little of them; these outlines stay
+    passed    : number of polygons without a building; far : buildings too far away to be flown to
     """
 
     houses: tuple[House, ...]
@@ -77,9 +77,9 @@ class Houses(NamedTuple):
 
 
 class _Shape(NamedTuple):
-    """A footprint whose ring can be built on; low, high : of the box round it.
+    """A footprint with a valid ring; low, high : of its bounding box.
 
-    outline : in whose place a part stands
+    outline : that a part replaces
     """
 
     footprint: Footprint
@@ -98,7 +98,7 @@ def houses_of(
 ) -> Houses:
     """Return the buildings of a file.
 
-    farthest : metres from the origin of W; height : of those that have none by the file, or None
+    farthest : from the origin of W, metres; height : of buildings without one in the file, or None
     """
     built = _built(footprints)
     shapes: list[_Shape] = []
@@ -125,13 +125,13 @@ def houses_of(
 
 
 def _built(footprints: Sequence[Footprint]) -> list[Footprint]:
-    """Return the footprints of buildings: of a file whose polygons have no tags, all."""
+    """Return the footprints of buildings; if no polygon of the file has building tags, return all."""
     built = [f for f in footprints if is_building(f.tags)]
     return built or [f for f in footprints if not {"building", "building:part"} & f.tags.keys()]
 
 
 def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _Shape | str:
-    """Return a ring that runs counter-clockwise, or what is wrong with it."""
+    """Return the shape with a counter-clockwise ring, or the fault of the ring."""
     if len(ring) < 3:
         return f"its ring has {len(ring)} different corners, not three or more"
     area = signed_area(ring)
@@ -148,14 +148,14 @@ def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _Shape | str:
 
 
 class _Replaced(NamedTuple):
-    """What is left of outlines and parts, and the outlines that stay beside their parts."""
+    """The remaining outlines and parts, and the outlines that stay beside their parts."""
 
     left: list[_Shape]
     uncovered: list[BuildingFault]
 
 
 def _replaced(shapes: list[_Shape]) -> _Replaced:
-    """Take away the outlines whose parts stand in their place; parts take from them what they do not say."""
+    """Remove the outlines that parts replace; parts inherit from them the values that they lack."""
     parts = [s for s in shapes if s.part]
     if not parts:
         return _Replaced(shapes, [])
@@ -183,7 +183,7 @@ def _lies_in(part: _Shape, outline: _Shape) -> bool:
 
 
 def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
-    """Return a part with the name and the height of its building, where it has none of its own."""
+    """Return a part with the name and the height of its building where it has none."""
     footprint, extent = part.footprint, part.extent
     if not footprint.tags.get("name") and outline.footprint.tags.get("name"):
         footprint = footprint._replace(name=outline.footprint.name)
@@ -193,7 +193,7 @@ def _inheriting(part: _Shape, outline: _Shape) -> _Shape:
 
 
 def _made(shapes: Iterable[_Shape], height: float | None) -> Houses:
-    """Return the houses of shapes; height : of those whose height is not known."""
+    """Return the houses of shapes; height : of those with an unknown height, or None."""
     houses: list[House] = []
     wrong: list[BuildingFault] = []
     unknown: list[BuildingFault] = []

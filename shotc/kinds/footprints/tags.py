@@ -1,6 +1,6 @@
-"""What OpenStreetMap says of a building by its tags: how high it is, from where to where, and its name.
+"""The height extent and the name of a building from its OpenStreetMap tags.
 
-The keys are those of Simple 3D Buildings: heights count from the lowest ground at the building, and include
+The keys are those of Simple 3D Buildings: heights are above the lowest ground at the building, and include
 its roof.
 """
 
@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 LEVEL_M = 3.0
-"""Metres of a level, where a building's levels are counted and its height is not given."""
+"""Height of a level, for buildings with a number of levels and no height, metres."""
 LONGEST_NAME = 80
 HIGHEST_M = 1_000.0
 """No building is higher."""
@@ -23,9 +23,9 @@ Tags = Mapping[str, Any]
 
 
 class HeightExtent(NamedTuple):
-    """From where to where a building reaches over the lowest ground at it, metres; top : None if not said.
+    """The extent of a building above the lowest ground at it, metres; top : None if unknown.
 
-    unread : a text that stands for a height and is none, as `key: text`; empty where all can be read
+    unread : a tag that should be a height and is none, as `key: text`; empty if all can be read
     """
 
     bottom: float
@@ -34,9 +34,9 @@ class HeightExtent(NamedTuple):
 
 
 def extent_of(tags: Tags) -> HeightExtent:
-    """Return how high a building is by its tags.
+    """Return the extent of a building from its tags.
 
-    Heights at or below zero say that none is known, as in some collections of footprints.
+    Heights at or below zero count as unknown, as in some collections of footprints.
     """
     unread = [
         f"{key}: {str(tags[key])[:30]}"
@@ -76,12 +76,12 @@ def _metres(value: Any) -> float | None:
 
 
 def is_building(tags: Tags) -> bool:
-    """Return whether tags say that there is a building, or a part of one."""
+    """Return whether tags describe a building or a part of one."""
     return any(_yes(tags, key) for key in ("building", "building:part"))
 
 
 def is_part(tags: Tags) -> bool:
-    """Return whether tags are those of a part of a building, which replaces the building's outline."""
+    """Return whether tags describe a part of a building, which replaces the building's outline."""
     return _yes(tags, "building:part")
 
 
@@ -90,7 +90,7 @@ def _yes(tags: Tags, key: str) -> bool:
 
 
 def name_of(value: Any) -> str:
-    """Return a name or an id as it can be shown; empty for a value that is neither."""
+    """Return a name or an id as printable text; empty for a value that is neither."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         return ""
     return "".join(c if c.isprintable() else " " for c in str(value)[:LONGEST_NAME]).strip()

@@ -1,1 +1,1 @@
-"""Meshes and point clouds that a mission names: bytes of GLB, PLY, OBJ, STL, XYZ, LAS and LAZ to parts."""
+"""Meshes and point clouds: bytes of GLB, PLY, OBJ, STL, XYZ, LAS and LAZ files to parts."""

@@ -13,21 +13,21 @@ from shotc.kinds.models.parts import ModelFault, NodePart, part
 KINDS = ("xyz", "las", "laz")
 MOST_POINTS = 20_000_000
 NOISE = (7, 18)
-"""Classes of the LAS format, low and high noise: points that nothing stands at."""
+"""LAS classes of low and high noise: points without a real object."""
 NONE = "?"
-"""Instead of a separator, of a line that is no row."""
+"""Replaces the separator of a line that is no row."""
 RECORD, EXTENDED = 54, 60
 """Bytes of the header of a variable length record, and of an extended one (LAS 1.4)."""
 EXTENDED_END = 247
-"""Where the number of extended records ends in the header of LAS 1.4."""
+"""End of the number of extended records in the header of LAS 1.4, byte offset."""
 COMPRESSED = b"\x80"
-"""Point formats from this on are those of LAZ, whose points begin with the place of a table of chunks."""
+"""First point format of LAZ; its points start with the position of a chunk table."""
 NO_TABLE = 2**64 - 1
-"""Instead of that place, of files whose last eight bytes say it."""
+"""Replaces that position in files that store it in their last eight bytes."""
 LEAST_CHUNK = 20
-"""Bytes of a chunk: its first point is not compressed."""
+"""Least bytes of a chunk, whose first point is not compressed."""
 MOST_BYTES = 4_000_000_000
-"""Bytes of all points, not compressed."""
+"""Most bytes of all points, uncompressed."""
 _THIN = "thin it, or cut it to the mission"
 
 
@@ -37,7 +37,7 @@ def read_cloud(kind: str, data: bytes) -> list[NodePart] | ModelFault:
 
 
 def _read_xyz(data: bytes) -> list[NodePart] | ModelFault:
-    """Read rows whose first three columns are x, y and z; a row before them may be a header."""
+    """Read rows whose first three columns are x, y and z; the first line may be a header."""
     if b"\0" in data[:1000]:
         return ModelFault("it is no text", "export it as PLY, or as rows of x y z")
     lines = data.decode("latin-1").splitlines()
@@ -60,7 +60,7 @@ def _read_xyz(data: bytes) -> list[NodePart] | ModelFault:
 
 
 def _separator(line: str) -> str:
-    """Return what parts the columns of a row: a comma, a semicolon, or nothing for white space; else NONE."""
+    """Return the column separator of a row: a comma, a semicolon, or "" for white space; else NONE."""
     return next((mark for mark in ("", ",", ";") if _is_row(line, mark)), NONE)
 
 
@@ -93,9 +93,9 @@ def _read_las(data: bytes) -> list[NodePart] | ModelFault:
 
 
 def _promised(data: bytes) -> int:
-    """Return how many bytes the records of a header take at least.
+    """Return the least size in bytes of the records that a header announces.
 
-    The readers believe these numbers, and take the time, or the memory, that they say.
+    The readers trust these numbers, and a wrong one would cost much time or memory.
     """
 
     def number(at: int, size: int) -> int:

@@ -1,13 +1,13 @@
-"""The formats of meshes and point clouds, by the endings of names. Plain Python, no numpy."""
+"""The formats of meshes and point clouds by file ending. Plain Python, no numpy."""
 
 from typing import Literal, NamedTuple
 
 
 class Ending(NamedTuple):
-    """What a format says of its coordinates.
+    """The conventions of a format's coordinates.
 
-    up : the axis that points up, as the programs that write it have it
-    metres : whether they are in metres; else the file does not say their unit
+    up : the axis that points up in the programs that write it
+    metres : whether they are in metres; else the unit is unknown
     """
 
     up: Literal["y", "z"]
@@ -29,5 +29,5 @@ METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "ft": 0.3048, "in": 0
 
 
 def ending_of(name: str) -> str:
-    """Return the ending of a file's name, in small letters."""
+    """Return the ending of a file's name, in lower case."""
     return name.rsplit(".", 1)[-1].lower()

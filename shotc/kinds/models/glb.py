@@ -1,4 +1,4 @@
-"""GLB files, binary glTF 2.0: nodes that place meshes of triangles or points, all in one file.
+"""GLB files (binary glTF 2.0 in one file): nodes that place meshes of triangles or points.
 
 Compressed meshes (Draco, meshopt) and buffers in other files are refused.
 """
@@ -20,12 +20,12 @@ COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 LINES, LOOP, LINE_STRIP, TRIANGLES, STRIP, FAN = 1, 2, 3, 4, 5, 6
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 COMPRESSED = frozenset({"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
-DEEPEST = 500  # nodes below one another
+DEEPEST = 500  # most nodes below one another
 MOST_NODES = 100_000
 
 
 class _Placed(NamedTuple):
-    """A mesh at a node: its number, and the matrix (4, 4) that places it."""
+    """A mesh at a node: its index, and its transform (4, 4)."""
 
     name: str
     mesh: int
@@ -33,13 +33,13 @@ class _Placed(NamedTuple):
 
 
 class _File(NamedTuple):
-    """The header of a file, and the bytes of its one buffer."""
+    """The header of a file, and the bytes of its buffer."""
 
     header: dict[str, Any]
     buffer: bytes
 
     def item(self, kind: str, number: Any) -> dict[str, Any]:
-        """Return an item of a list of the header; ValueError for none."""
+        """Return an item of a list of the header; raise ValueError if there is none."""
         items = self.header.get(kind, [])
         if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(items):
             raise ValueError(f"it names one of its {kind} that is not there")
@@ -50,9 +50,9 @@ class _File(NamedTuple):
 
 
 def read_glb(data: bytes, most_corners: int) -> list[NodePart]:
-    """Return what stands at the nodes of a file; ValueError where it cannot be read.
+    """Return the parts at the nodes of a file; raise ValueError if it cannot be read.
 
-    most_corners : of all nodes together, for one mesh may stand at many
+    most_corners : of all nodes together, because many nodes can place the same mesh
     """
     file = _file(data)
     needed = COMPRESSED & set(file.header.get("extensionsRequired", []))
@@ -96,7 +96,7 @@ def _file(data: bytes) -> _File:
 
 
 def _placed(file: _File) -> Iterator[_Placed]:
-    """Yield the meshes of the scene that is shown, each where it stands."""
+    """Yield the meshes of the default scene with their transforms."""
     header = file.header
     if header.get("scenes"):
         roots = file.item("scenes", header.get("scene", 0)).get("nodes", [])
@@ -135,7 +135,7 @@ def _matrix(node: dict[str, Any]) -> Array:
 
 
 def _primitive(file: _File, primitive: dict[str, Any]) -> NodePart:
-    """Return the triangles of a primitive, or its points; lines are triangles without area."""
+    """Return the triangles or points of a primitive; lines become triangles without area."""
     attributes = primitive["attributes"]
     corners = _accessor(file, attributes["POSITION"])
     if corners.shape[1] != 3:
@@ -176,7 +176,9 @@ def _colors(file: _File, number: Any, count: int) -> Colors | None:
 
 
 def _accessor(file: _File, number: Any) -> Array:
-    """Return the rows of an accessor as numbers of 64 bits, (count, columns)."""
+    """Return the rows of an accessor as 64-bit floats, (count, columns); raise ValueError if it is
+    damaged.
+    """
     accessor = file.item("accessors", number)
     if "sparse" in accessor or "bufferView" not in accessor:
         message = f"its header promises {accessor.get('count')} elements that are sparse, or nowhere"

@@ -1,6 +1,6 @@
 """Meshes from the bytes of PLY, OBJ, STL and GLB files.
 
-They are read here, with numpy alone: trimesh, which reads them too, takes a second to load, with scipy.
+Our readers need only numpy. trimesh reads these files too, but takes a second to load, with scipy.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from shotc.kinds.models.stl import read_stl
 
 KINDS = ("glb", "ply", "obj", "stl")
 MOST_CORNERS = 5_000_000
-"""Corners that a scene may have once its meshes stand everywhere they are placed."""
+"""Most corners of a scene, with every placement of its meshes."""
 FOREIGN = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, struct.error)
-"""What bytes that are no model come to."""
+"""Exceptions that bytes without a valid model cause."""
 
 
 def read_mesh(kind: str, data: bytes) -> list[NodePart] | ModelFault:
-    """Return what stands at the nodes of a file, in its own units and axes; kind : one of KINDS.
+    """Return the parts at the nodes of a file, in its own units and axes, or the fault; kind : one of KINDS.
 
-    Coordinates may be anything; see ``parts.wrong_corners``.
+    Coordinates are not checked; see ``parts.wrong_corners``.
     """
     try:
-        with np.errstate(all="ignore"):  # who reads the coordinates finds what overflows
+        with np.errstate(all="ignore"):  # callers check coordinates for overflow
             parts = _parts(kind, data)
     except FOREIGN as error:
         reason = (str(error).splitlines() or [type(error).__name__])[0][:200]

@@ -1,4 +1,4 @@
-"""OBJ files: lines of corners and of faces, in objects or groups that have names."""
+"""OBJ files: lines of corners and faces, in named objects or groups."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ MOST_NAME = 80
 
 
 class _Lines(NamedTuple):
-    """Lines of corners and of faces.
+    """Lines of corners and faces.
 
-    seen : corners before each face; begins : of each object its name, and the number of its first face
+    seen : number of corners before each face; begins : name of each object, and index of its first face
     """
 
     corners: list[str]
@@ -28,7 +28,7 @@ class _Lines(NamedTuple):
 
 
 def read_obj(data: bytes) -> list[NodePart]:
-    """Return the objects of a file, or its groups where it has no objects; ValueError where it is none."""
+    """Return the objects of a file, or its groups if it has no objects; raise ValueError if it is no OBJ."""
     lines = _lines(data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").decode("latin-1"))
     if not lines.corners:
         return []
@@ -65,7 +65,9 @@ def _lines(text: str) -> _Lines:
 
 
 def _faces(lines: _Lines, count: int) -> tuple[IntArray, IntArray]:
-    """Return triangles (T, 3) of numbers of corners, and the line of each; ValueError for no corner."""
+    """Return triangles (T, 3) of corner indices, and the face line of each, (T,); raise ValueError for a bad
+    index.
+    """
     slashes = any("/" in line for line in lines.faces)
     words = [(_AFTER_SLASH.sub("", line) if slashes else line).split()[1:] for line in lines.faces]
     sizes = {len(row) for row in words}
@@ -86,13 +88,13 @@ def _faces(lines: _Lines, count: int) -> tuple[IntArray, IntArray]:
 
 
 def _part(name: str, corners: Array, faces: IntArray, colors: Colors | None) -> NodePart:
-    """Return a part with the corners of its own faces."""
+    """Return a part with only the corners of its own faces."""
     used, own = np.unique(faces, return_inverse=True)
     return part(name, corners[used], own.reshape(-1, 3), None if colors is None else colors[used])
 
 
 def _colors(values: Array) -> Colors | None:
-    """Return colours that stand beside corners, from 0 to 1."""
+    """Return the colours from the columns after the coordinates, which are from 0 to 1; None without them."""
     if values.shape[1] < 6 or not ((values[:, 3:] >= 0.0) & (values[:, 3:] <= 1.0)).all():
         return None
     return np.asarray(np.rint(255.0 * values[:, 3:]), dtype=np.uint8)

@@ -1,4 +1,4 @@
-"""What a mesh or a point cloud holds, part by part, in the coordinates of its file."""
+"""The parts of a mesh or a point cloud, in the coordinates of the file."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ Colors = NDArray[np.uint8]
 
 
 class ModelFault(NamedTuple):
-    """Why a file is no model, and what helps; line : of the file, from 1, where one is to blame."""
+    """The fault of a model file, with help; line : of the file, from 1, if one line has the fault."""
 
     message: str
     help: str = "export it anew as binary PLY"
     line: int | None = None
     library: str = ""
-    """The library that its format takes and that is not installed."""
+    """The missing library for its format."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NodePart:
-    """What stands at one node of a file.
+    """The part at one node of a file.
 
-    name      : of the node; empty where the file has none
+    name      : of the node; empty if the file has none
     corners   : shape (V, 3), with all transforms of the file applied
-    triangles : shape (T, 3), numbers of corners; none of a point cloud
+    triangles : shape (T, 3), indices of corners; T = 0 for a point cloud
     colors    : shape (V, 3), or None
     """
 
@@ -41,18 +41,18 @@ class NodePart:
 
 
 def part(name: str, corners: Any, triangles: Any = None, colors: Colors | None = None) -> NodePart:
-    """Return a part of whatever a library gives, as arrays of our own."""
+    """Return a part with arrays of our own types from a library's arrays."""
     faces = np.zeros((0, 3), np.intp) if triangles is None else np.asarray(triangles, np.intp).reshape(-1, 3)
     return NodePart(name, np.asarray(corners, dtype=np.float64).reshape(-1, 3), faces, colors)
 
 
 def table(lines: list[str], columns: tuple[int, ...]) -> Array:
-    """Return columns of lines of numbers, (N, C); ValueError where a line has none there."""
+    """Return columns of lines of numbers, (N, C); raise ValueError if a line has no number there."""
     return np.loadtxt(lines, usecols=columns, comments=None, ndmin=2)
 
 
 def fans(rows: Any) -> IntArray:
-    """Return polygons, rows of numbers of corners, as triangles (T, 3) that meet in the first corner."""
+    """Return polygons, given as rows of corner indices, as triangles (T, 3) with a common first corner."""
     if isinstance(rows, np.ndarray) and rows.ndim == 2:
         count = rows.shape[1]
         if count < 3:
@@ -64,9 +64,9 @@ def fans(rows: Any) -> IntArray:
 
 
 def wrong_corners(parts: list[NodePart], farthest: float) -> ModelFault | None:
-    """Return the fault of a file without corners, with one that is nowhere, or a face without one.
+    """Return the fault of parts without corners, with an invalid corner, or with a face of missing corners.
 
-    farthest : the largest coordinate that is one
+    farthest : the largest valid coordinate
     """
     count = sum(len(p.corners) for p in parts)
     if not count:

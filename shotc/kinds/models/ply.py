@@ -1,4 +1,6 @@
-"""PLY files: a header of elements and their properties, then rows, as text or as bytes of either order."""
+"""PLY files: a header of elements and their properties, then rows as text or as binary of either byte
+order.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ MOST_LINES = 1_000  # of a header
 
 
 class Property(NamedTuple):
-    """A column: its type, and of a list the type of its length."""
+    """A column: its type, and for a list the type of its length."""
 
     name: str
     type: str
@@ -46,7 +48,7 @@ class Element(NamedTuple):
         return not any(p.length for p in self.properties)
 
     def column(self, *names: str) -> int:
-        """Return which column has one of these names; ValueError for none."""
+        """Return the index of the column with one of these names; raise ValueError if there is none."""
         found = [i for i, p in enumerate(self.properties) if p.name in names]
         if not found:
             raise ValueError(f"its element {self.name} has no property {names[0]}")
@@ -54,7 +56,7 @@ class Element(NamedTuple):
 
 
 class PlyHeader(NamedTuple):
-    """What a header says; begin : of the first row, in bytes."""
+    """The content of a header; begin : offset of the first row, bytes."""
 
     order: str
     elements: tuple[Element, ...]
@@ -62,7 +64,7 @@ class PlyHeader(NamedTuple):
 
 
 def read_ply(data: bytes) -> list[NodePart]:
-    """Return the one part of a file; ValueError where it is none."""
+    """Return the single part of a file; raise ValueError if it is no PLY."""
     header = _header(data)
     rows = _texts if not header.order else _bytes
     vertex: Any = None
@@ -136,7 +138,7 @@ def _property(words: list[str]) -> Property:
 
 
 _Columns = tuple[list[Any], Any]
-"""Columns that were asked for, and where the next element begins."""
+"""The wanted columns, and the start of the next element."""
 
 
 def _texts(_: bytes, lines: list[str], element: Element, order: str, wanted: tuple[int, ...]) -> _Columns:
@@ -154,14 +156,14 @@ def _texts(_: bytes, lines: list[str], element: Element, order: str, wanted: tup
 
 
 def _lists_as_long(rows: list[str]) -> IntArray | None:
-    """Return rows that are a list each, all as long, (N, C); None where they are something else."""
+    """Return rows that are lists of the same length, (N, C); None for other rows."""
     width = len(rows[0].split()) if rows else 0
     if width < 2 or len({row.rstrip().count(" ") for row in rows}) > 1:
         return None
     try:
         numbers = np.array(" ".join(rows).split(), dtype=np.intp)
     except (ValueError, OverflowError):
-        return None  # row by row, to say what is wrong
+        return None  # the reading row by row then finds the fault
     if len(numbers) != width * len(rows):
         return None
     found = numbers.reshape(-1, width)
@@ -169,7 +171,7 @@ def _lists_as_long(rows: list[str]) -> IntArray | None:
 
 
 def _lists(rows: list[list[str]], element: Element, column: int) -> Any:
-    """Return one column of rows of words, in which lists have their lengths before them."""
+    """Return one column of rows of words; a list has its length in front."""
     found: list[Any] = []
     for words in rows:
         at = 0
@@ -209,7 +211,7 @@ def _bytes(data: bytes, at: int, element: Element, order: str, wanted: tuple[int
 
 
 def _first_counts(data: bytes, at: int, element: Element, order: str) -> list[int]:
-    """Return the lengths of the first row's lists: most often they are those of all rows."""
+    """Return the lengths of the first row's lists; usually all rows have the same."""
     counts = []
     if element.rows:
         for p in element.properties:

@@ -1,4 +1,4 @@
-"""A mesh or a point cloud by the ending of its name."""
+"""The reader of meshes and point clouds, chosen by the file ending."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from shotc.kinds.models.parts import ModelFault, NodePart
 
 
 def read_model(kind: str, data: bytes) -> list[NodePart] | ModelFault:
-    """Return what a file holds, or why it cannot be read. The bytes may be anything.
+    """Return the parts of a file, or its fault. The bytes may be anything.
 
     kind : the ending of its name, one of ``endings.ENDINGS``
     """

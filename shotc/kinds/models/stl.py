@@ -1,4 +1,4 @@
-"""STL files: triangles one by one, as bytes or as text."""
+"""STL files: lists of triangles, binary or text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _CORNER = re.compile(rb"^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$", re.MULTILINE)
 
 
 def read_stl(data: bytes) -> list[NodePart]:
-    """Return the one part of a file; ValueError where it is none."""
+    """Return the single part of a file, none for an empty file; raise ValueError if it is no STL."""
     if not data:
         return []
     count = int.from_bytes(data[80:HEAD], "little")
