@@ -84,7 +84,8 @@ def verify(
 
     --abort-every 1s proves that a show can be aborted at every second: all drones of a fleet brake along
     their common way, fly over their pads, any of them, and land. Each return is proved as the plan is:
-    separation, limits, zones, ground and endurance. The exit status is 1 if some second has no return.
+    separation, limits, zones, ground and endurance. Cameras that film the show fly on as planned, and each
+    return keeps clear of them. The exit status is 1 if some second has no return.
 
     The certificate that is printed has for every claim the limit, the worst value, its time, and how it is
     known. A claim is ok, BROKEN (an error), or missed: a preference that is not reached, which is a warning.
@@ -134,9 +135,8 @@ def _seconds(text: str) -> float:
 
 def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequence[Return], PlanReport]:
     """Return the collective returns of a plan, and the report with what is wrong with them."""
-    if not plan.trajectory.fleets or plan.trajectory.drones:
-        text = "collective returns are of shows, and of those without drones that film"
-        raise typer.BadParameter(text, param_hint="--abort-every")
+    if not plan.trajectory.fleets:
+        raise typer.BadParameter("collective returns are of shows", param_hint="--abort-every")
     from shotc.collective import collective_returns
     from shotc.collective.faults import no_return
 

@@ -21,7 +21,8 @@ there; where that has no room either, it goes back through all that it has flown
 that stands, and lands where it took off. What has begun its way home as planned goes on.
 
 Where fleets, or groups of one, would meet on their ways, they choose in turn: each takes the first way that
-is clear of those before it, and stands for a while where it has come to rest, if no way is.
+is clear of those before it, and stands for a while where it has come to rest, if no way is. Cameras that film
+the show go on as planned, and the fleets keep clear of them in the same way.
 
 None of this is trusted. Every return is a flight of its own, cubic B-splines as in a plan, and is proved as a
 plan is, at every instant: limits, zones, ground, targets, the nearest of all pairs (``geom.separation``), the
@@ -37,12 +38,10 @@ from itertools import combinations, islice, permutations
 
 import numpy as np
 
-from shotc.collective.homing import FleetReturn, Homing
+from shotc.collective.homing import WAITS_S, FleetReturn, Homing
 from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.fleets.apart import between
 
-WAITS_S = (3.0, 6.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0)
-"""How long fleets stand at rest, for others to pass."""
 MOST_TURNS = 6
 """Orders in which fleets are tried."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.claims import Limit, WorstValue, held
 from shotc.passes.verify.fleets.apart import from_parked, separations
+from shotc.passes.verify.fleets.cameras import from_cameras
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.motion import motion
 from shotc.passes.verify.fleets.shape import landed
@@ -51,6 +53,8 @@ class FleetReturn:
         return all(claim.holds for claim in self.claims)
 
 
+WAITS_S = (3.0, 6.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0)
+"""How long a fleet stands at rest, for others to pass."""
 NEAR_S = 1e-6
 """Seconds by which times that are one differ at most."""
 
@@ -69,7 +73,7 @@ class Homing:
         self._stops = at_rest(flight.coef)
         self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
         self._homeward = next(phase.start for phase in flight.phases if phase.name == "return")
-        self._same = all(target.track is None for target in mission.targets)
+        self._same = not ir.drones and all(target.track is None for target in mission.targets)
         self._known: dict[tuple[_Way, int], FleetReturn] = {}
 
     def at(self, time: float) -> FleetReturn:
@@ -85,6 +89,9 @@ class Homing:
             if way.holds:
                 return way
             tried.append(way)
+        if self.ir.drones:  # a camera passes, and is gone after a while
+            waited = (self.waiting(way, seconds) for seconds, way in product(WAITS_S, tried))
+            return next((way for way in waited if way.holds), tried[0])
         return tried[0]
 
     def ways(self, time: float) -> Iterator[FleetReturn]:
@@ -179,6 +186,7 @@ class Homing:
             *space(flight),
             *separations([flight]),
             *from_parked(self.ir, [flight]),
+            *from_cameras([flight], self.ir.drones, float(track.breaks[0])),
             landed(flight),
         )
         return FleetReturn(self.flight.fleet, rest, over, down, track, claims)

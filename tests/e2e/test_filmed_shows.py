@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from shotc.api import PlanOptions, compile_source, verify_plan
+from shotc.collective import collective_returns
 from shotc.emit.csv_table import EMITTER
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
 from shotc.geom.bernstein import Array, Piecewise
@@ -99,6 +100,33 @@ def test_a_camera_that_flies_through_the_picture_breaks_it(plan: VerifiedIR) -> 
     moved = apart(replace(ir, drones=(through,)), np.arange(0.0, ir.end, 0.01)).min()
     assert not claim.holds
     assert moved - 0.05 <= claim.worst <= moved
+
+
+@pytest.mark.parametrize("in_the_way", [False, True])
+def test_a_show_that_is_filmed_is_called_off_clear_of_its_cameras(plan: VerifiedIR, in_the_way: bool) -> None:
+    """A camera that hovers where the fleet would go home has it go another way, or no return holds."""
+    ir = plan.trajectory
+    if in_the_way:
+        curve = ir.drones[0].curve
+        ctrl = curve.ctrl.copy()
+        ctrl[:, :, :3] = (16.0, 16.0, 21.0)
+        camera = replace(ir.drones[0], curve=Piecewise(curve.breaks, ctrl))
+        ir = replace(ir, drones=(camera,))
+    ways = []
+    for found in collective_returns(replace(plan, trajectory=ir), 26.0, lambda _: None):
+        (way,) = found.fleets
+        if way.track is None:
+            continue
+        ways.append(way)
+        flown = replace(ir.fleets[0], breaks=way.track.breaks, coef=way.track.coef)
+        times = np.arange(found.time, max(way.down, ir.drones[0].curve.end), 0.02)
+        sampled = apart(replace(ir, fleets=(flown,)), times).min()
+        claim = separation(way.claims)
+        assert sampled - 0.05 <= claim.worst <= sampled + 1e-9
+        assert claim.holds == (sampled >= 3.0)
+    assert len(ways) >= 2
+    if not in_the_way:
+        assert all(way.holds for way in ways)
 
 
 def test_cameras_stay_out_of_an_airspace_that_holds_every_drone(plan: VerifiedIR) -> None:

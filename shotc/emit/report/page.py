@@ -147,7 +147,8 @@ def _site(mission: MissionIR, found: Volumes) -> str:
     about = (
         f"<p>Margins: {OFF_ACROSS_M:g} m for the error of the position and {OFF_UPRIGHT_M:g} m for that of "
         f"the height, {REACTION_S:g} s of reaction at the greatest allowed speed, and the stopping distance. "
-        "These are proposals; the authority decides. The geofence is the contingency volume.</p>"
+        "These are proposals from assumed constants; the authority decides. The geofence is the contingency "
+        "volume.</p>"
     )
     return "\n".join([site_map(mission, found), legend, table, about, corners, zones])
 

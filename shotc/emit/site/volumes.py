@@ -1,9 +1,9 @@
 """The volumes of a flight on the map: where it is flown, what lies around that, and where it may come down.
 
 The flight's hull is that of its control points, in which its curves lie at every instant. The margin about
-it is reckoned as in guides to the SORA (LBA, Dimensioning of Flight Geography, Contingency Volume and Ground
-Risk Buffer): what positions are off, a second to react and the way to stop. The ground risk buffer is as wide
-as the volume is high (1:1). They are a proposal for who asks for a permission: the authority decides.
+it is the sum of what an operator usually accounts for: errors of positions, a second to react, and the way to
+stop. The ground risk buffer is as wide as the volume is high (1:1). The constants are assumptions of this
+module and were taken from no authority's text. The margins are a proposal; the authority decides.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.trajectory import TrajectoryIR
 
 OFF_ACROSS_M, OFF_UPRIGHT_M = 7.0, 4.0
-"""Position errors, metres: 3 of the receiver, 3 of holding a place and 1 of the map; and of height."""
+"""Assumed errors of positions, metres: 3 of the receiver, 3 of holding a place, 1 of the map; of height."""
 REACTION_S = 1.0
 SIDES = 32
 """Of the polygon about a circle by which a hull is made wider."""

@@ -17,12 +17,17 @@ from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.nearness import nearest
 
 
-def from_cameras(flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajectory]) -> Iterator[Claim]:
-    """Yield claims on the separation of every drone with a camera from every drone of every flying fleet."""
+def from_cameras(
+    flights: Sequence[FleetFlight], cameras: Sequence[DroneTrajectory], begin: float = 0.0
+) -> Iterator[Claim]:
+    """Yield claims on the separation of every drone with a camera from every drone of every flying fleet.
+
+    begin : mission time from which on it is claimed, s
+    """
     for camera, flight in product(cameras, flights):
         least = kept_from_cameras(flight.mission.rules.separation, flight.fleet)
         breaks, eye = flight.track.breaks, camera.curve.channels(0, 1, 2)
-        span = (0.0, max(eye.end, float(breaks[-1])))
+        span = (begin, max(eye.end, float(breaks[-1])))
         bound = nearest(eye, breaks, flight.flown.ctrl, span, least)
         at = camera.curve(bound.at)[:3]
         drone = int(norm(flight.at(bound.at) - at).argmin())
