@@ -1,1 +1,1 @@
-"""The mission as written: pydantic models and units at the door."""
+"""The mission as written: pydantic models of the language, with conversion of units."""

@@ -1,4 +1,4 @@
-"""What a mission may allow by name: breaks of film grammar; subjects hidden, soft or blurred on purpose."""
+"""The names that a mission may allow: breaks of film grammar; subjects hidden, soft or blurred on purpose."""
 
 from typing import Annotated
 

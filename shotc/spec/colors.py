@@ -1,4 +1,4 @@
-"""Colours of lights: names of CSS, or three or six hexadecimal digits; kept as (red, green, blue)."""
+"""Colours of lights: CSS names, or three or six hexadecimal digits; stored as (red, green, blue)."""
 
 import re
 from typing import Annotated, Any

@@ -1,4 +1,4 @@
-"""The names of screen points and composition sets, and where on screen they are.
+"""The names of screen points and compositions, with their screen coordinates.
 
 Screen coordinates (u, v) in [-1, 1]^2, u right, v up.
 """
@@ -43,7 +43,7 @@ NAMED_POINTS: dict[str, Vec2] = {
     "lower-right": (_THIRD, -_THIRD),
 }
 
-# What one keyframe's `frame` may name: a point, or a set of the mission's own vocabulary.
+# The names for a keyframe's `frame`: a point, or a composition.
 FRAMES: dict[str, Composition] = {
     **COMPOSITIONS,
     **{name: Composition(name, points=(point,)) for name, point in NAMED_POINTS.items()},

@@ -1,4 +1,4 @@
-"""Latitudes and longitudes as people paste them: the text of a map, and how the language writes the place."""
+"""Latitudes and longitudes as text from a map, and their notation in the language."""
 
 import re
 from typing import NamedTuple
@@ -7,15 +7,15 @@ _DEGREES = (
     r"([+-]?\d{1,3}(?:\.\d+)?)\s*°?\s*"
     r"(?:(\d{1,2}(?:\.\d+)?)\s*['′’]\s*(?:(\d{1,2}(?:\.\d+)?)\s*(?:\"|″|”|'')\s*)?)?"
 )
-_PASTED = (  # compiled where a text is met: few missions have one
+_PASTED = (  # compiled at first use, because few missions need it
     rf"\s*\(?\s*{_DEGREES}([NSns])?\s*[,;\s]\s*{_DEGREES}([EWew])?\s*"
     r"(?:[,;\s]\s*([+-]?\d{1,5}(?:\.\d+)?)\s*(?:m|metres|meters)?)?\s*\)?\s*"
 )
-LONGEST = 80  # characters of a text that is read
+LONGEST = 80  # most characters of such a text
 
 
 class Pasted(NamedTuple):
-    """A place on earth, degrees; height : metres, as it was given, or None."""
+    """A geographic place, degrees; height : metres, as given, or None."""
 
     lat: float
     lon: float
@@ -36,13 +36,13 @@ def pasted(value: object) -> Pasted | None:
 
 
 def place_on_earth(lat: float, lon: float, height: str = "") -> str:
-    """Return a place as the language writes it; height : as it is written there, if it has one."""
+    """Return a place in the notation of the language; height : as text, empty without one."""
     over = f", height: {height}" if height else ""
     return f"{{lat: {lat:.10g}, lon: {lon:.10g}{over}}}"
 
 
 def instead_of(value: object, *, heights: bool = True) -> str:
-    """Return the help for a pasted text; empty where it is none. heights : whether the place may have one."""
+    """Return the help for a pasted text; empty for other values. heights : whether the place may have one."""
     place = pasted(value)
     if place is None:
         return ""

@@ -1,4 +1,4 @@
-"""Numbers of drones as a mission writes them: one, a range, or a list of both."""
+"""Numbers of drones in the language: one, a range, or a list of both."""
 
 import re
 from typing import Annotated, Any
@@ -15,7 +15,7 @@ _RULE = "give numbers of drones, from 1: a range such as 1-20, or a list such as
 
 
 class NumbersType(FieldType):
-    """Numbers of drones, kept as whole numbers that rise."""
+    """Numbers of drones, stored as rising integers."""
 
     label = "DroneNumbers"
 

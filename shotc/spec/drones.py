@@ -1,4 +1,4 @@
-"""Drones as a mission writes them: a preset, and what overrides it."""
+"""Drones in the language: a preset and its overrides."""
 
 from math import degrees, radians
 from typing import Annotated, Any, ClassVar, Literal, Self
@@ -39,7 +39,7 @@ ModelName = Annotated[
     str, NamedOr("DroneModel", {name: name for name in PRESETS}, "drone model", all_by="shotc list drones")
 ]
 
-# A drone that leans or lifts less than the lowest of these can hardly leave its place.
+# A drone with a lower tilt or thrust limit than these can hardly move.
 Tilt = Annotated[float, Quantity("Tilt", "angle", radians(1.0), radians(80.0), noun="tilt")]
 ThrustToWeight = Annotated[float, Quantity("ThrustToWeight", "ratio", 1.02, 20.0, noun="ratio")]
 
@@ -47,11 +47,11 @@ Mass = Annotated[float, Quantity("Mass", "mass", SMALLEST["mass"])]
 Circle = Annotated[float, Millimetres("Circle", "length", 1e-6, 1e-3, noun="circle of confusion")]
 Energy = Annotated[float, WattHours("Energy", "energy", 360.0)]
 Reserve = Annotated[float, Percentage("Reserve", "ratio", 0.0, 0.9, noun="reserve")]
-SAME_ASPECT = 0.01  # share by which a frame's shape may differ where it is given twice
+SAME_ASPECT = 0.01  # relative tolerance of an aspect ratio that is given twice
 
 
 class SensorType(FieldType):
-    """The sensor's width, or ``[width, height]``; kept as (width, height or None)."""
+    """The sensor's width, or ``[width, height]``; stored as (width, height or None)."""
 
     label = "Sensor"
     _side = Hinted(
@@ -69,12 +69,12 @@ class SensorType(FieldType):
         return (self._side.read(value), None)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         return {"anyOf": [self._side.reference(), self._both.schema()]}
 
 
 class LimitsSpec(Model):
-    """What a drone may do; what is not given is the preset's."""
+    """The limits of a drone; omitted ones are those of the preset."""
 
     speed: Speed | None = Field(default=None, description="horizontal speed")
     climb: Speed | None = Field(default=None, description="vertical speed upwards")
@@ -129,14 +129,14 @@ class CameraSpec(Model):
 
     @property
     def field_of_view(self) -> float | None:
-        """Horizontal field of view, rad; None where the preset decides."""
+        """Horizontal field of view, rad; None for that of the preset."""
         if self.sensor is not None and self.focal_length is not None:
             return field_of_view(self.focal_length, self.sensor[0])
         return self.hfov if self.hfov is not None or self.lens is None else self.lens.widest
 
     @property
     def lens(self) -> LensRange | None:
-        """The zoom lens; None where nothing is said of one."""
+        """The zoom lens; None if there is none in the mission."""
         if self.zoom is None:
             return None
         width = FULL_FRAME_M if self.sensor is None else self.sensor[0]
@@ -145,7 +145,7 @@ class CameraSpec(Model):
 
     @property
     def aspect_ratio(self) -> float | None:
-        """Frame width over height; None where the preset decides."""
+        """Frame width over height; None for that of the preset."""
         if self.aspect is not None or self.sensor is None or self.sensor[1] is None:
             return self.aspect
         return self.sensor[0] / self.sensor[1]
@@ -173,7 +173,7 @@ class CameraSpec(Model):
         return self
 
     def _zooms(self) -> None:
-        """Raise a fault where the field of view is none of the zoom's, or a rate is that of no zoom."""
+        """Raise a fault if the field of view is outside the zoom range, or a zoom rate has no zoom."""
         lens, hfov = self.lens, self.field_of_view
         if lens is None and self.zoom_rate is not None:
             raise fault_at(
@@ -192,7 +192,7 @@ class CameraSpec(Model):
             )
 
     def _exposes(self) -> None:
-        """Raise a fault where a number is given for something that nothing else tells."""
+        """Raise a fault if a number of the exposure lacks another one that it needs."""
         for key, value, needs, example in (
             ("circle_of_confusion", self.circle_of_confusion, "aperture", "f/2.8"),
             ("pixels", self.pixels, "shutter", "1/50 s"),
@@ -206,7 +206,7 @@ class CameraSpec(Model):
                 )
 
     def _agree(self) -> None:
-        """Raise a fault where the frame's shape is given twice, and not the same."""
+        """Raise a fault if the aspect ratio is given twice with different values."""
         if self.aspect is None or self.sensor is None or self.sensor[1] is None:
             return
         shape = self.sensor[0] / self.sensor[1]
@@ -223,7 +223,7 @@ class CameraSpec(Model):
 
 
 class GimbalSpec(Model):
-    """What a gimbal reaches; what is not given is the preset's."""
+    """The ranges and rates of a gimbal; omitted ones are those of the preset."""
 
     pitch: PitchRange | None = Field(default=None, description="[lowest, highest] against the horizon")
     yaw: AngleRange | None = Field(default=None, description="[lowest, highest] against the body")
@@ -239,7 +239,7 @@ class RotorsSpec(Model):
 
 
 class PowerSpec(Model):
-    """What a drone's battery holds, and what it takes to hover."""
+    """The energy of a drone's battery, and the power for hovering."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("hover",), ("efficiency",))),)
 
@@ -256,7 +256,7 @@ class PowerSpec(Model):
 
 
 class SafetySpec(Model):
-    """What a drone does when something goes wrong."""
+    """What a drone does on a failure."""
 
     link_lost: Literal["return", "hover", "land", "continue"] | None = Field(
         default=None, description="what it does when its link is lost; the machine's own by default"

@@ -1,4 +1,4 @@
-"""Field types of what a camera exposes with: the f-number of its lens, the time of its shutter."""
+"""Field types of a camera's exposure: the f-number of its lens, the time of its shutter."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ _FRACTION = re.compile(rf"\s*({_UNSIGNED})\s*/\s*({_UNSIGNED})\s*(?:s|sec)?\s*")
 
 
 class Millimetres(Quantity):
-    """A length that people write in millimetres."""
+    """A length, usually written in millimetres."""
 
     def show(self, number: float) -> str:
-        """Return a length, m, as people write it."""
+        """Return a length, m, in millimetres as text."""
         return f"{1e3 * number:g} mm"
 
 
@@ -47,7 +47,7 @@ class ApertureType(FieldType):
         return number
 
     def schema(self) -> JsonSchemaValue:
-        """Return a number, or a text that begins with f/."""
+        """Return the schema of a number, or a text that starts with f/."""
         return {
             "anyOf": [
                 {"type": "number", "minimum": LEAST_F, "maximum": MOST_F},
@@ -58,13 +58,15 @@ class ApertureType(FieldType):
 
 
 class FocusType(FieldType):
-    """What a lens is focused on: the name of a target, or a distance as ``60 m``."""
+    """The focus of a lens: the name of a target, or a distance such as ``60 m``."""
 
     label = "Focus"
     _distance = Quantity("FocusDistance", "length", 0.1, 1e5, noun="distance of focus")
 
     def read(self, value: Any) -> str | float:
-        """Return the name, or the distance along the camera's axis, m; what reads as a length is one."""
+        """Return the name, or the distance along the camera's axis, m; text that is a valid length is a
+        distance.
+        """
         try:
             parse_quantity(value, "length")
         except QuantityError:
@@ -78,12 +80,12 @@ class FocusType(FieldType):
         return self._distance.read(value)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         return {"anyOf": [NAME.reference(), *self._distance.schema()["anyOf"]]}
 
 
 class IntervalType(FieldType):
-    """How far photos are apart, in time or on the way, as ``2 s`` or ``5 m``."""
+    """The interval of photos in time or along the path, such as ``2 s`` or ``5 m``."""
 
     label = "PhotoInterval"
     _ways = (
@@ -92,7 +94,7 @@ class IntervalType(FieldType):
     )
 
     def read(self, value: Any) -> Photos:
-        """Return the interval; a bare number could be either."""
+        """Return the interval; raise a fault for a bare number, which could be either."""
         if isinstance(value, int | float) and not isinstance(value, bool):
             raise fault(
                 "wrong-type", f"expected a time or a distance, got {describe(value)}", "write `2 s` or `5 m`"
@@ -104,12 +106,12 @@ class IntervalType(FieldType):
         return Photos(metres=self._ways[1].read(value))
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it, with their units."""
+        """Return the schema of both notations, with their units."""
         return {"anyOf": [way.schema()["anyOf"][1] for way in self._ways]}
 
 
 class ShutterType(FieldType):
-    """A time of exposure, as ``1/50 s`` or a duration; kept in seconds."""
+    """An exposure time, such as ``1/50 s``, or a duration; stored in seconds."""
 
     label = "Shutter"
 
@@ -129,7 +131,7 @@ class ShutterType(FieldType):
         )
 
     def schema(self) -> JsonSchemaValue:
-        """Return a number of seconds, a duration, or a fraction of a second."""
+        """Return the schema of a number of seconds, a duration, or a fraction of a second."""
         return {
             "anyOf": [
                 {"type": "number", "minimum": LEAST_S, "maximum": MOST_S},

@@ -1,7 +1,7 @@
-"""Faults as pydantic carries them: an error type that is a code's slug, and its message, notes, help.
+"""Faults as pydantic errors: the error type is a code's slug, with message, notes and help.
 
-A field or a validator raises ``fault(...)``, or ``fault_at(...)`` for a place further down; ``load``
-turns each into one diagnostic. Kinds use the same two functions.
+A field or a validator raises ``fault(...)``, or ``fault_at(...)`` for a place below its value. ``load``
+converts each into one diagnostic. Kinds use the same two functions.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ def fault(
 ) -> PydanticCustomError:
     """Return an error for pydantic that ``load`` reports under the code with this slug.
 
-    message : lower case, no final stop; help : the change that would make it work; notes : facts
-    beside : a key of the same mapping that has to do with it, shown too
+    message : lower case, no final stop; help : the change that would fix it; notes : facts
+    beside : a related key of the same mapping, also shown
     """
-    # pydantic fills the template from the context; only the context is read back.
+    # pydantic fills the template from the context. We read only the context back.
     context = {"message": message, "help": help, "notes": notes, "beside": beside}
     return PydanticCustomError(slug, "{message}", context)
 
@@ -34,12 +34,12 @@ def fault(
 def fault_at(
     loc: Loc, slug: str, message: str, help: str = "", notes: tuple[str, ...] = ()
 ) -> ValidationError:
-    """Return the same fault placed at ``loc`` below the value under validation."""
+    """Return the same fault at ``loc`` below the value under validation."""
     return together([InitErrorDetails(type=fault(slug, message, help, notes), loc=loc, input=None)])
 
 
 def unit_fault(error: QuantityError) -> PydanticCustomError:
-    """Return a unit fault as pydantic carries it; its slug is the kind."""
+    """Return a unit fault as a pydantic error; its slug is the kind."""
     return fault(error.kind, error.message, error.help)
 
 
@@ -49,7 +49,7 @@ def together(details: list[InitErrorDetails]) -> ValidationError:
 
 
 def details_of(error: ValidationError | PydanticCustomError, loc: Loc = ()) -> list[InitErrorDetails]:
-    """Return an error's faults, placed below ``loc``, to be raised again with others."""
+    """Return an error's faults, below ``loc``, to raise them again with others."""
     if isinstance(error, PydanticCustomError):
         return [InitErrorDetails(type=error, loc=loc, input=None)]
     return [
@@ -66,7 +66,7 @@ def _again(item: Any) -> PydanticCustomError:
 
 
 def read_each(readers: Iterable[tuple[Loc, Callable[[], T]]]) -> list[T]:
-    """Return what every reader gives; raise the faults of all of them at once, each at its place."""
+    """Return the results of all readers; raise the faults of all of them together, each at its place."""
     values: list[T] = []
     details: list[InitErrorDetails] = []
     for loc, reader in readers:

@@ -1,4 +1,4 @@
-"""The field types of the language, ready to annotate models with; values are SI and radians once read."""
+"""The field types of the language, as annotations for models; values that were read are in SI and radians."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ NonNegativeSpeed = Annotated[float, Quantity("NonNegativeSpeed", "speed", 0.0)]
 Acceleration = Annotated[float, Quantity("Acceleration", "acceleration", SMALLEST["acceleration"])]
 Jerk = Annotated[float, Quantity("Jerk", "jerk", SMALLEST["jerk"])]
 Angle = Annotated[float, _ANGLE]
-# Ten turns: more is a slip of the pen.
+# Ten turns; more is a mistake.
 Heading = Annotated[float, Quantity("Heading", "angle", -20 * pi, 20 * pi, noun="heading")]
 Pitch = Annotated[float, _PITCH]
 FieldOfView = Annotated[

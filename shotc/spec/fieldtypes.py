@@ -1,6 +1,6 @@
-"""What a field may hold, as annotations for pydantic: each reads a YAML value and describes itself.
+"""Field types as annotations for pydantic: each reads a YAML value and describes itself in the schema.
 
-A field type never leaves the choice between shapes to pydantic, so that one fault gives one report.
+A field type chooses between alternative shapes itself, not pydantic, so that one fault gives one report.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ class FieldType(ABC):
 
     @abstractmethod
     def read(self, value: Any) -> Any:
-        """Return the value as the models keep it; raise a fault otherwise."""
+        """Return the value as stored in the models; raise a fault if it is invalid."""
 
     @abstractmethod
     def schema(self) -> JsonSchemaValue:
-        """Return the JSON Schema of what may be written."""
+        """Return the JSON Schema of valid values."""
 
     def reference(self) -> JsonSchemaValue:
         """Return the schema marked for hoisting into the shared definitions (see spec.schema)."""
@@ -49,7 +49,7 @@ class FieldType(ABC):
 
 
 class Integer(FieldType):
-    """A whole number between ``low`` and ``high``, inclusive."""
+    """An integer between ``low`` and ``high``, inclusive."""
 
     def __init__(self, label: str, low: int, high: int) -> None:
         self.label = label
@@ -57,7 +57,7 @@ class Integer(FieldType):
         self.high = high
 
     def read(self, value: Any) -> int:
-        """Return the number; 3.0 is whole too."""
+        """Return the number; 3.0 is valid too."""
         if isinstance(value, bool) or not isinstance(value, int | float) or value != value // 1:
             raise fault("wrong-type", f"expected a whole number, got {describe(value)}")
         if not self.low <= value <= self.high:
@@ -74,7 +74,7 @@ class Integer(FieldType):
 
 
 def _digits(value: int) -> str:
-    # Python refuses to print integers of thousands of digits.
+    # Python refuses to print integers with thousands of digits.
     return str(value) if abs(value) < 10**30 else "a number of many digits"
 
 
@@ -106,28 +106,28 @@ class Text(FieldType):
 
 
 def one_line(label: str, most: int, example: str) -> Text:
-    """Return the type of one line of text that shows something: no control characters, no line ends."""
+    """Return the type of one line of visible text, without control characters and line ends."""
     pattern = rf"^(?=.*\S)[^\x00-\x1f\x7f-\x9f\u2028\u2029]{{1,{most}}}$"
     rule = f'give one line of at most {most} characters, such as "{example}"'
     return Text(label, pattern, "wrong-length", rule)
 
 
 class TextOrNumber(Text):
-    """Text that may be a whole number, such as an id; kept as text."""
+    """Text that may look like an integer, such as an id; stored as text."""
 
     def read(self, value: Any) -> str:
         """Return the text."""
         return super().read(_digits(value) if type(value) is int else value)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         return {"anyOf": [super().schema(), {"type": "integer"}]}
 
 
 class Hinted(FieldType):
-    """Another field type that has a help of its own for a text which people write there by mistake.
+    """Another field type with a special help for a text that people write there by mistake.
 
-    slip : pattern of that text, whatever the case of its letters
+    slip : pattern of that text, case-insensitive
     """
 
     def __init__(self, of: FieldType, slip: str, help: str) -> None:
@@ -152,9 +152,9 @@ class Hinted(FieldType):
 
 
 class NamedOr(FieldType):
-    """A name from a table, kept as what the table says, or what ``other`` reads.
+    """A name from a table, stored as the table's value, or a value that ``other`` reads.
 
-    what : the noun for messages about unknown names; all_by : the command that lists them
+    what : the noun for messages about unknown names; all_by : the command that lists the names
     """
 
     def __init__(
@@ -183,6 +183,6 @@ class NamedOr(FieldType):
         return self.other.read(value)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the names, and the other way to write it."""
+        """Return the schema of the names or of the other type."""
         names = {"enum": list(self.named)}
         return names if self.other is None else {"anyOf": [names, self.other.reference()]}

@@ -1,4 +1,4 @@
-"""Fleets as a mission writes them: how many drones, where they stand, how far apart they stay."""
+"""Fleets in the language: number of drones, layout on the ground, separation."""
 
 from typing import ClassVar, Literal
 
@@ -30,14 +30,14 @@ class GridSpec(Model):
 
 
 class CircleSpec(Model):
-    """Drones on a circle, evenly."""
+    """Drones evenly spaced on a circle."""
 
     radius: PositiveLength = Field(description="radius")
     center: Stand = Field(default=(0.0, 0.0, 0.0), description="middle of the circle")
 
 
 class LayoutSpec(Model):
-    """How a fleet stands on the ground."""
+    """The layout of a fleet on the ground."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("grid",), ("circle",), ("file",))),)
 
@@ -49,7 +49,7 @@ class LayoutSpec(Model):
 
 
 class SeparationSpec(QuantityModel):
-    """How far two drones of a fleet stay apart, centre to centre."""
+    """The separation of two drones of a fleet, centre to centre."""
 
     SHORT: ClassVar = ("horizontal", Quantity("PositiveLength", "length", SMALLEST["length"]))
 
@@ -89,6 +89,6 @@ class FleetSpec(Model):
 
 
 def in_no_group(fleet: FleetSpec) -> tuple[int, ...]:
-    """Return the numbers of the drones of a fleet that are in none of its groups; they rise."""
+    """Return the numbers of a fleet's drones that are in no group, rising."""
     taken = {number for numbers in fleet.groups.values() for number in numbers}
     return tuple(number for number in range(1, fleet.count + 1) if number not in taken)

@@ -1,4 +1,4 @@
-"""Field types for heights that say what they count from: the world's origin, the ground, a target's foot."""
+"""Field types for heights with a reference: the world's origin, the ground, or a target's foot."""
 
 from functools import partial
 from typing import Annotated, Any, NamedTuple
@@ -18,8 +18,8 @@ _LENGTH = Quantity("Length", "length")
 class Altitude(NamedTuple):
     """A camera's height from the first frame of its shot to the last, metres.
 
-    above : what it counts from: the plane z = 0, the ground below the camera, or the foot of the shot's
-        target at that moment; None where the mission does not say, which is the target's foot
+    above : its reference: the plane z = 0, the ground below the camera, or the foot of the shot's target at
+        that time; None if the mission gives none, which means the target's foot
     """
 
     first: float
@@ -33,7 +33,7 @@ class Altitude(NamedTuple):
 
 
 class AboveGround(NamedTuple):
-    """The height of a place over the ground there, metres; stands : whether it is left out, and so 0."""
+    """The height of a place above the ground there, metres; stands : whether it is omitted, and so 0."""
 
     height: float
     stands: bool = False
@@ -43,7 +43,7 @@ STANDING = AboveGround(0.0, stands=True)
 
 
 class HeightRange(NamedTuple):
-    """The lowest and the highest height of a zone, metres; ground : whether they count from the ground."""
+    """The lowest and the highest height of a zone, metres; ground : whether they are above the ground."""
 
     low: float
     high: float
@@ -51,23 +51,23 @@ class HeightRange(NamedTuple):
 
 
 class CountedSpec(Model):
-    """A height, and what it counts from; the field that it stands in reads the height."""
+    """A height and its reference; the field that contains it reads the height."""
 
     above: Above = Field(description="what the height counts from")
     height: Any = Field(description="height above that")
 
 
 class _Counted(FieldType):
-    """A height as it is, or ``{above, height}``.
+    """A height alone, or ``{above, height}``.
 
-    item : how the height is written; sources : what it may count from
+    item : type of the height; sources : admissible references
     """
 
     item: FieldType
     sources: tuple[Above, ...]
 
     def parts(self, value: Any) -> tuple[Any, Above | None]:
-        """Return the height, and what it counts from where that is written."""
+        """Return the height, and its reference if it is written."""
         if not isinstance(value, dict):
             return self.item.read(value), None
         written = CountedSpec.model_validate(value)
@@ -86,7 +86,7 @@ class _Counted(FieldType):
         return above
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         counted = {
             "type": "object",
             "description": "a height, and what it counts from",
@@ -98,7 +98,7 @@ class _Counted(FieldType):
 
 
 class AltitudeType(_Counted):
-    """A camera's height: one for a kind that keeps it, else maybe [from, to]."""
+    """A camera's height: one value for a kind with constant height, else also [from, to]."""
 
     sources = ("target", "ground", "origin")
 
@@ -107,7 +107,7 @@ class AltitudeType(_Counted):
         self.item = item
 
     def read(self, value: Any) -> Altitude:
-        """Return the height at both ends, and what it counts from."""
+        """Return the height at both ends, and its reference."""
         if isinstance(value, Altitude):
             return value
         height, above = self.parts(value)
@@ -123,7 +123,7 @@ class HeightType(_Counted):
     sources = ("origin", "ground")
 
     def read(self, value: Any) -> float | AboveGround:
-        """Return z in metres, or a height above ground."""
+        """Return z in metres, or a height above the ground."""
         if isinstance(value, AboveGround):
             return value
         height, above = self.parts(value)
@@ -138,7 +138,7 @@ class HeightRangeType(_Counted):
     sources = ("origin", "ground")
 
     def read(self, value: Any) -> HeightRange:
-        """Return the heights, and whether they count from the ground."""
+        """Return the heights, and whether they are above the ground."""
         if isinstance(value, HeightRange):
             return value
         (low, high), above = self.parts(value)
@@ -146,14 +146,14 @@ class HeightRangeType(_Counted):
 
 
 class LiftType(_Counted):
-    """The height of a target over its track, or over the ground that it keeps to."""
+    """The height of a target above its track, or above the ground that it follows."""
 
     label = "Lift"
     item = _LENGTH
     sources = ("ground",)
 
     def read(self, value: Any) -> float | AboveGround:
-        """Return a height over the places of a track, or over the ground below them, metres."""
+        """Return a height above the points of a track, or above the ground below them, metres."""
         if isinstance(value, AboveGround):
             return value
         height, above = self.parts(value)

@@ -1,4 +1,4 @@
-"""From the bytes of a mission file to its models, or to diagnostics that say what is wrong and where."""
+"""The loading of a mission: from the bytes of the file to its models, or to diagnostics."""
 
 import re
 from collections.abc import Mapping
@@ -22,16 +22,16 @@ from shotc.spec.shot import ShotBase
 
 NOTHING: Mapping[str, Diagnostic] = MappingProxyType({})
 
-# How a plan.json begins, which is YAML, too.
+# The start of a plan.json, which is also valid YAML.
 _PLAN = rb'\s*\{\s*"format"\s*:\s*"shotc-plan"'
 
 
 class LoadedMission(NamedTuple):
-    """A mission whose shape is right; names are not resolved yet.
+    """A mission of valid shape; its names are not resolved yet.
 
-    folder : where the files that it names are, or the files themselves, or None for text without a place
+    folder : of the files that it names, or these files, or None for text without a folder
     sha256 : of the mission's bytes, hexadecimal; text : those bytes
-    chosen : what planning chose where the text leaves it open
+    chosen : planning's choices where the text leaves them open
     """
 
     spec: MissionSpec
@@ -43,9 +43,9 @@ class LoadedMission(NamedTuple):
 
 
 class Loaded(NamedTuple):
-    """What loading gives: a mission, or None where a diagnostic is an error.
+    """The result of loading: a mission, or None if a diagnostic is an error.
 
-    title : the mission's name, None where it has none that is one
+    title : the mission's name, None if it has no valid one
     """
 
     mission: LoadedMission | None
@@ -61,10 +61,10 @@ def load(
     kinds: Mapping[str, type[ShotBase]],
     unusable: Mapping[str, Diagnostic] = NOTHING,
 ) -> Loaded:
-    """Read a mission; never raises, whatever the bytes are.
+    """Read a mission; never raise, for any bytes.
 
-    name : how to show the file; folder : as in LoadedMission; kinds : the model of every kind of shot
-    unusable : kinds that are registered and cannot be used, and why
+    name : of the file in messages; folder : as in LoadedMission; kinds : the model of every kind of shot
+    unusable : diagnostics of registered kinds that cannot be used
     """
     if data[:64].lstrip().startswith(b"{") and re.match(_PLAN, data):
         return Loaded(None, (plan_given(name),), SourceFile(name, ""))
@@ -93,7 +93,7 @@ def _title(document: Document) -> str | None:
 def _validate(
     document: Document, kinds: Mapping[str, type[ShotBase]]
 ) -> tuple[MissionSpec | None, ValidationError | None]:
-    # The version is judged before and apart; a missing one shall not hide the other faults.
+    # The version is checked before and separately, so that a missing one does not hide the other faults.
     root = {**document.root, "shotc": VERSION}
     try:
         return MissionSpec.model_validate(root, context={"kinds": kinds}), None
@@ -102,6 +102,6 @@ def _validate(
 
 
 def _is_whole(root: Mapping[str, Any], kinds: Mapping[str, type[ShotBase]]) -> bool:
-    """Return whether a mission that fits its models says its version, and has shots, all of known kinds."""
+    """Return whether a mission that fits its models has its version, and shots of known kinds only."""
     known = [shot["kind"] in kinds for shot in root.get("shots", [])]
     return is_version(root.get("shotc")) and bool(known) and all(known)

@@ -1,4 +1,4 @@
-"""The mission as written: the top of the language's models."""
+"""The model of a whole mission."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
@@ -21,14 +21,14 @@ VERSION = 1
 
 
 def is_version(value: object) -> bool:
-    """Return whether a value is the version of the language that this is."""
+    """Return whether a value is the supported version of the language."""
     return value == VERSION and not isinstance(value, bool)
 
 
 def _read_shot(value: Any, info: ValidationInfo) -> ShotBase:
-    """Validate a shot by the model of its kind; of an unknown kind, by what all shots share.
+    """Validate a shot by the model of its kind, or for an unknown kind by the common fields.
 
-    An unknown kind is reported by ``load``, which knows the other faults of the file too.
+    ``load`` reports the unknown kind together with the other faults of the file.
     """
     if not isinstance(value, dict):
         raise fault(
@@ -44,8 +44,8 @@ def _read_shot(value: Any, info: ValidationInfo) -> ShotBase:
     return ShotBase.model_validate({key: item for key, item in value.items() if key in ShotBase.model_fields})
 
 
-# A function instead of a union of models: kinds come from other packages, too, and loading and building the
-# models of all of ours takes 50 ms, half of what a check may take beside its imports.
+# A function instead of a union of models, because kinds also come from other packages, and loading and
+# building all our models takes 50 ms, half of the time of a check without imports.
 Shot = Annotated[ShotBase, PlainValidator(_read_shot)]
 
 

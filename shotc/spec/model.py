@@ -1,6 +1,6 @@
-"""The base of every model of the language: frozen, closed to unknown keys, reporting all its faults.
+"""The base of every model of the language: frozen, closed to unknown keys, with reports of all faults.
 
-Modules that define models do without ``from __future__ import annotations``: pydantic would have to
+Modules that define models do not use ``from __future__ import annotations``, because pydantic would have to
 compile every annotation again.
 """
 
@@ -17,14 +17,14 @@ from shotc.spec.faults import details_of, fault, together
 from shotc.spec.words import closest, elsewhere, nearest
 from shotc.units import clip, describe
 
-# Looking for the nearest word takes time; nobody reads a thousand proposals.
+# The search for the nearest word takes time, and nobody reads a thousand proposals.
 _ADVISED = 100
 
 
 class MissingKey(NamedTuple):
-    """Something that a mapping has to have and has not.
+    """A required part that a mapping lacks.
 
-    keys : any of which it may be; name : how messages call it; detail : the fault
+    keys : the keys that can provide it; name : in messages; detail : the fault
     """
 
     keys: tuple[str, ...]
@@ -36,8 +36,8 @@ class OneOf(NamedTuple):
     """Keys of one mapping that exclude each other: exactly one of ``forms`` may be given.
 
     forms : each a tuple of keys that belong together, such as ``(("look_at",), ("heading", "pitch"))``
-    required : whether none of them is a fault
-    help : what to do where they meet, if there is more to say than which there are
+    required : whether a mapping with none of them is a fault
+    help : advice for a conflict, if the list of keys is not enough
     """
 
     forms: tuple[tuple[str, ...], ...]
@@ -45,12 +45,12 @@ class OneOf(NamedTuple):
     help: str = ""
 
     def conflicts(self, given: Mapping[str, object]) -> list[InitErrorDetails]:
-        """Return which of the keys that are given exclude each other."""
+        """Return the faults of given keys that exclude each other."""
         present = self._present(given)
         return [] if not present or self._fitting(present) else [self._conflict(present)]
 
     def lacks(self, given: Mapping[str, object]) -> list[MissingKey]:
-        """Return what is missing beside the keys that are given."""
+        """Return the keys that are missing besides the given ones."""
         present = self._present(given)
         if not present:
             every = tuple(dict.fromkeys(key for form in self.forms for key in form))
@@ -89,7 +89,7 @@ class OneOf(NamedTuple):
         return any(one in form and other in form for form in self.forms)
 
     def _choice(self) -> str:
-        """Say what may be given, without what may stand beside it, too."""
+        """Return the alternatives in words, without the optional keys beside them."""
         least = [form for form in self.forms if not any(set(other) < set(form) for other in self.forms)]
         return " or ".join(" with ".join(f"`{key}`" for key in form) for form in least)
 
@@ -101,7 +101,7 @@ class Model(BaseModel):
     the nearest known key, and keys that exclude each other.
     """
 
-    # Deferred: a mission uses a few of the many models, and building one costs milliseconds.
+    # Deferred, because a mission uses few of the many models, and building one costs milliseconds.
     model_config = ConfigDict(
         frozen=True,
         extra="forbid",
@@ -135,12 +135,12 @@ class Model(BaseModel):
 
     @classmethod
     def keys(cls) -> Mapping[str, FieldInfo]:
-        """Return the fields by the keys that missions write; `from`, no name in Python, is an alias."""
+        """Return the fields by their keys in missions; `from` is an alias, because it is a Python keyword."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
-        """Return the mapping that a value stands for where there is a shorter way to write it."""
+        """Return the mapping for a value in a shorter notation; other values stay as they are."""
         return data
 
     @classmethod
@@ -157,7 +157,7 @@ class Model(BaseModel):
     def _explained(
         cls, error: ValidationError, data: Mapping[str, object], lacks: list[MissingKey]
     ) -> list[InitErrorDetails]:
-        """Put pydantic's faults about this mapping's own keys into the language's words."""
+        """Translate pydantic's faults about this mapping's own keys to the language's terms."""
         details, known = details_of(error), cls.keys()
         missing = [str(d["loc"][0]) for d in details if _is(d, "missing")]
         lacks = [*lacks, *(_missing(key, known[key]) for key in missing if key not in data)]
@@ -170,9 +170,9 @@ class Model(BaseModel):
 
 
 def section(description: str) -> Any:
-    """Return a field for a mapping that may be left out and then has all its defaults.
+    """Return a field for an optional mapping that has all its defaults if it is omitted.
 
-    An empty mapping is validated in its place: an instance as default would build its model on import.
+    Its default is an empty mapping that is validated, because an instance would build its model on import.
     """
     return Field(default={}, validate_default=True, description=description)
 
@@ -193,13 +193,13 @@ def _no_mapping(value: object, known: Mapping[str, object]) -> PydanticCustomErr
 
 
 def _is(detail: InitErrorDetails, kind: str) -> bool:
-    """Return whether a fault is pydantic's about a key of this very mapping."""
+    """Return whether a fault is pydantic's about a key of this mapping itself."""
     error = detail["type"]
     return len(detail.get("loc", ())) == 1 and not isinstance(error, str) and error.type == kind
 
 
 def _echo(detail: InitErrorDetails, details: list[InitErrorDetails]) -> bool:
-    """Return whether pydantic calls a list too short only because it does not count faulty items."""
+    """Return whether pydantic reports a list as too short only because it does not count faulty items."""
     loc = detail["loc"]
     if isinstance(detail["type"], str) or detail["type"].type != "too_short":
         return False
@@ -207,7 +207,9 @@ def _echo(detail: InitErrorDetails, details: list[InitErrorDetails]) -> bool:
 
 
 def _few(detail: InitErrorDetails, known: Mapping[str, FieldInfo]) -> InitErrorDetails:
-    """Say of a list of this mapping that is too short what it holds; return any other fault as it is."""
+    """Return the fault of a too short list of this mapping with its content; other faults stay as they
+    are.
+    """
     if not _is(detail, "too_short"):
         return detail
     error, key = detail["type"], str(detail["loc"][0])
@@ -233,7 +235,7 @@ def _wrong_keys(
     known: Mapping[str, FieldInfo],
     absent: Mapping[str, FieldInfo],
 ) -> list[InitErrorDetails]:
-    """Return the faults of unknown and of missing keys; one slip of the pen is one fault, not two."""
+    """Return the faults of unknown and missing keys; one misspelt key is one fault, not two."""
     placed = {key: _place(key, known) for key in unknown[:_ADVISED]}
     meant = {key: closest(key, absent) for key, place in placed.items() if not place}
     still = [lack for lack in lacks if not set(lack.keys) & set(meant.values())]
@@ -256,7 +258,7 @@ def _key_help(
 
 
 def _place(key: str, known: Mapping[str, FieldInfo]) -> str:
-    """Return where else a key belongs; empty if nowhere."""
+    """Return the other place where a key belongs, in words; empty if there is none."""
     below = [name for name, field in known.items() if key in _keys_below(field)]
     if not below:
         return elsewhere(key, known)
@@ -265,7 +267,7 @@ def _place(key: str, known: Mapping[str, FieldInfo]) -> str:
 
 
 def _instead(key: str, lack: MissingKey, known: Mapping[str, FieldInfo]) -> InitErrorDetails:
-    """Return one fault for an unlike pair: the only unknown key, and the only missing one."""
+    """Return one fault for a dissimilar pair of the only unknown key and the only missing one."""
     message = f"unknown key `{clip(key)}`, and {lack.name} is missing"
     about = known[lack.keys[0]].description if len(lack.keys) == 1 else ""
     help_ = f"write {lack.name} instead" + (f": {about}" if about else "")
@@ -273,7 +275,7 @@ def _instead(key: str, lack: MissingKey, known: Mapping[str, FieldInfo]) -> Init
 
 
 def _keys_below(field: FieldInfo) -> Mapping[str, object]:
-    """Return the keys of the mapping that a field holds, if it holds one."""
+    """Return the keys of the mapping in a field, if it is one."""
     parts = (field.annotation, *get_args(field.annotation))
     return next((m.keys() for m in parts if isinstance(m, type) and issubclass(m, Model)), {})
 

@@ -1,4 +1,4 @@
-"""The music of a show as a mission writes it, and moments that are written in seconds, beats or bars."""
+"""The music of a show in the language, and times in seconds, beats or bars."""
 
 from typing import Annotated, Any, ClassVar
 
@@ -19,7 +19,7 @@ SLOWEST, FASTEST = 20.0, 400.0
 
 
 class NumberType(FieldType):
-    """A number without a unit between ``low`` and ``high``, inclusive; noun : what messages call it."""
+    """A number without a unit between ``low`` and ``high``, inclusive; noun : in messages."""
 
     def __init__(self, label: str, low: float, high: float, noun: str) -> None:
         self.label = label
@@ -73,7 +73,7 @@ class MusicSpec(Model):
 
 
 class MomentSpec(QuantityModel):
-    """A moment of a show: seconds of the mission's clock, a beat of its music, or a bar."""
+    """A time of a show: mission time in seconds, a beat of its music, or a bar."""
 
     SHORT: ClassVar = ("time", Quantity("NonNegativeDuration", "duration", 0.0))
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("time",), ("beat",), ("bar",), ("bar", "beat"))),)

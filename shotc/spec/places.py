@@ -1,4 +1,4 @@
-"""Field types for places in the world: a position, and what a camera looks at."""
+"""Field types for places in the world: positions, and the point that a camera looks at."""
 
 from typing import Annotated, Any, Literal
 
@@ -22,9 +22,10 @@ _SPOT = Tuple("Spot", (_LENGTH, _LENGTH, HEIGHT), "[x, y, z]", _HINT)
 _PLAN = Tuple("Point2", (_LENGTH, _LENGTH), "[x, y]")
 
 Spot = tuple[float, float, float | AboveGround]
-"""x, y and z in metres, or x, y and a height over the ground there."""
+"""x, y and z in metres, or x, y and a height above the ground there."""
 
-# Names become file names and table cells: nothing a shell, a file system or a spreadsheet stumbles on.
+# Names become file names and table cells, so they have no characters that are special in a shell, a file
+# system or a spreadsheet.
 NAME = Text(
     "Name",
     r"^[A-Za-z0-9]([A-Za-z0-9._-]{0,62}[A-Za-z0-9_-])?$",
@@ -32,8 +33,8 @@ NAME = Text(
     "use letters, digits, `-`, `_` and `.`, at most 64, starting with a letter or digit",
 )
 
-# A title is for people; files are named after it by ``filenames``. No controls, no marks that turn or hide
-# text, nothing that reads as a path.
+# A title is for people; ``filenames`` makes file names from it. It has no control characters, no marks that
+# reverse or hide text, and does not look like a path.
 _UNSEEN = r"\x00-\x1f\x7f-\xa0\u200b-\u200f\u2028-\u202f\u2060-\u206f\ufeff"
 _OF_PATHS = r"/\\<>:|?*" + '"'
 TITLE = Text(
@@ -45,14 +46,14 @@ TITLE = Text(
 
 
 class DegreesType(FieldType):
-    """Latitude or longitude: a number of degrees, as maps give it; kept in degrees."""
+    """Latitude or longitude: a number of degrees, as on maps; stored in degrees."""
 
     def __init__(self, label: str, limit: float) -> None:
         self.label = label
         self.limit = limit
 
     def read(self, value: Any) -> float:
-        """Return the number, at most ``limit`` either way."""
+        """Return the number, within plus or minus ``limit``."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise fault(
                 "wrong-type",
@@ -79,14 +80,14 @@ Altitude = Annotated[float, Quantity("Altitude", "length", -500.0, 9000.0)]
 
 
 class OnMap(Model):
-    """A place on the map of the earth (WGS84)."""
+    """A geographic place without height (WGS84)."""
 
     lat: Latitude = Field(description="latitude, degrees north")
     lon: Longitude = Field(description="longitude, degrees east")
 
 
 class Geodetic(OnMap):
-    """A place on the earth (WGS84); with ``world.origin`` it is a point of the world frame."""
+    """A geographic place (WGS84); with ``world.origin`` it is a point of the world frame."""
 
     height: Annotated[float | AboveGround, HEIGHT] = Field(
         default=STANDING,
@@ -96,16 +97,16 @@ class Geodetic(OnMap):
 
 
 class PlaceType(FieldType):
-    """Where something is: metres of the world, or latitude and longitude."""
+    """A place: metres in the world, or latitude and longitude."""
 
 
 class PlanType(PlaceType):
-    """A place on the map: ``[x, y]`` or ``{lat, lon}``."""
+    """A place in the plan: ``[x, y]`` or ``{lat, lon}``."""
 
     label = "Plan"
 
     def read(self, value: Any) -> Vec2 | OnMap:
-        """Return x and y of W in metres, or a place on the earth."""
+        """Return x and y of W in metres, or a geographic place."""
         if isinstance(value, dict | OnMap):
             return OnMap.model_validate(value)
         if not isinstance(value, list | tuple):
@@ -115,7 +116,7 @@ class PlanType(PlaceType):
         return (x, y)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         return {"anyOf": [_PLAN.reference(), {"$model": OnMap}]}
 
 
@@ -123,7 +124,7 @@ Plan = Annotated[Vec2 | OnMap, PlanType()]
 
 
 class PositionType(PlaceType):
-    """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``; heights may count from the ground."""
+    """A point of the world: ``[x, y, z]`` or ``{lat, lon, height}``; heights may be above the ground."""
 
     label = "Position"
 
@@ -138,24 +139,26 @@ class PositionType(PlaceType):
         return (x, y, z)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         return {"anyOf": [_SPOT.reference(), {"$model": Geodetic}]}
 
 
 class StandType(PositionType):
-    """A point of the world for what may stand on the ground: its height may be left out, as in ``[x, y]``."""
+    """A point of the world for a body that may stand on the ground: its height is optional, as in ``[x,
+    y]``.
+    """
 
     label = "Stand"
 
     def read(self, value: Any) -> Spot | Geodetic:
-        """Return a position; one of two numbers is on the ground."""
+        """Return a position; one with two numbers is on the ground."""
         if isinstance(value, list | tuple) and len(value) == 2:
             x, y = _PLAN.read(value)
             return (x, y, STANDING)
         return super().read(value)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the ways to write it."""
+        """Return the schema of all notations."""
         return {"anyOf": [_PLAN.reference(), _SPOT.reference(), {"$model": Geodetic}]}
 
 
@@ -166,7 +169,7 @@ Position = Annotated[Spot | Geodetic, POSITION]
 
 
 class Relative(Model):
-    """A place that counts from a target, wherever that is at the moment."""
+    """A place relative to a target, which moves with it."""
 
     from_: Annotated[str, NAME] = Field(
         alias="from", description="name of the target it counts from, or target for the shot's own"
@@ -180,12 +183,12 @@ class Relative(Model):
 
 
 class StationType(PlaceType):
-    """Where a keyframe's camera is: a position, or a place that counts from a target."""
+    """The place of a keyframe's camera: a position, or a place relative to a target."""
 
     label = "Station"
 
     def read(self, value: Any) -> Spot | Geodetic | Relative:
-        """Return a point of W in metres, a geodetic place, or one that counts from a target."""
+        """Return a point of W in metres, a geodetic place, or one relative to a target."""
         if isinstance(value, Relative) or (isinstance(value, dict) and value.keys() & Relative.keys().keys()):
             return Relative.model_validate(value)
         if isinstance(value, list | tuple | dict | Geodetic):
@@ -194,7 +197,7 @@ class StationType(PlaceType):
         raise fault("wrong-type", f"expected a position, got {describe(value)}", help_)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the ways to write it."""
+        """Return the schema of all notations."""
         return {"anyOf": [POSITION.reference(), {"$model": Relative}]}
 
 
@@ -204,7 +207,7 @@ Station = Annotated[Spot | Geodetic | Relative, STATION]
 
 
 class LookAtType(PlaceType):
-    """What to look at: the name of a target, or a position, on the ground where it has no height."""
+    """The point to look at: the name of a target, or a position, which without a height is on the ground."""
 
     label = "LookAt"
 
@@ -221,7 +224,7 @@ class LookAtType(PlaceType):
         raise fault("wrong-type", f"expected a target or a position, got {describe(value)}", help_)
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         return {"anyOf": [NAME.reference(), STAND.reference()]}
 
 

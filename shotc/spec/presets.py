@@ -1,8 +1,8 @@
-"""Drone presets, and what holds where a mission is silent.
+"""Drone presets, and the defaults of missions.
 
-The figures are meant for planning, not for records: speeds stay well inside what makers publish as
-maxima, so that a plan leaves the autopilot room to correct, and endurance leaves a reserve. Rates and
-accelerations of gimbals, and jerks, are hardly ever published; they are what smooth footage bears.
+The figures are for planning: speeds are well below the published maxima, so that the autopilot has reserve
+for corrections, and endurance includes a reserve. Rates and accelerations of gimbals, and jerks, are rarely
+published; the values here are acceptable for smooth footage.
 """
 
 from math import radians
@@ -23,33 +23,33 @@ TARGET_CLEARANCE = 1.0
 OBSTACLE_CLEARANCE = 2.0
 TRANSIT_FILMED = 5.0
 TRANSIT_OTHER = 3.0
-TOP_SPEED = 70.0  # of targets: above what helicopters, trains and all but racing cars do
+TOP_SPEED = 70.0  # m/s, of targets; faster than helicopters, trains, and cars except racing cars
 PACE = 0.75
 CIRCLE_SHARE = 0.03 / 36.0
-"""Of a sensor's width, the disc up to which a point counts as sharp: the usual 0.03 mm of a full frame."""
-PIXELS = 3840  # of a picture's width: UHD
-ZOOM_RATE = radians(10.0)  # of the field of view, a second: a slow zoom of a film camera
+"""Circle of confusion as a share of a sensor's width: the usual 0.03 mm of a full frame."""
+PIXELS = 3840  # width of a picture: UHD
+ZOOM_RATE = radians(10.0)  # rad/s, of the field of view: a slow zoom of a film camera
 SMOOTHING = NORMAL_S
 RATE = 50.0
 SHOW_RATE = 5.0
 RUNS = 20  # of a rehearsal
-RISE = 10.0  # metres over its pad to which a fleet's drone rises before it goes anywhere
+RISE = 10.0  # metres over its pad to which a fleet's drone takes off vertically
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
 SHOW_EMIT = ("csv", "skyc", "contact-sheet", "animatic", "rerun")
 LARGE_OUTPUTS = ("csv", "rerun")
-"""Outputs of a show that grow with drones and time both: some hundred kilobytes a drone."""
+"""Outputs of a show whose size grows with drones and time: some hundred kilobytes a drone."""
 DEFAULT_MODEL = "x500"
 
 
 class Preset(NamedTuple):
     """A drone model.
 
-    summary : what it is, in a line; source : where the figures come from
+    summary : one line; source : of the figures
     hfov : rad; aspect : width / height; radius : of the sphere round the body and its propellers, m
-    endurance : s, what its power hovers where that is known
-    power : its battery and rotors, None where their figures are not known
-    fixed_lens : whether its camera is built in and has no other field of view
-    sensor : width of the area that takes the picture, m, None where that is not known
+    endurance : s, the time of hovering if its power is known
+    power : battery and rotors, None if unknown
+    fixed_lens : whether its camera is built in and has one field of view
+    sensor : width of the exposed area, m, None if unknown
     """
 
     summary: str
@@ -78,7 +78,7 @@ def _gimbal(pitch: tuple[float, float], yaw: tuple[float, float], rates: tuple[f
     return Gimbal(low, high, radians(rates[0]), radians(rates[1]))
 
 
-RESERVE = 0.2  # of a battery, which is left at landing
+RESERVE = 0.2  # share of a battery that is left at landing
 
 _X500_POWER = Power(
     mass=2.0, battery=14.8 * 5.2 * 3600.0, rotors=4, radius=5 * 0.0254, efficiency=1.0, reserve=RESERVE
@@ -98,9 +98,9 @@ def _dji(
     *,
     light: bool = False,
 ) -> Preset:
-    """Return a folding drone of DJI's: its gimbal does not pan, so that the body turns with the camera.
+    """Return a folding DJI drone: its gimbal does not pan, so the body turns with the camera.
 
-    light : whether it has less than 250 g
+    light : whether its mass is below 250 g
     """
     return Preset(
         summary=summary,
@@ -294,7 +294,7 @@ _MODELS: dict[str, Preset] = {
 }
 
 _INCH_1_3, _INCH, _FOUR_THIRDS = 9.8e-3, 13.2e-3, 17.3e-3
-"""Widths of sensors of the types 1/1.3 inch (4:3, 12.3 mm across), 1 inch and 4/3 inch, m."""
+"""Widths of sensors of the types 1/1.3 inch (4:3, 12.3 mm diagonal), 1 inch and 4/3 inch, m."""
 _SENSORS = {
     **dict.fromkeys(("mini", "mini-3", "mini-3-pro", "mini-4-pro", "air-3"), _INCH_1_3),
     **dict.fromkeys(("mini-5-pro", "air-3s"), _INCH),

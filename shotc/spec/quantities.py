@@ -1,4 +1,4 @@
-"""Field types for numbers with a dimension: one, a fixed list of them, a range, a span from-to."""
+"""Field types for numbers with a dimension: a single one, a fixed list, a range, a span [from, to]."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from shotc.units import (
     parse_quantity,
 )
 
-# Two numbers with a dash between them, which is how a range is written by hand.
+# Two numbers with a dash between them, the usual notation of a range.
 _DASHED = rf"\s*({NUMBER})\s*(?:-|–|\.\.|to)\s*({NUMBER})\s*([^\W\d_]\S*|[°%])?\s*"
 
 
 class Quantity(FieldType):
-    """A number with a dimension, kept in SI, between ``low`` and ``high`` (SI, inclusive).
+    """A number with a dimension, stored in SI, between ``low`` and ``high`` (SI, inclusive).
 
-    fault : slug of the code for a value out of bounds; noun : what messages about bounds call it
+    fault : slug of the code for a value out of bounds; noun : in messages about bounds
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Quantity(FieldType):
         )
 
     def _meant(self, value: Any) -> str:
-        """Return how a value out of bounds was most likely meant to be written, if that can be told."""
+        """Return the most likely intended notation of a value out of bounds, empty if unknown."""
         return ""
 
     def schema(self) -> JsonSchemaValue:
@@ -92,7 +92,7 @@ class Quantity(FieldType):
         return f"{self.show(self.low)} to {self.show(self.high)}"
 
     def show(self, number: float) -> str:
-        """Return an SI value as people write it."""
+        """Return an SI value in its usual notation."""
         if self.dimension == "ratio":
             return f"{number:g}"
         unit = next(iter(UNITS[self.dimension]))
@@ -100,35 +100,35 @@ class Quantity(FieldType):
 
 
 class WattHours(Quantity):
-    """An energy of a battery, which people write in watt-hours."""
+    """The energy of a battery, usually written in watt-hours."""
 
     def show(self, number: float) -> str:
-        """Return an energy, J, as people write it."""
+        """Return an energy, J, in watt-hours as text."""
         return f"{number / 3600.0:g} Wh"
 
     def _meant(self, value: Any) -> str:
-        """Return the watt-hours that a bare number was meant to be."""
+        """Return the watt-hours that a bare number probably means."""
         return "" if isinstance(value, str) or value <= 0 else f"write `{value:g} Wh`"
 
 
 class Percentage(Quantity):
-    """A share of a whole, which people write in percent."""
+    """A share of a whole, usually written in percent."""
 
     def show(self, number: float) -> str:
-        """Return a share as people write it."""
+        """Return a share in percent as text."""
         return f"{100 * number:g} %"
 
     def _meant(self, value: Any) -> str:
-        """Return the percentage that a bare number was meant to be."""
+        """Return the percentage that a bare number probably means."""
         if isinstance(value, str) or not 1 < value <= 100:
             return ""
         return f"write `{value:g} %`, or a share up to 1"
 
 
 class Tuple(FieldType):
-    """A list of fixed length, kept as a tuple; ``shape`` is how it is written, such as ``[x, y, z]``.
+    """A list of fixed length, stored as a tuple; ``shape`` is its notation, such as ``[x, y, z]``.
 
-    hint : help for a list of another length, where there is more to say than the shape
+    hint : help for a list of another length, if the shape is not enough
     """
 
     def __init__(self, label: str, items: tuple[FieldType, ...], shape: str, hint: str = "") -> None:
@@ -159,7 +159,7 @@ class Tuple(FieldType):
 
 
 class Range(FieldType):
-    """A list ``[lowest, highest]``, kept as a tuple; ``thick`` refuses equal ends."""
+    """A list ``[lowest, highest]``, stored as a tuple; ``thick`` refuses equal ends."""
 
     def __init__(self, label: str, item: FieldType, thick: bool = False) -> None:
         self.label = label
@@ -183,7 +183,7 @@ class Range(FieldType):
         )
 
     def schema(self) -> JsonSchemaValue:
-        """Return an array schema; the order of the ends is not in it."""
+        """Return an array schema without the order of the ends."""
         return self._pair.schema()
 
     @property
@@ -192,14 +192,14 @@ class Range(FieldType):
 
 
 class QuantitySpan(FieldType):
-    """One value, or ``[from, to]``; kept as (from, to)."""
+    """One value, or ``[from, to]``; stored as (from, to)."""
 
     def __init__(self, label: str, item: FieldType) -> None:
         self.label = label
         self.item = item
 
     def read(self, value: Any) -> tuple[float, float]:
-        """Return (from, to) in SI; both ends are the same where one value is given."""
+        """Return (from, to) in SI; a single value gives equal ends."""
         if isinstance(value, list):
             first, last = Tuple(self.label, (self.item, self.item), "[from, to]").read(value)
             return (first, last)
@@ -217,7 +217,7 @@ class QuantitySpan(FieldType):
 
 
 def _apart(value: object) -> str:
-    """Return how to write a text such as ``40-65 m`` as two values; empty for anything else."""
+    """Return a text such as ``40-65 m`` in the notation of two values; empty for anything else."""
     match = re.fullmatch(_DASHED, clip(value)) if isinstance(value, str) else None
     if match is None:
         return ""

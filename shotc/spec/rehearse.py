@@ -1,4 +1,4 @@
-"""Wind, and what a mission asks of its rehearsals (`shotc simulate`)."""
+"""Wind, and the requirements of a mission on its rehearsals (`shotc simulate`)."""
 
 from typing import Annotated, ClassVar, Literal
 
@@ -23,7 +23,7 @@ Runs = Annotated[int, Integer("Runs", 1, 100_000)]
 
 
 class WindSpec(QuantityModel):
-    """How fast the wind blows, and where it comes from."""
+    """The speed of the wind, and where it comes from."""
 
     SHORT: ClassVar = ("speed", Quantity("NonNegativeSpeed", "speed", 0.0))
 
@@ -34,7 +34,7 @@ class WindSpec(QuantityModel):
 
 
 class RehearsalPromiseSpec(Model):
-    """What has to hold in the runs of a rehearsal."""
+    """The requirements on the runs of a rehearsal."""
 
     in_frame: Share | None = Field(
         default=None, description="least share of the frames of each shot with the whole target in them"
@@ -57,7 +57,7 @@ class RehearsalPromiseSpec(Model):
 
 
 class RehearseSpec(Model):
-    """How `shotc simulate` flies the mission, and what it asks of the runs; nothing else reads it."""
+    """The conditions and requirements of the runs of `shotc simulate`; nothing else reads them."""
 
     wind: WindSpec | None = Field(default=None, description="wind; that of the world by default")
     gusts: NonNegativeSpeed = Field(default=0.0, description="standard deviation of gusts, on each axis")

@@ -1,4 +1,4 @@
-"""Mission-wide rules and what is written out; silence means the defaults of ``presets``."""
+"""Mission-wide rules and outputs; the defaults are in ``presets``."""
 
 from math import inf
 from typing import Annotated, Literal
@@ -31,7 +31,7 @@ class MutualVisibilitySpec(Model):
 
 
 class TransitClearanceSpec(Model):
-    """How far drones stay away from things on transits, returns and waits."""
+    """Clearances of drones on transits, returns and waits."""
 
     filmed: NonNegativeLength | None = Field(
         default=None,
@@ -97,7 +97,7 @@ class RulesSpec(Model):
 
 
 class OutputSpec(Model):
-    """What is written out."""
+    """The outputs."""
 
     rate: Frequency | None = Field(default=None, description="samples a second; 50, for shows 5 by default")
     emit: tuple[Name, ...] | None = Field(

@@ -1,7 +1,7 @@
-"""The JSON Schema (2020-12) of a mission, for editors and other tools; made from the models.
+"""The JSON Schema (2020-12) of a mission, generated from the models, for editors and other tools.
 
-The schema tells what can be told from shape alone: keys, types, lengths, words, units. The order of a
-range, names and whatever needs the world stay with ``load`` and the passes.
+The schema contains what follows from the shape alone: keys, types, lengths, words, units. ``load`` and the
+passes check the order of ranges, names, and everything that needs the world.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def json_schema(kinds: Mapping[str, type[ShotBase]]) -> dict[str, Any]:
 
 
 def _of_models(models: set[type[Any]]) -> tuple[_References, dict[str, JsonSchemaValue]]:
-    """Return a reference to every model, with those that fields have by mark alone, and the definitions."""
+    """Return references to all models, also those that fields only mark, and the definitions."""
     by_model, whole = models_json_schema(
         [(model, "validation") for model in models], schema_generator=_Generator
     )
@@ -56,7 +56,7 @@ def _parts(schema: Any) -> Iterator[JsonSchemaValue]:
 
 
 def _shots(references: Mapping[str, JsonSchemaValue]) -> JsonSchemaValue:
-    """Return the schema of one shot: its kind decides which definition it follows."""
+    """Return the schema of one shot: its kind selects the definition."""
     if not references:
         return {"type": "object"}
     branches = [
@@ -68,28 +68,28 @@ def _shots(references: Mapping[str, JsonSchemaValue]) -> JsonSchemaValue:
 
 
 class _Generator(GenerateJsonSchema):
-    """Pydantic's generator for values as they are written, not as the models keep them."""
+    """Pydantic's generator for values as written, not as stored in the models."""
 
     def nullable_schema(self, schema: core_schema.NullableSchema) -> JsonSchemaValue:
-        """Leave null out: a key without a value is a fault."""
+        """Omit null, because a key without a value is a fault."""
         return self.generate_inner(schema["schema"])
 
     def default_schema(self, schema: core_schema.WithDefaultSchema) -> JsonSchemaValue:
-        """Leave defaults out: models keep them in SI, and a bare number would be refused for an angle."""
+        """Omit defaults, because models store them in SI, and a bare number would be refused for an angle."""
         return self.generate_inner(schema["schema"])
 
     def dict_schema(self, schema: core_schema.DictSchema) -> JsonSchemaValue:
-        """Hold every key to the pattern of names."""
+        """Require the pattern of names for every key."""
         values = self.generate_inner(schema["values_schema"])
         names = self.generate_inner(schema["keys_schema"])
         return {"type": "object", "propertyNames": names, "additionalProperties": values}
 
     def sort(self, value: JsonSchemaValue, parent_key: str | None = None) -> JsonSchemaValue:
-        """Keep the order of the models: editors propose keys in it."""
+        """Keep the order of the models, because editors propose keys in it."""
         return value
 
     def field_title_should_be_set(self, schema: Any) -> bool:
-        """Leave titles out: they repeat the key."""
+        """Omit titles, because they repeat the key."""
         return False
 
 
@@ -101,7 +101,7 @@ class _Shared:
         self._models = models
 
     def hoist(self, schema: Any) -> Any:
-        """Return the schema with references in place of what is marked; a description stays beside them."""
+        """Return the schema with references instead of marked schemas; descriptions stay beside them."""
         if isinstance(schema, list):
             return [self.hoist(item) for item in schema]
         if not isinstance(schema, dict):
@@ -117,7 +117,7 @@ class _Shared:
 
 
 def _reachable(mission: JsonSchemaValue, definitions: Mapping[str, JsonSchemaValue]) -> set[str]:
-    """Return the names of the definitions that a mission refers to, however indirectly."""
+    """Return the names of the definitions that a mission refers to, directly or indirectly."""
     seen: set[str] = set()
     waiting = [mission]
     while waiting:

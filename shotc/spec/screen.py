@@ -24,27 +24,27 @@ ScreenPoint = Annotated[Vec2, NamedOr("ScreenPoint", NAMED_POINTS, "screen point
 
 
 class OwnPointType(FieldType):
-    """A screen point as a composition set of its own."""
+    """A screen point as a composition of one point."""
 
     label = "ScreenPair"
 
     def read(self, value: Any) -> Composition:
-        """Return the set of this one point."""
+        """Return the composition of this point."""
         point: Vec2 = _PAIR.read(value)
         return Composition(_named((point,)), points=(point,))
 
     def schema(self) -> JsonSchemaValue:
-        """Return how a screen point is written."""
+        """Return the schema of a screen point."""
         return _PAIR.schema()
 
 
 class OwnPointsType(FieldType):
-    """A list of screen points as a composition set."""
+    """A list of screen points as a composition."""
 
     label = "ScreenPoints"
 
     def read(self, value: Any) -> Composition:
-        """Return the set of these points."""
+        """Return the composition of these points."""
         if not isinstance(value, list) or not any(isinstance(item, list) for item in value):
             raise fault(
                 "wrong-type",
@@ -60,7 +60,7 @@ class OwnPointsType(FieldType):
 
 
 def _named(points: Sequence[Vec2]) -> str:
-    """Return points given by numbers as they are written, which is how messages and pictures name them."""
+    """Return the name of numeric points in messages and pictures: their notation in the mission."""
     written = ", ".join(f"[{u:.4g}, {v:.4g}]" for u, v in points)
     return clip(written if len(points) == 1 else f"[{written}]")
 
@@ -71,7 +71,7 @@ class ScreenBoxType(FieldType):
     label = "ScreenBox"
 
     def read(self, value: Any) -> DrawnBox:
-        """Return the box, which has a size."""
+        """Return the box; raise a fault if it has no size."""
         u0, v0, u1, v1 = _CORNERS.read(value)
         if u0 < u1 and v0 < v1:
             return DrawnBox(u0, u1, v0, v1)
@@ -81,7 +81,7 @@ class ScreenBoxType(FieldType):
         raise fault("inverted-range", "the corners of the box are swapped", f"write [{right}]")
 
     def schema(self) -> JsonSchemaValue:
-        """Return four coordinates; the order of the corners is not in it."""
+        """Return the schema of four coordinates, without the order of the corners."""
         return _CORNERS.schema()
 
 
@@ -110,7 +110,7 @@ class AspectType(FieldType):
         return width / height
 
     def schema(self) -> JsonSchemaValue:
-        """Return the two ways to write it."""
+        """Return the schema of both notations."""
         side = r"[0-9]*[.]?[0-9]*[1-9][0-9]*[.]?[0-9]*"
         return {"anyOf": [_RATIO.reference(), {"type": "string", "pattern": f"^{side}:{side}$"}]}
 

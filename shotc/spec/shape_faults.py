@@ -1,4 +1,4 @@
-"""What is wrong with the shape of a mission, with its place in the text."""
+"""The faults in the shape of a mission, with their place in the text."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
@@ -25,10 +25,10 @@ def shape_faults(
     origins: OriginMap,
     file: SourceFile,
 ) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with the keys and values below ``root``; of an unknown language only that.
+    """Return the faults of keys and values below ``root``; for an unknown language version only that fault.
 
-    error : what the models say of it, its version apart; file : the text
-    kinds : those that can be used, and why others cannot that are registered
+    error : the models' faults, without that of the version; file : the text
+    kinds : the usable kinds, and the diagnostics of unusable registered ones
     """
     usable, unusable = kinds
     found = _version_findings(root)
@@ -42,7 +42,7 @@ def shape_faults(
 def _broken_kinds(
     root: Mapping[str, Any], unusable: Mapping[str, Diagnostic], origins: OriginMap
 ) -> Iterator[Diagnostic]:
-    """Yield why kinds cannot be used that shots name, on the line of the first such shot."""
+    """Yield the diagnostics of unusable kinds that shots name, at the line of the first such shot."""
     shots = root.get("shots", [])
     named = [shot.get("kind") for shot in shots if isinstance(shot, dict)] if isinstance(shots, list) else []
     for kind in dict.fromkeys(kind for kind in named if isinstance(kind, str) and kind in unusable):
@@ -51,7 +51,7 @@ def _broken_kinds(
 
 
 def _uncovered(finding: UnplacedFault, origins: OriginMap, file: SourceFile) -> UnplacedFault:
-    """Say of a key without a value that its line has one behind a `#`, if so."""
+    """Return the fault of a key without a value with a note if its value is in a comment behind a `#`."""
     if finding.slug != "empty-value":
         return finding
     line = file.line(origins.key(finding.path).span.line)
@@ -63,7 +63,7 @@ def _uncovered(finding: UnplacedFault, origins: OriginMap, file: SourceFile) -> 
 
 
 def plan_given(name: str) -> Diagnostic:
-    """Return the one fault of a plan that stands where a mission is wanted."""
+    """Return the single fault of a plan that is given instead of a mission."""
     label = (Label(name, WHOLE_FILE),)
     help_ = "give the mission's YAML file; `shotc verify`, `emit`, `view` and `diff` take plans"
     return Diagnostic(code_of("not-a-mission"), "this is a plan, not a mission", label, help=help_)
@@ -85,7 +85,7 @@ def _version_findings(root: Mapping[str, Any]) -> list[UnplacedFault]:
 
 
 def _shot_findings(root: Mapping[str, Any], kinds: list[str]) -> list[UnplacedFault]:
-    """Return unknown kinds, and a mission without shots."""
+    """Return the faults of unknown kinds, and of a mission without shots."""
     shots = root.get("shots", [])
     if shots == []:
         path: KeyPath = ("shots",) if "shots" in root else ()
@@ -111,7 +111,7 @@ def _unknown_kind(path: KeyPath, kind: str, kinds: Iterable[str]) -> UnplacedFau
 def _diagnostics(
     found: list[UnplacedFault], origins: OriginMap, others: tuple[Diagnostic, ...]
 ) -> tuple[Diagnostic, ...]:
-    """Return one diagnostic per faulty place and the others, in the order of the file."""
+    """Return one diagnostic for each faulty place, and the others, in the order of the file."""
     first: dict[tuple[KeyPath, str], UnplacedFault] = {}
     for finding in found:
         first.setdefault((finding.path, finding.message if finding.blame == "key" else ""), finding)

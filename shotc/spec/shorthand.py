@@ -25,6 +25,6 @@ class QuantityModel(Model):
     def __get_pydantic_json_schema__(
         cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Return the mapping's schema beside that of the quantity."""
+        """Return the schema of the mapping or of the quantity."""
         schema = handler.resolve_ref_schema(handler(core_schema))
         return {"anyOf": [cls.SHORT[1].reference(), schema]}

@@ -1,4 +1,4 @@
-"""What every shot may say, whatever its kind, and the keyframes that a user writes down.
+"""The common fields of all shots, and keyframes as a user writes them.
 
 A kind subclasses ``ShotBase`` with its own parameters and ``kind: Literal["its-name"]``.
 """
@@ -40,7 +40,7 @@ from shotc.units import SMALLEST, clip, describe
 
 # The two ways to aim a camera: at something, or by compass heading and pitch.
 AIM = OneOf((("look_at",), ("heading", "pitch")))
-NO_DRONE = ""  # what stands for the drone of a shot that a fleet flies
+NO_DRONE = ""  # drone of a shot that a fleet flies
 
 
 _DURATION = Hinted(
@@ -51,7 +51,7 @@ _DURATION = Hinted(
 
 
 class TimingSpec(Model):
-    """When a shot is filmed; nothing given is ``auto``."""
+    """The time of a shot; without any key it is ``auto``."""
 
     start: NonNegativeDuration | None = Field(
         default=None, description="first filmed frame, from mission start"
@@ -81,13 +81,13 @@ class TimingSpec(Model):
     def __get_pydantic_json_schema__(
         cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Return the mapping's schema beside ``auto``."""
+        """Return the schema of the mapping or ``auto``."""
         schema = handler.resolve_ref_schema(handler(core_schema))
         return {"anyOf": [{"const": "auto"}, schema]}
 
 
 class RevealSpec(Model):
-    """How much of a target comes to be seen, or is lost from sight, over a shot."""
+    """The visible share of a target at the start and at the end of a shot."""
 
     from_: Share = Field(alias="from", description="share of its outline that is free in the first frame")
     to: Share = Field(description="share of its outline that is free in the last frame")
@@ -101,7 +101,7 @@ class RevealSpec(Model):
 
 
 class RequireSpec(Model):
-    """What a shot promises; verification holds the plan to it."""
+    """The promises of a shot; verification checks them."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("visible",), ("reveal",)), required=False),)
 
@@ -133,7 +133,7 @@ class RefineSpec(Model):
 
 
 class PhotosSpec(Model):
-    """Photos that a shot takes in place of a film."""
+    """Photos that a shot takes instead of a film."""
 
     every: Annotated[Photos, IntervalType()] = Field(
         description="how far they are apart, in time or on the way, such as 2 s or 5 m"

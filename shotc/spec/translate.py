@@ -1,4 +1,4 @@
-"""Pydantic's errors in the language's own words: one finding per fault, with the place to blame."""
+"""Translation of pydantic's errors to the language's terms: one finding for each fault, with its place."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -10,15 +10,15 @@ from shotc.ir.origin import KeyPath
 from shotc.spec.words import nearest
 from shotc.units import clip, describe
 
-# Faults of a key, or of what should have been there, are blamed on the key.
+# Faults of a key, or of a missing value, are reported at the key.
 _ON_KEY = frozenset({"unknown-field", "missing-field", "conflicting-fields", "empty-value"})
 
 
 class UnplacedFault(NamedTuple):
     """A fault before it has a place in the text.
 
-    path : key path from the top of the mission; slug : of its code; blame : what to underline there
-    beside : path of another key that has to do with it
+    path : key path from the top of the mission; slug : of its code; blame : the part to underline
+    beside : path of a related key
     """
 
     path: KeyPath
@@ -31,7 +31,7 @@ class UnplacedFault(NamedTuple):
 
 
 def findings(error: ValidationError) -> list[UnplacedFault]:
-    """Return what pydantic found, in its order."""
+    """Return pydantic's faults in its order."""
     return [_finding(item) for item in error.errors(include_url=False)]
 
 
@@ -48,7 +48,7 @@ def _finding(item: Any) -> UnplacedFault:
 
 
 def _own_words(path: KeyPath, item: Any) -> UnplacedFault:
-    """Translate an error of one of pydantic's own types."""
+    """Translate an error of pydantic's own types."""
     describe_ = _WORDS.get(item["type"])
     if describe_ is None:
         return UnplacedFault(path, "wrong-type", clip(item["msg"], 120).rstrip(".").lower())

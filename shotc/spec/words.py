@@ -1,4 +1,4 @@
-"""The word that was meant: the nearest known one, or the one that people use elsewhere for the same thing."""
+"""Proposals for unknown words: the nearest known word, or the one for a synonym from elsewhere."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from difflib import get_close_matches
 
 _LONGEST_WORD = 80
 _SHORTEST_PART = 3  # letters; shorter words are parts of too many others
-# What a key, a kind or a name is called elsewhere, where no likeness of letters would tell. Of several
-# meanings the first that is known at the place counts.
+# Synonyms from elsewhere for keys, kinds and names that are not similar in spelling. Of several meanings the
+# first that is known at the place is used.
 _MEANT = {
     "alt": "height",
     "altitude": "height",
@@ -50,7 +50,7 @@ _MEANT = {
     "route": "follow-path",
     "show": "display",
 }
-# Keys that people look for in a place where the language does not have them.
+# Keys that people expect in a place where the language does not have them.
 _ELSEWHERE = {
     "hfov": "the field of view is the `camera`'s of a drone, or one of `kind: keyframes` at each of them",
     "speed": "how fast is a matter of `pace`, of `timing: {duration: ...}`, or of the drone's `limits`",
@@ -77,7 +77,7 @@ def closest(word: str, known: Iterable[str]) -> str | None:
 
 
 def _in_full(word: str, words: Collection[str]) -> str | None:
-    """Return a name in lower case, the one of several parts that begins as a word, or the longest in it."""
+    """Return the known name that equals a word but for case, starts with it, or is the longest one in it."""
     plain = "-".join(word.lower().replace("_", " ").split())
     names = [name for name in words if "-" in name]
     if plain in words:
@@ -98,17 +98,19 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def elsewhere(key: str, known: Collection[str]) -> str:
-    """Return where a key belongs that people look for among those known; empty for any other."""
+    """Return the place of a key that people expect among the known ones, in words; empty for any other
+    key.
+    """
     return "" if key in known else _ELSEWHERE.get(key, "")
 
 
 def each(names: Iterable[str]) -> str:
-    """Write names in backticks, the last one after `and`."""
+    """Return names in backticks as text, the last one after `and`."""
     words = [f"`{name}`" for name in names]
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
 def _alike(word: str, other: str) -> bool:
-    """Return whether two words are one but for their case, or one a part of the other."""
+    """Return whether two words are equal but for case, or one is a part of the other."""
     short, long = sorted((word, other), key=len)
     return short == long or (len(short) >= _SHORTEST_PART and short in long)

@@ -1,4 +1,4 @@
-"""The world of a mission and its targets: where it is, what stands or moves in it, where drones may fly."""
+"""The world of a mission and its targets: its origin, standing and moving bodies, and zones."""
 
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -31,7 +31,7 @@ from shotc.units import clip
 
 
 class OriginSpec(Model):
-    """The place on earth of the world's origin (WGS84)."""
+    """The geographic position of the world's origin (WGS84)."""
 
     lat: Latitude = Field(description="latitude, degrees north")
     lon: Longitude = Field(description="longitude, degrees east")
@@ -64,7 +64,7 @@ class BoxSpec(Model):
 
 
 class ZoneSpec(Model):
-    """A volume drones stay out of, or inside."""
+    """A volume that drones stay outside or inside of."""
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (OneOf((("cylinder",), ("polygon",), ("box",))),)
 
@@ -75,7 +75,9 @@ class ZoneSpec(Model):
 
 
 class TrackSpec(Model):
-    """How a target moves: rows of a file, a constant velocity, or points at one speed or at given times."""
+    """The motion of a target: rows of a file, a constant velocity, or points at constant speed or given
+    times.
+    """
 
     exclusive: ClassVar[tuple[OneOf, ...]] = (
         OneOf(
@@ -171,12 +173,12 @@ class TargetSpec(Model):
 
     @property
     def tall(self) -> float:
-        """How high its body is, metres; 0 of a group and of a building."""
+        """The height of its body, metres; 0 for a group and for a building."""
         return self.size[2] if self.size is not None else self.height or 0.0
 
 
 class TerrainSpec(Model):
-    """Ground that rises, of an elevation model."""
+    """Terrain from an elevation model."""
 
     file: RelativePath = Field(description="GeoTIFF, ASCII grid (.asc), SRTM (.hgt) or CSV of x,y,z")
     epsg: Annotated[int, Integer("Epsg", 1024, 32767)] | None = Field(
@@ -190,7 +192,7 @@ class TerrainSpec(Model):
 
 
 class SceneSpec(Model):
-    """A mesh or a point cloud of what stands there."""
+    """A mesh or a point cloud of the scene."""
 
     file: RelativePath = Field(
         description="mesh (.glb, .ply, .obj, .stl) or point cloud (.ply, .xyz, .las, .laz)"
@@ -211,7 +213,7 @@ class SceneSpec(Model):
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
-        """Refuse a bare path, which does not say the units."""
+        """Refuse a bare path, because it has no units; return other values as they are."""
         units = "" if str(data).lower().endswith(".glb") else ", units: m"
         return _no_path(data, "scene", units)
 
@@ -226,12 +228,12 @@ class BuildingsSpec(Model):
 
     @classmethod
     def shorthand(cls, data: Any) -> Any:
-        """Refuse a bare path."""
+        """Refuse a bare path; return other values as they are."""
         return _no_path(data, "buildings", "")
 
 
 def _no_path(data: Any, key: str, more: str) -> Any:
-    """Return what is no path; raise a fault that shows how a path is written, with more keys."""
+    """Return data that is no bare path; else raise a fault that shows the mapping with its keys."""
     if not isinstance(data, str):
         return data
     help_ = f"write `{key}: {{file: {clip(data)}{more}}}`"
