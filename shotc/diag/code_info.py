@@ -1,4 +1,4 @@
-"""What is known of a code: slug, severity, explanation and the examples that tests run."""
+"""The entry of a code in the registry: slug, severity, explanation and the examples that tests run."""
 
 from typing import Literal, NamedTuple
 
@@ -8,11 +8,11 @@ from shotc.diag.model import Severity
 class CodeInfo(NamedTuple):
     """What ``shotc explain`` prints about one code.
 
-    phase    : the command that finds it; ``other`` where a mission alone cannot show it
+    phase    : the command that finds it; ``other`` if a mission alone cannot show it
     failing  : a mission (or its bytes, backslash-escaped, for Y codes) that raises the code
-    passing  : the same mission mended
-    exact    : codes under which ``plan`` tells the same fault with exact numbers, where this one knows a
-               bound only; planning goes on past it to find them
+    passing  : the same mission without the fault
+    exact    : codes under which ``plan`` reports the same fault with exact numbers, if this code only knows a
+               bound; planning continues after this code to find them
     """
 
     code: str

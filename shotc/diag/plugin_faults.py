@@ -1,4 +1,4 @@
-"""What is said of a plugin that raises, or that returns what its seat does not take."""
+"""Diagnostics for a plugin that raises an exception or returns a wrong value."""
 
 from shotc.diag.model import Diagnostic, Label
 
@@ -11,7 +11,10 @@ def one_line(fault: BaseException) -> str:
 def plugin_failed(plugin: str, package: str, fault: BaseException | str, *labels: Label) -> Diagnostic:
     """Return the error of a plugin at fault.
 
-    plugin : as people call it ("kind `zigzag`"); fault : what it raised, or what is wrong with its answer
+    plugin  : name for messages, such as "kind `zigzag`"
+    package : the Python package that provides the plugin
+    fault   : the exception that it raised, or a text that states what is wrong with its result
+    labels  : places in the mission, the primary first
     """
     if isinstance(fault, str):
         return Diagnostic("P008", f"{plugin} of package {package} {fault}", labels, help=_help(package))
@@ -25,7 +28,7 @@ def _help(package: str) -> str:
 
 
 def _where(fault: BaseException) -> str:
-    """Return the place in the plugin's own file, the last one that is not a library's of ours."""
+    """Return the innermost place of the traceback outside of shotc, as text; empty if there is none."""
     trace = fault.__traceback__
     place = ""
     while trace is not None:

@@ -1,4 +1,4 @@
-"""All codes in one table, which loads with the first diagnostic."""
+"""The table of all diagnostic codes. It is loaded with the first diagnostic."""
 
 from __future__ import annotations
 
@@ -65,14 +65,14 @@ def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
 
 
 def stops(diagnostics: Iterable[Diagnostic]) -> bool:
-    """Return whether any of the diagnostics keeps later passes from running.
+    """Return whether any of the diagnostics stops the later passes.
 
-    Every error does, but for one that knows a bound only: a later pass has the exact number.
+    Every error does, except one that only knows a bound: a later pass finds the exact number.
     """
     return any(severity_of(d) is Severity.ERROR and not registry()[d.code].exact for d in diagnostics)
 
 
 def without_answered(diagnostics: Iterable[Diagnostic], later: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Return what was found, less the bounds to which a later pass has found the exact numbers."""
+    """Return the diagnostics without the bounds for which a later pass found the exact numbers."""
     answers = {d.code for d in later}
     return [d for d in diagnostics if answers.isdisjoint(registry()[d.code].exact)]

@@ -1,4 +1,4 @@
-"""Values that YAML never saw, because a `#` began a comment where the author meant a value."""
+"""Find values that YAML reads as a comment, because the author wrote them after a `#`."""
 
 import re
 
@@ -9,9 +9,9 @@ _COLOUR = re.compile(r"#(?:[0-9A-Fa-f]{3}){1,2}(?![^\s,\[\]{}])")
 
 
 def value_in_comment(text: str, start: int, end: int) -> tuple[int, int] | None:
-    """Return the offsets of the first value from ``start`` to ``end`` that a `#` made a comment, or None.
+    """Return the offsets of the first value between ``start`` and ``end`` that a `#` made a comment, or None.
 
-    It stands behind a colon with no blank after the sign, or is a colour among others in brackets.
+    Such a value follows a colon and has no blank after the `#`, or it is a colour such as ``#ff8000``.
     """
     for line in text[start:end].splitlines(keepends=True):
         seen = _QUOTED.sub(lambda quoted: "'" * len(quoted[0]), line)

@@ -1,7 +1,8 @@
-"""Parser events to a tree, in one lazy pass with caps.
+"""Build a tree from the events of the YAML parser, in one lazy pass with caps on size and depth.
 
-``yaml.compose`` recurses in C and kills the process on deep input, and shares the nodes of aliases, so
-that a bomb only goes off later. Here every event is weighed before anything is built from it.
+``yaml.compose`` is not safe for untrusted text: it recurses in C, so deep input kills the process, and
+aliases share nodes, so an alias bomb expands later. This pass checks every event against the caps before
+it builds anything from it.
 """
 
 import re
@@ -72,7 +73,7 @@ class _StopReading(Exception):
 
 
 class _Open:
-    """A collection whose end has not come; a mapping may wait for the value of ``key``."""
+    """A collection whose end event has not come yet. In a mapping, ``key`` may still wait for its value."""
 
     def __init__(self, node: Collection, anchor: str | None, flow: bool) -> None:
         self.node = node
@@ -98,7 +99,7 @@ class _Composer:
         self.alias_values = 0
 
     def take(self, event: Any) -> None:
-        """Weigh one parser event and build from it."""
+        """Check one parser event against the caps and add it to the tree."""
         start, end = event.start_mark.index, event.end_mark.index
         match event:
             case yaml.ScalarEvent():
@@ -116,7 +117,7 @@ class _Composer:
                 self._document(start, end)
 
     def explained(self, error: Any) -> Fault:
-        """Return the fault behind a parser error."""
+        """Return the fault that a parser error stands for."""
         length = len(self.file.text)
         mark = error.problem_mark or error.context_mark
         opened = next((frame.node.start for frame in reversed(self.stack) if frame.flow), None)
@@ -130,15 +131,15 @@ class _Composer:
         return explain(complaint)
 
     def fault(self, fault: Fault) -> None:
-        """Keep a fault."""
+        """Record a fault."""
         self.faults.append(fault)
 
     def blame(self, kind: FaultKind, message: str, start: int, end: int, hint: str = "") -> None:
-        """Keep a fault about a stretch of text."""
+        """Record a fault about the text from offset ``start`` to offset ``end``."""
         self.faults.append(Fault(kind, message, self.file.span(start, end), help=hint))
 
     def close_all(self) -> None:
-        """Join what is still open when reading stopped early to its parents, so that the tree is one."""
+        """Attach the collections that are still open to their parents, after reading stopped early."""
         while self.stack:
             node = self.stack.pop().node
             if not self.stack:
@@ -233,7 +234,7 @@ class _Composer:
         self._place(Alias(start, end, target))
 
     def _place(self, node: Node, *, merge: bool = False) -> None:
-        """Put a finished node where it belongs: the root, the next item, a key, or the value of a key."""
+        """Attach a finished node to the tree: as the root, the next item, a key, or the value of a key."""
         if not self.stack:
             self.root = node
             return
@@ -251,7 +252,7 @@ class _Composer:
             frame.key, frame.has_key = None, False
 
     def _key(self, frame: _Open, node: Node, *, merge: bool) -> Scalar | None:
-        """Return the node that is to be a key, or None where its value is to be dropped."""
+        """Return the node as a key, or None if the composer must drop its value."""
         if not isinstance(node, Scalar):
             self._complex_key(node)
             return None
@@ -268,7 +269,7 @@ class _Composer:
         return node
 
     def _complex_key(self, node: Node) -> None:
-        """Blame a key that is no scalar, once: a ``{{ name }}`` is one inside another."""
+        """Record a key that is not a scalar. Nested ones count once: ``{{ name }}`` is a key inside a key."""
         span = self.file.span(node.start, node.end)
         self.faults = [f for f in self.faults if f.kind != "complex-key" or f.span < span]
         message = "a key is plain text, not a list, a mapping or an alias"
@@ -295,7 +296,7 @@ class _Composer:
         )
 
     def _tag(self, start: int) -> None:
-        """Blame the tag that begins at or, behind an anchor, after ``start``."""
+        """Record the tag that begins at ``start``, or after it if an anchor comes first."""
         text = self.file.text
         sign = text.find("!", start)
         end = sign + len(re.match(_TAG, text[sign:])[0])  # type: ignore[index]  # there is a '!' at sign
@@ -303,7 +304,7 @@ class _Composer:
         self.blame("tag", f"the tag '{shorten(text[sign:end])}' means nothing in a mission", sign, end, hint)
 
     def _trimmed(self, start: int, end: int) -> int:
-        """Return the end of a value without the blank lines that a block scalar carries."""
+        """Return the end offset of a value, without the blank lines at the end of a block scalar."""
         text = self.file.text
         while end > start and text[end - 1] in " \t\r\n":
             end -= 1

@@ -1,4 +1,4 @@
-"""Plain scalars to values by the core schema of YAML 1.2 (section 10.3.2)."""
+"""Convert plain scalars to values by the core schema of YAML 1.2 (section 10.3.2)."""
 
 from __future__ import annotations
 
@@ -20,13 +20,15 @@ _WORDS: dict[str, ScalarValue] = {
     **dict.fromkeys((".nan", ".NaN", ".NAN"), nan),
 }
 _NUMBER_STARTS = frozenset("+-.0123456789")
-# Longer integers lie beyond the largest float; reading them exactly would take quadratic time.
+# Longer integers exceed the largest float, and their exact conversion takes quadratic time.
 _LONGEST_INT = 320
 _LARGEST = int(sys.float_info.max)
 
 
 def resolve(text: str) -> ScalarValue:
-    """Return the value of a plain (unquoted) scalar; a number beyond the range of a float is infinite."""
+    """Return the value of a plain (unquoted) scalar. A number beyond the range of a float becomes
+    infinite.
+    """
     if text in _WORDS:
         return _WORDS[text]
     if text[0] not in _NUMBER_STARTS:
@@ -59,7 +61,7 @@ CORE_TAG = "tag:yaml.org,2002:"
 
 
 def resolve_tagged(tag: str, text: str) -> tuple[bool, ScalarValue]:
-    """Return whether the core schema knows ``tag`` and ``text`` fits it, and the value."""
+    """Return whether the core schema has ``tag`` and ``text`` fits it, and the value."""
     if tag in ("!", CORE_TAG + "str"):
         return True, text
     value = resolve(text)

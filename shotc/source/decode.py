@@ -1,4 +1,4 @@
-"""Bytes to text: UTF-8 with or without a byte order mark, and faults for everything else."""
+"""Decode bytes to text: UTF-8 with or without a byte order mark. Everything else is a fault."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from shotc.source.fault import Fault
 from shotc.source.file import WHOLE_FILE, SourceFile
 from shotc.source.limits import MAX_BYTES, MAX_STRAY_CHARACTERS
 
-# What YAML 1.2 section 5.1 leaves out, and the byte order mark inside the text. One class over all planes
-# would take longer to compile than a mission takes to read.
+# Characters that YAML 1.2 section 5.1 does not allow, and a byte order mark inside the text. One character
+# class over all planes would take longer to compile than a mission takes to read.
 _STRAY_LATIN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f]")
 _STRAY_OTHERS = ("\ufeff", "\ufffe", "\uffff")
 _REPLACEMENT = "\ufffd"
@@ -25,7 +25,7 @@ _SAVE_AS = "save the file as UTF-8"
 
 
 class DecodedFile(NamedTuple):
-    """A source file, what is wrong with its bytes, and whether it is worth parsing."""
+    """A source file, the faults of its bytes, and whether the parser should read it."""
 
     file: SourceFile
     faults: tuple[Fault, ...]
@@ -33,9 +33,9 @@ class DecodedFile(NamedTuple):
 
 
 def decode(data: bytes, name: str) -> DecodedFile:
-    """Return the text, its faults, and whether it is worth parsing.
+    """Return the text, its faults, and whether the parser should read it.
 
-    What cannot be read or shown is replaced by U+FFFD, one for one, so that positions stay right.
+    U+FFFD replaces each character that cannot be decoded or shown, one for one, so that positions stay right.
     """
     if len(data) > MAX_BYTES:
         return DecodedFile(SourceFile(name, ""), (_too_large(),), False)
@@ -66,7 +66,7 @@ def _too_large() -> Fault:
 
 
 def _wide_without_mark(head: bytes) -> str | None:
-    """Name the codec of ASCII text in UTF-16 without a byte order mark, by the place of its zero bytes."""
+    """Return the codec of ASCII text in UTF-16 without a byte order mark, found from its zero bytes."""
     if len(head) < 4 or 0 not in head:
         return None
     if head[1] == head[3] == 0 and head[0] and head[2]:
@@ -77,7 +77,7 @@ def _wide_without_mark(head: bytes) -> str | None:
 
 
 def _wide(data: bytes, name: str, codec: str, title: str) -> DecodedFile:
-    """Show the text of a file in a wider encoding, and refuse it."""
+    """Return the text of a file in a wider encoding, with the fault that refuses it."""
     text = _without_stray(data.decode(codec, "replace"))
     fault = Fault(
         "not-utf8", f"the file is written in {title}; missions are UTF-8", WHOLE_FILE, help=_SAVE_AS
@@ -86,7 +86,9 @@ def _wide(data: bytes, name: str, codec: str, title: str) -> DecodedFile:
 
 
 def _not_utf8(data: bytes, error: UnicodeDecodeError, file: SourceFile) -> Fault:
-    """Blame the first byte that is not UTF-8; the text before it is, so its length is the offset."""
+    """Return the fault of the first byte that is not UTF-8. Its offset is the length of the text before
+    it.
+    """
     offset = len(data[: error.start].decode("utf-8"))
     byte = data[error.start]
     notes = [f"byte {error.start} of the file is 0x{byte:02x}"]
@@ -102,7 +104,7 @@ def _without_stray(text: str) -> str:
 
 
 def _stray_characters(text: str, file: SourceFile) -> tuple[list[Fault], bool]:
-    """Report characters that YAML does not allow; many of them make the file no text at all."""
+    """Report characters that YAML does not allow. If there are many, the file is not a text file."""
     offsets = [match.start() for match in _STRAY_LATIN.finditer(text)]
     for character in _STRAY_OTHERS:
         if character in text:

@@ -1,4 +1,4 @@
-"""A fault in the text of a mission: what the YAML reader reports instead of raising."""
+"""A fault in the text of a mission. The YAML reader reports faults; it does not raise."""
 
 from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple, TypeVar, get_args
@@ -6,7 +6,7 @@ from typing import Any, Literal, NamedTuple, TypeVar, get_args
 from shotc.source.file import Span
 from shotc.source.limits import MAX_FAULTS
 
-_Told = TypeVar("_Told", bound=Any)  # a fault of the text, or what is said of one
+_Told = TypeVar("_Told", bound=Any)  # a Fault, or the Diagnostic made from one
 
 FaultKind = Literal[
     "not-utf8",
@@ -61,9 +61,10 @@ def shorten(text: str) -> str:
 
 
 def capped(faults: Sequence[_Told], of: str) -> tuple[_Told, ...]:
-    """Return the first faults, the last of which says how many more there are.
+    """Return at most the first MAX_FAULTS faults. A note of the last one gives the number left out.
 
-    faults : with ``notes``; of : what they are of
+    faults : named tuples with ``notes``
+    of     : what the faults are about, for that note
     """
     more = len(faults) - MAX_FAULTS
     if more <= 0:

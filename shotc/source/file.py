@@ -1,4 +1,4 @@
-"""Where a piece of mission text stands: spans in lines and columns, and the files they point into."""
+"""Positions in mission text: spans in lines and columns, and their files."""
 
 import re
 from bisect import bisect_right
@@ -7,14 +7,14 @@ from typing import Final, NamedTuple, TypeVar
 
 _LINE_END = re.compile(r"\r\n|\r|\n")
 KeyPath = tuple[str | int, ...]
-"""Keys of mappings and places in lists, from the top of a mission."""
+"""Keys of mappings and indices of lists, from the top of a mission."""
 Offsets = tuple[int, int]
-"""First code point of a stretch of text, and the one after its last."""
+"""First code point of a part of the text, and the one after its last."""
 _Key = TypeVar("_Key", bound=Hashable)
 
 
 class Span(NamedTuple):
-    """A stretch of source text; lines and columns count code points from 1, the end is exclusive."""
+    """A part of source text; lines and columns are in code points from 1, the end is exclusive."""
 
     line: int
     column: int
@@ -31,12 +31,12 @@ def _position(starts: tuple[int, ...], offset: int) -> tuple[int, int]:
 
 
 class SourceFile:
-    """A text and the name it is shown under; lines end as editors see them: LF, CRLF or CR."""
+    """A text and its name in messages; line ends are those of editors: LF, CRLF or CR."""
 
     def __init__(self, name: str, text: str) -> None:
         self.name: Final = name
         self.text: Final = text
-        # The offset at which each line begins.
+        # The start offset of each line.
         self._starts: Final = (0, *(match.end() for match in _LINE_END.finditer(text)))
 
     def line(self, number: int) -> str:
@@ -56,12 +56,12 @@ class SourceFile:
         return _position(self._starts, offset)
 
     def point(self, offset: int) -> Span:
-        """Return the span of one character, or an empty one where a line or the text ends."""
+        """Return the span of one character, or an empty span at the end of a line or of the text."""
         ends = offset >= len(self.text) or self.text[offset] in "\r\n"
         return self.span(offset, offset if ends else offset + 1)
 
     def span(self, start: int, end: int) -> Span:
-        """Return the span between two code point offsets, cut to the text; the end is exclusive."""
+        """Return the span between two code point offsets, clipped to the text; the end is exclusive."""
         starts, length = self._starts, len(self.text)
         first = min(start, length)
         line, column = _position(starts, first)
@@ -72,7 +72,7 @@ class SourceFile:
 
 
 class Spans(Mapping[_Key, Span]):
-    """Spans of a text, each worked out when it is asked for: a text without faults is asked for few."""
+    """Spans of a text, each computed at its first use, because a text without faults needs few."""
 
     def __init__(self, file: SourceFile, offsets: Mapping[_Key, Offsets]) -> None:
         self._file = file

@@ -1,30 +1,32 @@
-"""How much a mission may hold; all are far above what missions need and far below what hurts."""
+"""Size limits of a mission, far above the need of missions and far below what costs too much time or
+memory.
+"""
 
 from __future__ import annotations
 
 MAX_BYTES = 4 * 1024 * 1024
-"""Bytes of one file."""
+"""Most bytes of one file."""
 
 MAX_TABLE_BYTES = 4_000_000
-"""Bytes of a file that a mission names: a path, a track, a drawing."""
+"""Most bytes of a file that a mission names: a path, a track, a drawing."""
 
 MAX_LINKED_BYTES = 400_000_000
-"""Bytes of a scene, of footprints, or of a terrain: files that a plan links to."""
+"""Most bytes of a scene, of footprints, or of a terrain: files that a plan links to."""
 
 MAX_DEPTH = 64
-"""Lists and mappings inside each other, aliases followed."""
+"""Largest depth of nested lists and mappings, with aliases resolved."""
 
 MAX_VALUES = 200_000
-"""Keys, scalars, lists and mappings as written."""
+"""Most keys, scalars, lists and mappings as written."""
 
 MAX_ALIAS_VALUES = 20_000
-"""Values that all aliases together stand for."""
+"""Most values that all aliases together expand to."""
 
 MAX_DIRECTIVES = 16
-"""Lines that begin with ``%``; the C parser takes quadratic time over them."""
+"""Most lines that start with ``%``; the C parser needs quadratic time for them."""
 
 MAX_FAULTS = 100
-"""Faults reported for one file."""
+"""Most faults that are reported for one file."""
 
 MAX_STRAY_CHARACTERS = 10
-"""Control characters reported one by one; beyond that the file is no text."""
+"""Most control characters that are reported one by one; a file with more is no text."""

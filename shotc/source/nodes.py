@@ -1,4 +1,4 @@
-"""The tree of a YAML document: values with the offsets at which they stand."""
+"""The tree of a YAML document: values with their offsets."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ from shotc.source.core_schema import ScalarValue
 
 
 class Scalar(NamedTuple):
-    """A value without parts; ``text`` is what it says before the schema turns it into a value."""
+    """A value without parts; ``text`` is its text before the schema converts it."""
 
     start: int
     end: int
@@ -24,8 +24,8 @@ class Entry(NamedTuple):
 class Collection:
     """A list (``entries`` is None) or a mapping.
 
-    size   : values inside, itself included, aliases followed
-    height : collections inside each other, itself included, aliases followed
+    size   : number of values inside, with itself and with aliases resolved
+    height : depth of nested collections, with itself and with aliases resolved
     """
 
     def __init__(self, start: int, end: int, entries: list[Entry] | None) -> None:
@@ -38,7 +38,7 @@ class Collection:
 
 
 class Alias(NamedTuple):
-    """A use of a value that is written elsewhere."""
+    """A reference to a value that is written elsewhere."""
 
     start: int
     end: int
@@ -49,17 +49,17 @@ Node = Scalar | Collection | Alias
 
 
 def resolved(node: Node) -> Scalar | Collection:
-    """Follow an alias to the value it stands for."""
+    """Return the value of an alias; any other node is returned as it is."""
     return node.target if isinstance(node, Alias) else node
 
 
 def size_of(node: Node) -> int:
-    """Return how many values a node stands for, aliases followed."""
+    """Return the number of values in a node, with aliases resolved."""
     target = resolved(node)
     return target.size if isinstance(target, Collection) else 1
 
 
 def height_of(node: Node) -> int:
-    """Return how many collections stand inside each other in a node, aliases followed."""
+    """Return the depth of nested collections in a node, with aliases resolved."""
     target = resolved(node)
     return target.height if isinstance(target, Collection) else 0

@@ -1,6 +1,6 @@
-"""What the YAML parser complains about, in the author's terms.
+"""Translate the errors of the YAML parser into terms of the mission's author.
 
-The parser says what it expected; a rule looks at the text round that place and says what is wrong there.
+The parser only reports what it expected. A rule looks at the text around that place and states the fault.
 """
 
 from collections.abc import Callable
@@ -16,10 +16,10 @@ _INDENT = "indent the keys of one mapping, and the items of one list, by the sam
 
 
 class Complaint(NamedTuple):
-    """A parser error: its words and offsets into the text.
+    """A parser error: its message and its offsets into the text.
 
-    start  : where the construct in question began, or None
-    opened : where the innermost open ``[`` or ``{`` stands, or None
+    start  : offset at which the construct in question began, or None
+    opened : offset of the innermost open ``[`` or ``{``, or None
     """
 
     file: SourceFile
@@ -46,7 +46,7 @@ class Complaint(NamedTuple):
 
     @property
     def line_rest(self) -> int:
-        """The offset at which the line of the error ends, blanks left out."""
+        """The offset at which the line of the error ends, without trailing blanks."""
         line, column = self.file.position(self.at)
         return self.at - column + 1 + len(self.file.line(line).rstrip())
 
@@ -71,7 +71,7 @@ def _fault(c: Complaint, message: str, hint: str = "") -> Fault:
 
 
 def _tab(c: Complaint) -> Fault | None:
-    """Blame a tab that stands where the parser stopped or in the indentation of that line."""
+    """Return the fault of a tab at the place of the error or in the indentation of its line."""
     line, column = c.file.position(c.at)
     content = c.file.line(line)
     indent = content[: len(content) - len(content.lstrip(" \t"))]
@@ -96,7 +96,7 @@ def _tab(c: Complaint) -> Fault | None:
 
 
 def _tabbed_lines(file: SourceFile, but: int) -> str:
-    """List the further lines that are indented with a tab, the first few of them."""
+    """List the first few other lines that are indented with a tab."""
     numbers = [
         number
         for number, line in enumerate(file.lines(), 1)
@@ -119,7 +119,7 @@ def _bad_start(c: Complaint) -> Fault:
 
 
 def _second_colon(c: Complaint) -> Fault:
-    """Blame a ': ' where no key can be: the second of its line, or deeper than the line above allows."""
+    """Return the fault of a ': ' where no key can be: second in its line, or indented too deep."""
     before = c.before
     key = before.lstrip(" -")
     if ": " in key or key.endswith(":"):
@@ -161,7 +161,9 @@ def _stray_item(c: Complaint) -> Fault:
 
 
 def _not_a_key(c: Complaint) -> Fault:
-    """Something that is no key of the mapping before it: a stray bracket, trailing text or an odd indent."""
+    """Return the fault of text that is no key of the mapping: a stray bracket, trailing text or an odd
+    indent.
+    """
     if c.character and c.character in "]}":
         return _stray_bracket(c)
     if c.character == ":":
@@ -212,7 +214,7 @@ def _unclosed_bracket(c: Complaint) -> Fault:
 
 
 def _hidden(file: SourceFile, bracket: str, opened: int, hidden: tuple[int, int]) -> Fault:
-    """Blame a `#` that made a value, and what closes the bracket behind it, a comment."""
+    """Return the fault of a `#` that turns a value, and the closing bracket after it, into a comment."""
     value = shorten(file.text[hidden[0] : hidden[1]])
     return Fault(
         "needs-quotes",
@@ -251,7 +253,7 @@ def _no_key(c: Complaint) -> Fault:
 
 
 def _escape(c: Complaint) -> Fault:
-    start = max(c.at - 2, c.text.rfind("\\", 0, c.at + 1))  # the parser may stop behind the sign
+    start = max(c.at - 2, c.text.rfind("\\", 0, c.at + 1))  # the parser may stop after the backslash
     return Fault(
         "needs-quotes",
         f"'{c.text[start : start + 2].strip()}' is no escape sequence of YAML",
@@ -294,7 +296,7 @@ def _after_end(c: Complaint) -> Fault:
 
 
 def _too_deep(c: Complaint) -> Fault:
-    """Blame a depth that the parser refuses by itself, which libyaml does since its release 0.2.6."""
+    """Return the fault of a depth that the parser itself refuses (libyaml does since release 0.2.6)."""
     message = f"lists and mappings are nested more than {MAX_DEPTH} deep"
     return Fault("too-deep", message, c.file.point(c.at), help="a mission needs less than 12 levels")
 
@@ -309,7 +311,7 @@ def _directive(c: Complaint) -> Fault:
     )
 
 
-# Words of the parser's problem, and what to make of it; the first match counts.
+# Words in the parser's message, and the rule for them; the first match counts.
 _RULES: tuple[tuple[str, Callable[[Complaint], Fault]], ...] = (
     ("cannot start any token", _bad_start),
     ("mapping values are not allowed", _second_colon),

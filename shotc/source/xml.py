@@ -1,33 +1,37 @@
-"""XML of any bytes: expat calls a reader's handlers until the end, the reader's first fault, or its own."""
+"""Parse any bytes as XML: expat calls a reader's handlers until the end, or the first fault of either."""
 
 from typing import Any, NamedTuple, Protocol
 from xml.parsers import expat
 
 
 class StopParsing(Exception):
-    """A reader has found its first fault and leaves expat."""
+    """A reader raises it at its first fault, to stop expat."""
 
 
 class XmlReader(Protocol):
-    """Expat's handlers; ``parser`` is set before the first is called and knows the line."""
+    """The handlers that expat calls. `feed` sets ``parser`` before the first call; it knows the line
+    number.
+    """
 
     parser: Any
 
     def doctype(self, *declaration: Any) -> None:
-        """Take a document type declaration: refuse it, for entities could grow without bound."""
+        """Refuse a document type declaration: its entities could grow without bound."""
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
-        """Take an element's beginning."""
+        """Handle the start tag of an element."""
 
     def end(self, tag: str) -> None:
-        """Take an element's end."""
+        """Handle the end tag of an element."""
 
     def text(self, data: str) -> None:
-        """Take text, or a part of one."""
+        """Handle text, or a part of a text."""
 
 
 class NotXml(NamedTuple):
-    """Why bytes are no XML: expat's or Python's words, where from 1, and whether the encoding is to blame."""
+    """Why bytes are not XML: message of expat or Python, line and column from 1, whether it is the
+    encoding.
+    """
 
     reason: str
     line: int = 1
@@ -36,7 +40,7 @@ class NotXml(NamedTuple):
 
 
 def feed(data: bytes, reader: XmlReader) -> NotXml | None:
-    """Read bytes as XML; return None where they were read to the end, or to the reader's own fault."""
+    """Read bytes as XML. Return None if expat read to the end, or if the reader stopped at its own fault."""
     parser = expat.ParserCreate()
     parser.buffer_text = True
     parser.StartDoctypeDeclHandler = reader.doctype
@@ -51,6 +55,6 @@ def feed(data: bytes, reader: XmlReader) -> NotXml | None:
         return None
     except expat.ExpatError as error:
         return NotXml(expat.ErrorString(error.code), error.lineno, error.offset + 1)
-    except (LookupError, ValueError) as error:  # what expat does not know it asks Python for
+    except (LookupError, ValueError) as error:  # expat asks Python for an unknown encoding
         return NotXml(str(error), encoding=True)
     return None

@@ -1,4 +1,4 @@
-"""The hardened YAML reader: any bytes in; plain values, the place of each, and faults out."""
+"""The hardened YAML reader: from any bytes to plain values, their spans, and faults."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -15,13 +15,15 @@ class Document(NamedTuple):
     """A mission as text and as plain values.
 
     file   : the text, as shown in diagnostics
-    root   : dict, list, str, int, float, bool or None by YAML 1.2's core schema; None where nothing could
-             be read. Repeated aliases share one object: treat it as read-only.
+    root   : dict, list, str, int, float, bool or None by YAML 1.2's core schema; None if nothing could be
+        read.
+             Repeated aliases share one object, so it is read-only.
     keys   : span of the key that leads to a path (list items have none)
-    values : span of the value at a path; the root is ``()``. A value left empty has an empty span right
-             after its colon. An alias has its own span, what it stands for is placed where it is written.
-    faults : what is wrong with the text
-    whole  : whether the text was read to its end, so that what is missing in ``root`` is missing in the file
+    values : span of the value at a path; the root is ``()``. An empty value has an empty span after its
+        colon.
+             An alias has its own span; the values in it have the spans of the original.
+    faults : of the text
+    whole  : whether the text was read to its end, so that keys missing in ``root`` are missing in the file
     """
 
     file: SourceFile
@@ -33,9 +35,9 @@ class Document(NamedTuple):
 
 
 def parse(data: bytes, name: str) -> Document:
-    """Read the bytes of a mission; never raises, whatever the bytes are.
+    """Read the bytes of a mission; never raise, for any bytes.
 
-    name : the file name to show
+    name : of the file in messages
     """
     file, faults, readable = decode(data, name)
     if not readable:
@@ -57,7 +59,7 @@ _BEGIN = "begin with 'shotc: 1' and 'mission: NAME', or start from a template: s
 
 
 def _root_faults(root: Node | None, file: SourceFile) -> list[Fault]:
-    """Refuse what is no mapping; nothing, or an explicit null, is an empty file."""
+    """Return the faults of a root that is no mapping; no root, or an explicit null, is an empty file."""
     if isinstance(root, Collection) and root.entries is not None:
         return []
     if root is None or (isinstance(root, Scalar) and root.value is None):
@@ -74,14 +76,14 @@ def _capped(faults: list[Fault]) -> tuple[Fault, ...]:
 
 
 class _Flat:
-    """The tree laid out: values as plain objects, places by key path."""
+    """The tree as plain objects, with offsets by key path."""
 
     def __init__(self) -> None:
         self.keys: dict[KeyPath, Offsets] = {}
         self.values: dict[KeyPath, Offsets] = {}
 
     def add(self, node: Node, path: KeyPath) -> Any:
-        """Return the value of a node and note the places in it; the depth is capped, so recursion is."""
+        """Return the value of a node and store its offsets; the depth limit bounds the recursion."""
         self.values[path] = (node.start, node.end)
         if isinstance(node, Alias):
             node = node.target

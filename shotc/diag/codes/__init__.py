@@ -1,1 +1,1 @@
-"""The diagnostic codes, one module a family."""
+"""The diagnostic codes, one module per family."""

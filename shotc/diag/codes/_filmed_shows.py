@@ -1,4 +1,4 @@
-"""D129 on, V057, V058: shows that cameras film."""
+"""D129 and up, V057, V058: shows that cameras film."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""V019 to V033: what the proof finds in the picture: promises, targets cropped, drones that are seen."""
+"""V019 to V033: faults that verification finds in the picture: promises, cropped targets, visible drones."""
 
 from __future__ import annotations
 

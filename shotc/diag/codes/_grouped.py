@@ -1,4 +1,4 @@
-"""N020, D134 on: groups of a fleet, which draw apart from the rest of it."""
+"""N020, D134 and up: groups of a fleet, which draw separately from the rest of the fleet."""
 
 from __future__ import annotations
 

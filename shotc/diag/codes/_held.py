@@ -1,4 +1,4 @@
-"""V040 to V046: what a plan's file says, held to its own trajectory and to its mission."""
+"""V040 to V046: a plan file whose contents contradict its own trajectory or its mission."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""N: targets that keyframes mean in a scene. See shotc.diag.codes.names."""
+"""N: targets in a scene that keyframes refer to. See shotc.diag.codes.names."""
 
 from __future__ import annotations
 

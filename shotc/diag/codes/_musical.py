@@ -1,4 +1,4 @@
-"""D120 on: the music of a show, its beats, and pictures that stand on them."""
+"""D120 and up: the music of a show, its beats, and pictures that are timed on beats."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""G026 and on: scenes and buildings, and what stands too near to them; N011 and on: the files of a plan."""
+"""G026 and up: scenes and buildings, and places too near to them. N011 and up: the files of a plan."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from shotc.diag.model import Severity
 
 
 def _of_a_file(code: str, slug: str, severity: Severity, summary: str, explanation: str) -> CodeInfo:
-    """Return a code that no mission shows without the file that it names."""
+    """Return a code that a mission shows only together with the file that it names."""
     return CodeInfo(code, slug, severity, summary, explanation, "", "", "other")
 
 

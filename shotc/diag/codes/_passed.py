@@ -1,4 +1,4 @@
-"""V034 and V035: what ways between shots lead nearer to than they should."""
+"""V034 and V035: ways between shots that pass too near to something."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""G045 and on: places that say something else than what is meant, and places beyond what is known."""
+"""G045 and up: places that are probably written wrong, and places outside of the data (terrain, buildings)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""D150 to D156: flights of whole fleets that other tools made. A mission alone cannot show them: it takes a file."""
+"""D150 to D156: flights of whole fleets from other tools. A mission shows them only together with a file."""
 
 from __future__ import annotations
 

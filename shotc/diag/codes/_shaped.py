@@ -1,4 +1,4 @@
-"""G040 and on: targets whose shape or whose parts say something else than what is meant."""
+"""G040 and up: targets whose shape or parts are probably written wrong."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""V028, V029, V031, V050 and on: what an audience is not shown, or not so that it can see it."""
+"""V028, V029, V031, V050 and up: subjects that are covered, not in the picture or not visible long enough."""
 
 from __future__ import annotations
 

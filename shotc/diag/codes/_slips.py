@@ -1,4 +1,4 @@
-"""Codes that are shown by a slip of the pen: a mission that passes, and the same one with the slip in it."""
+"""Helper for codes whose example is a writing error: a passing mission, and the same one with the error."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ rules: {composition: thirds, pace: calm}
 shots:
   - {id: wide, kind: static, drone: cam1, target: tower, at: [0, -50, 15], look_at: tower, timing: {duration: 5}}
 """
-"""A small mission with something of everything that is written by hand."""
+"""A small mission with one of each part that authors write by hand."""
 
 
 def slip(
     code: str, slug: str, summary: str, explanation: str, passing: str, *changes: tuple[str, str]
 ) -> CodeInfo:
-    """Return an error of ``check`` whose failing mission is the passing one with every change (right, wrong).
+    """Return an error of ``check``. Its failing mission is the passing one with every change (right, wrong).
 
-    Raises ValueError where there is nothing to change: an example that does not fail would show nothing.
+    Raises ValueError if the text to change is not in the passing mission: such an example would not fail.
     """
     failing = passing
     for right, wrong in changes:

@@ -1,4 +1,4 @@
-"""How codes of verification are written: those without an example need an edited plan, or a faulty plugin."""
+"""Helper for codes of verification. Those without an example need an edited plan or a faulty plugin."""
 
 from __future__ import annotations
 
@@ -15,6 +15,6 @@ def verified(
     examples: tuple[str, str] = ("", ""),
     severity: Severity = Severity.ERROR,
 ) -> CodeInfo:
-    """Return the code with this number; text : its summary and its explanation; examples : failing, passing."""
+    """Return the code with this number. ``text``: summary, explanation. ``examples``: failing, passing."""
     phase: Literal["plan", "other"] = "plan" if examples[0] else "other"
     return CodeInfo(f"V{number:03}", slug, severity, *text, *examples, phase)

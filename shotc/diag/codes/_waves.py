@@ -1,4 +1,4 @@
-"""D140 on: drones that set out one after another."""
+"""D140 and up: waves, in which drones depart one after another."""
 
 from __future__ import annotations
 

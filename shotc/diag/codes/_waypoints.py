@@ -1,4 +1,4 @@
-"""E: what files of waypoints cannot carry."""
+"""E: data that waypoint files cannot represent."""
 
 from __future__ import annotations
 

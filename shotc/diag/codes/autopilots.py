@@ -1,4 +1,4 @@
-"""A: autopilots, what keeps a plan from being streamed to them and what happens on the way."""
+"""A: autopilots, faults that prevent streaming a plan to them or that occur during the flight."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Q: the convex solve, finding ways and shaping paths. See shotc.diag.registry."""
+"""Q: faults in the convex solve, which finds ways and shapes paths. See shotc.diag.registry."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ shots:
 """
 
 
-# Without what verification tells of the same shot.
+# Allows what verification would otherwise report about the same shot.
 _PROMISED = _PASSING.replace(
     "  - id: past\n", "  - id: past\n    require: {in_frame: 30 %, screen_error: 3}\n    allow: [fast-pan]\n"
 )

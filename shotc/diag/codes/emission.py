@@ -1,4 +1,4 @@
-"""E: emission, what an output format cannot carry."""
+"""E: emission, data that an output format cannot represent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""D080 on: the flights of fleets, what they have no time for, and what cannot be kept apart."""
+"""D080 and up: flights of fleets that have too little time or too little separation."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def _planned(
 
 
 def _by_files(code: str, slug: str, summary: str, explanation: str) -> CodeInfo:
-    """Return the code of a fault that takes files, or places that `check` has judged before."""
+    """Return the code of a fault that needs files to show, or places that `check` refuses earlier."""
     return CodeInfo(code, slug, Severity.ERROR, summary, explanation, "", "", "other")
 
 

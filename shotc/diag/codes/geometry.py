@@ -1,4 +1,4 @@
-"""G: where things stand, and what the camera sees of them. See shotc.diag.registry."""
+"""G: positions of objects, and how the camera sees them. See shotc.diag.registry."""
 
 from __future__ import annotations
 

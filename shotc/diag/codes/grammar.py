@@ -1,4 +1,4 @@
-"""F: film grammar, what an audience stumbles over although it can be flown. See shotc.diag.registry."""
+"""F: film grammar, shots and cuts that can be flown but disturb an audience. See shotc.diag.registry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""I: missions of other tools. A mission of ours cannot show these codes. See shotc.diag.registry."""
+"""I: missions of other tools. A mission of shotc cannot show these codes. See shotc.diag.registry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""X: our bugs. See shotc.diag.registry."""
+"""X: bugs of shotc itself. See shotc.diag.registry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""K: keyframes, kinds and their timing, told without a solver. See shotc.diag.registry."""
+"""K: faults in keyframes, kinds and their timing, found without a solver. See shotc.diag.registry."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ shots:
 def _code(
     number: int, slug: str, summary: str, explanation: str, change: tuple[str, str], *exact: str
 ) -> CodeInfo:
-    """Return one code; ``exact`` are codes of the time pass that tell the same fault with exact numbers."""
+    """Return one code. ``exact`` are codes of the time pass that report the same fault with exact numbers."""
     return slip(f"K{number:03}", slug, summary, explanation, _PASSING, change)._replace(exact=exact)
 
 
@@ -60,7 +60,7 @@ shots:
 
 
 def _beside(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
-    """Return the code of a keyframe that counts from a target."""
+    """Return the code of a keyframe whose position is relative to a target."""
     return slip(f"K{number:03}", slug, summary, explanation, _BESIDE, *changes)
 
 

@@ -32,7 +32,7 @@ def _code(number: int, slug: str, summary: str, explanation: str, *changes: tupl
 
 
 def _needs_a_file(number: int, slug: str, summary: str, explanation: str) -> CodeInfo:
-    """Return the code of a fault that a mission cannot show without a file beside it."""
+    """Return the code of a fault that a mission shows only together with a file."""
     return CodeInfo(f"M{number:03}", slug, Severity.ERROR, summary, explanation, "", "", "other")
 
 
@@ -98,7 +98,7 @@ shots:
 
 
 def _keyed(number: int, slug: str, summary: str, explanation: str, *changes: tuple[str, str]) -> CodeInfo:
-    """Return the code of keyframes of a moving target that only planning finds."""
+    """Return the code of a fault in keyframes of a moving target that only planning finds."""
     made = slip(f"M{number:03}", slug, summary, explanation, _KEYED, *changes)
     return made._replace(phase="plan")
 

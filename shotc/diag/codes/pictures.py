@@ -1,4 +1,4 @@
-"""D050 and up: pictures of fleets, as planning finds them. See shotc.diag.registry."""
+"""D050 and up: faults in pictures of fleets that planning finds. See shotc.diag.registry."""
 
 from __future__ import annotations
 

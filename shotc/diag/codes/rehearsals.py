@@ -1,4 +1,4 @@
-"""W: rehearsals, what comes of plans in wind."""
+"""W: rehearsals, simulated flights of plans in wind."""
 
 from __future__ import annotations
 

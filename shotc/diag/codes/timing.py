@@ -1,6 +1,6 @@
 """T: times that the planned path cannot meet. See shotc.diag.registry.
 
-What no path at all could meet is found earlier, without a solver, and has K codes.
+Times that no path can meet have K codes: shotc finds them earlier, without a solver.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""V: what the proof of a finished trajectory finds. See shotc.diag.registry.
+"""V: faults that verification finds in a finished trajectory. See shotc.diag.registry.
 
-A mission alone shows few of these: the passes before plan within the limits. They are what an edited or
-damaged plan.json, or a faulty plugin, runs into.
+A mission alone shows few of these codes, because the earlier passes plan within the limits. An edited or
+damaged plan.json, or a faulty plugin, shows them.
 """
 
 from __future__ import annotations

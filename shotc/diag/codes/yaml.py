@@ -1,4 +1,4 @@
-"""Y: the text of a mission, before anything is known of its meaning. See shotc.diag.registry."""
+"""Y: faults in the text of a mission, found before it has a meaning. See shotc.diag.registry."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def _code(
 
 
 def _mutant(old: str, new: str) -> str:
-    """Return the passing mission with one thing spoilt."""
+    """Return the passing mission with one error put in."""
     return _PASSING.replace(old, new)
 
 
@@ -283,7 +283,7 @@ CODES: tuple[CodeInfo, ...] = (
     ),
 )
 
-# The code of every kind of fault that the reader of texts reports.
+# The code of each kind of fault that the YAML reader reports.
 FAULT_CODES: dict[FaultKind, str] = {
     "not-utf8": "Y001",
     "control-character": "Y002",

@@ -1,1 +1,1 @@
-"""Renderers of diagnostics, one module a format."""
+"""Renderers of diagnostics, one module per format."""

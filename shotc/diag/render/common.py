@@ -1,4 +1,4 @@
-"""What all formats share: order without repeats, counts, and text that is safe to show."""
+"""Functions that all formats share: order diagnostics without repeats, count them, make text safe to show."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ class Counts(NamedTuple):
 
 
 def ordered(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Return the diagnostics by file, position and code, exact repeats left out."""
+    """Return the diagnostics sorted by file, position and code, without exact repeats."""
     return list(dict.fromkeys(sorted(diagnostics, key=lambda d: d.sort_key)))
 
 
 def count(diagnostics: Sequence[Diagnostic]) -> Counts:
-    """Count a report without its repeats."""
+    """Count errors and warnings, without exact repeats."""
     severities = [severity_of(d) for d in dict.fromkeys(diagnostics)]
     errors = severities.count(Severity.ERROR)
     return Counts(errors, len(severities) - errors)
 
 
 def info_of(diagnostic: Diagnostic) -> CodeInfo:
-    """Return what the registry knows about a diagnostic's code."""
+    """Return the registry's entry for a diagnostic's code."""
     return registry()[diagnostic.code]
 
 
 def visible(text: str) -> str:
-    """Return ``text`` with every character that a terminal would obey or hide written out.
+    """Return ``text`` with every character escaped that a terminal would interpret or hide.
 
     Names come from the mission and may hold escape sequences or bidirectional overrides.
     """

@@ -1,6 +1,6 @@
-"""Diagnostics one a line, as editors and grep read them: ``path:line:column: CODE message``.
+"""Render one diagnostic per line, for editors and grep: ``path:line:column: CODE message``.
 
-A warning says so before its message.
+A warning has the word "warning" before its message.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from shotc.source.file import SourceFile
 
 
 def render(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile]) -> str:
-    """Return one line for each diagnostic; nothing for none."""
+    """Return one line for each diagnostic."""
     return "".join(f"{_line(diagnostic)}\n" for diagnostic in ordered(diagnostics))
 
 

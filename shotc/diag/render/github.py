@@ -1,4 +1,4 @@
-"""Diagnostics as GitHub workflow commands, which become annotations on a pull request."""
+"""Render diagnostics as GitHub workflow commands, which become annotations on a pull request."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from shotc.source.file import SourceFile
 
 
 def render(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile]) -> str:
-    """Return one workflow command for each diagnostic; nothing for none."""
+    """Return one workflow command for each diagnostic."""
     return "".join(f"{_command(diagnostic)}\n" for diagnostic in ordered(diagnostics))
 
 
@@ -21,7 +21,7 @@ def _command(diagnostic: Diagnostic) -> str:
         first = diagnostic.labels[0]
         span = first.span
         properties |= {"file": first.file, "line": str(span.line), "col": str(span.column)}
-        # GitHub drops the columns of an annotation over several lines, and one of no width.
+        # GitHub ignores the columns of an annotation over several lines or of zero width.
         if span.end_line == span.line and span.end_column > span.column:
             properties |= {"endLine": str(span.end_line), "endColumn": str(span.end_column)}
     listed = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
@@ -36,7 +36,7 @@ def _text(diagnostic: Diagnostic) -> str:
 
 
 def _data(text: str) -> str:
-    """Escape a message: a raw line end would end the command."""
+    """Escape a message: an unescaped line end would end the command."""
     lines = (visible(line).replace("%", "%25") for line in text.replace("\r", "\n").split("\n"))
     return "%0A".join(lines)
 

@@ -1,4 +1,4 @@
-"""Diagnostics as one JSON document for machines."""
+"""Render diagnostics as one JSON document."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Diagnostics as SARIF 2.1.0, the subset that GitHub code scanning reads."""
+"""Render diagnostics as SARIF 2.1.0, in the subset that GitHub code scanning reads."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from shotc.diag.render.common import info_of, ordered
 from shotc.source.file import SourceFile
 
 _MAX_RESULTS = 25_000
-"""Results that GitHub accepts in one run."""
+"""Most results that GitHub accepts in one run."""
 
 
 def render(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile]) -> str:
-    """Return a log of one run, with the rules that its results name.
+    """Return a SARIF log with one run and the rules that its results name.
 
-    A diagnostic without a place is a notification of the run: GitHub refuses results without locations.
+    A diagnostic without a place becomes a notification of the run: GitHub refuses results without locations.
     """
     kept = ordered(diagnostics)[:_MAX_RESULTS]
     placed = [d for d in kept if d.labels]
@@ -101,7 +101,7 @@ def _text(diagnostic: Diagnostic) -> str:
 
 
 def _location(label: Label) -> dict[str, Any]:
-    """Return where a label stands; SARIF counts from 1 and its ends are exclusive, as ours do."""
+    """Return the location of a label. SARIF counts from 1 with exclusive ends, as shotc does."""
     span = label.span
     region = {"startLine": max(1, span.line), "startColumn": max(1, span.column)}
     if (span.end_line, span.end_column) > (span.line, span.column):
@@ -115,13 +115,13 @@ def _location(label: Label) -> dict[str, Any]:
 
 
 def _uri(name: str) -> str:
-    # A name that is not UTF-8 holds surrogates; its bytes are percent-encoded like any others.
+    # A name that is not UTF-8 holds surrogates. Percent-encoding covers its bytes like any others.
     plain = name.replace("\\", "/").removeprefix("./").encode("utf-8", "surrogatepass")
     return quote(plain, safe="/-._~")
 
 
 def _fingerprint(diagnostic: Diagnostic, sources: Mapping[str, SourceFile]) -> str:
-    """Hash what stays when lines above are added: code, file, the words of the line, and the message."""
+    """Hash the code, file, text of the line and message: they stay the same if lines above are added."""
     line = name = ""
     if diagnostic.labels:
         first = diagnostic.labels[0]

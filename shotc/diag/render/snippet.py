@@ -1,4 +1,4 @@
-"""Source lines with their spans underlined, as plain pieces of text with a style each."""
+"""Lay out source lines with their spans underlined, as pieces of text with a style each."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ Piece = tuple[str, Style]
 Line = list[Piece]
 
 _WIDTH = 100
-"""Cells of source text that are shown of one line."""
+"""Largest width of source text shown of one line, in terminal cells."""
 _LEAD = 30
-"""Cells kept before a span when the line is cut on the left."""
+"""Width kept before a span if the line is cut on the left, in terminal cells."""
 _CUT = "…"
 
 
@@ -36,7 +36,7 @@ def snippet(labels: Sequence[Label], file: SourceFile, style: Style, gutter: int
     """Yield the source lines that ``labels`` point to, each with its underlines.
 
     labels : all in ``file``; the first is the primary one
-    style  : how the primary underline is painted
+    style  : style of the primary underline
     gutter : width of the line numbers
     """
     marks = sorted(_marks(labels, file), key=lambda m: (m.line, not m.primary, m.start))
@@ -71,7 +71,7 @@ def _marked_line(content: str, marks: Sequence[_Mark], style: Style, gutter: int
     source = f"{head}{shown}{tail}".rstrip()
     yield [(f"{marks[0].line:>{gutter}} |", "gutter"), (f" {source}" if source else "", "plain")]
     for mark in marks:
-        if mark.end - 1 <= left or mark.start - 1 > right:  # cut away; a mark may stand behind the end
+        if mark.end - 1 <= left or mark.start - 1 > right:  # outside the window; a mark may lie after the end
             continue
         indent = len(head) + cell_len(visible(content[left : min(mark.start - 1, right)]))
         under = cell_len(visible(content[max(left, mark.start - 1) : min(mark.end - 1, right)]))
@@ -81,7 +81,7 @@ def _marked_line(content: str, marks: Sequence[_Mark], style: Style, gutter: int
 
 
 def _window(content: str, mark: _Mark) -> tuple[int, int]:
-    """Return the part of a line to show, as offsets: all of it, or a stretch about the mark."""
+    """Return the part of a line to show, as offsets: the whole line, or a part around the mark."""
     if len(content) <= _WIDTH and cell_len(visible(content)) <= _WIDTH:
         return 0, len(content)
     left = 0

@@ -1,4 +1,4 @@
-"""Diagnostics for a person at a terminal: the source line, carets under the span, notes and help."""
+"""Render diagnostics for a terminal: the source line, carets under the span, notes and help."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from shotc.diag.render.common import Counts, count, ordered, visible
 from shotc.diag.render.snippet import Line, Piece, Style, snippet
 from shotc.source.file import SourceFile
 
-# Select Graphic Rendition parameters; what they say is also said in words, never by colour alone.
+# Select Graphic Rendition parameters. Colour never carries information alone: words give it too.
 _SGR: Mapping[Style, str] = {
     "gutter": "1;34",
     "error": "1;31",
@@ -24,7 +24,7 @@ _SGR: Mapping[Style, str] = {
 def render(
     diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile], *, color: bool = False
 ) -> str:
-    """Return the report as text that ends in a summary line; nothing for no diagnostics.
+    """Return the report as text that ends in a summary line. No diagnostics give an empty string.
 
     sources : the texts that labels point into, by file name; a label without its text shows no snippet
     """
