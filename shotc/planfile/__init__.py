@@ -1,1 +1,1 @@
-"""plan.json: a verified plan as a file that proves itself again, and back."""
+"""plan.json: write a verified plan to a file, and read it back so that it can be proved again."""

@@ -1,9 +1,9 @@
-"""IR records to JSON values and back, by their type hints; faults are collected with their JSON path.
+"""Convert IR records to JSON values and back, by their type hints. Faults are collected with their JSON path.
 
-A record is an object with all its fields, in their order; where a field may hold one of several
-records, ``type`` names it. Tuples are lists. A number that may be without limit is "inf" or "-inf" then;
-nothing else that is not finite is read or written. A curve is {"breaks": [...], "control": [[[...]]]}. An
-array of a record is a list of lists, or of colours a text a row: "ff8000ffffff" is two of them.
+A record becomes an object with all its fields, in their order. If a field may hold one of several records,
+``type`` names the record. Tuples become lists. A number that may be unlimited is written "inf" or "-inf";
+no other value that is not finite is read or written. A curve is {"breaks": [...], "control": [[[...]]]}. An
+array of a record is a list of lists. An array of colours has one text per row: "ff8000ffffff" is two colours.
 """
 
 from __future__ import annotations
@@ -53,22 +53,22 @@ UNLIMITED = {
 }
 
 DEPTHS = {(FleetTrajectory, "breaks"): 1, (FleetTrajectory, "coef"): 3, (Lights, "times"): 1}
-"""How many dimensions an array of a record has."""
+"""Number of dimensions of each array field of a record."""
 
 LARGEST = 1e12
-"""Size of the largest number that is read: whatever it measures, more than that is damage."""
+"""Largest absolute value that is read. In any unit, a larger number means a damaged file."""
 
 _HEXADECIMAL = re.compile(r"[0-9a-f]+").fullmatch
 
 INFINITE = {"inf": inf, "-inf": -inf}
 
 TAG = "type"
-"""The key that names the record where a field may hold one of several."""
+"""The key that names the record if a field may hold one of several."""
 
 
 @dataclass(frozen=True, slots=True)
 class FieldFault:
-    """What is wrong with one value: its path, like ``drones[0].limits.speed``, and the fault."""
+    """A fault of one value: its path, such as ``drones[0].limits.speed``, and a text."""
 
     path: str
     text: str
@@ -99,7 +99,7 @@ def _rows(value: NDArray[Any]) -> list[Any]:
 @cache
 def hints(kind: type) -> dict[str, Any]:
     """Return the resolved types of a record's fields, in their order."""
-    # No plan holds a terrain: it holds the file that it is made of.
+    # A plan does not hold the terrain, but the file that the terrain is made from.
     known = {"Display": Display, "Fleet": Fleet, "Track": Track, "Terrain": Any, "ObstacleMesh": Any}
     types = get_type_hints(kind, localns=known)
     return {name: types[name] for name in field_names(kind)}
@@ -107,7 +107,7 @@ def hints(kind: type) -> dict[str, Any]:
 
 @cache
 def alternatives(kind: Any) -> frozenset[Any]:
-    """Return the records of which a field may hold one or another, anywhere in a type."""
+    """Return the records that are alternatives of one field, anywhere in a type."""
     found: set[Any] = set()
     seen: set[Any] = set()
     _collect(kind, found, seen)
@@ -130,18 +130,18 @@ def _collect(kind: Any, found: set[Any], seen: set[Any]) -> None:
 
 @dataclass(slots=True)
 class Decoder:
-    """Turns JSON values into IR values; ``faults`` fills up."""
+    """Converts JSON values to IR values and collects the faults in ``faults``."""
 
     faults: list[FieldFault]
 
     def fault(self, path: str, text: str) -> None:
-        """Note a fault and go on."""
+        """Record a fault and continue."""
         self.faults.append(FieldFault(path or "the document", text))
 
     def fields(self, kinds: dict[str, Any], value: Any, path: str) -> dict[str, Any]:
-        """Return the fields of an object: all of them, and no others.
+        """Return the fields of an object. It must have all of them, and no others.
 
-        After a fault only those come back that are no more than JSON values.
+        After a fault, the result only has the fields that need no conversion from JSON.
         """
         try:
             fields: dict[str, Any] = _reader(tuple(kinds.items())).validate_python(value)
@@ -155,15 +155,15 @@ class Decoder:
 
 @cache
 def _reader(kinds: tuple[tuple[str, Any], ...]) -> SchemaValidator:
-    """Return the reader of an object with these fields.
+    """Return the validator of an object with these fields.
 
-    A ``TypeAdapter`` of the same schema takes three times as long to build as a plan takes to be read.
+    Building a ``TypeAdapter`` of the same schema takes three times as long as reading a plan.
     """
     return SchemaValidator(_object({name: _schema(kind) for name, kind in kinds}))
 
 
 def _object(fields: Mapping[str, CoreSchema], *others: str) -> CoreSchema:
-    """Return an object with all of these fields, maybe the others, and no more."""
+    """Return the schema of an object that has all of ``fields``, may have ``others``, and has no more."""
     known = {name: core_schema.typed_dict_field(field) for name, field in fields.items()}
     loose = {name: core_schema.typed_dict_field(core_schema.any_schema(), required=False) for name in others}
     return core_schema.typed_dict_schema(known | loose, extra_behavior="forbid")
@@ -171,7 +171,7 @@ def _object(fields: Mapping[str, CoreSchema], *others: str) -> CoreSchema:
 
 @cache
 def _schema(kind: Any) -> CoreSchema:
-    """Return how a value of a type stands in a plan."""
+    """Return the schema of a value of this type in a plan."""
     if kind is Piecewise:
         arrays = {"breaks": _array(1), "control": _array(3)}
         return core_schema.no_info_after_validator_function(_curve, _object(arrays))
@@ -196,7 +196,7 @@ def _plain(kind: Any) -> CoreSchema:
         float: core_schema.float_schema(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST),
         int: core_schema.int_schema(strict=True),
         bool: core_schema.bool_schema(strict=True),
-        # A text may hold lone surrogates, which stand for bytes of a file that are not UTF-8.
+        # A text may hold lone surrogates: they represent bytes of a file that are not UTF-8.
         str: core_schema.is_instance_schema(str),
         Colors: core_schema.no_info_plain_validator_function(_colors),
     }
@@ -279,7 +279,7 @@ def _fault(text: str) -> PydanticCustomError:
 
 
 def _text(item: ErrorDetails) -> str:
-    """Return one of pydantic's faults in our words."""
+    """Return the message of shotc for one of pydantic's faults."""
     kind, value, context = item["type"], item["input"], item.get("ctx", {})
     if kind in ("too_short", "too_long"):
         wanted = context.get("min_length", context.get("max_length"))
@@ -303,25 +303,25 @@ _WORDS = {
     "dict_type": "is not an object",
     "union_tag_not_found": "is of no type that belongs here",
 }
-"""What is wrong with a value by the type of pydantic's fault; another type has a message of its own."""
+"""Messages by the type of pydantic's fault. Faults of other types have their own message."""
 
 
 def _path(path: str, place: tuple[str | int, ...]) -> str:
     for part in place:
         if isinstance(part, int):
             path += f"[{part}]"
-        elif not part.startswith("#"):  # the choice of a union
+        elif not part.startswith("#"):  # "#..." is the alternative of a union
             path = at(path, part)
     return path
 
 
 def is_number(value: Any) -> bool:
-    """Return whether a JSON value is a number (true and false are none)."""
+    """Return whether a JSON value is a number (true and false are not)."""
     return type(value) in (int, float)
 
 
 def numeric(value: Any, depth: int) -> bool:
-    """Return whether a JSON value is a list of lists (``depth`` of them) of numbers."""
+    """Return whether a JSON value is a list of numbers, nested ``depth`` deep."""
     if not isinstance(value, list) or not value:
         return False
     if depth == 1:
@@ -335,7 +335,7 @@ def at(path: str, name: str) -> str:
 
 
 def show(value: Any) -> str:
-    """Return a JSON value as a message can carry it."""
+    """Return a JSON value as text for a message."""
     if isinstance(value, dict):
         return "an object"
     if isinstance(value, list):

@@ -1,4 +1,4 @@
-"""What two plans of a mission differ in: shots, the path, and every claim of their certificates."""
+"""Compare two plans of a mission: shots, paths, and every claim of their certificates."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
 SHARES = np.linspace(0.0, 1.0, 2001)
-"""Shares of a shot at which positions are compared."""
+"""Shares of a shot's duration, from 0 to 1, at which positions are compared, shape (2001,)."""
 
 EVERY = 20
-"""Of those shares, every how many-th is compared for the many drones of a fleet."""
+"""For the many drones of a fleet, only every EVERY-th of SHARES is compared."""
 
 ClaimKey = tuple[str, str | None, str]
 
 
 @dataclass(frozen=True, slots=True)
 class ShotChange:
-    """A shot in two plans: starts and durations in seconds, None where a plan does not have it.
+    """A shot in two plans: starts and durations in seconds, None if a plan does not have the shot.
 
     distance : largest one between the two cameras at the same share of the shot, metres, at ``share``; of a
         display between two drones of one number, None where the fleets do not have equally many
@@ -39,14 +39,14 @@ class ShotChange:
 
 @dataclass(frozen=True, slots=True)
 class ClaimChange:
-    """One claim in two certificates; None where a plan does not make it."""
+    """One claim in two certificates; None if a plan does not make it."""
 
     old: Claim | None
     new: Claim | None
 
     @property
     def claim(self) -> Claim:
-        """Either of them, for its name and unit."""
+        """One of the two claims, for its name and unit."""
         either = self.new or self.old
         assert either is not None
         return either
@@ -54,7 +54,9 @@ class ClaimChange:
 
 @dataclass(frozen=True, slots=True)
 class FleetChange:
-    """A fleet in two plans: how many drones, and how long they fly, seconds; None where a plan has it not."""
+    """A fleet in two plans: numbers of drones, and flight times in seconds; None if a plan has no such
+    fleet.
+    """
 
     fleet: str
     drones: tuple[int | None, int | None]
@@ -63,7 +65,7 @@ class FleetChange:
 
 @dataclass(frozen=True, slots=True)
 class PlanComparison:
-    """Everything that differs; shots and fleets of the plans are listed even where they agree."""
+    """All differences of two plans. Shots and fleets are listed even if they agree."""
 
     shots: tuple[ShotChange, ...]
     claims: tuple[ClaimChange, ...]
@@ -74,7 +76,7 @@ Flown = tuple[DroneTrajectory | FleetTrajectory, Phase]
 
 
 def compare(old: VerifiedIR, new: VerifiedIR) -> PlanComparison:
-    """Compare two plans; shots and claims are matched by name."""
+    """Compare two plans. Shots and claims are matched by name."""
     claims = tuple(_claims(old.certificate, new.certificate))
     return PlanComparison(tuple(_shots(old, new)), claims, tuple(_fleets(old, new)))
 
@@ -124,7 +126,7 @@ def _apart(first: Flown, second: Flown) -> tuple[float | None, float | None]:
 
 
 def _places(flown: Flown, shares: Array) -> Array:
-    """Return where the drones of a flight are at shares of a phase, shape (n, M, 3)."""
+    """Return the positions of the drones of a flight at shares of a phase, metres, shape (n, M, 3)."""
     track, phase = flown
     times = phase.start + shares * (phase.end - phase.start)
     if isinstance(track, DroneTrajectory):

@@ -1,4 +1,4 @@
-"""What types cannot say about the fleets of a plan file, as ``planfile.sanity`` for all else."""
+"""Checks of the fleets in a plan file beyond their types; ``planfile.sanity`` checks the rest."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from shotc.ir.trajectory import TrajectoryIR
 from shotc.planfile.light_sanity import light_faults
 
 SAMPLES = 50_000_000
-"""Ticks of the output clock that all drones of a fleet may have together."""
+"""Most ticks of the output clock of all drones of a fleet together."""
 
 LARGEST_FLEET = 100_000
-"""Drones that a fleet may have."""
+"""Most drones of a fleet."""
 
 Fault = tuple[str, str]
 
 
 def fleet_faults(ir: TrajectoryIR) -> Iterator[Fault]:
-    """Yield (path, fault) of everything that would make the fleets of a plan meaningless to prove."""
+    """Yield (path, fault) for everything that makes a proof of the fleets meaningless."""
     mission = ir.keyframes.mission
     for i, fleet in enumerate(mission.fleets):
         yield from _fleet(fleet, f"mission.fleets[{i}]")

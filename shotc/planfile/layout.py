@@ -1,4 +1,4 @@
-"""JSON that people can skim: short objects and rows of numbers on one line each, the rest indented."""
+"""Write JSON that people can read: short objects and rows of numbers on one line each, the rest indented."""
 
 from __future__ import annotations
 
@@ -7,24 +7,27 @@ from collections.abc import Iterator
 from typing import Any
 
 ROW = 100
-"""Characters up to which any value stands on one line."""
+"""Most characters of a value on one line."""
 
 FIELDS = 20
-"""Items up to which a value may stand on one line."""
+"""Most items of a value on one line."""
 
 IN_ROW = 10
-"""Numbers in a line of a long list."""
+"""Numbers per line of a long list."""
 
 RECORD = 420
-"""Characters up to which an object of plain values stands on one line."""
+"""Most characters of an object of plain values on one line."""
 
 
 class RowList(list[Any]):
-    """A list of many items, each of which stands on a line of its own, whatever its size."""
+    """A list of many items. Each item is written on one line, whatever its size."""
 
 
 def text(value: Any) -> str:
-    """Return a JSON text, ASCII only, that reads back to the same value; ValueError for NaN."""
+    """Return a JSON text, ASCII only, that reads back to the same value.
+
+    Raises ValueError if a number is not finite.
+    """
     return "".join(_parts(value, "")) + "\n"
 
 

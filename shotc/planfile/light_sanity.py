@@ -1,4 +1,4 @@
-"""What types cannot say about the effects of a fleet's lights in a plan file."""
+"""Checks of the effects of a fleet's lights in a plan file beyond their types."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from shotc.ir.light_paints import pixels
 Fault = tuple[str, str]
 
 MOST_PIXELS = 16_000_000
-"""Of all frames of an image."""
+"""Most pixels of all frames of an image together."""
 
 
 def light_faults(lights: Lights, path: str) -> Iterator[Fault]:
-    """Yield (path, fault) of everything that would make effects meaningless to evaluate."""
+    """Yield (path, fault) for everything that prevents the evaluation of the effects."""
     if len(lights.of) != (len(lights.times) if lights.looks else 0):
         yield f"{path}.of", "does not say for every time which look holds"
     if any(not -1 <= look < len(lights.looks) for look in lights.of):

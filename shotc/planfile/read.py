@@ -1,4 +1,4 @@
-"""plan.json read back: any bytes in, a plan or diagnostics out, never a traceback."""
+"""Read plan.json. Any bytes give a plan or diagnostics, never an exception."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from shotc.source.file import WHOLE_FILE, Span
 
 SIZE_CAP = 256 * 2**20
 LONGEST = 1000  # digits of a number
-"""Bytes of the largest plan that is read."""
+"""Size of the largest plan that is read, bytes."""
 
 REPORTED = 20
-"""Faults that are reported one by one; a file of another kind has thousands."""
+"""Most faults that are reported one by one. A file of another kind has thousands."""
 
 
 _MISSION = re.compile(rb"^shotc[ \t]*:", re.MULTILINE)
@@ -35,10 +35,10 @@ _MISSION = re.compile(rb"^shotc[ \t]*:", re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class ReadPlan:
-    """What stands in a plan file: the trajectory, or None after a fault, and the certificate it claims.
+    """The content of a plan file: the trajectory, or None after a fault, and the certificate that it claims.
 
-    tool : the version of shotc that wrote it
-    edited : whether its mission is another than the one that was planned
+    tool   : the version of shotc that wrote it
+    edited : whether its mission differs from the one that was planned
     """
 
     trajectory: TrajectoryIR | None
@@ -49,7 +49,7 @@ class ReadPlan:
 
 
 class _NotJsonError(Exception):
-    """A fault of the text itself; ``span`` where it stands."""
+    """A fault of the text itself, at ``span``."""
 
     def __init__(self, text: str, span: Span = WHOLE_FILE) -> None:
         super().__init__(text)
@@ -57,7 +57,7 @@ class _NotJsonError(Exception):
 
 
 def read_plan(data: bytes, name: str) -> ReadPlan:
-    """Read the bytes of a plan.json; ``name`` is how to show it."""
+    """Read the bytes of a plan.json. Diagnostics call it ``name``."""
     try:
         document = _parse(data)
     except _NotJsonError as fault:
@@ -203,7 +203,9 @@ class _Source(NamedTuple):
 
 
 def _source(value: Any, decoder: Decoder) -> _Source | None:
-    """Return what the mission was lowered from; plans of earlier versions hold no text of it."""
+    """Return the source of the mission, or None after a fault. Plans of earlier versions do not hold its
+    text.
+    """
     kinds: dict[str, Any] = {"file": str, "sha256": str}
     if isinstance(value, dict) and not value.keys() <= kinds.keys():
         kinds |= {"text": tuple[str, ...], "tables": object, "drawn": object, "chosen": object}

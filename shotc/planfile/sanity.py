@@ -1,4 +1,4 @@
-"""What types cannot say about a plan file: names that exist, numbers that mean something, sizes that end."""
+"""Checks of a plan file beyond its types: names exist, numbers are meaningful, sizes are bounded."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from shotc.planfile.fleet_sanity import fleet_faults
 from shotc.units import LARGEST
 
 SAMPLES = 20_000_000
-"""Ticks of the output clock that a flight may have."""
+"""Most ticks of the output clock in a flight."""
 
 CORNERS = 1000
-"""Corners that a zone may have."""
+"""Most corners of a zone."""
 
 UNIT = 1e-6
-"""How far a unit vector's length may be off 1, and metres that a part of a group may be off its body."""
+"""Tolerance of a unit vector's length, and of the position of a group's part against its body, metres."""
 
 FASTEST = (1 + 1e-6) * LARGEST["speed"]
-"""m/s of a target: the fastest that a mission can write, and what rounding of its rows adds."""
+"""Largest speed of a target, m/s: the largest that a mission can write, plus the rounding of its rows."""
 
 Fault = tuple[str, str]
 
 
 def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
-    """Yield (path, fault) of everything that would make the plan meaningless to prove."""
+    """Yield (path, fault) for everything that makes a proof of the plan meaningless."""
     mission = ir.keyframes.mission
     yield from mission_faults(mission)
     for i, drone in enumerate(mission.drones):
@@ -47,7 +47,7 @@ def inconsistencies(ir: TrajectoryIR) -> Iterator[Fault]:
 
 
 def mission_faults(mission: MissionIR) -> Iterator[Fault]:
-    """Yield (path, fault) of what a mission says of its world and its rules."""
+    """Yield (path, fault) for the world and the rules of a mission."""
     if not 0 < mission.rate <= 1000:
         yield "mission.rate", f"{mission.rate:g} is not between 0 and 1000 samples a second"
     half_angle = mission.rules.half_angle
@@ -164,7 +164,7 @@ def _names(mission: MissionIR, ir: TrajectoryIR) -> Iterator[Fault]:
 
 
 def _on_clock(shot: Shot, targets: set[str], path: str) -> Iterator[Fault]:
-    """Yield what is wrong with a shot on its own clock."""
+    """Yield the faults of a shot on its own clock."""
     assert shot.ideal is not None
     if shot.timing.duration is None:
         yield f"{path}.timing", "a shot on its own clock needs a duration"
@@ -179,7 +179,7 @@ def _on_clock(shot: Shot, targets: set[str], path: str) -> Iterator[Fault]:
 
 
 def _shape(shape: TargetShape) -> str:
-    """Return what is wrong with the shape of a body; empty where nothing is."""
+    """Return the fault of a body's shape, or an empty string."""
     if isinstance(shape, GroupShape):
         return "a group is no body"
     if isinstance(shape, CylinderShape):
@@ -190,11 +190,11 @@ def _shape(shape: TargetShape) -> str:
 
 
 def _groups(mission: MissionIR) -> Iterator[Fault]:
-    """Yield what is wrong with the groups: each is the bodies that it names, where they stand."""
+    """Yield the faults of the groups: a group consists of the bodies that it names, at their positions."""
     bodies = {target.name: target for target in mission.targets}
     for i, group in enumerate(mission.groups):
         if not group.parts and not isinstance(group.shape, GroupShape):
-            continue  # a picture of a fleet, which has no bodies
+            continue  # a picture of a fleet has no bodies
         parts = [bodies[name] for name in group.parts if name in bodies]
         if len(parts) < len(group.parts) or not parts or not isinstance(group.shape, GroupShape):
             yield f"mission.groups[{i}]", "its parts are not those that it names"

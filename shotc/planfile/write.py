@@ -1,4 +1,4 @@
-"""A verified plan as the bytes of plan.json: all that is needed to prove it again and to re-emit it."""
+"""Write a verified plan as the bytes of plan.json, with all data to prove it again and to emit it again."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ VERSION = 1
 
 
 def plan_bytes(plan: VerifiedIR) -> bytes:
-    """Return plan.json; the same plan gives the same bytes, and numbers read back exactly."""
+    """Return the bytes of plan.json. The same plan gives the same bytes, and numbers read back exactly."""
     return layout.text(document(plan)).encode("ascii")
 
 
@@ -54,10 +54,10 @@ def document(plan: VerifiedIR) -> dict[str, Any]:
 
 
 def seal(mission: Any) -> str:
-    """Return the SHA-256 of the mission's JSON value, however it is laid out, hexadecimal.
+    """Return the SHA-256 of the mission's JSON value, hexadecimal. The layout of the file does not change it.
 
-    The certificate is held to most of a mission. The place on earth, a lens or a pad could be anything, and
-    yet what flies is made from them.
+    The certificate covers most of a mission, but not the place on earth, a lens or a pad. The seal covers
+    them, because the output files depend on them.
     """
     return sha256(json.dumps(mission, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
@@ -69,7 +69,7 @@ def encode_mission(mission: MissionIR) -> dict[str, Any]:
 
 
 def _source(mission: MissionIR) -> dict[str, Any]:
-    """Return what the mission was lowered from, so that verification can lower it again."""
+    """Return the text from which the mission was lowered, so that verification can lower it again."""
     source = mission.source
     linked = [{"name": name, "sha256": digest} for name, digest in source.linked]
     return {
