@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from shotc.rounding import at_least
+from shotc.ir.fleet import FleetTrajectory
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import VerifiedIR
+from shotc.rounding import as_minutes, at_least
 
 LAYERS = ("layers", "layers deep m", "layers seen m", "layers aside m")
 TAKE_OFF = ("layers", "lowest m", "highest m", "s", "landing s")
@@ -88,3 +91,28 @@ def beside(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
         found = re.fullmatch(rf"fleet (.+) ({'|'.join(words)})", name)
         if found:
             yield f"{found[1]} {words[found[2]].format(value)}: another one is in its way"
+
+
+def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
+    """Return a heading and one row a display: fleet, when, how long, and what it shows; or nothing."""
+    rows = [
+        (phase.shot, f"{track.fleet} ({len(track.coef)} drones)", *_shown(track, phase))
+        for track in plan.trajectory.fleets
+        for phase in track.phases
+        if phase.shot is not None
+    ]
+    return [("display", "fleet", "from", "lasts", "pictures"), *rows] if rows else []
+
+
+def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
+    shown = [s for s in track.shown if s.display == phase.shot]
+    pictures = len({s.picture for s in shown})
+    frames = "" if len(shown) == pictures else f", {len(shown)} frames"
+    return as_minutes(phase.start), f"{phase.end - phase.start:.2f} s", f"{pictures}{frames}"
+
+
+def headline(plan: VerifiedIR) -> str:
+    """Return how many displays and drones there are."""
+    ir = plan.trajectory
+    shows, drones = len(ir.keyframes.mission.displays), sum(len(track.coef) for track in ir.fleets)
+    return f"{shows} display{'s' * (shows != 1)} of {drones} drone{'s' * (drones != 1)}"

@@ -10,15 +10,13 @@ from textwrap import wrap
 from shotc.cli.centred import centred
 from shotc.cli.console import table
 from shotc.cli.exposed import exposed
-from shotc.cli.show_facts import beside, dense, layered, recorded, taking_off
+from shotc.cli.show_facts import beside, dense, display_rows, headline, layered, recorded, taking_off
 from shotc.emit.screen import ScreenSummary, certified, framed_targets, percent
 from shotc.geom.apart import stretch
-from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.measures import measure, told_apart
 from shotc.ir.mission import MissionIR
 from shotc.ir.parked import parked, parked_fleets
 from shotc.ir.path import Deviation, from_what_was_asked
-from shotc.ir.phases import Phase
 from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
@@ -314,31 +312,6 @@ def _indent(lines: Iterable[str]) -> list[str]:
 
 
 PAIR = 2
-
-
-def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
-    """Return a heading and one row a display: fleet, when, how long, and what it shows; or nothing."""
-    rows = [
-        (phase.shot, f"{track.fleet} ({len(track.coef)} drones)", *_shown(track, phase))
-        for track in plan.trajectory.fleets
-        for phase in track.phases
-        if phase.shot is not None
-    ]
-    return [("display", "fleet", "from", "lasts", "pictures"), *rows] if rows else []
-
-
-def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
-    shown = [s for s in track.shown if s.display == phase.shot]
-    pictures = len({s.picture for s in shown})
-    frames = "" if len(shown) == pictures else f", {len(shown)} frames"
-    return as_minutes(phase.start), f"{phase.end - phase.start:.2f} s", f"{pictures}{frames}"
-
-
-def headline(plan: VerifiedIR) -> str:
-    """Return how many displays and drones there are."""
-    ir = plan.trajectory
-    shows, drones = len(ir.keyframes.mission.displays), sum(len(track.coef) for track in ir.fleets)
-    return f"{shows} display{'s' * (shows != 1)} of {drones} drone{'s' * (drones != 1)}"
 
 
 def nearest(plan: VerifiedIR) -> Iterator[str]:

@@ -4,22 +4,18 @@ squares.
 The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
 are those of the exact outline. They enter as logarithms, so that twice and half the size have the same error.
 Hard requirements enter as a steep hinge (the whole target in the frame, its clearance, the drone's speed) or
-as a bound (the floor, the pitch). Plain Python.
+as a bound (the floor, the pitch). ``pose_search`` minimises them. Plain Python.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 from math import asin, atan2, cos, hypot, inf, log, sin, sqrt, tan
-from operator import mul
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at, frustum_margins, view
-from shotc.geom.normal_equations import damped_step
+from shotc.geom.pose_search import Pose, PoseCost, Residuals, dot, least_cost_pose
 from shotc.geom.shapes import TargetShape
 from shotc.geom.vec import Vec2, Vec3, minus
-
-Pose = tuple[float, float, float, float, float]
-Residuals = list[float]
 
 FAR_M = 1e5  # metres, the largest distance of a camera
 HALVINGS = 60
@@ -27,10 +23,6 @@ HARD_WEIGHT = 10.0  # weight of hard requirements
 NEAR_WEIGHT = 0.3  # weight of the preferred pose: an error of a tenth of the distance costs 0.03 half frames
 FAINT_WEIGHT = 0.01  # weight of free values, which stay as they are, and of a level view
 EDGE_SHARE = 0.97  # share of half a frame within which a whole target is kept
-NUDGE = 1e-6
-ROUNDS = 100
-DAMPINGS = 12
-SETTLED_SHARE = 1e-6  # least relative fall of the cost in an iteration
 STEEPEST_RAD = 1.5  # rad, largest elevation of a free view
 WHOLE_SIZE = 0.4  # size of a subject without a required size: whole, with its surroundings
 
@@ -235,94 +227,23 @@ def first_pose(subjects: Sequence[Wanted], lens: Lens, room: PlaceBounds, azimut
     return (*eye, atan2(y, x), atan2(z, hypot(x, y)))
 
 
-class _Search(NamedTuple):
-    """The cost, the bounds on a pose, and the scale of steps in its components."""
-
-    cost: Callable[[Pose], tuple[Residuals | None, float]]
-    low: Sequence[float]
-    high: Sequence[float]
-    scale: Sequence[float]
-
-
-class _Found(NamedTuple):
-    """A pose with its residuals and its cost; damping : of the next step."""
-
-    pose: Pose
-    residuals: Residuals | None
-    cost: float
-    damping: float
-
-
 @lru_cache(maxsize=4096)  # several passes solve the same framing, and standing subjects repeat
 def viewpoint(
     subjects: tuple[Wanted, ...], lens: Lens, room: PlaceBounds, start: Pose, since: Since | None = None
 ) -> tuple[Pose, float]:
-    """Return the pose of least cost, by Levenberg-Marquardt from an initial guess, and its cost.
+    """Return the pose of least cost, from an initial guess, and its cost.
 
     since : the camera at the knot before, or None; free values stay as there, and the step is at most its way
     """
     reach = max(hypot(*minus((start[0], start[1], start[2]), middle_of(subjects))), 1.0)
 
     def cost(pose: Pose) -> tuple[Residuals | None, float]:
-        found = _residuals(pose, subjects, lens, room, (since, reach))
-        return found, inf if found is None else _dot(found, found)
+        residuals = _residuals(pose, subjects, lens, room, (since, reach))
+        return residuals, inf if residuals is None else dot(residuals, residuals)
 
     low = (-inf, -inf, room.floor, -inf, lens.pitch[0])
     high = (inf, inf, inf, inf, lens.pitch[1])
-    search = _Search(cost, low, high, (reach, reach, reach, 1.0, 1.0))
-    pose = _within(start, low, high)
-    best = _Found(pose, *cost(pose), damping=1e-3)
-    for _ in range(ROUNDS):
-        columns = _jacobian(search, best)
-        if columns is None:
-            break
-        before, best = best.cost, _lowered(search, best, columns)
-        if before - best.cost <= SETTLED_SHARE * max(before, 1e-12):
-            break
-    return best.pose, best.cost
-
-
-def _jacobian(search: _Search, at: _Found) -> list[Residuals] | None:
-    """Return the Jacobian of the residuals by finite differences; None where the cost is not defined."""
-    if at.residuals is None:
-        return None
-    columns = []
-    for i in range(5):
-        # Step away from an active upper bound, so that values beyond it are not evaluated.
-        nudge = NUDGE if at.pose[i] < search.high[i] else -NUDGE
-        there, _ = search.cost(_moved(at.pose, i, nudge * search.scale[i]))
-        if there is None:
-            return None
-        columns.append([(b - a) / nudge for a, b in zip(at.residuals, there, strict=True)])
-    return columns
-
-
-def _lowered(search: _Search, at: _Found, columns: list[Residuals]) -> _Found:
-    """Return a pose of lower cost, with rising damping; the same pose if no step lowers the cost."""
-    assert at.residuals is not None
-    gradient = [_dot(c, at.residuals) for c in columns]
-    # A component whose descent direction leads over its bound stays on the bound.
-    stopped = [
-        (p <= a and g > 0) or (p >= b and g < 0)
-        for p, a, b, g in zip(at.pose, search.low, search.high, gradient, strict=True)
-    ]
-    free = [i for i in range(5) if not stopped[i]]
-    normal = [[_dot(columns[i], columns[k]) for k in free] for i in free]
-    damping = at.damping
-    for _ in range(DAMPINGS):
-        step = dict(zip(free, damped_step(normal, [gradient[i] for i in free], damping), strict=True))
-        moved = tuple(p - search.scale[i] * step.get(i, 0.0) for i, p in enumerate(at.pose))
-        later = _within(moved, search.low, search.high)
-        found, value = search.cost(later)
-        if value < at.cost:
-            return _Found(later, found, value, max(damping * 0.1, 1e-12))
-        damping *= 10.0
-    return at._replace(damping=damping)
-
-
-def _within(pose: Sequence[float], low: Sequence[float], high: Sequence[float]) -> Pose:
-    x, y, z, yaw, pitch = (min(max(p, a), b) for p, a, b in zip(pose, low, high, strict=True))
-    return (x, y, z, yaw, pitch)
+    return least_cost_pose(PoseCost(cost, low, high, (reach, reach, reach, 1.0, 1.0)), start)
 
 
 def _residuals(
@@ -391,16 +312,6 @@ def _off_view(wanted: Wanted, offset: Vec3) -> Residuals:
     if elevation is not None:
         return [atan2(-offset[2], level) - elevation]
     return []
-
-
-def _moved(pose: Pose, i: int, step: float) -> Pose:
-    values = list(pose)
-    values[i] += step
-    return tuple(values)  # type: ignore[return-value]
-
-
-def _dot(a: Residuals, b: Residuals) -> float:
-    return float(sum(map(mul, a, b)))
 
 
 def _times(a: Vec3, factor: float) -> Vec3:

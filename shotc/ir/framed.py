@@ -19,11 +19,11 @@ from math import atan2, cos, dist, hypot, inf, pi, sin
 from typing import NamedTuple
 
 from shotc.geom.camera import aim_at
+from shotc.geom.pose_search import Pose
 from shotc.geom.vec import Vec2, Vec3, minus, plus
 from shotc.geom.viewpoint import (
     WHOLE_SIZE,
     Lens,
-    Pose,
     Since,
     Wanted,
     first_pose,

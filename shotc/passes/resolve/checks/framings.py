@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
+from shotc.geom.pose_search import Pose
 from shotc.geom.vec import wrapped
-from shotc.geom.viewpoint import Appearance, Pose, Wanted, direction, judged, nearest, size_from
+from shotc.geom.viewpoint import Appearance, Wanted, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
 from shotc.ir.framed import StartedFraming, course_of
 from shotc.ir.framed_scene import lens_of, wanted_at

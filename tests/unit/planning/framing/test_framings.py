@@ -2,61 +2,29 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, hypot, pi, radians
+from math import atan2, degrees, hypot
 
 import numpy as np
 import pytest
-from hypothesis import Phase, assume, example, given, settings
-from hypothesis import strategies as st
 
 from shotc.checking import check_source
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.viewpoint import judged, viewpoint
+from shotc.geom.viewpoint import viewpoint
 from shotc.ir.framed import at_start, course_of
-from shotc.ir.framed_scene import lens_of, wanted_at
 from shotc.ir.hidden import hides
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.sampling import seen
-from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
 from tests.support.compiled import compiled_text
 from tests.support.few import few
+from tests.support.framing_missions import claim, planned, text
 from tests.support.front_passes import clean, placed
 from tests.support.remedies.apply import remedies
 
 pytestmark = pytest.mark.slow
-
-MISSION = """\
-shotc: 1
-mission: faces
-{world}targets:
-  runner:
-    {{track: {{points: [[0, 0, 0.9], [60, 0, 0.9], [90, 30, 0.9]], speed: 3 m/s}}, radius: 0.4, height: 1.8}}
-  rider:
-    {{track: {{points: [[0, 3, 1], [60, 3, 1], [90, 33, 1]], speed: 3 m/s}}, radius: 0.6, height: 2}}
-  tower: {{at: [30, 60, 12], radius: 4, height: 24}}
-drones:
-  cam1: {{model: x500, home: [45, -20, 0]}}
-shots:
-  - {{id: s, kind: framing, drone: cam1, timing: {{start: 15, duration: 8}}, {require}subjects: [{subjects}]}}
-"""
-
-
-def text(*subjects: str, world: str = "", require: str = "") -> str:
-    return MISSION.format(subjects=", ".join(f"{{{s}}}" for s in subjects), world=world, require=require)
-
-
-def planned(mission: str) -> VerifiedIR:
-    done = compiled_text(mission, "none", "m.yaml")
-    assert done.plan is not None, done.diagnostics
-    return done.plan
-
-
-def claim(plan: VerifiedIR, name: str) -> float:
-    return next(c.worst for c in plan.certificate if c.constraint == name)
 
 
 def told(mission: str) -> list[Diagnostic]:
@@ -230,9 +198,10 @@ def test_a_shot_without_a_start_is_framed_for_the_time_at_which_it_begins() -> N
 
 
 def test_a_course_is_as_fast_as_its_drone_at_most_and_smooth() -> None:
-    mission = MISSION.format(
-        subjects="{target: runner, frame: [-0.3, 0]}, {target: rider, frame: [0.3, 0]}", world="", require=""
-    ).replace("[[0, 3, 1], [60, 3, 1], [90, 33, 1]], speed: 3", "[[90, 3, 1], [0, 3, 1]], speed: 3")
+    subjects = ("target: runner, frame: [-0.3, 0]", "target: rider, frame: [0.3, 0]")
+    mission = text(*subjects).replace(
+        "[[0, 3, 1], [60, 3, 1], [90, 33, 1]], speed: 3", "[[90, 3, 1], [0, 3, 1]], speed: 3"
+    )
     ir, _ = placed(mission)
     assert ir is not None
     course = course_of(ir.mission, ir.mission.shots[0], 15.0)
@@ -287,7 +256,7 @@ def test_what_depends_on_a_start_that_is_not_known_is_no_error_yet() -> None:
     mission = text("target: runner, size: 0.3", "target: rider, size: 0.4")
     mission = mission.replace("[60, 3, 1]", "[60, 80, 1]").replace("[0, 3, 1]", "[0, 80, 1]")
     found = only(mission.replace("start: 15, ", ""), "M034")
-    assert found.notes[-1].startswith("so it is where the shot begins at 0.0 s")
+    assert found.notes[-1].startswith("this assumes that the shot begins at 0.0 s")
 
 
 def test_a_framing_says_how_long_it_lasts() -> None:
@@ -361,44 +330,3 @@ shots:
 def test_check_knows_all_of_it_without_a_solver() -> None:
     report = check_source(text("target: runner, size: 0.3", "target: rider").encode(), "m.yaml", None)
     assert not has_errors(report.diagnostics)
-
-
-@pytest.mark.long
-@settings(deadline=None, max_examples=3, phases=(Phase.explicit, Phase.generate))
-@given(
-    size=st.floats(0.12, 0.45),
-    azimuth=st.floats(0, 2 * pi),
-    elevation=st.floats(0.15, 1.0),
-    uv=st.tuples(st.floats(-0.35, 0.35), st.floats(-0.3, 0.3)),
-    direction=st.floats(0, 2 * pi),
-    speed=st.floats(0.3, 3.0),
-)
-# Its subject passes where the drone would wait for it.
-@example(size=0.4416, azimuth=0.0, elevation=0.356, uv=(0.15, 0.0), direction=4.8804, speed=2.5)
-def test_any_framing_that_can_be_had_is_flown(size, azimuth, elevation, uv, direction, speed) -> None:
-    x, y = 300 * np.cos(direction), 300 * np.sin(direction)
-    subject = (
-        f"target: runner, size: {size:.3f}, frame: [{uv[0]:.3f}, {uv[1]:.3f}], "
-        f"view: {{azimuth: {degrees(azimuth):.1f} deg, elevation: {degrees(elevation):.1f} deg}}"
-    )
-    mission = text(subject).replace(
-        "[[0, 0, 0.9], [60, 0, 0.9], [90, 30, 0.9]], speed: 3 m/s",
-        f"[[0, 0, 0.9], [{x:.1f}, {y:.1f}, 0.9]], speed: {speed:.2f} m/s",
-    )
-    alone = [line for line in mission.splitlines() if not any(w in line for w in ("rider", "33, 1", "tower"))]
-    mission = "\n".join(alone)
-    ir, found = placed(mission)
-    assume(ir is not None and not found)
-    assert ir is not None
-    shot, lens = ir.mission.shots[0], lens_of(ir.mission.drones[0])
-    for t, pose in zip(*course_of(ir.mission, shot, 15.0)[1:3], strict=True):
-        look = judged(pose, lens, wanted_at(ir.mission, shot.subjects[0], 15.0, t))
-        assert look is not None
-        assert look.size == pytest.approx(size, abs=6e-4)
-        assert look.screen < 1e-6
-        assert look.angle < radians(0.06)
-    plan = planned(mission.replace("start: 15, ", ""))
-    assert claim(plan, "runner in frame") == 1.0
-    assert claim(plan, "runner screen error") < 0.05
-    assert claim(plan, "runner size smallest") == pytest.approx(size, rel=0.05)
-    assert claim(plan, "runner size largest") == pytest.approx(size, rel=0.05)
