@@ -85,7 +85,8 @@ def verify(
     --abort-every 1s proves that a show can be aborted at every second: all drones of a fleet brake along
     their common way, fly over their pads, any of them, and land. Each return is proved as the plan is:
     separation, limits, zones, ground and endurance. Cameras that film the show fly on as planned, and each
-    return keeps clear of them. The exit status is 1 if some second has no return.
+    return keeps clear of them. A product that burns by then burns on, at its clearances. The exit status
+    is 1 if some second has no return.
 
     The certificate that is printed has for every claim the limit, the worst value, its time, and how it is
     known. A claim is ok, BROKEN (an error), or missed: a preference that is not reached, which is a warning.

@@ -20,6 +20,7 @@ from shotc.passes.verify.fleets.apart import from_parked, separations
 from shotc.passes.verify.fleets.cameras import from_cameras
 from shotc.passes.verify.fleets.flight import FleetFlight
 from shotc.passes.verify.fleets.motion import motion
+from shotc.passes.verify.fleets.pyro import burning_at, still_burning
 from shotc.passes.verify.fleets.shape import landed
 from shotc.passes.verify.fleets.space import space
 from shotc.show.assignment.home import come_home
@@ -73,7 +74,10 @@ class Homing:
         self._stops = at_rest(flight.coef)
         self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
         self._homeward = next(phase.start for phase in flight.phases if phase.name == "return")
-        self._same = not ir.drones and all(target.track is None for target in mission.targets)
+        # Of several times at one stop the proof is one only if nothing around it moves or burns.
+        burns = any(display.pyro for display in mission.displays if display.fleet == flight.fleet)
+        still = all(target.track is None for target in mission.targets)
+        self._same = still and not burns and not ir.drones
         self._known: dict[tuple[_Way, int], FleetReturn] = {}
 
     def at(self, time: float) -> FleetReturn:
@@ -89,7 +93,8 @@ class Homing:
             if way.holds:
                 return way
             tried.append(way)
-        if self.ir.drones:  # a camera passes, and is gone after a while
+        # A camera passes, and a product burns down, after a while.
+        if self.ir.drones or burning_at(self.ir.keyframes.mission, name, time):
             waited = (self.waiting(way, seconds) for seconds, way in product(WAITS_S, tried))
             return next((way for way in waited if way.holds), tried[0])
         return tried[0]
@@ -187,6 +192,7 @@ class Homing:
             *separations([flight]),
             *from_parked(self.ir, [flight]),
             *from_cameras([flight], self.ir.drones, float(track.breaks[0])),
+            *still_burning(self.ir, flight, float(track.breaks[0])),
             landed(flight),
         )
         return FleetReturn(self.flight.fleet, rest, over, down, track, claims)

@@ -10,6 +10,7 @@ import pytest
 
 from shotc.api import PlanOptions, compile_source, verify_plan
 from shotc.collective import collective_returns
+from shotc.collective.homing import Homing
 from shotc.emit.csv_table import EMITTER
 from shotc.emit.plan_json import EMITTER as PLAN_JSON
 from shotc.geom.bernstein import Array, Piecewise
@@ -127,6 +128,30 @@ def test_a_show_that_is_filmed_is_called_off_clear_of_its_cameras(plan: Verified
     assert len(ways) >= 2
     if not in_the_way:
         assert all(way.holds for way in ways)
+
+
+@pytest.mark.parametrize("duration", [20.0, 40.0])
+def test_a_fleet_that_is_called_off_waits_in_the_air_until_its_products_have_burnt(
+    plan: VerifiedIR, duration: float
+) -> None:
+    ir = plan.trajectory
+    mission = ir.keyframes.mission
+    display = mission.displays[0]
+    cue = replace(display.pyro[0], duration=duration)
+    mission = replace(mission, displays=(replace(display, pyro=(cue,)),))
+    ir = replace(ir, keyframes=replace(ir.keyframes, mission=mission))
+    way = Homing(ir, ir.fleets[0]).at(50.0)
+    assert way.track is not None
+    assert way.holds
+    assert way.over >= cue.end
+    assert (way.waits > 0.0) == (duration == 40.0)
+    claim = next(c for c in way.claims if c.constraint == "pyro 1 fountain from drones of swarm")
+    times = np.arange(50.0, cue.end, 0.01)
+    swarm = places(way.track.breaks, way.track.coef, times)
+    away = [np.linalg.norm(np.delete(swarm, row, axis=0) - swarm[row], axis=2).min() for row in (1, 4)]
+    assert min(away) - 0.05 <= claim.worst <= min(away)
+    before = Homing(ir, ir.fleets[0]).at(46.0)
+    assert not [c for c in before.claims if c.constraint.startswith("pyro")]
 
 
 def test_cameras_stay_out_of_an_airspace_that_holds_every_drone(plan: VerifiedIR) -> None:

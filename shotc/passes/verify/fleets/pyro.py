@@ -5,13 +5,14 @@ the air.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import ProvedExtreme
+from shotc.ir.mission import MissionIR
 from shotc.ir.parked import bodies, parked_fleets
 from shotc.ir.show import Display, PyroCue, rows_of
 from shotc.ir.trajectory import Claim, TrajectoryIR
@@ -26,32 +27,52 @@ PYRO = "pyro "
 def pyro(ir: TrajectoryIR, flights: Sequence[FleetFlight]) -> Iterator[Claim]:
     """Yield claims for every burning product: the distances of all others, the audience and the ground."""
     for flight in flights:
-        for display in (d for d in flight.mission.displays if d.fleet == flight.fleet.name):
-            for index, cue in enumerate(display.pyro):
-                yield from _cue(
-                    ir, flights, _Burning(flight, display, cue, f"{PYRO}{index + 1} {cue.product}")
-                )
+        for product in _products(flight):
+            yield from _cue(ir, flights, product)
+
+
+def still_burning(ir: TrajectoryIR, flight: FleetFlight, called_off: float) -> Iterator[Claim]:
+    """Yield those claims for products that burn when a show is called off; later ones are not lit.
+
+    flight : from that time on, s
+    """
+    for product in _products(flight):
+        if product.cue.ignition < called_off < product.cue.end:
+            yield from _cue(ir, [flight], replace(product, begin=called_off))
+
+
+def burning_at(mission: MissionIR, fleet: str, time: float) -> bool:
+    """Tell whether a product of a fleet burns at a time, s."""
+    cues = (cue for d in mission.displays if d.fleet == fleet for cue in d.pyro)
+    return any(cue.ignition < time < cue.end for cue in cues)
+
+
+def _products(flight: FleetFlight) -> Iterator[_Burning]:
+    for display in (d for d in flight.mission.displays if d.fleet == flight.fleet.name):
+        for index, cue in enumerate(display.pyro):
+            yield _Burning(flight, display, cue, f"{PYRO}{index + 1} {cue.product}", cue.ignition)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Burning:
-    """One product on drones of a fleet, in the air; name : in claims."""
+    """One product on drones of a fleet, in the air; name : in claims; begin : from when it is judged, s."""
 
     flight: FleetFlight
     display: Display
     cue: PyroCue
     name: str
+    begin: float
 
 
 def _cue(ir: TrajectoryIR, flights: Sequence[FleetFlight], burns: _Burning) -> Iterator[Claim]:
     cue, flight = burns.cue, burns.flight
     aloft = flight.free()
     low, high = aloft[0][0], aloft[-1][1]
-    outside = max(low - cue.ignition, cue.end - high, 0.0)
+    outside = max(low - burns.begin, cue.end - high, 0.0)
     path = (*cue.path, "at")
     limit = Limit(f"{burns.name} outside the flight", 0.0, "s", path, shot=burns.display.id)
-    yield held(flight.fleet.name, limit, WorstValue(outside, cue.ignition, "exact"))
-    span = (max(cue.ignition, low), min(cue.end, high))
+    yield held(flight.fleet.name, limit, WorstValue(outside, burns.begin, "exact"))
+    span = (max(burns.begin, low), min(cue.end, high))
     if span[0] >= span[1]:
         return
     worst: dict[str, tuple[ProvedExtreme, str]] = {}

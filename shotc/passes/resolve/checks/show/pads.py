@@ -260,7 +260,7 @@ def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> s
     if obstacle.inside:
         where = f"{room:.2f} m from its border" if room > 0 else f"{-room:.2f} m outside"
     else:
-        where = f"{room:.2f} m away from it" if room > 0 else f"{-room:.2f} m deep in it"
+        where = f"{room:.2f} m away from it" if room > 0 else f"{abs(room):.2f} m deep in it"
     return (
         f"worst is pad {worst + 1} at [{x:.1f}, {y:.1f}]: on its {top:.1f} m up it is {where}; the "
         f"body radius of {fleet.radius:.2f} m must be free"
