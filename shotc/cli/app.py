@@ -1,4 +1,4 @@
-"""The command line: global flags, the commands, and what becomes of every way to end."""
+"""The command line: global flags, the commands, and the exit status of every way to end."""
 
 import errno
 import os
@@ -20,7 +20,7 @@ from shotc.plugins import is_optional, not_installed
 
 
 class _Command(NamedTuple):
-    """Where a command lives, and under which heading the help shows it."""
+    """The module of a command, and its heading in the help."""
 
     place: str
     panel: str
@@ -54,18 +54,18 @@ In three steps:
 """
 _EPILOG = "Exit status: 0 clean, 1 mission rejected, 2 usage, 70 a bug of ours, 130 interrupted."
 _BROKEN_PIPE = 128 + 13
-"""What a shell reports of a command that a closed pipe ended."""
+"""The exit status that a shell gives a command that a closed pipe ended."""
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run one command line and return its exit status; nothing escapes, least of all a traceback."""
+    """Run one command line and return its exit status. It raises no exception."""
     _open_streams()
     try:
         code = _invoke(arguments)
         sys.stdout.flush()
         return code
     except SystemExit as end:
-        # The library turns a closed pipe into an exit of its own.
+        # The library turns a closed pipe into its own exit.
         if isinstance(end.__context__, BrokenPipeError):
             return _pipe_closed()
         return end.code if isinstance(end.code, int) else console.EXIT_BUG
@@ -75,12 +75,12 @@ def run(arguments: Sequence[str]) -> int:
         return _no_output(error)
     except ModuleNotFoundError as missing:
         return _not_installed(missing)
-    except Exception as bug:  # noqa: BLE001  the last resort: whatever it is, it is ours
+    except Exception as bug:  # noqa: BLE001  any other exception is a bug of shotc
         return _bug(bug)
 
 
 def application(names: Sequence[str] = tuple(COMMANDS)) -> typer.Typer:
-    """Return the application with the commands of these names: one command loads no other's modules."""
+    """Return the application with only these commands, so that it does not load the modules of others."""
     app = typer.Typer(
         name="shotc",
         help=_HELP,
@@ -117,7 +117,7 @@ def _global_flags(
 ) -> None:
     console.configure(color, quiet=quiet)
     if ctx.invoked_subcommand is None:
-        with redirect_stdout(sys.stderr):  # asked for nothing, it is a message and no result
+        with redirect_stdout(sys.stderr):  # without a command, the help is a message, not a result
             ctx.get_help()
         raise typer.Exit(console.EXIT_USAGE)
 
@@ -132,7 +132,9 @@ def _invoke(arguments: Sequence[str]) -> int:
 
 
 def _needed(words: Sequence[str]) -> Sequence[str]:
-    """Return the commands that a command line needs: the one it names, or all, to list or complete them."""
+    """Return the commands that a command line needs: the one that it names, or all to list or complete
+    them.
+    """
     if not words or "_SHOTC_COMPLETE" in os.environ:
         return tuple(COMMANDS)
     if words[0] == "--version":
@@ -141,7 +143,7 @@ def _needed(words: Sequence[str]) -> Sequence[str]:
 
 
 def _split_flags(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Tell the global flags, which may stand anywhere before ``--``, from the other words."""
+    """Separate the global flags, which may be anywhere before ``--``, from the other words."""
     flags: list[str] = []
     others: list[str] = []
     words = iter(arguments)
@@ -170,8 +172,8 @@ def _interrupted() -> int:
 
 
 def _pipe_closed() -> int:
-    """Leave nothing for the interpreter to flush into a pipe that nobody reads."""
-    with suppress(OSError, ValueError):  # a stream that is no file has nothing to flush
+    """Redirect standard output to the null device, so that the interpreter's flush at exit does not fail."""
+    with suppress(OSError, ValueError):  # a stream without a file descriptor has nothing to flush
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return _BROKEN_PIPE
 
@@ -185,7 +187,7 @@ def _not_installed(missing: ModuleNotFoundError) -> int:
 
 
 def _no_output(error: OSError) -> int:
-    """End a command whose output cannot be written; any other failure of the system is a bug."""
+    """End a command whose output cannot be written. Any other OSError is a bug."""
     if isinstance(error, BrokenPipeError):
         return _pipe_closed()
     if error.errno not in (errno.ENOSPC, errno.EIO, errno.EBADF):
@@ -196,7 +198,7 @@ def _no_output(error: OSError) -> int:
 
 
 def _bug(bug: BaseException) -> int:
-    """Report our own failure as a diagnostic; the traceback is for those who ask for it."""
+    """Report an internal error as a diagnostic. The traceback is only shown on request."""
     frames = traceback.extract_tb(bug.__traceback__)
     where = f"{frames[-1].name} at line {frames[-1].lineno} of {frames[-1].filename}" if frames else "unknown"
     diagnostic = Diagnostic(
@@ -216,7 +218,7 @@ def _bug(bug: BaseException) -> int:
 
 
 def _open_streams() -> None:
-    """Give a process that was started without output streams somewhere to write."""
+    """Open the null device for a process that was started without output streams."""
     if sys.stdout is None:
         sys.stdout = open(os.devnull, "w")  # noqa: PTH123, SIM115  lives as long as the process
     if sys.stderr is None:

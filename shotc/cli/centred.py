@@ -1,4 +1,4 @@
-"""Shots that a composition of several places leaves in the centre: why, and what puts them on a third."""
+"""Notes about shots whose composition has several places but keeps the target in the centre."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ CENTRE = (0.0, 0.0)
 
 
 def centred(ir: KeyframeIR) -> list[str]:
-    """Return a line for every composition that has other places, and whose targets are all in the centre."""
+    """Return a line for each composition that has other places but keeps all targets of a shot in the centre.
+
+    The line also names the composition that puts the target on a third.
+    """
     shots: dict[str, list[str]] = {}
     for placed in ir.shots:
         name = _all_in_the_centre(placed)
@@ -23,7 +26,9 @@ def centred(ir: KeyframeIR) -> list[str]:
 
 
 def _all_in_the_centre(placed: PlacedShot) -> str | None:
-    """Return the composition of a shot whose targets are all centred and need not be, or None."""
+    """Return the composition of a shot if it allows other places but all its targets are centred, else
+    None.
+    """
     places = [
         *((k.composition, p.reference) for k, p in zip(placed.shot.keyframes, placed.keyframes, strict=True)),
         *((s.composition, p.reference) for s, p in zip(placed.shot.subjects, placed.subjects, strict=True)),

@@ -65,7 +65,7 @@ def _check_all(gathered: Gathered) -> tuple[list[Diagnostic], dict[str, SourceFi
 
 
 def _print(diagnostics: Sequence[Diagnostic], sources: Mapping[str, SourceFile], chosen: str) -> None:
-    """Print findings to standard output; JSON and SARIF print their document without findings, too."""
+    """Print findings to standard output. JSON and SARIF print their document even without findings."""
     if chosen == "text":
         console.report(diagnostics, sources, sys.stdout)
         return

@@ -107,7 +107,7 @@ def compare(
 
 
 def _smoothings(text: str | None) -> tuple[float | None, ...]:
-    """Return the smoothings that are named, seconds; the mission's own where none is."""
+    """Return the smoothings in ``text``, seconds; ``(None,)``, the mission's own, if there is no text."""
     names = listed(text)
     if names is None:
         return (None,)
@@ -133,7 +133,7 @@ def _smoothing(name: str) -> float:
 
 
 def _shown(done: Report) -> Comparison:
-    """Return a comparison in which there is a plan to show; where there is none, say why and exit."""
+    """Return the comparison if it has a plan to show; otherwise report why not, and exit."""
     comparison = done.comparison
     if comparison is not None and any(each.plan is not None for each in comparison.conditions):
         return comparison

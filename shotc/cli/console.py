@@ -1,7 +1,7 @@
-"""What every command shares: exit codes, colour, where text goes, tables, progress, names of options.
+"""Functions that all commands share: exit codes, colour, output streams, tables, progress, option names.
 
-Results go to standard output, messages to standard error. ``configure`` is called once, by the
-application's callback; commands only call ``out``, ``note``, ``report`` and ``exit_code``.
+Results go to standard output, messages to standard error. The application's callback calls ``configure``
+once; commands only call ``out``, ``note``, ``report`` and ``exit_code``.
 """
 
 from __future__ import annotations
@@ -49,13 +49,13 @@ _settings = _Settings()
 
 
 def configure(color: Color = Color.AUTO, *, quiet: bool = False) -> None:
-    """Keep the global flags for the rest of this process."""
+    """Store the global flags for the rest of this process."""
     _settings.color = color
     _settings.quiet = quiet
 
 
 def is_quiet() -> bool:
-    """Return whether the user asked for findings and results only."""
+    """Return whether only findings and results are printed (``--quiet``)."""
     return _settings.quiet
 
 
@@ -84,7 +84,7 @@ def note(text: str) -> None:
 
 
 def complain(text: str) -> None:
-    """Write to standard error what even a quiet run has to hear."""
+    """Write a message to standard error, even if the run is quiet."""
     _write(sys.stderr, text)
 
 
@@ -93,7 +93,7 @@ def report(
 ) -> None:
     """Print diagnostics as text, with a summary line, to ``stream`` (standard error when not given).
 
-    A quiet run still shows errors, and keeps warnings to itself.
+    A quiet run shows errors, but no warnings.
     """
     stream = stream or sys.stderr
     shown = [d for d in diagnostics if not _settings.quiet or severity_of(d) is Severity.ERROR]
@@ -104,19 +104,19 @@ def report(
 
 
 def exit_code(diagnostics: Iterable[Diagnostic]) -> int:
-    """Return 1 where a diagnostic rejects the mission, else 0: a warning never changes the exit status."""
+    """Return 1 if a diagnostic rejects the mission, else 0: a warning never changes the exit status."""
     return EXIT_REJECTED if has_errors(diagnostics) else EXIT_CLEAN
 
 
 def stderr_console() -> Console:
-    """Return a rich console on standard error for progress; it stays silent off a terminal."""
+    """Return a rich console on standard error for progress. It prints nothing if that is not a terminal."""
     from rich.console import Console
 
     return Console(stderr=True, quiet=_settings.quiet, no_color=not colored(sys.stderr), highlight=False)
 
 
 def _write(stream: TextIO, text: str) -> None:
-    """Write ``text`` with one line end; characters the stream cannot encode become escapes."""
+    """Write ``text`` with one line end. Characters that the stream cannot encode become escapes."""
     line = text if text.endswith("\n") else text + "\n"
     try:
         stream.write(line)
@@ -126,13 +126,13 @@ def _write(stream: TextIO, text: str) -> None:
 
 
 def table(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Set rows in columns two spaces apart."""
+    """Return rows as lines of text, with two spaces between columns."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
 
 
 class Progress:
-    """Show what is running on a terminal; say nothing elsewhere."""
+    """Show the running step on a terminal; print nothing elsewhere."""
 
     def __init__(self) -> None:
         self._status: Any = None
@@ -154,14 +154,14 @@ class Progress:
 
 
 def listed(names: str | None) -> list[str] | None:
-    """Return the names of a list with commas, each once; None where there is no list."""
+    """Return the names of a comma-separated list, each once; None if there is no list."""
     if names is None:
         return None
     return list(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
 
 
 def known(option: str, name: str | None, names: list[str]) -> None:
-    """Reject an unknown name as a usage error with the nearest known one."""
+    """Raise a usage error if ``name`` is unknown; the message gives the nearest known name."""
     if name is None or name in names:
         return
     near = get_close_matches(name, names, 1)

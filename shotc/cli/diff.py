@@ -1,4 +1,4 @@
-"""``shotc diff``: what two plans differ in."""
+"""``shotc diff``: show the differences of two plans."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the fo
 New = Annotated[Path, typer.Argument(metavar="NEW", help="The plan to compare it with.")]
 
 CENTIMETRE = 0.01
-"""Two flights nearer than this are called the same; metres."""
+"""Two flights that are nearer than this count as equal; metres."""
 
 
 def diff(old: Old, new: New) -> None:
@@ -67,7 +67,7 @@ def _seconds(pair: tuple[float | None, float | None]) -> str:
 
 
 def _claim(old: Claim | None, new: Claim | None) -> tuple[str, ...] | None:
-    """Return a row, or None where two claims read the same."""
+    """Return a row, or None if the two claims have the same text."""
     either = new or old
     assert either is not None
     name = f"{either.subject}: {either.constraint}" + (f" ({either.shot})" if either.shot else "")

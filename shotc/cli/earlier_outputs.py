@@ -1,4 +1,4 @@
-"""Notes about what an earlier run left in a folder: it could be flown for this mission."""
+"""Notes about outputs of an earlier run in a folder: somebody could fly them by mistake."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from shotc.output import earlier, left_over
 
 
 def warn_of_earlier(folder: Path) -> None:
-    """Say that a folder holds what an earlier run wrote, and not this one."""
+    """Print a note if a folder holds outputs of an earlier run. Call it after a run that wrote none."""
     files = earlier(folder)
     if files is None:
         return
@@ -21,7 +21,7 @@ def warn_of_earlier(folder: Path) -> None:
 
 
 def tell_left_over(folder: Path, written: set[str]) -> None:
-    """Name the outputs of an earlier run that this one has not replaced: they are not of this plan."""
+    """Print the names of earlier outputs that this run has not replaced: they do not belong to this plan."""
     left = left_over(folder, written)
     if left:
         names = ", ".join(left)

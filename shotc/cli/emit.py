@@ -1,4 +1,4 @@
-"""``shotc emit``: make output files from a plan that is already there."""
+"""``shotc emit``: write output files of an existing plan."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""``shotc explain``: what a diagnostic code means, with a mission that raises it and one that does not."""
+"""``shotc explain``: print what a diagnostic code means, with a mission that raises it and one that does
+not.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,7 @@ def explain(code: Code = None) -> None:
 
 
 def _find(wanted: str, table: Mapping[str, CodeInfo]) -> CodeInfo:
-    """Return the code of this name or slug; an unknown one is a usage error with the nearest."""
+    """Return the code with this name or slug. For an unknown one, raise a usage error with the nearest."""
     by_name = {code.lower(): info for code, info in table.items()}
     by_name |= {info.slug: info for info in table.values()}
     if info := by_name.get(wanted.strip().lower()):
@@ -57,7 +59,7 @@ def _page(info: CodeInfo) -> str:
 
 
 def _mended(failing: str, passing: str) -> list[str]:
-    """Return how a mission is mended: by the lines that change, or whole where most of it does."""
+    """Return the corrected mission: only the lines that change, or all of it if most lines change."""
     before, after = failing.rstrip().splitlines(), passing.rstrip().splitlines()
     lines = list(unified_diff(before, after, n=0, lineterm=""))[2:]
     changed = [f"    {line[0]} {line[1:]}" for line in lines if not line.startswith("@@")]

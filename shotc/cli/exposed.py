@@ -1,4 +1,4 @@
-"""What the summary of a plan tells of lenses, focus and shutter."""
+"""Facts about lenses, focus and shutter in the summary of a plan."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from shotc.rounding import at_least, exposure
 
 
 def exposed(plan: VerifiedIR) -> Iterator[tuple[str, str]]:
-    """Yield a name and a text: lenses that nobody knows, how sharp subjects are at worst, and where."""
+    """Yield (name, text) pairs: unknown lenses, the worst sharpness and motion blur of subjects, and
+    where.
+    """
     yield from (("lens", text) for text in _unknown_lenses(plan.trajectory.keyframes.mission))
     for track in plan.trajectory.drones:
         drone = plan.trajectory.keyframes.mission.drone(track.drone)
@@ -43,7 +45,7 @@ def _lens(drone: Drone) -> str:
 
 
 def _discs(claim: Claim) -> str:
-    """Return how large points are shown at most, and that all is sharp if it is."""
+    """Return the largest size of a point in the picture, and whether all subjects are sharp."""
     sharp = "all subjects sharp, " if claim.holds else ""
     largest = _value(claim, "mm", 3, DISC)
     return f"{sharp}points shown as discs of up to {largest}; {claim.limit:.3g} mm are sharp"
@@ -59,7 +61,7 @@ def _worst(claims: list[Claim], ending: str) -> Claim | None:
 
 
 def _unknown_lenses(mission: MissionIR) -> list[str]:
-    """Tell which drones are to zoom with a camera that is not said to have a zoom."""
+    """Return a text for each drone that has to zoom, but whose mission does not give its camera a zoom."""
     texts = []
     for drone in mission.drones:
         shots = (shot for shot in mission.shots if shot.drone == drone.name)

@@ -1,4 +1,4 @@
-"""Options of `shotc simulate` that say under which conditions it flies."""
+"""Options of `shotc simulate` for the conditions of the simulated flights."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def stretches(lost: Sequence[str]) -> tuple[tuple[float, float], ...]:
-    """Return stretches of time that are written FROM:TO, seconds."""
+    """Return the time intervals of options written FROM:TO, seconds."""
     return tuple(_stretch(each) for each in lost)
 
 
@@ -42,7 +42,7 @@ def _stretch(text: str) -> tuple[float, float]:
 def true_tracks(
     mission: MissionIR, sources: dict[str, SourceFile], written: Sequence[str]
 ) -> tuple[tuple[str, Track], ...]:
-    """Return the tracks of options written TARGET=FILE; where a file cannot be read, say why and exit."""
+    """Return the tracks of options written TARGET=FILE. If a file cannot be read, report why and exit."""
     return tuple(_true_track(mission, sources, each) for each in written)
 
 

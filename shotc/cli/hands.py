@@ -1,4 +1,4 @@
-"""Options of commands whose work is done side by side, and what keeps it from being done."""
+"""Options of commands that work in parallel, and diagnostics for failures of that."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Workers = Annotated[
 
 
 def no_cluster(workers: str | None) -> tuple[Diagnostic, ...]:
-    """Say that a cluster was asked for, and that what speaks to it is not installed."""
+    """Return the diagnostic of a cluster that cannot be used because `distributed` is not installed."""
     if workers is None or find_spec("distributed") is not None:
         return ()
     return (plugins.not_installed("P004", "`--workers`", ["distributed"]),)
@@ -29,7 +29,7 @@ def no_cluster(workers: str | None) -> tuple[Diagnostic, ...]:
 
 @contextmanager
 def at_work() -> Iterator[None]:
-    """Where no cluster answers, or a process is lost, say so and exit."""
+    """Run the body. If no cluster answers or a process is lost, report it and exit."""
     try:
         yield
     except NoCluster as error:

@@ -1,4 +1,4 @@
-"""``shotc identify``: find the targets that keyframes mean in the mission's scene."""
+"""``shotc identify``: find the targets in the mission's scene that keyframes refer to."""
 
 from __future__ import annotations
 
@@ -91,13 +91,13 @@ def identify(
 
 
 def _beside(spec: str, name: str) -> Path:
-    """Return where a mission goes for which no place is said."""
+    """Return the path for a mission if the command line gives none."""
     path = Path("mission.yaml") if spec == STDIN else Path(name)
     return path.with_name(f"{path.stem}-identified{path.suffix}")
 
 
 def _seat(name: str) -> plugins.Source:
-    """Return who guesses; where that cannot be loaded, say so and exit."""
+    """Return the plugin that guesses boxes. If it cannot be loaded, report why and exit."""
     source = plugins.one("saliency", name)
     if source.plugin is None:
         console.report(source.diagnostics, {})
@@ -106,7 +106,7 @@ def _seat(name: str) -> plugins.Source:
 
 
 def _rows(done: Identification) -> list[tuple[str, ...]]:
-    """Return the table of what was found, a line a target."""
+    """Return the table of the targets that were found, one row per target."""
     rows: list[tuple[str, ...]] = [("target", "where", "sure", "keyframes")]
     for target in done.targets:
         shares = ", ".join(f"{100 * share:.0f} %" for share in target.shares)

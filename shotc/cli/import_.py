@@ -1,4 +1,4 @@
-"""``shotc import``: start a mission from one of another tool."""
+"""``shotc import``: make a mission from a file of another tool."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def _import_show(file: str, output: Path | None, *, strict: bool) -> None:
 
 
 def _inside(file: Path, folder: Path) -> str | None:
-    """Return the name of a file as a mission in a folder has it, None where it is outside."""
+    """Return the path of a file relative to the folder of a mission, None if the file is outside of it."""
     try:
         return file.resolve().relative_to(folder.resolve()).as_posix()
     except (ValueError, OSError, RuntimeError):
@@ -144,7 +144,10 @@ def _inside(file: Path, folder: Path) -> str | None:
 
 
 def _accepted(made: Imported, file: str, kept: KeptFiles | None) -> str:
-    """Return the text of a mission that check accepts; kept : the files that it names."""
+    """Return the text of a mission that `check` accepts.
+
+    kept : the files that the mission names
+    """
     from shotc.checking import check_source
 
     console.report(made.diagnostics, made.sources)
@@ -162,7 +165,7 @@ def _accepted(made: Imported, file: str, kept: KeptFiles | None) -> str:
 
 
 def _read(file: str, most: int) -> bytes:
-    """Return the bytes of a file, or a little more of it than an importer reads."""
+    """Return the bytes of a file, but at most a little more than an importer reads."""
     try:
         if file == STDIN:
             return sys.stdin.buffer.read(most + 1) if sys.stdin else b""

@@ -1,4 +1,4 @@
-"""Mission texts that a command is given: files, folders of missions, and standard input."""
+"""Read the mission texts that a command line names: files, folders of missions, and standard input."""
 
 import os
 import re
@@ -23,7 +23,7 @@ _MISSION = rb"""(?m)^(?:\xef\xbb\xbf)?(?:\s*\{\s*)?["']?shotc["']?[ \t]*:"""
 
 
 class MissionText(NamedTuple):
-    """The bytes of one mission, the name to show it under, and the folder of the files it names."""
+    """The bytes of one mission, its name for messages, and the folder of the files that it names."""
 
     data: bytes
     name: str
@@ -31,7 +31,9 @@ class MissionText(NamedTuple):
 
 
 class Gathered:
-    """Missions to check, what could not be read, and the YAML files passed over as no missions."""
+    """Missions to check, diagnostics of unreadable files, and YAML files skipped because they are no
+    missions.
+    """
 
     def __init__(self) -> None:
         self.missions: list[MissionText] = []
@@ -39,7 +41,7 @@ class Gathered:
         self.skipped = 0
 
     def passed_over(self) -> str:
-        """Return the end of a sentence that says how many YAML files are no missions; empty without one."""
+        """Return the end of a sentence with the number of skipped YAML files; empty if there are none."""
         if not self.skipped:
             return ""
         files = "file" if self.skipped == 1 else "files"
@@ -47,7 +49,7 @@ class Gathered:
 
 
 def read_mission(spec: str, stdin_name: str | None = None) -> MissionText:
-    """Return the one mission a command is given; where it cannot be read, say so and exit."""
+    """Return the mission that ``spec`` names. If it cannot be read, report why and exit."""
     text = _read(spec, stdin_name)
     if isinstance(text, MissionText):
         return text
@@ -56,7 +58,7 @@ def read_mission(spec: str, stdin_name: str | None = None) -> MissionText:
 
 
 def gather(specs: Sequence[str], stdin_name: str | None = None) -> Gathered:
-    """Read every mission that ``specs`` names, each once: files, folders with all below them, and ``-``."""
+    """Read every mission that ``specs`` names, each once: files, folders with their subfolders, and ``-``."""
     gathered = Gathered()
     seen: set[str] = set()
     for spec in specs:
@@ -71,7 +73,7 @@ def is_folder(spec: str) -> bool:
     """Return whether an argument names a folder."""
     try:
         return Path(spec).is_dir()
-    except OSError:  # a name that is too long; reading the file will say so
+    except OSError:  # the name is too long; reading the file reports it
         return False
 
 
@@ -92,9 +94,9 @@ def _gather_folder(folder: Path, gathered: Gathered, seen: set[str]) -> None:
 
 
 def _yaml_files(folder: Path, errors: list[OSError]) -> Iterator[Path]:
-    """Yield the YAML files in and below a folder in order of name; hidden folders are left out.
+    """Yield the YAML files in a folder and its subfolders, sorted by name, without hidden folders.
 
-    errors : grows by what keeps a folder from being read
+    errors : receives the errors of folders that cannot be read
     """
     for parent, folders, files in os.walk(folder, onerror=errors.append):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
@@ -146,7 +148,9 @@ def _unreadable(what: str, name: str, error: OSError) -> Diagnostic:
 
 
 def _bounded(stream: BinaryIO) -> bytes:
-    """Read one byte more than a mission may have, so that the reader of texts can tell."""
+    """Read one byte more than a mission may have, so that the YAML reader can report a text that is too
+    long.
+    """
     return stream.read(MAX_BYTES + 1)
 
 

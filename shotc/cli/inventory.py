@@ -1,4 +1,4 @@
-"""``shotc list``: what a mission can name."""
+"""``shotc list``: list the names that a mission can use."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _rows(group: Group) -> list[tuple[str, ...]]:
 
 
 def _plugins(group: Group) -> list[tuple[str, ...]]:
-    """List a plugin group; a plugin of another package bears that package's name."""
+    """List a plugin group. A plugin of another package is shown with that package's name."""
     discovery = discover(group)
     if discovery.diagnostics:
         console.report(discovery.diagnostics, {})
@@ -86,14 +86,14 @@ def _plugins(group: Group) -> list[tuple[str, ...]]:
 
 
 def _remark(plugin: Any, package: str) -> str:
-    """Return where a plugin comes from, if not from here, and whether its missions are only checked."""
-    # Emitters and refiners have no such thing as being planned.
+    """Return the package of a plugin, if it is not shotc, and whether its missions can only be checked."""
+    # Emitters and refiners do not have the attribute `planned`.
     later = "" if getattr(plugin, "planned", True) else " (checked, not planned yet)"
     return later + ("" if package == "shotc" else f" [{package}]")
 
 
 def _drones() -> list[tuple[str, ...]]:
-    """Tell what drones may do, in the units that missions are mostly written in."""
+    """List the limits of the drones, in the units that missions mostly use."""
     return [
         DRONE_HEADING,
         *(

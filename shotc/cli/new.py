@@ -49,7 +49,7 @@ def new(template: Template = None, output: OutputFile = None, force: Force = Fal
 
 
 def _save(data: bytes, path: Path, *, force: bool) -> None:
-    """Write a new file, and say what to do with it; an existing one is left alone unless forced."""
+    """Write a new file and print the next step. Do not overwrite a file unless ``force`` is set."""
     if path.exists() and not force:
         raise typer.BadParameter(f"`{path}` exists; add --force to replace it", param_hint="--output")
     _, faults = write([Artifact(path.name, data)], path.parent)
@@ -68,7 +68,7 @@ def _templates() -> Mapping[str, bytes]:
 
 
 def _listing(templates: Mapping[str, bytes]) -> str:
-    """List the templates, each with its first comment."""
+    """Return the list of templates, each with its first comment."""
     width = max(map(len, templates), default=0)
     return "\n".join(f"{name:<{width}}  {_summary(data)}".rstrip() for name, data in templates.items())
 

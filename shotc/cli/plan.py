@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def _positive(seconds: float | None) -> float | None:
-    """Accept a time that ends some day."""
+    """Return a time that is positive and finite; raise a usage error for any other."""
     if seconds is not None and not 0 < seconds < inf:
         raise typer.BadParameter(f"{seconds:g} is no time that a refiner can be given")
     return seconds
@@ -170,7 +170,7 @@ def _finish(
     hands: EmitterPool,
     progress: Callable[[str], None],
 ) -> int:
-    """Emit and write a plan, report everything, and return the exit status."""
+    """Emit and write a plan, report all diagnostics, and return the exit status."""
     folder = output or Path("out") / (file_name(done.mission) if done.mission else "")
     if done.plan is None:
         console.report(done.diagnostics, done.sources)

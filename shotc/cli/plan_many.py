@@ -1,4 +1,4 @@
-"""``shotc plan`` of a folder: its missions side by side, a row for each, and none planned twice."""
+"""``shotc plan`` of a folder: plan its missions in parallel, print a row for each, and plan none twice."""
 
 from __future__ import annotations
 
@@ -37,9 +37,10 @@ def plan_many(
     output: Path | None,
     hands: Hands | None,
 ) -> int:
-    """Plan missions side by side, write their files, report all, and return the exit status.
+    """Plan missions in parallel, write their files, report all diagnostics, and return the exit status.
 
-    output : folder of the folders of all missions, None for ``out``; hands : None for all cores
+    output : parent of the folders of all missions, None for ``out``
+    hands  : number of processes or address of a cluster, None for all cores
     """
     root = output or Path("out")
     clashes, sources = _clashes(gathered.missions)
@@ -63,7 +64,7 @@ def plan_many(
 
 
 class _Batch:
-    """Missions as they are done: their files are written, and told in the order of the missions."""
+    """Writes the files of each mission when it is done, and reports the missions in their order."""
 
     def __init__(self, jobs: list[Job], root: Path) -> None:
         self.jobs = {job.name: job for job in jobs}
@@ -78,7 +79,7 @@ class _Batch:
         self._due = deque(job.name for job in self.left)
 
     def take(self, made: Planned) -> None:
-        """Write the files of a mission, keep that it is done, and tell what is due."""
+        """Write the files of a mission, record that it is done, and report all missions whose turn it is."""
         name, folder = made.outcome.name, folder_of(made.outcome, self.root)
         if made.artifacts:
             made = _written(made, folder)
@@ -94,7 +95,7 @@ class _Batch:
 
 
 def _written(made: Planned, folder: Path) -> Planned:
-    """Write the files of a mission; return it with what kept them from being written."""
+    """Write the files of a mission. Return it with the errors of files that could not be written."""
     paths, faults = write(made.artifacts, folder)
     if paths:
         tell_left_over(folder, {path.name for path in paths})
@@ -123,7 +124,7 @@ def _row(batch: _Batch, outcome: MissionOutcome) -> tuple[str, ...]:
 
 
 def _clashes(missions: Sequence[MissionText]) -> tuple[list[Diagnostic], dict[str, SourceFile]]:
-    """Say which missions have one name: their files would be written into one folder."""
+    """Return the diagnostics of missions with the same name: they would share an output folder."""
     kinds = plugins.shot_kinds()
     first: dict[str, str] = {}
     clashes, sources = [], {}
@@ -148,7 +149,10 @@ def _clashes(missions: Sequence[MissionText]) -> tuple[list[Diagnostic], dict[st
 
 
 def one_mission_only(given: Mapping[str, object]) -> None:
-    """Refuse options that are of use for one mission alone; given : options and their values."""
+    """Raise a usage error for options that only work with one mission.
+
+    given : options and their values
+    """
     for option, value in given.items():
         if value:
             raise typer.BadParameter("it is for one mission, not for several", param_hint=option)

@@ -1,4 +1,4 @@
-"""Plan files that commands are given: read, proved again, and reported."""
+"""Read the plan files that a command line names, prove them again, and report the result."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ PlanPath = Annotated[Path, typer.Argument(metavar="PLAN", help="A plan.json, or 
 
 
 def prove(place: Path, against: MissionFile | None = None) -> PlanReport:
-    """Read a plan file and prove it again; where it cannot be read, say so and exit.
+    """Read a plan file and prove it again. If it cannot be read, report why and exit.
 
-    against : as of ``api.verify_plan``
+    against : see ``api.verify_plan``
     """
     path = place / "plan.json" if place.is_dir() else place
     return verify_plan(bytes_of(path), path.as_posix(), against)
 
 
 def bytes_of(path: Path, most: int = -1) -> bytes:
-    """Return the bytes of a file, ``most`` at most; where it cannot be read, say so and exit."""
+    """Return at most ``most`` bytes of a file. If it cannot be read, report why and exit."""
     try:
         with path.open("rb") as stream:
             return stream.read(most)
@@ -48,7 +48,7 @@ def bytes_of(path: Path, most: int = -1) -> bytes:
 
 
 def proved(place: Path) -> VerifiedIR:
-    """Return a plan that holds; where it does not, report why and exit."""
+    """Return a plan whose proof holds. If it does not hold, report why and exit."""
     report = prove(place)
     if report.plan is None:
         console.report(report.diagnostics, report.sources)

@@ -1,4 +1,4 @@
-"""What came of a rehearsal, as people read it on a terminal."""
+"""The text of a rehearsal's results for a terminal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from shotc.simulation.summary import summary
 
 
 def text(done: Rehearsed, paths: Sequence[Path]) -> str:
-    """Return the report; paths : of the files that were written."""
+    """Return the report.
+
+    paths : the files that were written
+    """
     return "\n".join(_lines(done, paths))
 
 

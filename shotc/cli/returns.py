@@ -1,4 +1,4 @@
-"""What ``verify --abort-every`` prints of collective returns."""
+"""Text and JSON of collective returns for ``verify --abort-every``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HEADING = ("collective return", "from", "at rest", "over the pads", "landed", "n
 
 
 def returns_text(returns: Sequence[Return], every: float) -> str:
-    """Return the table of the returns that take longest, brake longest and come nearest."""
+    """Return the table of the returns that take longest, brake longest and come nearest to something."""
     held = [found for found in returns if found.holds]
     rows: list[tuple[str, ...]] = []
     if held:
@@ -44,7 +44,7 @@ def _rest(found: Return) -> float:
 
 
 def returns_document(returns: Sequence[Return]) -> list[dict[str, Any]]:
-    """Return the returns for JSON; times are mission time, seconds, distances metres."""
+    """Return the returns for JSON: times in seconds of mission time, distances in metres."""
     return [
         {
             "time": found.time,

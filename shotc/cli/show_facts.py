@@ -1,4 +1,7 @@
-"""What a summary tells of a show beside its times: how its fleets move, and which pictures are dense."""
+"""Facts about a show in the summary of a plan: its displays, how its fleets move, and dense pictures.
+
+``stats`` are the statistics of the passes: (name, value) pairs.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ TAKE_OFF = ("layers", "lowest m", "highest m", "s", "landing s")
 
 
 def recorded(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield what of each recorded flight is flown, how near, and on which clock; stats : of passes."""
+    """Yield for each recorded flight the part that is flown, the distance from its file, and the clock."""
     known = dict(stats)
     for name in known:
         flight = re.fullmatch(r"flight (.+) off m", name)
@@ -34,7 +37,7 @@ def recorded(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield how deep pictures in layers are, and what a seat off the axis sees of it; stats : of passes."""
+    """Yield the depth of pictures in layers, and how it looks from a seat beside the axis."""
     known = dict(stats)
     for name in known:
         picture = re.fullmatch(r"goals (.+)/(\d+) layers", name)
@@ -49,7 +52,7 @@ def layered(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def taking_off(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield which fleets rise and land in layers or return to their own pads, how high; stats : of passes."""
+    """Yield the fleets that rise and land in layers or return to their own pads, with the heights."""
     known = dict(stats)
     for name in known:
         own = re.fullmatch(r"fleet (.+) own pads levels", name)
@@ -68,7 +71,7 @@ def taking_off(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield how many moves of each fleet are on arcs, and which pictures are lattices; stats : of passes."""
+    """Yield the number of moves on arcs of each fleet, and the pictures that are lattices."""
     for name, value in stats:
         arcs = re.fullmatch(r"fleet (.+) arcs", name)
         lattice = re.fullmatch(r"goals (.+)/(\d+) lattice", name)
@@ -81,7 +84,7 @@ def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def beside(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield how fleets and groups fly so that they do not meet others; stats : of passes."""
+    """Yield the fleets and groups that change their flight to keep clear of others, and how."""
     words = {
         "home later": "flies home {:.1f} s later than it could",
         "sets out earlier": "sets out {:.1f} s earlier than it needs, and waits in its place",
@@ -94,7 +97,7 @@ def beside(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def display_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
-    """Return a heading and one row a display: fleet, when, how long, and what it shows; or nothing."""
+    """Return a heading and one row per display: fleet, start, duration, pictures. Empty without displays."""
     rows = [
         (phase.shot, f"{track.fleet} ({len(track.coef)} drones)", *_shown(track, phase))
         for track in plan.trajectory.fleets
@@ -112,7 +115,7 @@ def _shown(track: FleetTrajectory, phase: Phase) -> tuple[str, ...]:
 
 
 def headline(plan: VerifiedIR) -> str:
-    """Return how many displays and drones there are."""
+    """Return the numbers of displays and drones as text."""
     ir = plan.trajectory
     shows, drones = len(ir.keyframes.mission.displays), sum(len(track.coef) for track in ir.fleets)
     return f"{shows} display{'s' * (shows != 1)} of {drones} drone{'s' * (drones != 1)}"

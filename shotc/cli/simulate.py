@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from shotc.source.file import SourceFile
 
 FASTEST, FARTHEST = 100.0, 1000.0
-"""Largest wind, m/s, and largest error of a place, m, that are flown: beyond all that a drone meets."""
+"""Largest wind, m/s, and largest position error, m, that are simulated. No drone meets larger ones."""
 
 Input = Annotated[
     str,
@@ -188,7 +188,7 @@ def simulate(
 
 
 class _Proved(NamedTuple):
-    """A proved plan, the files its diagnostics point into, and the folder for what is written."""
+    """A proved plan, the files that its diagnostics point into, and the output folder."""
 
     plan: VerifiedIR
     sources: dict[str, SourceFile]
@@ -196,9 +196,9 @@ class _Proved(NamedTuple):
 
 
 def _plan(source: str, output: Path | None, progress: Callable[[str], None]) -> _Proved:
-    """Return what is flown.
+    """Return the plan to simulate. A mission is planned first, as `shotc plan` does without options.
 
-    A mission is planned first, as `shotc plan` does without options; without a plan, say why and exit.
+    If there is no plan, report why and exit.
     """
     place = Path(source)
     if source != STDIN and (place.is_dir() or place.suffix.lower() == ".json"):
@@ -217,7 +217,7 @@ def _plan(source: str, output: Path | None, progress: Callable[[str], None]) -> 
 
 
 def _unable(conditions: Conditions, workers: str | None) -> tuple[Diagnostic, ...]:
-    """Say which vehicle, replanner or cluster cannot be used."""
+    """Return the diagnostics of a vehicle, replanner or cluster that cannot be used."""
     if faults := no_cluster(workers):
         return faults
     if conditions.vehicle == "rotorpy" and find_spec("rotorpy") is None:

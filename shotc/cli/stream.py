@@ -1,4 +1,4 @@
-"""``shotc stream``: send a proved plan to autopilots, as it is to be flown."""
+"""``shotc stream``: send a proved plan to autopilots, in real time."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def _end(flown: FlightResult, pilot: Pilot) -> str:
 
 
 def _addresses(texts: Sequence[str], option: str) -> dict[str, Endpoint]:
-    """Return addresses by name; "" where none is given."""
+    """Return addresses by name; the name is "" for an address without one."""
     found: dict[str, Endpoint] = {}
     for text in texts:
         name, equals, address = text.rpartition("=")
@@ -173,14 +173,14 @@ def _addresses(texts: Sequence[str], option: str) -> dict[str, Endpoint]:
 
 
 def _of_one(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> dict[str, Endpoint]:
-    """Return addresses by drone: one without a name is that of a plan's only drone."""
+    """Return addresses by drone. An address without a name belongs to the plan's only drone."""
     if len(flown) == 1 and list(addresses) == [""]:
         return {flown[0]: addresses[""]}
     return dict(addresses)
 
 
 def _all_named(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> None:
-    """Refuse names that the plan does not have, and drones without an address: all fly on one clock."""
+    """Refuse names that are not in the plan, and drones without an address: all drones fly on one clock."""
     if "" in addresses:
         names = ", ".join(flown)
         raise typer.BadParameter(
@@ -194,7 +194,7 @@ def _all_named(addresses: Mapping[str, Endpoint], flown: Sequence[str]) -> None:
 
 
 def _all_filmed(targets: Mapping[str, Endpoint], trajectory: TrajectoryIR) -> None:
-    """Refuse targets that the mission does not have, or that no camera looks at."""
+    """Refuse targets that are not in the mission, or that no camera films."""
     mission = trajectory.keyframes.mission
     filmed = {span.target for track in trajectory.drones for span in track.framing}
     filmed |= {shot.subject for shot in mission.shots if shot.subject is not None}

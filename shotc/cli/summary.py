@@ -1,4 +1,4 @@
-"""What a finished plan tells at a glance: its shots, how near it comes to its limits, its files."""
+"""The summary of a finished plan: its shots, how much of its limits it uses, its files."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ GLUE = "\N{NO-BREAK SPACE}"
 APART = "separation from "
 REFINED = ".refined"
 NOTHING = 1e-6
-"""Of a limit's unit: less is rounding of what does not move."""
+"""In the unit of a limit: a smaller value is rounding, and is shown as 0."""
 WHOLE = percent(1.0)
 LIMITS = (
     "speed",
@@ -48,7 +48,7 @@ LIMITS = (
 
 
 def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> str:
-    """Return the text that ``shotc plan`` ends with."""
+    """Return the text that ``shotc plan`` prints at its end."""
     ir, mission = plan.trajectory, plan.trajectory.keyframes.mission
     shots = f"{len(mission.shots)} shot{'s' * (len(mission.shots) != 1)}"
     if ir.fleets:
@@ -67,7 +67,7 @@ def summary(plan: VerifiedIR, paths: Sequence[Path], notes: Iterable[str]) -> st
 
 
 def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
-    """Return a heading and the rows of every shot: name, kind, when, how long, what its framing is worth.
+    """Return a heading and the rows of every shot: name, kind, start, duration, quality of its framing.
 
     A shot of several targets has a row for each.
     """
@@ -97,7 +97,7 @@ def shot_rows(plan: VerifiedIR) -> list[tuple[str, ...]]:
 
 
 def _framing(summary: ScreenSummary) -> tuple[str, str, str, str]:
-    """Return the share of frames with the whole target, the least of it that is free, error and size."""
+    """Return the share of frames with the whole target, the least visible share of it, its error and size."""
     return (
         "-" if summary.in_frame is None else percent(summary.in_frame),
         "-" if summary.visible is None else percent(summary.visible),
@@ -135,7 +135,7 @@ def _facts(plan: VerifiedIR, notes: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def _energy(plan: VerifiedIR) -> Iterator[str]:
-    """Tell, of every drone whose battery is known, what a flight and its shots take, and what is left."""
+    """Yield, for each drone with a known battery, the energy of the flight and its shots, and the rest."""
     claims = [claim for claim in plan.certificate if claim.constraint == ENERGY]
     for whole in (claim for claim in claims if claim.shot is None):
         power = plan.trajectory.keyframes.mission.drone(whole.subject).power
@@ -149,7 +149,7 @@ def _energy(plan: VerifiedIR) -> Iterator[str]:
 
 
 def _smoothed(mission: MissionIR) -> list[str]:
-    """Tell how far smoothing moves the recorded tracks of targets."""
+    """Return how far smoothing moves the recorded tracks of targets."""
     return [
         f"the track of {target.name} lies up to {at_least(target.track.smoothed)} m from what is recorded"
         for target in mission.targets
@@ -158,19 +158,19 @@ def _smoothed(mission: MissionIR) -> list[str]:
 
 
 def _refined(plan: VerifiedIR) -> list[str]:
-    """Tell, where not all shots are refined, how many are, and of each other one why it is not."""
+    """Return the number of refined shots and the reason for each other shot; nothing if all are refined."""
     reasons = [(k.removesuffix(REFINED), v) for k, v in plan.trajectory.stats if k.endswith(REFINED)]
     left = [f"not `{shot}`: {why}" for shot, why in reasons if why != DONE]
     return ["; ".join([f"{len(reasons) - len(left)} of {len(reasons)} shots", *left])] if left else []
 
 
 def _turns(plan: VerifiedIR) -> list[str]:
-    """Tell of the shots whose turns are flown by the curve of a method, or why they are not."""
+    """Return the shots whose turns are flown on the curve of a method, or why they are not."""
     return [f"`{k.removesuffix(TURNS)}` {v}" for k, v in plan.trajectory.stats if k.endswith(TURNS)]
 
 
 def _off_ideal(deviations: Iterable[Deviation]) -> list[str]:
-    """Tell how far shots leave their ideals: of the stretches with one cause, the worst."""
+    """Return how far shots deviate from their ideals: for each shot and cause, the largest deviation."""
     most: dict[tuple[str, str], float] = {}
     for d in deviations:
         most[d.shot, d.cause] = max(d.distance, most.get((d.shot, d.cause), 0.0))
@@ -178,7 +178,7 @@ def _off_ideal(deviations: Iterable[Deviation]) -> list[str]:
 
 
 def _used(certificate: Iterable[Claim]) -> list[str]:
-    """Tell how much of each limit is used, by the drone that uses most of it where several fly."""
+    """Return how much of each limit is used. If several drones fly, name the one that uses most of it."""
     limits = [claim for claim in certificate if claim.constraint in LIMITS]
     several = len({claim.subject for claim in limits}) > 1
     texts = []
@@ -194,12 +194,12 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
 
 
 def _used_up(value: float) -> str:
-    """Return what is used of a limit with three digits, rounded up."""
+    """Return the used part of a limit with three digits, rounded up."""
     return f"{away(value, upper=True, digits=3):.3g}" if value > NOTHING else "0"
 
 
 def _closest(claims: Sequence[Claim]) -> list[str]:
-    """Tell what is come nearest to, and by whom where several fly."""
+    """Return the two distances that are nearest to their limits. If several drones fly, name the drone."""
     near = [
         c
         for c in claims
@@ -221,7 +221,7 @@ def _closest(claims: Sequence[Claim]) -> list[str]:
 
 
 def _passed(claims: Sequence[Claim]) -> list[str]:
-    """Tell what is come nearest to on ways between shots, against what is kept from it there."""
+    """Return the distance on ways between shots that is nearest to its required clearance."""
     passed = [c for c in claims if c.constraint.endswith(ON_TRANSITS)]
     if not passed:
         return []
@@ -235,7 +235,9 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
 
 
 def _ahead(plan: VerifiedIR) -> list[str]:
-    """Tell how far a nose is off its course, in which shots that is judged, and why not in others."""
+    """Return the largest angle between nose and course, the shots in which it is judged, and why not in
+    others.
+    """
     off = [claim for claim in plan.certificate if claim.constraint == LOOK_AHEAD]
     ir = plan.trajectory
     if ir.keyframes.mission.rules.look_ahead is None:
@@ -255,7 +257,7 @@ def _ahead(plan: VerifiedIR) -> list[str]:
 
 
 def _together(plan: VerifiedIR) -> list[str]:
-    """Tell, where several drones fly, how near two of them come, and who is in whose picture."""
+    """Return, if several drones fly, the smallest distance of two, and which drone is in whose picture."""
     apart = [c for c in plan.certificate if c.constraint.startswith(APART) and not c.drones]
     if not apart:
         return []
@@ -266,7 +268,7 @@ def _together(plan: VerifiedIR) -> list[str]:
 
 
 def _on_pads(plan: VerifiedIR) -> Iterator[str]:
-    """Name the drones and fleets that the plan does not fly, and how near those come that it does."""
+    """Yield the drones and fleets that stay on their pads, and how near the flying ones come to them."""
     ir = plan.trajectory
     names = [f"{track.drone} films nothing and stands on its pad" for track in parked(ir)]
     names += [
@@ -302,7 +304,7 @@ def _files(paths: Sequence[Path]) -> list[str]:
 
 
 def _paragraph(name: str, text: str) -> list[str]:
-    """Wrap a fact behind its name; glued words stay on one line."""
+    """Wrap the text of a fact after its name. Words joined by GLUE stay on one line."""
     lines = wrap(text, WIDTH - 12, break_long_words=False, break_on_hyphens=False)
     return [f"{name if i == 0 else '':<9} {line.replace(GLUE, ' ')}" for i, line in enumerate(lines)]
 
@@ -315,7 +317,7 @@ PAIR = 2
 
 
 def nearest(plan: VerifiedIR) -> Iterator[str]:
-    """Yield, for each fleet and every two of them, which drones come nearest, how near, and when."""
+    """Yield, for each fleet and each pair of fleets, the two nearest drones, their distance, and the time."""
     for claim in plan.certificate:
         if len(claim.drones) == PAIR:
             yield _pair(plan, claim)
@@ -341,7 +343,7 @@ HEADING = ("", "claim", "asked", "worst", "at", "known by")
 
 
 def certificate_text(certificate: Sequence[Claim]) -> str:
-    """Return one table for every drone's flight and for each of its shots."""
+    """Return one table for each drone's whole flight and one for each of its shots."""
     parts: list[str] = []
     for subject, shot in dict.fromkeys((c.subject, c.shot) for c in certificate):
         claims = [c for c in certificate if (c.subject, c.shot) == (subject, shot)]
@@ -362,7 +364,7 @@ def _rows(claims: Sequence[Claim]) -> Iterator[tuple[str, ...]]:
 
 
 def _values(claim: Claim) -> tuple[str, str, str]:
-    """Return what a claim is about, what is asked, and the worst that happens."""
+    """Return the constraint of a claim, its limit and its worst value as texts."""
     if claim.constraint.endswith(OUT_OF_PICTURE) and claim.unit == "m" and isfinite(claim.worst):
         side = "outside" if claim.worst >= 0.0 else "inside"
         return claim.constraint, "outside the frame", f"{measure(abs(claim.worst), 'm')} {side}"
@@ -374,7 +376,7 @@ def _values(claim: Claim) -> tuple[str, str, str]:
 
 
 def mark(claim: Claim) -> str:
-    """Return a word for what has become of a claim."""
+    """Return the word for the result of a claim: ok, BROKEN, missed, or "" if it has no limit."""
     if not claim.holds:
         return "BROKEN" if claim.hard else "missed"
     return "ok" if isfinite(claim.limit) else ""

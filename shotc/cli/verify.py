@@ -56,7 +56,7 @@ AbortOption = Annotated[
 ]
 
 LEAST_ABORT_S = 0.1
-"""Shortest time between two collective returns, seconds: a show of ten minutes has 6000."""
+"""Shortest time between two collective returns, seconds. A show of ten minutes then has 6000 of them."""
 
 
 def verify(
@@ -135,7 +135,7 @@ def _seconds(text: str) -> float:
 
 
 def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequence[Return], PlanReport]:
-    """Return the collective returns of a plan, and the report with what is wrong with them."""
+    """Return the collective returns of a plan, and the report with the faults of the returns added."""
     if not plan.trajectory.fleets:
         raise typer.BadParameter("collective returns are of shows", param_hint="--abort-every")
     from shotc.collective import collective_returns
@@ -150,7 +150,7 @@ def _returns(plan: VerifiedIR, report: PlanReport, every: float) -> tuple[Sequen
 def _verify_flights(
     files: Sequence[Path], mission: MissionFile | None, drones: Sequence[str], format: CertificateFormat
 ) -> None:
-    """Prove flights, print what was found, and exit."""
+    """Prove flights, print the report, and exit."""
     other = next((file for file in files if not is_flight(file.name)), None)
     if other is not None:
         raise typer.BadParameter(

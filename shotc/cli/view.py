@@ -1,4 +1,4 @@
-"""``shotc view``: show a plan, or a mission that is planned first, in the rerun viewer."""
+"""``shotc view``: show a plan in the rerun viewer. A mission is planned first."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _is_plan(what: str) -> bool:
 
 
 def _planned(spec: str) -> VerifiedIR:
-    """Return the plan of a mission; where there is none, report why and exit."""
+    """Return the plan of a mission. If there is none, report why and exit."""
     source = read_mission(spec)
     options = PlanOptions(progress=console.note)
     done = told(compile_source(source.data, source.name, source.folder, options), None)
@@ -68,14 +68,14 @@ def _planned(spec: str) -> VerifiedIR:
 
 
 def _show(path: Path) -> int:
-    """Run a viewer of our own until it is closed and return its exit status."""
+    """Start a viewer, wait until it is closed, and return its exit status."""
     console.note("the viewer is open; close it to go on")
     command = [sys.executable, "-P", "-m", "rerun", "--bind", "127.0.0.1", "--port", "auto", str(path)]
     return subprocess.run(command, check=False).returncode
 
 
 def _obstacle() -> Diagnostic | None:
-    """Say what keeps a viewer from opening here, if anything does."""
+    """Return the diagnostic of a condition that prevents a viewer from opening, or None."""
     if find_spec("rerun") is None:
         return Diagnostic(
             "E201",
