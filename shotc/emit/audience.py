@@ -1,4 +1,4 @@
-"""A show as its audience sees it: from where, in which direction, and what its pictures are called."""
+"""The audience's view of a show: position, direction, field of view, and the names of pictures."""
 
 from __future__ import annotations
 
@@ -17,29 +17,31 @@ from shotc.ir.show import Box, Display, Drawing, Lettering, Model, Picture, Reco
 from shotc.ir.trajectory import VerifiedIR
 
 ASPECT = 16 / 9
-"""Width over height of the audience's picture."""
+"""Width over height of the audience's view."""
 
 EYE = 1.7
-"""Metres above the ground, of an audience that nobody has placed."""
+"""Metres above the ground of an audience without a viewpoint in the mission."""
 
 AWAY = 2.2
-"""How far it is then from the middle of the show, in radii of the show about that middle."""
+"""Distance of such an audience from the middle of the show, in radii of the show."""
 
 BORDER = 1.2
-"""How much wider than the show its picture is."""
+"""Width of the view over the width of the show."""
 
 MOMENTS = 40
-"""Times of a fleet's shots by which the place that they fill is measured."""
+"""Samples over a display's time, from which its extent is measured."""
 
 NARROWEST, WIDEST = np.radians(12.0), np.radians(120.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Audience:
-    """Who looks, and at what.
+    """The position and the view of the audience.
 
-    eye : p_W, metres; yaw, pitch : of the look, rad, as of a camera; hfov : that shows all of it, rad
-    placed : whether the mission says where the eye is
+    eye : position in W, metres
+    yaw, pitch : direction of the view, rad, with the signs of a camera
+    hfov : field of view that shows the whole display, rad
+    placed : whether the mission states the position
     """
 
     eye: Vec3
@@ -49,15 +51,18 @@ class Audience:
     placed: bool
 
     def view(self, aspect: float) -> View:
-        """Return the camera whose frame, width over height, is ``aspect``."""
+        """Return the view with an aspect ratio of width over height."""
         return view(self.yaw, self.pitch, self.hfov, aspect)
 
 
 def audience(plan: VerifiedIR, display: Display, aspect: float, before: tuple[float, ...] = ()) -> Audience:
-    """Return who sees a display, in a frame that holds all of its pictures, in its middle.
+    """Return the audience of a display, with the display in the middle of its view and wholly inside it.
 
-    before : times, seconds, at which the frame holds the fleet as well, such as those of its way there
-    Where it has no viewpoint, the audience stands south of it at eye height, far enough to see everything.
+    Without a viewpoint in the mission, the audience stands south of the display at eye height, far enough
+    away to see all of it.
+
+    aspect : width over height of the view
+    before : further times, seconds, at which the view contains the fleet, for example those of its transit
     """
     cloud = _cloud(plan, display)
     low, high = cloud.min(axis=0), cloud.max(axis=0)
@@ -78,7 +83,8 @@ def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audienc
     middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0 - np.array(eye)
     yaw = atan2(middle[1], middle[0]) if hypot(middle[0], middle[1]) > 1e-6 else pi / 2
     pitch = atan2(middle[2], hypot(middle[0], middle[1]))
-    # The middle of what is seen is between the outermost angles, not at the middle of the box.
+    # The middle of the view is midway between the outermost angles; the middle of the bounding box is only
+    # the first guess.
     for _ in range(3):
         right, down, forward = view(yaw, pitch, pi / 2, 1.0).to_camera((away[:, 0], away[:, 1], away[:, 2]))
         ahead = np.maximum(forward, 0.05 * np.linalg.norm(away, axis=1) + 1e-9)
@@ -91,7 +97,7 @@ def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audienc
 
 
 def _cloud(plan: VerifiedIR, display: Display) -> Array:
-    """Return where the drones are during a display, shape (k, 3)."""
+    """Return the positions of the drones at samples of a display's time, shape (k, 3)."""
     flight = flight_of(plan, display.fleet)
     span = [(p.start, p.end) for p in flight.phases if p.shot == display.id]
     start, end = (span[0][0], span[-1][1]) if span else (flight.breaks[0], flight.breaks[-1])
@@ -99,12 +105,12 @@ def _cloud(plan: VerifiedIR, display: Display) -> Array:
 
 
 def flight_of(plan: VerifiedIR, fleet: str) -> FleetTrajectory:
-    """Return the flight of the fleet of that name."""
+    """Return the trajectory of the fleet with a name."""
     return next(flight for flight in plan.trajectory.fleets if flight.fleet == fleet)
 
 
 def picture_name(picture: Picture) -> str:
-    """Return what a picture is called: what it is of, in a word or two."""
+    """Return a short name of a picture, made from its content."""
     source = picture.source
     if isinstance(source, Lettering):
         return source.text
@@ -117,7 +123,7 @@ def picture_name(picture: Picture) -> str:
 
 
 def pictures_shown(flight: FleetTrajectory) -> list[FrameTimes]:
-    """Return of every picture of a fleet the time from its first frame to its last."""
+    """Return the time from the first to the last frame of each picture of a fleet."""
     found: dict[tuple[str, int], FrameTimes] = {}
     for shown in flight.shown:
         key = (shown.display, shown.picture)

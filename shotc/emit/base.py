@@ -1,4 +1,4 @@
-"""What an emitter is: verified plan in, named bytes out. It never touches the disk."""
+"""The interface of an emitter: it turns a verified plan into named bytes and never touches the disk."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ if TYPE_CHECKING:  # the base install has no numpy
 class Artifact:
     """One output file: its name inside the output folder, and its bytes.
 
-    parts : makes the bytes one part after another, of a file that is too large to be held; ``data`` is then
-    empty
+    parts : makes the bytes part by part, for a file that is too large for memory; ``data`` is then empty
     """
 
     name: str
@@ -25,15 +24,15 @@ class Artifact:
     parts: Callable[[], Iterable[bytes]] | None = None
 
     def chunks(self) -> Iterable[bytes]:
-        """Return all of its bytes, in parts."""
+        """Return all bytes of the file, in parts."""
         return (self.data,) if self.parts is None else self.parts()
 
 
 @dataclass(frozen=True, slots=True)
 class Emission:
-    """What one emitter made, with warnings about what the format could not carry.
+    """The files of one emitter, with warnings about what the format cannot carry.
 
-    notes : facts for the user, one line each (e.g. the screen error that a format adds)
+    notes : facts for the user, one line each (for example the screen error that a format adds)
     """
 
     artifacts: tuple[Artifact, ...]
@@ -44,8 +43,11 @@ class Emission:
 class Emitter(Protocol):
     """Writes one family of output formats (entry-point group ``shotc.emitters``).
 
-    summary : one line for `shotc list emitters`; api : the plugin api it was written against (1)
-    One that loads large libraries may have ``prepare``, too (see ``Prepares``), to run beside the others.
+    An emitter that loads large libraries may have ``prepare`` as well (see ``Prepares``). It then runs in
+    parallel with the others.
+
+    summary : one line for `shotc list emitters`
+    api : version of the plugin interface that it was written for (1)
     """
 
     name: ClassVar[str]
@@ -59,11 +61,14 @@ class Emitter(Protocol):
 
 @runtime_checkable
 class Prepares(Protocol):
-    """What an emitter may do beside: load what ``emit`` needs, in a process that has no plan yet.
+    """An emitter that imports its libraries in a worker process before a plan exists.
 
-    Such emitters run beside the others, in worker processes.
+    Such emitters run in worker processes, in parallel with the others.
     """
 
     def prepare(self) -> None:
-        """Import what is slow to import; ModuleNotFoundError is as good as in ``emit``."""
+        """Import what is slow to import.
+
+        It may raise ModuleNotFoundError, which is treated as one from ``emit``.
+        """
         ...

@@ -74,7 +74,7 @@ class CsvTable:
 
 
 def _lines(header: str, ir: TrajectoryIR) -> Iterator[bytes]:
-    """Yield the table drone by drone, in the order of their names."""
+    """Yield the table drone by drone, sorted by name."""
     mission = ir.keyframes.mission
     filmed = sorted((track.drone, "\n".join(_motion(mission, track))) for track in ir.drones)
     shown = [fleet_rows(mission, fleet) for fleet in ir.fleets]
@@ -87,7 +87,7 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
     t = clock(mission.rate, track.curve.end)
     curve = track.curve
     pose, rate, acceleration = (curve(t), curve.derivative()(t), curve.derivative(2)(t))
-    rate[-1] = acceleration[-1] = 0.0  # at or after the end the drone stands on its pad
+    rate[-1] = acceleration[-1] = 0.0  # at and after the end the drone stands on its pad
     columns = [
         pose[:, :3],
         rate[:, :3],
@@ -114,10 +114,11 @@ def _motion(mission: MissionIR, track: DroneTrajectory) -> Iterator[str]:
 def _effort(
     mission: MissionIR, track: DroneTrajectory, t: Array, motion: tuple[Array, Array]
 ) -> list[list[float]]:
-    """Return tilt, thrust over weight, airspeed and power at times (M,); NaN where they are not known.
+    """Return tilt, thrust over weight, airspeed and power at times (M,); NaN where unknown.
 
-    motion : velocity and acceleration, (M, 3) each
-    On its pad before lift-off and after touch-down a drone takes nothing.
+    A drone on its pad, before lift-off and after touch-down, draws no power.
+
+    motion : velocity and acceleration, shape (M, 3) each
     """
     drone, (velocity, acceleration) = mission.drone(track.drone), motion
     through = velocity[:, :2] - np.array(drone.limits.wind)
@@ -172,12 +173,12 @@ def _block(
 
 
 def _exposes(mission: MissionIR) -> bool:
-    """Tell whether the mission says of a camera with what it exposes."""
+    """Return whether the mission describes the optics of a camera."""
     return any(drone.optics is not None for drone in mission.drones)
 
 
 def _sharp(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: Array) -> list[str]:
-    """Return the cells of the depth of field and of motion blur at times (M,), with a comma before each."""
+    """Return the cells of depth of field and motion blur at times (M,), with a comma before each."""
     if not _exposes(mission):
         return [""] * len(t)
     if mission.drone(track.drone).optics is None:
@@ -188,7 +189,7 @@ def _sharp(mission: MissionIR, track: DroneTrajectory, of: tuple[str, str], t: A
 
 
 def _judged(plan: VerifiedIR, of: tuple[str, str, str], t: Array) -> Array:
-    """Return the shares that verification found covered at times (M,), NaN where it did not look.
+    """Return the covered shares that verification found at times (M,); NaN where it has no sample.
 
     of : drone, shot and target
     """

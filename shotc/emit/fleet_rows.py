@@ -1,6 +1,6 @@
-"""Rows of trajectory.csv for the drones of a fleet: no camera, the body turned north, and a light.
+"""Rows of trajectory.csv for the drones of a fleet: no camera, the body heading north, and a light.
 
-Rows of one drone differ in numbers alone, so that all of them are set by one format.
+The rows of all drones of a fleet differ only in numbers, so one format string serves all of them.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from shotc.ir.show import drone_names
 from shotc.spec.presets import SHOW_RATE
 
 NORTH = pi / 2
-"""Yaw of every body, counter-clockwise from East."""
+"""Yaw of every body, rad counter-clockwise from East."""
 
 BATCH = 250
-"""Drones that are evaluated at once."""
+"""Drones that are evaluated in one batch."""
 
 _NAME = "\0"
 
 
 def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str, str]]:
-    """Yield every drone's name and its rows, lines without the last line break."""
+    """Yield every drone's name and its rows; the last row has no line break."""
     t = clock(fleet_rate(mission), float(track.breaks[-1]))
     names = drone_names(mission.fleet(track.fleet))
     form = _form(mission, track, t)
@@ -44,16 +44,16 @@ def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str
 
 
 def fleet_rate(mission: MissionIR) -> float:
-    """Return how many rows a second tables have for a drone of a fleet."""
-    # Beside cameras, which ask for a row a frame, a table of many drones stays a table that opens.
+    """Return the rows a second for a drone of a fleet."""
+    # A mission with cameras asks for one row a frame; with many drones the file would be too large to open.
     return min(mission.rate, SHOW_RATE) if mission.shots else mission.rate
 
 
 def _form(mission: MissionIR, track: FleetTrajectory, t: Array) -> str:
-    """Return the rows of a drone with places for its name and its numbers."""
+    """Return the rows of a drone with placeholders for its name and its numbers."""
     earth = [DEGREES, DEGREES, NUMBER] if mission.origin is not None else []
     camera = [""] * 5
-    unknown = [""] * 4 if mission.drones else []  # of the columns of drones that film
+    unknown = [""] * 4 if mission.drones else []  # columns that only filming drones have
     numbers = ",".join([*[NUMBER] * 9, NUMBER % NORTH, *camera, *earth, "%d", "%d", "%d", *unknown])
     whats = [_plain(f"{phase.name},{phase.shot or ''}") for phase in track.phases]
     return "\n".join(
@@ -63,15 +63,18 @@ def _form(mission: MissionIR, track: FleetTrajectory, t: Array) -> str:
 
 
 def _plain(text: str) -> str:
-    """Return a text as a format has to hold it."""
+    """Return a text escaped for a format string."""
     return text.replace("%", "%%")
 
 
 def _numbers(mission: MissionIR, track: FleetTrajectory, of: tuple[Array, Array]) -> Array:
-    """Return positions, velocities, accelerations and geodetic places of drones at times, (n, T, 9 or 12)."""
+    """Return positions, velocities, accelerations and geodetic positions of drones, shape (n, T, 9 or 12).
+
+    of : coefficients of the drones, and times (T,)
+    """
     coef, t = of
     columns = [places(track.breaks, coef, t, order) for order in range(3)]
-    columns[1][:, -1] = columns[2][:, -1] = 0.0  # at or after the end the drones stand on their pads
+    columns[1][:, -1] = columns[2][:, -1] = 0.0  # at and after the end the drones stand on their pads
     if mission.origin is not None:
         flat = columns[0].reshape(-1, 3)
         columns.append(of_world(flat, mission.origin).reshape(columns[0].shape))

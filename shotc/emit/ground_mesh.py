@@ -1,4 +1,4 @@
-"""Ground as one mesh whose triangles share their corners, so that it is shaded smoothly."""
+"""The ground as one mesh whose triangles share their corners, for smooth shading."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shotc.geom.bernstein import Array
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroundMesh:
-    """Corners (V, 3) and their unit normals (V, 3), W; triangles as three numbers of corners, (T, 3)."""
+    """Corners (V, 3) in W, metres; their unit normals (V, 3); triangles as indices of corners, (T, 3)."""
 
     corners: NDArray[np.float32]
     normals: Array
@@ -20,12 +20,12 @@ class GroundMesh:
 
 
 def mesh_of(triangles: Array) -> GroundMesh:
-    """Return triangles (T, 3, 3) as a mesh; a normal is the mean of those about its corner, by area.
+    """Return triangles (T, 3, 3) as a mesh, all counter-clockwise seen from above.
 
-    All triangles lie counter-clockwise after this, seen from above.
+    The normal at a corner is the area-weighted mean of the normals of its triangles.
     """
     flat = triangles.reshape(-1, 3).astype(np.float32)
-    # Ground has one height at a place: corners are the same where x and y are.
+    # The ground has one height at each (x, y), so corners are equal where x and y are.
     place = np.ascontiguousarray(flat[:, :2] + np.float32(0.0)).view(np.uint64).ravel()
     _, first, number = np.unique(place, return_index=True, return_inverse=True)
     faces = number.reshape(-1, 3)

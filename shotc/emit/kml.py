@@ -1,8 +1,8 @@
 """KML tours: the planned camera as a playlist of smooth flights (gx:Tour), and the path as a line.
 
-Format: developers.google.com/kml/documentation/touring and .../cameras, in the order of elements that the
-schemas ogckml22.xsd and kml22gx.xsd ask for. Camera tilt is 90 degrees plus pitch, heading is clockwise
-from North, altitude is absolute.
+Format: developers.google.com/kml/documentation/touring and .../cameras. Elements have the order that the
+schemas ogckml22.xsd and kml22gx.xsd demand. Camera tilt is 90 degrees plus pitch, heading is clockwise from
+North, and altitude is absolute.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ GX = "http://www.google.com/kml/ext/2.2"
 STEP_S = 0.5
 """Seconds between two cameras of the tour."""
 NARROWEST_DEG, WIDEST_DEG = 10.0, 170.0
-"""Fields of view that Google Earth shows, by the comment in its schema."""
+"""Degrees, the range of fields of view that Google Earth shows, according to the comment in its schema."""
 
 register_namespace("", KML)
 register_namespace("gx", GX)
@@ -36,14 +36,14 @@ register_namespace("gx", GX)
 
 @dataclass(frozen=True, slots=True)
 class KmlTour:
-    """Writes one tour a drone."""
+    """Writes one tour for each drone."""
 
     name: ClassVar[str] = "kml"
     summary: ClassVar[str] = "NAME.kml: a Google Earth tour of every filmed shot"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return ``<drone>.kml`` for each drone, or a warning where the mission has no origin."""
+        """Return ``<drone>.kml`` for each drone, or a warning if the mission has no origin."""
         mission = plan.trajectory.keyframes.mission
         if mission.origin is None:
             return Emission((), (_no_origin(mission),))
@@ -81,7 +81,7 @@ def _no_origin(mission: MissionIR) -> Diagnostic:
 
 
 def _lens(drone: DroneTrajectory) -> list[str]:
-    """Return a note where the viewer has no such lens."""
+    """Return a note if the viewer cannot show the camera's field of view."""
     spans = [np.linspace(p.start, p.end, 101) for p in drone.phases if p.shot is not None]
     if not spans:
         return []
@@ -127,5 +127,5 @@ def _tour(folder: Element, origin: GeoOrigin, drone: DroneTrajectory, phase: Pha
 
 
 def text_element(parent: Element, namespace: str, tag: str, text: str) -> None:
-    """Add an element of a text to its parent."""
+    """Append an element with a text to its parent."""
     SubElement(parent, f"{{{namespace}}}{tag}").text = text

@@ -1,4 +1,4 @@
-"""Scenes and buildings as pictures need them: triangles, and how light each is."""
+"""Models of scenes and buildings in pictures: their triangles, and the lightness of each."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from shotc.geom.surface.triangles import cross
 from shotc.ir.obstacle_mesh import ObstacleMesh
 
 LEVEL, CONTRAST = 0.86, 0.4
-"""How light a face is that the light goes along, and how much lighter one that faces it."""
+"""Lightness of a face parallel to the light, and the amount added for one that faces it."""
 
 
 _Planes = tuple[Array, Array, Array]
@@ -24,16 +24,18 @@ _NONE = (np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Faces:
-    """Triangles (N, 3, 3), metres of W, and their colours (N, 3), shares from 0 to 1."""
+    """Triangles (N, 3, 3), metres in W, and their colours (N, 3), from 0 to 1."""
 
     triangles: Array
     colors: Array
 
 
 def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
-    """Return the triangles of meshes in the light of a hillshade, each seen from the side of an eye (3,).
+    """Return the triangles of meshes, shaded with the light of a hillshade and seen from an eye (3,), metres
+    in W.
 
-    A point of a cloud is a square that faces the eye, as large as what the point stands for.
+    Each face is shaded on the side that the eye sees. A point of a cloud is drawn as a square that faces the
+    eye and has the size that the point stands for.
     """
     parts = [
         _NONE,
@@ -48,12 +50,12 @@ def faces_of(meshes: Iterable[ObstacleMesh], eye: Array) -> Faces:
 
 @lru_cache(maxsize=4)
 def _whole(mesh: ObstacleMesh) -> _Planes:
-    """Return the triangles of a mesh; kept, for a storyboard has many pictures of it."""
+    """Return the triangles of a mesh; cached, because a storyboard draws the mesh in many pictures."""
     return _planes(mesh.surface.triangles)
 
 
 def _planes(triangles: Array) -> _Planes:
-    """Return triangles (N, 3, 3), unit normals, which are 0 of those without an area, and middles, (N, 3)."""
+    """Return triangles (N, 3, 3), their unit normals (0 without area) and middles, shape (N, 3) each."""
     normal = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     size = np.linalg.norm(normal, axis=1, keepdims=True)
     return triangles, normal / np.where(size > 0.0, size, 1.0), triangles.mean(axis=1)

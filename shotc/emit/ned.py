@@ -1,7 +1,7 @@
 """NAME-ned.csv: setpoints along North, East and Down for scripts that fly a PX4 or an ArduPilot offboard.
 
-Columns are the fields of SET_POSITION_TARGET_LOCAL_NED (mavlink.io, message 84) with all of position,
-velocity, acceleration and yaw, and the angles of GIMBAL_MANAGER_SET_PITCHYAW (message 287).
+The columns are the fields of SET_POSITION_TARGET_LOCAL_NED (mavlink.io, message 84) with position, velocity,
+acceleration and yaw, and the angles of GIMBAL_MANAGER_SET_PITCHYAW (message 287).
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ SETPOINTS = (
     "yaw_ned_rad,yaw_rate_ned_rad_s,gimbal_pitch_rad,gimbal_yaw_ned_rad,phase,shot"
 )
 LEAST_HZ = 2.0
-"""Setpoints a second below which a PX4 leaves its offboard mode (docs.px4.io, flight_modes/offboard)."""
+"""Setpoints a second, below which a PX4 leaves its offboard mode (docs.px4.io, flight_modes/offboard)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ned:
-    """Writes one table a drone, counted from its pad, at the ticks of the output clock."""
+    """Writes one table for each drone, relative to its pad, at the ticks of the output clock."""
 
     name: ClassVar[str] = "ned"
     summary: ClassVar[str] = "NAME-ned.csv: setpoints North, East, Down from the pad, for offboard scripts"

@@ -1,7 +1,7 @@
-"""The colours of everything that is looked at: one meaning each, told apart by colour-blind readers, too.
+"""The colours of all drawings: each has one meaning, and colour-blind readers can tell them apart.
 
-Hues after Okabe and Ito: blue is a subject, amber is what the camera does, vermilion keeps out,
-green keeps in.
+The hues follow Okabe and Ito. Blue is a subject, amber is the camera, vermilion is a keep-out zone, green is
+a keep-in zone.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ SKY_LOW: Rgb = (0.93, 0.95, 0.96)
 GROUND: Rgb = (0.80, 0.79, 0.73)
 GROUND_FAR: Rgb = (0.88, 0.88, 0.85)
 STONE: Rgb = (0.66, 0.63, 0.60)
-"""Scenes and buildings: what stands there and is neither filmed nor a zone."""
+"""Scenes and buildings: obstacles that are neither filmed nor zones."""
 WHITE: Rgb = (1.0, 1.0, 1.0)
 
 PICTURES: tuple[Rgb, ...] = (
@@ -31,7 +31,9 @@ PICTURES: tuple[Rgb, ...] = (
     (0.60, 0.40, 0.05), (0.00, 0.53, 0.64), (0.78, 0.13, 0.45), (0.33, 0.46, 0.05),
     (0.30, 0.30, 0.33), (0.42, 0.32, 0.83), (0.55, 0.13, 0.13), (0.10, 0.36, 0.42),
 )  # fmt: skip
-"""Of a show, one after another: dark enough for a white number, neighbours of different lightness and hue."""
+"""Colours of a show's pictures, in order. All are dark enough for a white number, and neighbours differ in
+lightness and hue.
+"""
 
 
 def shade(color: Rgb, light: float) -> Rgb:

@@ -1,4 +1,4 @@
-"""plan.json: the whole plan, from which it can be proved again and everything else re-emitted."""
+"""plan.json: the whole plan, from which `shotc` can verify it again and make all other outputs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far the scene of a plan reaches, and how long it lasts."""
+"""Extent and duration of a plan's scene."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from shotc.ir.trajectory import VerifiedIR
 
 
 def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
-    """Return the corners of the box round all flights and subjects, metres."""
+    """Return the corners of the bounding box of all flights and subjects, metres, shape (3,) each."""
     mission = plan.trajectory.keyframes.mission
     points = [f.curve(np.linspace(f.curve.start, f.curve.end, 400))[:, :3] for f in plan.trajectory.drones]
     points += [fleet.coef.reshape(-1, 3) for fleet in plan.trajectory.fleets]
@@ -24,5 +24,5 @@ def scene_bounds(plan: VerifiedIR) -> tuple[Array, Array]:
 
 
 def scene_time(plan: VerifiedIR) -> float:
-    """Return when the last flight ends, seconds."""
+    """Return the time at which the last flight ends, seconds."""
     return max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)

@@ -1,4 +1,4 @@
-"""Framing in numbers, and composition in lines, for the outputs that are looked at."""
+"""Framing in numbers and composition in lines, for the visual outputs."""
 
 from __future__ import annotations
 
@@ -16,21 +16,27 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 from shotc.rounding import down
 
 IN_FRAME = " in frame"
-"""How the claim ends that tells how much of the time a target is seen whole; before it stands its name."""
+"""End of the name of the claim on the time that a target is wholly in frame; the target's name
+precedes it.
+"""
 
 SCREEN_ERROR = " screen error"
-"""How the claim ends that tells how far a target is from its place at most."""
+"""End of the name of the claim on a target's largest screen error."""
 
 TOPS = (0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0)
-"""Half frames: where plots of screen errors end. What is farther off is out of the frame by a whole one."""
+"""Ends of the axis of screen errors, in half frames. A target with a larger error is outside the frame by at
+least a whole frame.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScreenTrack:
     """One subject of one shot on the screen.
 
-    t : seconds, shape (n,); error : distance on screen to the reference, (u, v) units, NaN where
-    there is no reference or the subject is behind the camera; in_frame : whether it is seen whole
+    t : seconds, shape (n,)
+    error : distance on screen to the reference, (u, v) units, shape (n,); NaN where there is no reference or
+        the subject is behind the camera
+    in_frame : whether all of it is in frame, shape (n,)
     """
 
     drone: str
@@ -43,11 +49,11 @@ class ScreenTrack:
 
 @dataclass(frozen=True, slots=True)
 class ScreenSummary:
-    """The framing of a whole plan, or of one shot: the worst error, where it is, and the share in frame.
+    """The framing of a whole plan or of one shot: the worst error, its place, and the share in frame.
 
-    error, time, shot : None where nothing has a reference
-    in_frame, visible : share of samples, 0 to 1, or None where nothing is framed, or nothing said
-    size : smallest and largest projected height over frame height, or None where nothing is said
+    error, time, shot : None if nothing has a reference
+    in_frame, visible : share of samples, 0 to 1; None if nothing is framed or there is no claim
+    size : smallest and largest projected height over frame height; None if there is no claim
     """
 
     error: float | None
@@ -59,7 +65,7 @@ class ScreenSummary:
 
 
 def screen_tracks(plan: VerifiedIR) -> tuple[ScreenTrack, ...]:
-    """Sample every subject of every shot at the output rate."""
+    """Return all subjects of all shots, sampled at the output rate."""
     rate = plan.trajectory.keyframes.mission.rate
     tracks = []
     for flight in plan.trajectory.drones:
@@ -74,7 +80,11 @@ def screen_tracks(plan: VerifiedIR) -> tuple[ScreenTrack, ...]:
 def screen_track(
     plan: VerifiedIR, flight: DroneTrajectory, subject: tuple[str, str], t: Array
 ) -> ScreenTrack:
-    """Sample one subject, given as (shot, target), at some times."""
+    """Return one subject, sampled at some times.
+
+    subject : (shot, target)
+    t : seconds, shape (n,)
+    """
     shot, target = subject
     frames = projected(plan.trajectory.keyframes.mission, flight, target, t)
     wanted = references(flight, shot, target, t)
@@ -95,7 +105,7 @@ def summary(tracks: tuple[ScreenTrack, ...]) -> ScreenSummary:
 
 
 def framed_targets(certificate: tuple[Claim, ...], shot: str) -> tuple[str, ...]:
-    """Return the targets of which a certificate tells how they are framed in a shot, in its order."""
+    """Return the targets whose framing in a shot the certificate states, in its order."""
     claims = [c.constraint for c in certificate if c.shot == shot and c.constraint.endswith(IN_FRAME)]
     return tuple(dict.fromkeys(constraint.removesuffix(IN_FRAME) for constraint in claims))
 
@@ -103,7 +113,10 @@ def framed_targets(certificate: tuple[Claim, ...], shot: str) -> tuple[str, ...]
 def certified(
     certificate: tuple[Claim, ...], shot: str | None = None, target: str | None = None
 ) -> ScreenSummary:
-    """Return what a certificate says of a plan's framing, or of one shot's: of a target, or of the worst."""
+    """Return the framing that a certificate states for a plan or one shot.
+
+    target : of this target only; None for the worst of all targets
+    """
     claims = [c for c in certificate if c.shot is not None and shot in (None, c.shot)]
 
     def said(ending: str) -> list[Claim]:
@@ -124,7 +137,7 @@ def certified(
 
 
 def error_top(errors: Sequence[Array]) -> float:
-    """Return where to end the axis of a plot of screen errors: all of them below it, if that can be shown."""
+    """Return the end of an axis of screen errors: the least of TOPS that holds all errors, or the largest."""
     known = np.concatenate([np.empty(0), *errors])
     known = known[np.isfinite(known)]
     largest = float(known.max()) if len(known) else 0.0
@@ -132,20 +145,20 @@ def error_top(errors: Sequence[Array]) -> float:
 
 
 def off_place(error: float) -> str:
-    """Return a screen error with four digits, or where the target is if no number says it."""
+    """Return a screen error with four digits, or "behind" for a target behind the camera."""
     return f"{error:.4f}" if isfinite(error) else "behind"
 
 
 def percent(share: float) -> str:
-    """Return a share in percent, rounded down to four digits; only the whole is called 100 %."""
+    """Return a share in percent, rounded down to four digits; only exactly 1 becomes 100 %."""
     return "100 %" if share >= 1.0 else f"{min(down(100 * share), 99.99):.4g} %"
 
 
 def guide_lines(composition: Composition) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return the vertical (u) and horizontal (v) lines that show a composition set on a picture.
+    """Return the vertical (u) and horizontal (v) lines that show a composition on a picture.
 
-    Points give the lines through them, unless they are too many to be read; the centre lines only
-    show where the centre is all there is.
+    Up to five points give the lines through them. The centre lines are shown only if the centre is the only
+    point.
     """
     points = composition.points if len(composition.points) <= 5 else ()
     us = {*composition.u_lines, *(u for u, _ in points)}

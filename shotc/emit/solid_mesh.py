@@ -1,4 +1,4 @@
-"""Solids as shaded triangles, for pictures of the world and files of it."""
+"""Solids as shaded triangles, for pictures and files of the world."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from shotc.geom.solids import Cylinder, Solid, triangles
 
 SIDES = 48
 LIGHT = np.radians(215.0)
-"""Where the light comes from, an angle of W."""
+"""Direction to the light, an angle in W, rad."""
 
 
 class ShadedMesh(NamedTuple):
-    """Triangles: vertices (n, 3), their indices (m, 3), and a shade for every vertex, (n,)."""
+    """Triangles: vertices (n, 3), metres; indices of vertices (m, 3); lightness of each vertex (n,)."""
 
     points: Array
     faces: NDArray[np.uint32]
@@ -24,9 +24,9 @@ class ShadedMesh(NamedTuple):
 
 
 def solid_mesh(solid: Solid) -> ShadedMesh:
-    """Return a solid as triangles: vertices (n, 3), indices (m, 3), and a shade for every vertex.
+    """Return a solid as triangles, lit from the south-west.
 
-    Faces share no vertices, so that every face has its own shade: light from the south-west.
+    Faces share no vertices, so that each face has its own lightness.
     """
     if isinstance(solid, Cylinder):
         turn = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)

@@ -1,7 +1,7 @@
-"""Numbers of the tables."""
+"""Number formats of the tables."""
 
 from __future__ import annotations
 
 NUMBER = "%.9g"
 DEGREES = "%.9f"
-"""Latitude and longitude: nine significant digits would be steps of decimetres East of 100 degrees."""
+"""Latitude and longitude; nine significant digits would be decimetre steps east of 100 degrees."""

@@ -1,8 +1,8 @@
 """NAME.tum: the camera's poses in the format of the TUM RGB-D benchmark, which evo and SLAM tools read.
 
-Rows are ``timestamp tx ty tz qx qy qz qw`` with single spaces: where the camera is in W, and the rotation
-to W from its own frame, x right, y down, z forward. The reader of evo takes no other white space, and lines
-that begin with ``#`` are comments.
+The rows are ``timestamp tx ty tz qx qy qz qw`` with single spaces: the camera's position in W, and the
+rotation to W from its own frame (x right, y down, z forward). evo's reader accepts no other white space, and
+lines that begin with ``#`` are comments.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ ROW = "%.9g" + " %.6f" * 3 + " %.9f" * 4
 
 @dataclass(frozen=True, slots=True)
 class Tum:
-    """Writes one file a drone, of its whole flight at the ticks of the output clock."""
+    """Writes one file for each drone, with its whole flight at the ticks of the output clock."""
 
     name: ClassVar[str] = "tum"
     summary: ClassVar[str] = "NAME.tum: the camera's poses for evo and SLAM tools"

@@ -1,4 +1,4 @@
-"""ZIP archives: the same bytes for the same members, and written one member after another."""
+"""ZIP archives with reproducible bytes, written member by member."""
 
 from __future__ import annotations
 
@@ -6,22 +6,22 @@ from collections.abc import Iterable, Iterator
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 EPOCH = (1980, 1, 1, 0, 0, 0)
-"""The date that every member bears: the earliest there is."""
+"""The date of all members, the earliest that ZIP allows."""
 
 READABLE = 0o644 << 16
 
 
 def entry(name: str, method: int = ZIP_DEFLATED) -> ZipInfo:
-    """Return a member's head that does not depend on when and where it is made."""
+    """Return the header of a member, independent of time and machine."""
     made = ZipInfo(name, EPOCH)
     made.compress_type = method
-    made.create_system = 3  # not the system that it happens to be made on
+    made.create_system = 3  # Unix, whatever the machine is
     made.external_attr = READABLE
     return made
 
 
 class _Pipe:
-    """What an archive is written to: it keeps only what has not been taken yet, and cannot go back."""
+    """The output of an archive: it holds only the bytes not yet taken, and is not seekable."""
 
     def __init__(self) -> None:
         self._held = bytearray()
@@ -40,7 +40,10 @@ class _Pipe:
 
 
 def archive_parts(members: Iterable[tuple[str, bytes]]) -> Iterator[bytes]:
-    """Yield the bytes of an archive member by member; members : their names and what they hold."""
+    """Yield the bytes of an archive, member by member.
+
+    members : their names and contents
+    """
     pipe = _Pipe()
     with ZipFile(pipe, "w") as archive:  # type: ignore[call-overload]  # it needs no more than write and flush
         for name, data in members:

@@ -23,7 +23,7 @@ FORMAT = FileFormat(
     says_link_lost=True,
     photos=("pilot-2",),
 )
-"""What a focal length means to the machines of DJI Fly is not known, so their files do not zoom."""
+"""The focal-length unit of machines that fly with DJI Fly is not known, so their files contain no zoom."""
 
 
 COPIED = (
@@ -33,14 +33,16 @@ COPIED = (
 
 
 class DjiEmitter:
-    """Writes a ``.kmz`` for each drone that is flown by an app of DJI's."""
+    """Writes a ``.kmz`` for each drone that a DJI app flies."""
 
     name: ClassVar[str] = "dji"
     summary: ClassVar[str] = "DJI waypoint missions (.kmz) for DJI Fly and Pilot 2"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the missions, with the error that they add and what they cannot carry."""
+        """Return the missions, with notes on the error that the format adds and warnings about what it cannot
+        carry.
+        """
         made = emit_files(plan, FORMAT)
         drones = plan.trajectory.keyframes.mission.drones
         copied = made.artifacts and any(drone.autopilot == "dji-fly" for drone in drones)

@@ -1,4 +1,4 @@
-"""The ``.kmz`` container: written as DJI's apps take it, and read back by local names."""
+"""The ``.kmz`` container: written in the form that DJI's apps accept, read back by local element names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.photos import Photos
 
 TEMPLATE, WAYLINES = "wpmz/template.kml", "wpmz/waylines.wpml"
-POINTS_MOST = 200  # of a mission in DJI Fly
+POINTS_MOST = 200  # waypoints of a mission in DJI Fly
 _KINDS = {"startRecord": "start", "stopRecord": "stop", "hover": "stay", "zoom": "zoom"}
 _INTERVALS = {
     "multipleTiming": lambda every: Photos(seconds=every),
@@ -27,7 +27,8 @@ _INTERVALS = {
 def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
     """Return the file's bytes; the same input gives the same bytes.
 
-    It holds two files and no entries of folders: the apps find no waypoints in a file that has them.
+    The archive holds two files and no folder entries: the apps find no waypoints in an archive with folder
+    entries.
     """
     document = WpmlMission(points, profile_of(drone), drone.safety or NOTHING)
     ET.register_namespace("", KML)
@@ -40,7 +41,9 @@ def write_kmz(points: list[Waypoint], drone: Drone) -> bytes:
 
 
 def read_kmz(data: bytes) -> list[Waypoint]:
-    """Return the points of a mission of ours; curve is 0, for these machines go through their points."""
+    """Return the points of a mission that shotc wrote; ``curve`` is 0, because these machines pass through
+    points.
+    """
     with ZipFile(BytesIO(data)) as archive:
         root = ET.fromstring(archive.read(WAYLINES))
     points = [_waypoint(mark) for mark in root.iter() if _local(mark) == "Placemark"]

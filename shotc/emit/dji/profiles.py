@@ -1,4 +1,4 @@
-"""What DJI Fly and DJI Pilot 2 want said differently in WPML."""
+"""Differences between the WPML of DJI Fly and that of DJI Pilot 2."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ from shotc.ir.drone import Drone
 
 @dataclass(frozen=True, slots=True)
 class AppDialect:
-    """One app's dialect.
+    """The WPML dialect of one app.
 
-    namespace : of WPML; drone, payload : type and subtype numbers, payload None where the app writes none
-    full_template : whether the app makes the flown file anew from the template, which has to hold all then
-    group_mode : of action groups without a stay; yaw_base : of gimbal angles
+    namespace : of WPML
+    drone, payload : type and subtype numbers; payload is None where the app writes none
+    full_template : whether the app makes the flown file anew from the template, which then has to hold
+        everything
+    group_mode : mode of action groups without a stay
+    yaw_base : reference of gimbal yaw angles
     evenly : trigger of the gimbal's even rotation over a leg
     """
 
@@ -26,14 +29,14 @@ class AppDialect:
     evenly: str
 
 
-# 68 is what tools write for all machines of DJI Fly, and the app does not look at it.
+# Tools write 68 for all machines of DJI Fly; the app does not read it.
 DJI_FLY = AppDialect(
     "http://www.uav.com/wpmz/1.0.2", (68, 0), None, False, "parallel", "aircraft", "reachPoint"
 )
 PILOT_2 = AppDialect(
     "http://www.dji.com/wpmz/1.0.6", (77, 0), (66, 0), True, "sequence", "north", "betweenAdjacentPoints"
 )
-"""With the numbers of a Mavic 3 Enterprise and its camera."""
+"""The numbers are those of a Mavic 3 Enterprise and its camera."""
 
 PROFILES = {"dji-fly": DJI_FLY, "pilot-2": PILOT_2}
 

@@ -1,4 +1,4 @@
-"""WPML: ``template.kml`` and ``waylines.wpml`` of one mission, with elements in the apps' own order."""
+"""WPML: ``template.kml`` and ``waylines.wpml`` of one mission, with elements in the order of DJI's apps."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from shotc.ir.drone import Safety
 from shotc.ir.photos import Photos
 
 KML = "http://www.opengis.net/kml/2.2"
-CREATED_MS = 1704067200000  # 2024-01-01: the same plan gives the same bytes, whenever that is
-APPROACH = 5.0  # m/s to the first point, which is above the pad
-CLIMB_LEAST = 1.2  # metres, of the height to which DJI Pilot 2 climbs before it goes to the first point
+CREATED_MS = 1704067200000  # 2024-01-01; a constant, so that the same plan gives the same bytes
+APPROACH = 5.0  # m/s on the way to the first point, which is above the pad
+CLIMB_LEAST = 1.2  # metres, least height to which DJI Pilot 2 climbs before it flies to the first point
 STOP = "toPointAndStopWithContinuityCurvature"
 PASS = "toPointAndPassWithContinuityCurvature"
 
 
 @dataclass(frozen=True, slots=True)
 class WpmlMission:
-    """What both files of a mission hold: its points, in an app's dialect."""
+    """The points of a mission and an app's dialect, from which both files are written."""
 
     points: list[Waypoint]
     profile: AppDialect
@@ -74,7 +74,8 @@ class WpmlMission:
     def _config(self, document: ET.Element) -> None:
         """Write how the mission begins and ends.
 
-        It lands where it ends, above the pad: a return would climb and fly a way that no plan has proved.
+        The drone lands where the mission ends, which is above its pad. A return to home would climb and fly a
+        path that is not verified.
         """
         config = self._put(document, "missionConfig")
         self._put(config, "flyToWaylineMode", "safely")
@@ -104,7 +105,7 @@ class WpmlMission:
             self._put(payload, "payloadPositionIndex", 0)
 
     def _template_folder(self, document: ET.Element) -> None:
-        """Write the points once more as DJI Pilot 2 edits them; it makes the flown file of these."""
+        """Write the points in the form that DJI Pilot 2 edits; the app makes the flown file from it."""
         folder = ET.SubElement(document, _kml("Folder"))
         self._put(folder, "templateType", "waypoint")
         self._put(folder, "templateId", 0)
@@ -174,15 +175,16 @@ class WpmlMission:
         self._put(turn, "waypointTurnDampingDist", 0)
 
     def _gimbal_heading(self, mark: ET.Element, point: Waypoint) -> None:
-        # A pitch of 0 here pulls some gimbals level at every point.
+        # A pitch of 0 here makes some gimbals level the camera at every point.
         gimbal = self._put(mark, "waypointGimbalHeadingParam")
         self._put(gimbal, "waypointGimbalPitchAngle", f"{point.pitch:.1f}")
         self._put(gimbal, "waypointGimbalYawAngle", 0)
 
     def _actions(self, mark: ET.Element, i: int, ids: count[int]) -> None:
-        """Write what is done at a point, then the even rotation of the gimbal on the leg from it.
+        """Write the actions at a point, then the even rotation of the gimbal on the next leg.
 
-        A stay comes in its turn, between start and stop of a recording, so such a group is a sequence.
+        A group with a stay is a sequence, because the stay has its place between start and stop of a
+        recording.
         """
         point = self.points[i]
         if i == 0:
@@ -216,7 +218,7 @@ class WpmlMission:
             self._put(params, "payloadPositionIndex", 0)
 
     def _photograph(self, mark: ET.Element, i: int, ids: count[int], photos: Photos) -> None:
-        """Write photos from a point on, to the one at which they stop."""
+        """Write a group of photos from a point to the point at which they stop."""
         end = next(k for k in range(i + 1, len(self.points)) if _stops_photos(self.points[k]))
         trigger = "multipleDistance" if photos.seconds is None else "multipleTiming"
         every = photos.metres if photos.seconds is None else photos.seconds
@@ -245,7 +247,7 @@ class WpmlMission:
         return group
 
     def _action(self, group: ET.Element, ids: count[int], name: str) -> ET.Element:
-        """Append an action, with a number that nothing else has, and return its parameters."""
+        """Append an action with a unique number and return its parameters."""
         action = self._put(group, "action")
         self._put(action, "actionId", next(ids))
         self._put(action, "actionActuatorFunc", name)
@@ -272,7 +274,7 @@ def _kml(name: str) -> str:
 
 
 def _degrees(angle: float) -> str:
-    """Return an angle to a tenth of a degree, in [-180, 180)."""
+    """Return an angle in degrees rounded to a tenth, in [-180, 180)."""
     tenth = round(angle, 1)
     return f"{-180.0 if tenth >= 180.0 else tenth:.1f}"
 

@@ -1,4 +1,4 @@
-"""Litchi missions (``.csv``): for its Mission Hub, and for Litchi Pilot on machines without waypoints."""
+"""Litchi missions (``.csv``), for its Mission Hub and for Litchi Pilot on machines without waypoints."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from shotc.emit.waypoints.report import without_waypoints
 from shotc.ir.trajectory import VerifiedIR
 
 FARTHEST_M = 30_000.0
-"""Of a mission: DJI's older programming interface, by which Litchi flies, takes no longer one."""
+"""Longest length of a mission, metres: the limit of the older DJI SDK that Litchi uses."""
 
 FORMAT = FileFormat(
     "litchi",
@@ -41,7 +41,9 @@ class LitchiEmitter:
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the missions, with the error that they add and what they cannot carry."""
+        """Return the missions, with notes on the error that the format adds and warnings about what it cannot
+        carry.
+        """
         made = emit_files(plan, FORMAT)
         if not made.artifacts:
             return made

@@ -1,4 +1,4 @@
-"""Litchi's table of 46 columns: a row for each waypoint, written and read back."""
+"""Litchi's table of 46 columns, one row for each waypoint: writing and reading."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.route import PointAction, Waypoint
 from shotc.ir.photos import Photos
 
-POINTS_MOST = 99  # of a block of Litchi's
-ACTIONS_MOST = 15  # of a point
-STAY_MOST = 32.0  # seconds of one action
+POINTS_MOST = 99  # points of a block in Litchi
+ACTIONS_MOST = 15  # actions at a point
+STAY_MOST = 32.0  # seconds of one stay action
 NONE, STAY, START, STOP = -1, 0, 2, 3
 COLUMNS = (
     "latitude",
@@ -39,7 +39,8 @@ COLUMNS = (
 def write_table(points: list[Waypoint]) -> bytes:
     """Return the table's bytes; the same input gives the same bytes.
 
-    Headings are the points' own (Heading Mode Custom), pitch is interpolated, heights count from take-off.
+    Each point has its own heading (Heading Mode Custom), the pitch is interpolated, and heights count from
+    take-off.
     """
     stream = StringIO()
     table = csv.writer(stream, lineterminator="\n")
@@ -53,7 +54,10 @@ def write_table(points: list[Waypoint]) -> bytes:
 
 
 def read_table(data: bytes) -> list[Waypoint]:
-    """Return the points of a table; the drone stops at its ends, and where it does something."""
+    """Return the points of a table.
+
+    The drone stops at both ends of the mission and at every point with an action.
+    """
     rows = list(csv.DictReader(StringIO(data.decode())))
     points: list[Waypoint] = []
     photos: Photos | None = None
@@ -90,14 +94,14 @@ def _row(point: Waypoint, photos: Photos | None) -> list[str]:
 
 
 def _focus(watched: GeoPosition | None) -> tuple[str, ...]:
-    """Return the point of interest of a row, whose height counts from take-off; 0 where there is none."""
+    """Return the point of interest of a row, with its height above take-off; zeros if there is none."""
     if watched is None:
         return ("0", "0", "0", "0")
     return (f"{watched.lat:.9f}", f"{watched.lon:.9f}", f"{watched.alt:.2f}", "0")
 
 
 def _interval(row: dict[str, str]) -> Photos | None:
-    """Return the photos that are taken from a point on."""
+    """Return the photos that begin or go on at a point, or None."""
     seconds, metres = float(row["photo_timeinterval"]), float(row["photo_distinterval"])
     if seconds <= 0 and metres <= 0:
         return None
@@ -105,7 +109,7 @@ def _interval(row: dict[str, str]) -> Photos | None:
 
 
 def _pairs(action: PointAction) -> list[tuple[int, int]]:
-    """Return the action's type and parameter, several times where a stay is longer than one may be."""
+    """Return type and parameter of an action; a stay longer than STAY_MOST is divided into several."""
     if action.kind != "stay":
         return [(START if action.kind == "start" else STOP, 0)]
     count = ceil(action.seconds / STAY_MOST)

@@ -1,9 +1,9 @@
 """MAVLink mission files: QGroundControl ``.plan`` for PX4 and ArduPilot, ``.waypoints`` for ArduPilot.
 
-The verified trajectory is thinned to straight legs, written, read back from the written bytes and
-re-flown the way the autopilot interpolates it; what the format adds to the picture is reported. The
-planned return is flown by waypoints, since that is what was verified, and the flight ends with a
-landing at home.
+The emitter thins the verified trajectory to straight legs and writes them. It reads the written bytes back
+and flies them in a model of the autopilot's interpolation. It reports the error that the format adds to the
+picture. The planned return is flown by waypoints, because that is the verified path, and the flight ends with
+a landing at home.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-COARSER = 16.0  # times the tolerances at most, first those of framing, then that of position
-HALVINGS = 6  # of the search for the least coarseness that fits into the autopilot's memory
+COARSER = 16.0  # largest factor on the tolerances; framing is loosened first, then position
+HALVINGS = 6  # bisection steps of the search for the least coarseness that fits into the autopilot's memory
 
 
 class MavlinkEmitter:
@@ -62,7 +62,7 @@ class MavlinkEmitter:
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the mission files, with warnings and the error that the format adds."""
+        """Return the mission files, with warnings and notes on the error that the format adds."""
         mission = plan.trajectory.keyframes.mission
         fleets = fleetless(mission, plan.trajectory.fleets, self.name)
         if fleets and not plan.trajectory.drones:
@@ -87,7 +87,11 @@ class MavlinkEmitter:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Flight:
-    """A flight list, and whether tolerances had to give way for it to fit."""
+    """A flight list, and whether the tolerances were loosened to make it fit.
+
+    asked : steps with the intended holds
+    steps : steps with the holds that the autopilot can carry
+    """
 
     items: list[MissionItem]
     asked: list[WaypointStep]
@@ -97,7 +101,7 @@ class _Flight:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Job:
-    """One drone's part of the emission."""
+    """The emission for one drone."""
 
     mission: MissionIR
     flight: DroneTrajectory
@@ -127,7 +131,7 @@ class _Job:
         )
 
     def emit(self) -> tuple[Emission, Array | None]:
-        """Return the files, and the places (n, 3) of their re-flight, None where none is written."""
+        """Return the files and the positions (n, 3) of their re-flight; None if no file is written."""
         not_carried = [] if self.style.zooms else lens(self.mission, self.flight)
         faults = [d for d in not_carried if d.code == PROMISED]
         if faults:
@@ -160,7 +164,9 @@ class _Job:
         return Emission(tuple(artifacts), tuple(diagnostics), tuple(notes)), flown.position
 
     def _rally(self) -> list[GeoPosition]:
-        """Return the rally points, at the height at which the drone returns, or that of its highest point."""
+        """Return the rally points, at the return height if the mission states one, else at the flight's
+        greatest height.
+        """
         safety = self.drone.safety
         if safety is None:
             return []
@@ -208,7 +214,10 @@ class _Job:
 
 
 def _coarse(intended: Tolerance, degree: float) -> Tolerance:
-    """Return the tolerance at a degree of coarseness: framing gives way up to 1, position beyond, to 2."""
+    """Return the tolerance at a degree of coarseness from 0 to 2.
+
+    From 0 to 1 the tolerances of framing grow; from 1 to 2 those of position grow.
+    """
     return intended.scaled(COARSER ** min(degree, 1.0), COARSER ** max(degree - 1.0, 0.0))
 
 

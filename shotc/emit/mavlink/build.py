@@ -1,7 +1,8 @@
-"""From steps to mission items.
+"""Builds mission items from steps.
 
-Order between two waypoints: end of recording, end of following, speed, gimbal, zoom, start of recording,
-heading last, because on ArduPilot a CONDITION command holds back every command behind it.
+The order between two waypoints is: end of recording, end of following, speed, gimbal, zoom, start of
+recording, heading. The heading is last because on ArduPilot a CONDITION command delays every command behind
+it.
 """
 
 from __future__ import annotations
@@ -50,19 +51,21 @@ from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 
-SLEW = 60.0  # deg/s, ArduPilot's ATC_SLEW_YAW; a faster turn is not flown
-SLOW_TURN = 0.01  # deg/s; zero would mean the default rate
+SLEW = 60.0  # deg/s, ArduPilot's ATC_SLEW_YAW, the fastest turn that is flown
+SLOW_TURN = 0.01  # deg/s; zero would select the default rate
 
 
 @dataclass(slots=True)
 class Builder:
-    """The flight list under construction, and what is in force at its end.
+    """The flight list under construction, and the state at its end.
 
-    yaw : body yaw commanded last, rad; aimed : gimbal angles commanded last, None after following
-    region : point of W that the gimbal looks at, or None
+    yaw : body yaw commanded last, rad
+    aimed : gimbal angles commanded last; None after following
+    region : point in W that the gimbal looks at, or None
     hfov : field of view commanded last, rad
-    photos : of the shots that take some, by name
-    focus : where the lens is to be focused, None where the file does not say; focused : the last depth, m
+    photos : photo settings of the shots that take photos, by shot name
+    focus : focus distances along the flight; None where the file does not set the focus
+    focused : focus distance commanded last, metres
     """
 
     drone: Drone
@@ -121,7 +124,7 @@ class Builder:
         self.items.append(self.dialect.waypoint(place, step.hold, step.radius, step.command.body_yaw))
 
     def _start(self, shot: str) -> list[MissionItem]:
-        """Return what begins the film or the photos of a shot."""
+        """Return the items that start the recording or the photos of a shot."""
         photos = self.photos.get(shot)
         changes = self.dialect.changes_mode and self.photos
         mode = (
@@ -188,8 +191,8 @@ class Builder:
         self.region = region
 
     def _turn(self, step: WaypointStep, yaw: float, *, force: bool) -> None:
-        # A mount that cannot pan takes the body over on every mount command, so that the heading has
-        # to be said again (ArduCopter, do_mount_control).
+        # A mount that cannot pan takes control of the body with every mount command, so the heading must be
+        # commanded again (ArduCopter, do_mount_control).
         if self.yaw is None:
             rate = SLEW
         elif abs(yaw - self.yaw) < SAME and not force:
@@ -203,6 +206,6 @@ class Builder:
 
 
 def _parted(a: Vec3, b: Vec3, position: Array) -> float:
-    """Return the angle between two points seen from a third, rad."""
+    """Return the angle between two points as seen from a third, rad."""
     ray, other = np.array(a) - position, np.array(b) - position
     return float(np.arctan2(np.linalg.norm(np.cross(ray, other)), ray @ other))

@@ -1,10 +1,13 @@
-"""What PX4 and ArduPilot want said differently.
+"""Differences between the mission items of PX4 and ArduPilot.
 
-PX4 takes yaw from the waypoint, NaN where it may choose, and fine gimbal angles from the gimbal
-manager once the mission has claimed it; it has no CONDITION_YAW. ArduPilot ignores a waypoint's yaw
-and radius, refuses NaN, holds for whole seconds, and keeps gimbal manager angles as whole degrees
-only, so the older mount command carries the angles there. PX4 hands a focal length on to the camera;
-ArduPilot takes a share of the zoom's range alone, even in magnification (AP_Camera, AP_Mount_Siyi).
+PX4 takes the yaw from the waypoint (NaN leaves the choice to it). It takes fine gimbal angles from the gimbal
+manager after the mission has claimed control of it. It has no CONDITION_YAW.
+
+ArduPilot ignores a waypoint's yaw and radius, refuses NaN and holds for whole seconds. It stores gimbal
+manager angles as whole degrees, so the older mount command carries the angles.
+
+PX4 passes a focal length on to the camera. ArduPilot takes only a share of the zoom range, which is linear in
+magnification (AP_Camera, AP_Mount_Siyi).
 """
 
 from __future__ import annotations
@@ -38,11 +41,11 @@ from shotc.geom.focal import field_of_view
 from shotc.ir.drone import LensRange
 from shotc.ir.source import Autopilot
 
-ITSELF = -2.0  # the mission's own system and component, for the gimbal's primary control
+ITSELF = -2.0  # the mission's own system and component, which take primary control of the gimbal
 
 
 class Px4:
-    """PX4 multirotor. At most 500 items: newer boards hold no more."""
+    """PX4 multirotor, with at most 500 items: newer boards store no more."""
 
     firmware = 12
     most_items = 500
@@ -64,17 +67,19 @@ class Px4:
         return at(WAYPOINT, place, round(hold, 2), round(radius, 2), 0.0, compass_deg(yaw))
 
     def gimbal(self, command: Command, style: Style) -> MissionItem:
-        """Return the gimbal's angles; horizon-level, and against the earth where it pans."""
+        """Return the gimbal's angles: the horizon is level, and the yaw is relative to North if the gimbal
+        pans.
+        """
         flags = float(ROLL_LOCK | PITCH_LOCK | (YAW_LOCK if style.pans else 0))
         yaw = signed_deg(pi / 2 - command.cam_yaw) if style.pans else 0.0
         return action(GIMBAL_PITCHYAW, degrees_of(command.cam_pitch), yaw, None, None, flags)
 
     def zoom(self, lens: LensRange, hfov: float) -> MissionItem:
-        """Return a zoom to a field of view, rad: a focal length in mm, as the lens counts them."""
+        """Return the zoom to a field of view, rad, as a focal length in mm."""
         return action(CAMERA_ZOOM, float(ZOOM_FOCAL_LENGTH), round(1000 * lens.focal(hfov), 2))
 
     def zoomed(self, lens: LensRange, value: float) -> float:
-        """Return the field of view, rad, of what a zoom says."""
+        """Return the field of view, rad, of the value in a zoom item."""
         return field_of_view(value / 1000, lens.frame)
 
     def land(self, place: GeoPosition, yaw: float) -> MissionItem:
@@ -83,7 +88,7 @@ class Px4:
 
 
 class ArduPilot:
-    """ArduPilot Copter. At most 650 items with home: what 16 KB of storage hold."""
+    """ArduPilot Copter, with at most 650 items including home: the capacity of 16 KB of storage."""
 
     firmware = 3
     most_items = 649
@@ -92,32 +97,34 @@ class ArduPilot:
     vertical_speeds = True
     turns_by_item = True
     earth_pan = False
-    focuses = False  # but by itself, or in percent of what nobody knows
+    focuses = False  # only autofocus, or a percentage of an unknown range
     changes_mode = False
 
     def takeoff(self, place: GeoPosition, yaw: float) -> list[MissionItem]:
-        """Return the take-off; it keeps its heading."""
+        """Return the take-off; the vehicle keeps its heading."""
         return [at(TAKEOFF, place, 0.0, 0.0, 0.0, 0.0)]
 
     def waypoint(self, place: GeoPosition, hold: float, radius: float, yaw: float) -> MissionItem:
-        """Return a waypoint: hold in whole s; radius and yaw come from parameters and CONDITION_YAW."""
+        """Return a waypoint with a hold in whole seconds; parameters set the radius and CONDITION_YAW sets
+        the yaw.
+        """
         return at(WAYPOINT, place, hold, 0.0, 0.0, 0.0)
 
     def gimbal(self, command: Command, style: Style) -> MissionItem:
-        """Return the gimbal's angles, yaw against the body."""
+        """Return the gimbal's angles, with the yaw relative to the body."""
         yaw = signed_deg(-command.pan) if style.pans else 0.0
         return action(
             MOUNT_CONTROL, degrees_of(command.cam_pitch), 0.0, yaw, 0.0, 0.0, 0.0, float(MOUNT_ANGLES)
         )
 
     def zoom(self, lens: LensRange, hfov: float) -> MissionItem:
-        """Return a zoom to a field of view, rad: in percent of the range of focal lengths."""
+        """Return the zoom to a field of view, rad, in percent of the range of focal lengths."""
         short, long = lens.focal(lens.widest), lens.focal(lens.longest)
         share = (lens.focal(hfov) - short) / (long - short)
         return action(CAMERA_ZOOM, float(ZOOM_RANGE), round(100 * min(max(share, 0.0), 1.0), 2))
 
     def zoomed(self, lens: LensRange, value: float) -> float:
-        """Return the field of view, rad, of what a zoom says."""
+        """Return the field of view, rad, of the value in a zoom item."""
         short, long = lens.focal(lens.widest), lens.focal(lens.longest)
         return field_of_view(short + value / 100 * (long - short), lens.frame)
 

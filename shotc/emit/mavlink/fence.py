@@ -1,7 +1,7 @@
-"""The geofence: zones as polygons and circles on the map, which have no height.
+"""The geofence: zones as polygons and circles on the map, without height.
 
-A keep-out zone that the flight passes over or under would stop the flight, and a keep-in zone that
-the flight does not stay in as well; both are left out and named.
+A keep-out zone that the flight passes above or below would stop the flight. So would a keep-in zone that the
+flight leaves. Both are left out of the fence and reported.
 """
 
 from __future__ import annotations
@@ -18,12 +18,15 @@ from shotc.ir.mission import MissionIR, Zone
 
 Array = NDArray[np.float64]
 
-MARGIN = 0.25  # metres: what thinning may add to the flight
+MARGIN = 0.25  # metres that thinning may add to the flight
 
 
 @dataclass(frozen=True, slots=True)
 class FencePolygon:
-    """A polygon to stay in or out of; corners (lat, lon) in degrees, clockwise from above."""
+    """A polygon to stay in or out of.
+
+    corners : (lat, lon) in degrees, clockwise seen from above
+    """
 
     inclusion: bool
     corners: tuple[tuple[float, float], ...]
@@ -31,7 +34,11 @@ class FencePolygon:
 
 @dataclass(frozen=True, slots=True)
 class FenceCircle:
-    """A circle to stay in or out of; centre (lat, lon) in degrees, radius in metres."""
+    """A circle to stay in or out of.
+
+    centre : (lat, lon) in degrees
+    radius : metres
+    """
 
     inclusion: bool
     centre: tuple[float, float]
@@ -40,7 +47,7 @@ class FenceCircle:
 
 @dataclass(frozen=True, slots=True)
 class Left:
-    """A zone that the fence does not hold, and why."""
+    """A zone that is left out of the fence, and the reason."""
 
     zone: Zone
     reason: str
@@ -58,9 +65,9 @@ class Fence:
 def fence_of(mission: MissionIR, geo: Geo, track: Array, *, one_inclusion: bool) -> Fence:
     """Return the fence of a flight.
 
-    track : every point of the flight, pad included, shape (n, 3)
-    one_inclusion : the autopilot asks for any one keep-in area instead of all (PX4), so that only
-        the smallest is written
+    track : all points of the flight, those on the pad included, in W, metres, shape (n, 3)
+    one_inclusion : the autopilot demands any one keep-in area instead of all (PX4), so only the smallest is
+        written
     """
     polygons: list[FencePolygon] = []
     circles: list[FenceCircle] = []
@@ -77,7 +84,7 @@ def fence_of(mission: MissionIR, geo: Geo, track: Array, *, one_inclusion: bool)
         elif isinstance(zone.solid, Cylinder):
             circles.append(_circle(zone, zone.solid, geo))
         else:
-            # Solids run counter-clockwise.
+            # Polygons of solids run counter-clockwise; those of the fence run clockwise.
             corners = geo.places(np.array([(x, y, 0.0) for x, y in reversed(zone.solid.points)]))
             polygons.append(FencePolygon(zone.keep == "in", tuple((c.lat, c.lon) for c in corners)))
     return Fence(tuple(polygons), tuple(circles), tuple(left))

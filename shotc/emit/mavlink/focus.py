@@ -1,4 +1,4 @@
-"""At which depths a flight's lens is to be focused, and what one focus makes of them."""
+"""The focus distances of a flight's lens, and the blur that one focus distance causes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-REFOCUS_SHARE = 0.5  # of the circle of confusion, that one focus may show what is to be in focus as
+REFOCUS_SHARE = 0.5  # share of the circle of confusion that the blur disc of one focus may reach
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Focus:
-    """The samples of a track, (n,) each.
+    """Focus distances along a track.
 
-    depth : at which the lens is to be focused, m, NaN where nothing is filmed; focal : of the lens, m
+    depth : distance to focus on at each sample, metres, shape (n,); NaN where nothing is filmed
+    focal : focal length at each sample, metres, shape (n,)
     """
 
     optics: Optics
@@ -31,16 +32,18 @@ class Focus:
     focal: Array
 
     def middle(self, part: slice) -> float | None:
-        """Return the focus that serves some samples best, m, or None where nothing is to be in focus.
+        """Return the focus distance, metres, with the least blur over some samples; None if none is to be in
+        focus.
 
-        Discs are as large as depths differ in nearness, so it is in the middle of that.
+        The diameter of a blur disc is proportional to the difference of 1 / distance. The best focus is
+        therefore the mean of the largest and the smallest 1 / distance.
         """
         depth = self.depth[part]
         nearness = 1 / depth[np.isfinite(depth)]
         return round(2 / float(nearness.max() + nearness.min()), 2) if len(nearness) else None
 
     def serves(self, part: slice, focus: float) -> bool:
-        """Tell whether a focus, m, shows sharp enough at some samples what is to be in focus."""
+        """Return whether one focus distance, metres, is sharp enough at all given samples."""
         assert self.optics.aperture is not None
         depth, focal = self.depth[part], self.focal[part]
         discs = blur(focal, self.optics.aperture, np.full(len(depth), focus), depth)
@@ -48,7 +51,7 @@ class Focus:
 
 
 def focus_of(mission: MissionIR, drone: Drone, flight: DroneTrajectory, track: SampledFlight) -> Focus | None:
-    """Return where a drone's lens is to be focused; None where the mission says no aperture."""
+    """Return the focus distances of a drone's lens; None if the mission states no aperture."""
     optics = drone.optics
     if optics is None or optics.aperture is None:
         return None

@@ -1,6 +1,6 @@
-"""Mission items: what an autopilot's flight list is made of, and the numbers that name things in it.
+"""Mission items of MAVLink, their command numbers and their units.
 
-Angles in items are degrees, headings clockwise from North, gimbal pitch positive up; positions are
+Angles in items are degrees. Headings are clockwise from North, and gimbal pitch is positive up. Positions are
 latitude and longitude in degrees and height above home in metres.
 """
 
@@ -34,7 +34,7 @@ ROLL_LOCK, PITCH_LOCK, YAW_LOCK = 4, 8, 16
 class MissionItem:
     """One mission item.
 
-    params : seven numbers; None stands for NaN, "the autopilot's own choice"
+    params : seven numbers; None stands for NaN, which leaves the choice to the autopilot
     """
 
     command: int
@@ -43,25 +43,25 @@ class MissionItem:
 
 
 def action(command: int, *params: float | None) -> MissionItem:
-    """Return an item that is no place to fly to, padded with zeros to seven parameters."""
+    """Return an item without a position; zeros fill the parameters up to seven."""
     return MissionItem(command, FRAME_MISSION, (*params, *(0.0,) * (7 - len(params))))
 
 
 def at(command: int, place: GeoPosition, *params: float | None) -> MissionItem:
-    """Return an item at a place, with its first four parameters."""
+    """Return an item at a position, with its first four parameters."""
     return MissionItem(command, FRAME_RELATIVE, (*params, place.lat, place.lon, place.alt))
 
 
 def degrees_of(angle: float) -> float:
-    """Return an angle in degrees, to a ten-thousandth, never a negative zero."""
+    """Return an angle, rad, in degrees, rounded to four decimals and never a negative zero."""
     return round(angle * 180 / pi, 4) + 0.0
 
 
 def compass_deg(yaw: float) -> float:
-    """Return the compass heading in [0, 360) degrees of a yaw counter-clockwise from East, rad."""
+    """Return the compass heading in [0, 360) degrees of a yaw, rad counter-clockwise from East."""
     return degrees_of(heading_of(yaw)) % 360.0
 
 
 def signed_deg(angle: float) -> float:
-    """Return an angle wrapped into [-180, 180) degrees."""
+    """Return an angle, rad, wrapped into [-180, 180) degrees."""
     return degrees_of(wrapped(angle))

@@ -1,4 +1,4 @@
-"""QGroundControl ``.plan`` files: written as its loader demands, and read back."""
+"""QGroundControl ``.plan`` files: written in the form that its loader demands, and read back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from shotc.emit.mavlink.items import FRAME_RELATIVE, POSITION_COMMANDS, MissionI
 from shotc.emit.waypoints.geo import Geo, GeoPosition
 
 QUADROTOR = 2
-CRUISE_SPEED = 15  # m/s; the loader wants a number, a multirotor never uses it
+CRUISE_SPEED = 15  # m/s; the loader demands a number, a multirotor never uses it
 RELATIVE = 1  # altitude mode: relative to home
 
 
@@ -25,8 +25,9 @@ def write_plan(
 ) -> bytes:
     """Return the plan's bytes; the same input gives the same bytes.
 
-    rally : where the vehicle may land instead of at home, with the height at which it comes there
-    firmware : MAV_AUTOPILOT; hover_speed : m/s, shown by the ground station only
+    firmware : MAV_AUTOPILOT
+    hover_speed : m/s, only displayed by the ground station
+    rally : places where the vehicle may land instead of at home, with the height of its arrival
     """
     mission = {
         "version": 2,
@@ -52,7 +53,7 @@ def write_plan(
 
 
 def read_plan(data: bytes) -> tuple[list[MissionItem], tuple[float, float, float]]:
-    """Return the items of a plan and its home: degrees, degrees, metres above sea level."""
+    """Return the items of a plan and its home: latitude and longitude in degrees, metres above sea level."""
     mission = json.loads(data)["mission"]
     items = [MissionItem(i["command"], i["frame"], tuple(i["params"])) for i in mission["items"]]
     lat, lon, alt = mission["plannedHomePosition"]

@@ -1,10 +1,10 @@
-"""Re-flight: a mission file's items flown as its autopilot interpolates them.
+"""Re-flight: simulates how the autopilot interpolates a mission file's items.
 
-The model, without dynamics (accelerations, wind and corner rounding are left out):
-straight legs at the speeds in force; the body turns at the start of a leg to the waypoint's yaw
-(PX4, at MPC_YAWRAUTO_MAX) or to the last CONDITION_YAW (ArduPilot, at its rate); gimbal angles are
-steps taken at the gimbal's rate, fields of view at the lens's; a region of interest is followed exactly,
-within the gimbal's range, and by ArduPilot with the whole body where the gimbal has no yaw.
+The model is kinematic; it ignores acceleration, wind and the rounding of corners. Legs are straight, at the
+speeds in force. The body turns at the start of a leg, either to the waypoint's yaw (PX4, at MPC_YAWRAUTO_MAX)
+or to the last CONDITION_YAW (ArduPilot, at the rate of that item). Gimbal angles and fields of view are
+steps, taken at the rate of the gimbal and of the lens. A region of interest is followed exactly within the
+gimbal's range. ArduPilot follows it with the whole body if the gimbal has no yaw.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ Array = NDArray[np.float64]
 
 PX4_TURN = radians(45.0)  # rad/s, MPC_YAWRAUTO_MAX
 STEP_TIME, STEP_WAY = 0.05, 0.1  # seconds and metres between samples of the flight
-STEPS_MOST = 2000  # of one leg
+STEPS_MOST = 2000  # samples of one leg
 
 
 @dataclass(slots=True)
 class _Pilot:
-    """The vehicle's state while items are run; angles in rad, NaN until commanded."""
+    """The vehicle's state while items are run; angles in rad, NaN until the first command."""
 
     drone: Drone
     geo: Geo
@@ -60,7 +60,7 @@ class _Pilot:
 
 
 def refly(items: list[MissionItem], geo: Geo, drone: Drone) -> ReflownSamples:
-    """Fly the items, as read from a file, with this drone's autopilot and gimbal."""
+    """Return the flight of items that were read from a file, with this drone's autopilot and gimbal."""
     pilot = _Pilot(drone, geo, DEFAULTS[drone.autopilot])
     for item in items:
         _RUN[item.command](pilot, item.params)
@@ -180,7 +180,7 @@ def _record(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
 
 
 def _nothing(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
-    """Run an item that this model has no state for."""
+    """Ignore an item that changes no state of this model."""
 
 
 def _point(pilot: _Pilot, params: tuple[float | None, ...]) -> Array:

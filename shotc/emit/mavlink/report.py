@@ -1,4 +1,4 @@
-"""What the MAVLink emitter tells: warnings about what the format cannot carry, and notes with numbers."""
+"""Warnings and notes of the MAVLink emitter: what the format cannot carry, and the error that it adds."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least
 
-CUT_LEAST = 0.05  # metres, of clearance
+CUT_LEAST = 0.05  # metres of missing clearance, below which there is no warning
 
 
 def left_out(mission: MissionIR, drone: Drone, left: Left) -> Diagnostic:
-    """Say that a zone is not part of the geofence."""
+    """Return the warning that the geofence leaves out a zone."""
     return Diagnostic(
         "E102",
         f"the geofence of {drone.name} leaves out zone {left.zone.name}: {left.reason}",
@@ -31,7 +31,7 @@ def left_out(mission: MissionIR, drone: Drone, left: Left) -> Diagnostic:
 
 
 def coarsened(mission: MissionIR, drone: Drone, error: Error, most: int) -> Diagnostic:
-    """Say that the file is coarser than asked, to fit."""
+    """Return the warning that the file is coarser than intended, to fit into memory."""
     return Diagnostic(
         "E103",
         f"the mission file of {drone.name} is coarser than intended, to hold no more than {most} items",
@@ -45,7 +45,7 @@ def coarsened(mission: MissionIR, drone: Drone, error: Error, most: int) -> Diag
 
 
 def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Diagnostic | None:
-    """Say that the take-off goes higher than planned, or return None."""
+    """Return the warning that the take-off goes higher than planned, or None."""
     if height >= least - 0.005:
         return None
     return Diagnostic(
@@ -58,7 +58,7 @@ def raised(mission: MissionIR, drone: Drone, height: float, least: float) -> Dia
 
 
 def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
-    """Say which shots are out of time in a mission file, for that has no clock."""
+    """Return the warning about shots whose timing is lost, because a mission file has no clock."""
     flown = {phase.shot for phase in flight.phases}
     shown = {picture.name for display in mission.displays for picture in display.pictures if picture.name}
     moving = [s for s in mission.shots if s.id in flown and (s.ideal is not None or s.subject in shown)]
@@ -77,7 +77,7 @@ def clockless(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
 
 
 def in_step(mission: MissionIR, meeting: WaysTooNear) -> Diagnostic:
-    """Say that two drones would meet by their mission files, were they not where they are in time."""
+    """Return the warning that two drones keep apart only by timing, which their files do not carry."""
     return Diagnostic(
         "E145",
         f"the mission files of {' and '.join(meeting.names)} do not carry the timing that keeps them apart",
@@ -92,7 +92,7 @@ def in_step(mission: MissionIR, meeting: WaysTooNear) -> Diagnostic:
 
 
 def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic | None:
-    """Say that straight legs come nearer to something than the plan does, or return None."""
+    """Return the warning that straight legs come nearer to an obstacle than its clearance allows, or None."""
     if depth < CUT_LEAST:
         return None
     return Diagnostic(
@@ -105,7 +105,7 @@ def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic
 
 
 def note(file: str, drone: Drone, count: int, error: Error) -> str:
-    """Return the line that says what one file is worth."""
+    """Return the note on the error of one file."""
     text = f"{drone.autopilot} {file}: {count} items, position within {at_least(error.position)} m"
     if not error.shot:
         return text
@@ -118,7 +118,7 @@ def note(file: str, drone: Drone, count: int, error: Error) -> str:
 
 
 def sidenotes(drone: Drone, asked: list[WaypointStep], flown: list[WaypointStep]) -> list[str]:
-    """Return what the pilot has to know about how this autopilot flies the file."""
+    """Return notes for the pilot on how this autopilot flies the file."""
     return [*_flown(drone, asked, flown), *by_hand(drone, focuses=drone.autopilot == "px4")]
 
 

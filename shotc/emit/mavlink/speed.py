@@ -1,4 +1,4 @@
-"""Leg speeds: what is commanded, when it is worth an item, and how long a leg then takes."""
+"""Leg speeds: the commanded speed, when it needs an item of its own, and the time of a leg."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from math import inf
 
 from shotc.ir.limits import Limits
 
-SHARE = 0.15  # a leg whose mean speed differs by more than this share gets a speed item of its own
-SLOWEST = 0.1  # m/s; autopilots take no slower speed seriously
-STEEP = 0.1  # horizontal over vertical way, below which a leg is paced by its vertical speed
+SHARE = 0.15  # difference from the speed in force, above which a leg has its own speed item
+SLOWEST = 0.1  # m/s; autopilots ignore slower speeds
+STEEP = 0.1  # horizontal over vertical distance, below which the vertical speed determines the time of a leg
 
 
 @dataclass(frozen=True, slots=True)
 class Speeds:
-    """Speeds in force, m/s: over ground, climbing, descending."""
+    """Speeds in force, m/s: over ground, in climb and in descent."""
 
     ground: float
     climb: float
@@ -26,20 +26,21 @@ DEFAULTS = {"px4": Speeds(5.0, 3.0, 1.5), "ardupilot": Speeds(10.0, 2.5, 1.5)}
 
 
 def seconds(speeds: Speeds, across: float, rise: float) -> float:
-    """Return how long a straight leg takes at these speeds; start and end at rest are not counted."""
+    """Return the seconds of a straight leg at these speeds; acceleration at its ends is not counted."""
     upright = rise / speeds.climb if rise > 0 else -rise / speeds.descent
     return max(across / speeds.ground, upright)
 
 
 def is_steep(across: float, rise: float) -> bool:
-    """Tell whether the vertical speed paces a leg."""
+    """Return whether the vertical speed determines the time of a leg."""
     return across < STEEP * abs(rise)
 
 
 def adapted(now: Speeds, limits: Limits | None, across: float, rise: float, duration: float) -> Speeds:
     """Return the speeds for a leg of ``duration`` seconds.
 
-    limits : the drone's, or None where the autopilot takes no vertical speeds from a mission
+    limits : the drone's; None if the autopilot takes no vertical speeds from a mission
+    across, rise : horizontal and vertical distance, metres
     """
     steep = is_steep(across, rise)
     ground = now.ground if steep else _changed(now.ground, across / duration)

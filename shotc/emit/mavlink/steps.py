@@ -1,4 +1,4 @@
-"""From legs to the steps of a flight list: where to go, how long to stay, what to command on the way."""
+"""Turns legs into the steps of a flight list: waypoint, hold time, and the commands on the way to it."""
 
 from __future__ import annotations
 
@@ -17,22 +17,24 @@ from shotc.ir.limits import Vec3
 
 Array = NDArray[np.float64]
 
-SETTLE = 1.0  # seconds of standstill before and after a shot that begins or ends at rest
-ALIGN = 3.0  # seconds, in which a body turns half round
+SETTLE = 1.0  # seconds of rest before and after a shot that begins or ends at rest
+ALIGN = 3.0  # seconds in which a body turns by 180 degrees
 STANDSTILL = 0.05  # m/s
-SAME = float(np.radians(0.1))  # angles closer than this need no command of their own
-RADIUS_LEAST, RADIUS_REST = 0.3, 0.5  # metres, of acceptance
-CORNER_ACCELERATION = 3.0  # m/s^2, MPC_ACC_HOR: what an autopilot spends on rounding a corner
+SAME = float(np.radians(0.1))  # rad; smaller changes of an angle get no command of their own
+RADIUS_LEAST, RADIUS_REST = 0.3, 0.5  # metres, acceptance radius of a waypoint
+CORNER_ACCELERATION = 3.0  # m/s^2, MPC_ACC_HOR: acceleration of an autopilot that rounds a corner
 CORNER_CUT = 0.25  # metres by which a rounded corner may miss its waypoint
 
 
 @dataclass(frozen=True, slots=True)
 class WaypointStep:
-    """One waypoint and the way to it.
+    """One waypoint and the leg to it.
 
-    region : point of W that the gimbal is to look at, or None where it is told angles
-    across, rise : horizontal and vertical way, m; duration : s of motion, 0 for a stay
-    hold : seconds at the waypoint; radius : of acceptance, m
+    region : point in W that the gimbal looks at; None where angles are commanded
+    across, rise : horizontal and vertical distance, metres
+    duration : seconds of motion; 0 for a stay
+    hold : seconds at the waypoint
+    radius : acceptance radius, metres
     """
 
     leg: StraightLeg
@@ -46,7 +48,7 @@ class WaypointStep:
 
 
 def steps_of(track: SampledFlight, style: Style, legs: list[StraightLeg]) -> list[WaypointStep]:
-    """Return the steps that fly ``legs``; a stay that asks for no new angles joins the step before it."""
+    """Return the steps that fly ``legs``; a stay without new angles is merged into the step before it."""
     steps: list[WaypointStep] = []
     if legs and legs[0].shot is not None:
         steps.append(_aligned(track))
@@ -60,7 +62,7 @@ def steps_of(track: SampledFlight, style: Style, legs: list[StraightLeg]) -> lis
 
 
 def whole_seconds(steps: list[WaypointStep]) -> list[WaypointStep]:
-    """Round holds to whole seconds, handing what is lost on to the next hold of the same stay or shot."""
+    """Return steps with whole seconds of hold; each hold passes its rounding error on to the next one."""
     out: list[WaypointStep] = []
     owed = 0.0
     for step in steps:
@@ -71,7 +73,7 @@ def whole_seconds(steps: list[WaypointStep]) -> list[WaypointStep]:
 
 
 def _aligned(track: SampledFlight) -> WaypointStep:
-    """Return a stay above the pad, for a flight that films from there: no other leg turns the body first."""
+    """Return a stay above the pad that turns the body, for a flight that starts with a filmed leg."""
     command = command_of(track.poses, 0, 0, filmed=False)
     return WaypointStep(StraightLeg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
 
@@ -91,7 +93,7 @@ def _step(
     radius = RADIUS_REST
     if following is not None and not following.rest and not stops:
         radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
-    # No autopilot creeps: it is there sooner, and waits.
+    # Autopilots do not fly slower than SLOWEST: the drone arrives early and waits.
     hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST)
     hold = max(hold, SETTLE) if stops and boundary else hold
     return WaypointStep(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
@@ -118,10 +120,11 @@ def _speed(track: SampledFlight, index: int) -> float:
 
 
 def _radius(before: Array, corner: Array, after: Array, elapsed: float) -> float:
-    """Return the radius that lets the corner be rounded at speed without cutting it by too much.
+    """Return the acceptance radius with which a corner is rounded at speed and not cut by more than
+    CORNER_CUT.
 
-    A circle tangent to both legs at distance r from the corner has radius r / tan(turn / 2); it is
-    flown at v with v^2 tan(turn / 2) / r of acceleration and misses the corner by r tan(turn / 4).
+    A circle tangent to both legs at distance r from the corner has radius r / tan(turn / 2). Flown at speed
+    v, it needs the acceleration v^2 tan(turn / 2) / r, and it misses the corner by r tan(turn / 4).
     """
     way, onward = corner - before, after - corner
     lengths = float(np.linalg.norm(way)), float(np.linalg.norm(onward))

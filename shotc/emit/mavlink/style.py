@@ -1,11 +1,13 @@
-"""How a flight plan points the camera: the part of each autopilot's behaviour that the plan must foresee.
+"""How a flight plan points the camera: a model of the parts of each autopilot's behaviour that matter for it.
 
-Both stacks fly straight legs. PX4 turns the body to the target waypoint's yaw at the start of a leg
-and holds it; ArduPilot's CONDITION_YAW turns at a given rate, chosen here so that the turn lasts the
-whole leg. Gimbal angles are steps on both; a step is set to the middle of what its leg asks, which
-halves the error. A region of interest is better where the gimbal can turn: the gimbal looks at one
-point all the time. For a target in the middle of the picture that point is the target; for any other
-composition each leg gets the point nearest to the camera axes the plan has along it.
+Both autopilots fly straight legs. PX4 turns the body to the next waypoint's yaw at the start of a leg and
+holds it. ArduPilot's CONDITION_YAW turns at a given rate, chosen here so that the turn lasts the whole leg.
+Both take gimbal angles as steps. A step is set to the middle of the angles that its leg needs, which halves
+the error.
+
+A region of interest is better where the gimbal can turn in yaw, because the gimbal then looks at one point
+all the time. For a target in the middle of the picture that point is the target. For any other composition
+each leg has its own point, the one nearest to the planned camera axes along it.
 """
 
 from __future__ import annotations
@@ -28,24 +30,24 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-CENTRED = 0.02  # (u, v); a target that stays this near to the centre is framed by following it
-SWIVEL_LEAST = 2.0  # degrees of gimbal yaw; less is no freedom
-WINDOW = 20  # samples over which looking at a place is compared with looking in a direction
-GAIN_LEAST = 0.5  # a place has to halve the error to be worth it
-TURN_LEAST = 1e-7  # 1 - cos of the turn in a window that counts as one
-AWAY_MOST = 500.0  # metres to a region of interest where nothing near is framed
-NEAR_PARALLEL = 1e-7  # mean squared angle between camera axes that no longer tells where they meet, rad^2
-PAN_LEAST = np.radians(0.5)  # body and camera that never part further than this count as one
+CENTRED = 0.02  # (u, v) distance from the centre, below which a target is framed by following it
+SWIVEL_LEAST = 2.0  # degrees of gimbal yaw, below which a gimbal counts as fixed in yaw
+WINDOW = 20  # samples over which a region of interest is compared with fixed angles
+GAIN_LEAST = 0.5  # largest error of regions of interest over that of fixed angles, for which they are used
+TURN_LEAST = 1e-7  # 1 - cos of the turn in a window, below which the window does not turn
+AWAY_MOST = 500.0  # metres to a region of interest where no near subject is framed
+NEAR_PARALLEL = 1e-7  # rad^2, mean squared angle between camera axes that have no useful intersection
+PAN_LEAST = np.radians(0.5)  # rad between body and camera, below which they count as parallel
 
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """What thinning and writing need to know about pointing.
+    """How the camera is pointed, as thinning and writing need it.
 
-    pans : the camera turns against the body, so the gimbal's yaw is commanded
-    followed : shots whose target is one region of interest all along, with its centre in W
-    aimed : shots in which each leg has a region of interest of its own
-    zooms : the lens is one that zooms, so that its field of view is commanded
+    pans : the camera turns relative to the body, so the gimbal's yaw is commanded
+    followed : shots with one region of interest throughout, the target's centre in W
+    aimed : shots in which each leg has its own region of interest
+    zooms : the lens zooms, so its field of view is commanded
     """
 
     autopilot: Autopilot
@@ -57,9 +59,10 @@ class Style:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """The angles that one leg commands, rad: body yaw, camera yaw less body yaw, and camera pitch.
+    """The angles that one leg commands, rad.
 
-    cam_yaw : camera yaw in W, for gimbals that are told the earth's direction
+    pan : camera yaw minus body yaw
+    cam_yaw : camera yaw in W, for gimbals that take a yaw relative to North
     hfov : field of view
     """
 
@@ -91,7 +94,7 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: SampledFlight) 
 
 
 def region_of(style: Style, track: SampledFlight, part: slice, shot: str | None) -> Vec3 | None:
-    """Return the point of W that the gimbal is to look at on a leg, or None where it is told angles."""
+    """Return the point in W that the gimbal looks at on a leg; None where angles are commanded."""
     if shot in style.followed:
         return style.followed[shot or ""]
     if shot not in style.aimed:
@@ -100,7 +103,9 @@ def region_of(style: Style, track: SampledFlight, part: slice, shot: str | None)
 
 
 def command_of(poses: Poses, first: int, last: int, *, filmed: bool) -> Command:
-    """Return what a leg over these samples commands: its middle, or its end where nothing is filmed."""
+    """Return the command of a leg over some samples: the middle of its angles, or the last ones if it is not
+    filmed.
+    """
     part = slice(first, last + 1) if filmed else slice(last, last + 1)
     return Command(
         _middle(poses.body_yaw[part]),
@@ -112,7 +117,13 @@ def command_of(poses: Poses, first: int, last: int, *, filmed: bool) -> Command:
 
 
 def follow(drone: Drone, position: Array, body_yaw: Array, target: Vec3 | Array) -> tuple[Array, Array]:
-    """Return camera yaw and pitch, each (n,), of a gimbal that follows a point within its range of angles."""
+    """Return camera yaw and pitch, shape (n,) each, of a gimbal that follows a point within its range of
+    angles.
+
+    position : (n, 3), metres
+    body_yaw : (n,), rad
+    target : (3,) or (n, 3), metres
+    """
     offset = np.asarray(target) - position
     bearing = np.arctan2(offset[:, 1], offset[:, 0])
     pan = wrapped(bearing - body_yaw)
@@ -121,29 +132,31 @@ def follow(drone: Drone, position: Array, body_yaw: Array, target: Vec3 | Array)
 
 
 def turns_body(drone: Drone) -> bool:
-    """Tell whether the autopilot turns the whole body to a region of interest, for want of a gimbal's yaw."""
+    """Return whether the autopilot turns the whole body to a region of interest, because the gimbal has no
+    yaw.
+    """
     return drone.autopilot == "ardupilot" and not swivels(drone)
 
 
 def swivels(drone: Drone) -> bool:
-    """Tell whether the gimbal can turn in yaw."""
+    """Return whether the gimbal can turn in yaw."""
     low, high = drone.gimbal.yaw
     return degrees(high - low) > SWIVEL_LEAST
 
 
 def facing(position: Array, point: Vec3 | Array) -> Array:
-    """Return the body yaw, (n,), that looks at a point from each position, without jumps."""
+    """Return the unwrapped body yaw, shape (n,), that faces a point from each position (n, 3)."""
     offset = np.asarray(point) - position
     return np.unwrap(np.arctan2(offset[:, 1], offset[:, 0]))
 
 
 def _meeting(poses: Poses, subject: Array) -> Vec3:
-    """Return the point with the least squared distance to all camera axes, or one straight ahead."""
+    """Return the point with the least squared distance to all camera axes, or a point straight ahead."""
     position, axis = poses.position, _axes(poses)
     middle = len(axis) // 2
     away = min(float(np.linalg.norm(subject[middle] - position[middle])), AWAY_MOST)
     ahead = position[middle] + away * axis[middle]
-    # Held near ``ahead`` where the axes are parallel.
+    # A weak pull towards ``ahead`` keeps the system regular where the axes are parallel.
     across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
     pull = NEAR_PARALLEL * len(axis)
     meeting = np.linalg.solve(
@@ -162,7 +175,7 @@ def _axes(poses: Poses) -> Array:
 
 
 def _gains(poses: Poses, subject: Array) -> bool:
-    """Tell whether looking at places shows a shot better than looking in directions, window by window."""
+    """Return whether regions of interest show a shot better than fixed angles, compared window by window."""
     axis = _axes(poses)
     by_place = by_direction = 0.0
     for first in range(0, len(axis) - 1, WINDOW):
@@ -182,7 +195,7 @@ def _off_axis(point: Array, position: Array, axis: Array) -> float:
 
 
 def _lone_target(flight: DroneTrajectory, phase: Phase) -> str | None:
-    """Return the one target that is framed from the first to the last instant of a shot, or None."""
+    """Return the target that alone is framed during the whole shot, or None."""
     spans = [r for r in flight.framing if r.shot == phase.shot]
     names = {r.target for r in spans}
     if len(names) != 1 or min(r.start for r in spans) > phase.start or max(r.end for r in spans) < phase.end:

@@ -1,7 +1,7 @@
-"""Thinning: the fewest straight legs that keep position, heading and picture within tolerance.
+"""Thinning: as few straight legs as keep position, heading and picture within tolerance.
 
-Greedy from the start of each stretch: the longest leg whose flown pose, as the autopilot would
-interpolate it, stays within tolerance of the plan at every sample.
+The algorithm is greedy from the start of each stretch. It takes the longest leg whose flown pose, as the
+autopilot would interpolate it, stays within tolerance of the plan at every sample.
 """
 
 from __future__ import annotations
@@ -22,29 +22,31 @@ from shotc.ir.drone import Drone
 
 Array = NDArray[np.float64]
 
-LEG_LEAST = 0.5  # seconds; autopilots pass over waypoints that follow one another faster
-NEARER = 0.02  # metres by which a straight leg may cut a clearance that the curve keeps
-EVENING = 5  # halvings of the tolerance scale when legs are made even
-TURN_MOST = radians(170.0)  # of one leg, so that "the shortest way round" is the planned way
+LEG_LEAST = 0.5  # seconds; autopilots skip waypoints that follow each other faster
+NEARER = 0.02  # metres by which a straight leg may violate a clearance that the curve keeps
+EVENING = 5  # bisection steps of the tolerance scale for legs of even length
+TURN_MOST = radians(170.0)  # rad of one leg, so that the shortest turn is the planned one
 PRECISE = 1e-3  # metres; shorter chords have no direction
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """How far the flight plan may stray: metres, rad, (u, v) units."""
+    """How far the flight plan may deviate: metres, rad, (u, v) units."""
 
     position: float = 0.25
     heading: float = radians(3.0)
     screen: float = 0.03
 
     def scaled(self, framing: float, position: float = 1.0) -> Tolerance:
-        """Return the tolerance with heading and screen, and position, multiplied."""
+        """Return the tolerance with heading and screen multiplied by ``framing``, and position by
+        ``position``.
+        """
         return Tolerance(self.position * position, self.heading * framing, self.screen * framing)
 
 
 @dataclass(frozen=True, slots=True)
 class StraightLeg:
-    """One straight leg, or a stay where ``rest``: samples first to last."""
+    """One straight leg from sample ``first`` to sample ``last``; a stay if ``rest``."""
 
     first: int
     last: int
@@ -56,8 +58,8 @@ class StraightLeg:
 class Thinner:
     """Cuts one drone's track into legs.
 
-    planned_shortfall : by how much each sample is too near to each obstacle, metres, (n,) each
-    focus : where the lens is to be focused, None where the file does not say
+    planned_shortfall : missing clearance of the plan at each sample, one array (n,) for each obstacle, metres
+    focus : focus distances along the flight; None where the file does not set the focus
     """
 
     track: SampledFlight
@@ -68,12 +70,13 @@ class Thinner:
     focus: Focus | None = None
 
     def legs(self, tolerance: Tolerance, *, even: bool = True) -> list[StraightLeg]:
-        """Return the legs of the whole track; ``even`` ones cost more time and no more legs."""
+        """Return the legs of the whole track; ``even`` takes more computation and gives no more legs."""
         cut = self._even if even else self._greedy
         return [leg for stretch in self.track.stretches for leg in cut(stretch, tolerance)]
 
     def _even(self, stretch: SampleRange, tolerance: Tolerance) -> list[StraightLeg]:
-        # Greedy cutting leaves a short last leg; a tighter tolerance that needs no more legs evens them.
+        # Greedy cutting leaves a short last leg; a tighter tolerance with the same number of legs evens them
+        # out.
         best, low, high = self._greedy(stretch, tolerance), 0.0, 1.0
         for _ in range(EVENING):
             share = (low + high) / 2
@@ -136,7 +139,7 @@ class Thinner:
         return bool(np.nanmax(np.hypot(*shift.T), initial=0.0) <= tolerance.screen)
 
     def _sharp(self, part: slice) -> bool:
-        """Tell whether one focus serves a leg."""
+        """Return whether one focus distance is sharp enough for a leg."""
         middle = None if self.focus is None else self.focus.middle(part)
         return self.focus is None or middle is None or self.focus.serves(part, middle)
 
@@ -178,7 +181,12 @@ def thinner_of(
 
 
 def along(points: Array, time: Array, *, rest: bool) -> Array:
-    """Return how far along the straight leg each planned point is, 0 to 1, shape (n,)."""
+    """Return the position along the straight leg of each planned point, from 0 to 1, shape (n,).
+
+    points : (n, 3), metres
+    time : (n,), seconds
+    rest : whether the leg is a stay, whose position follows the time
+    """
     chord = points[-1] - points[0]
     length2 = float(chord @ chord)
     if rest or length2 < PRECISE**2:

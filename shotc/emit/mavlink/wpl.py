@@ -1,4 +1,4 @@
-"""Text waypoints (``QGC WPL 110``) for ArduPilot: row 0 is home, columns stand between tabs."""
+"""Text waypoints (``QGC WPL 110``) for ArduPilot: row 0 is home, and tabs separate the columns."""
 
 from __future__ import annotations
 
@@ -11,14 +11,21 @@ HEADER = "QGC WPL 110"
 
 
 def write_waypoints(items: list[MissionItem], geo: Geo) -> bytes:
-    """Return the file's bytes; the same input gives the same bytes."""
+    """Return the file's bytes; the same input gives the same bytes.
+
+    Raises ValueError if an item has an empty parameter, which this format cannot hold.
+    """
     home = MissionItem(WAYPOINT, FRAME_GLOBAL, (0.0, 0.0, 0.0, 0.0, geo.home_lat, geo.home_lon, geo.home_alt))
     rows = [_row(n, item) for n, item in enumerate((home, *items))]
     return ("\n".join((HEADER, *rows)) + "\n").encode()
 
 
 def read_waypoints(data: bytes) -> tuple[list[MissionItem], tuple[float, float, float]]:
-    """Return the items after the home row, and home: degrees, degrees, metres above sea level."""
+    """Return the items after the home row, and home: latitude and longitude in degrees, metres above sea
+    level.
+
+    Raises ValueError if the file has another header.
+    """
     header, *rows = data.decode().splitlines()
     if header != HEADER:
         raise ValueError(f"not a waypoint file: {header!r}")

@@ -1,4 +1,4 @@
 """Files for previsualization: the world and the animated cameras, for Blender, Unreal, Houdini and browsers.
 
-``scene.py`` says what is in them, metres of W; ``gltf.py`` and ``usd.py`` write it.
+``scene.py`` collects their content in W, metres. ``gltf.py`` and ``usd.py`` write it.
 """

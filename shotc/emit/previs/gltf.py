@@ -1,7 +1,7 @@
 """mission.glb: the world and the animated cameras as binary glTF 2.0, which Blender and browsers open.
 
-Y is up there: x, y, z are East, Up, South of W. Zoom is KHR_animation_pointer on the camera's ``yfov``.
-Format: registry.khronos.org/glTF/specs/2.0.
+Y is up in glTF, so x, y, z are East, Up, South of W. Zoom animates the camera's ``yfov`` with
+KHR_animation_pointer. Format: registry.khronos.org/glTF/specs/2.0.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ SHAPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 @dataclass(frozen=True, slots=True)
 class Gltf:
-    """Writes one file with every camera."""
+    """Writes one file with all cameras."""
 
     name: ClassVar[str] = "gltf"
     summary: ClassVar[str] = "mission.glb: animated cameras and the world, for Blender and browsers"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return mission.glb where there are cameras."""
+        """Return mission.glb; no file if there are no cameras."""
         fleets = without_fleets(plan, "gltf")
         if not plan.trajectory.drones:
             return Emission((), notes=fleets)
@@ -82,7 +82,7 @@ def written(scene: FilmSet) -> bytes:
 
 @dataclass(slots=True)
 class _File:
-    """A glTF document as it grows: its lists, and the bytes behind its accessors."""
+    """A glTF document under construction: its lists, and the bytes behind its accessors."""
 
     paints: tuple[Paint, ...]
     data: bytearray = field(default_factory=bytearray)
@@ -95,7 +95,12 @@ class _File:
     samplers: list[dict[str, Any]] = field(default_factory=list)
 
     def accessor(self, values: NDArray[Any], target: int | None = None, *, bounds: bool = False) -> int:
-        """Store values, (N,) or (N, k), as 32-bit floats, whole numbers as such; return their index."""
+        """Store values, shape (N,) or (N, k), and return the index of their accessor.
+
+        Unsigned integers are stored as 32-bit integers, everything else as 32-bit floats.
+
+        bounds : whether the accessor states the minimum and maximum
+        """
         kind = np.dtype("<u4") if values.dtype.kind == "u" else np.dtype("<f4")
         stored = np.ascontiguousarray(values, dtype=kind)
         view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": stored.nbytes}
@@ -114,13 +119,15 @@ class _File:
         return len(self.accessors) - 1
 
     def animate(self, times: int, values: Array, target: dict[str, Any]) -> None:
-        """Let a target have values at the times of an accessor, and go evenly between them."""
+        """Animate a target with values at the times of an accessor, linear between them."""
         sampler = {"input": times, "output": self.accessor(values), "interpolation": "LINEAR"}
         self.samplers.append(sampler)
         self.channels.append({"sampler": len(self.samplers) - 1, "target": target})
 
     def binary(self, title: str) -> bytes:
-        """Return the file: a header, the document and the bytes, each padded to four (GLB, version 2)."""
+        """Return the file: a header, the document and the bytes, each padded to a multiple of four (GLB,
+        version 2).
+        """
         pointed = any("extensions" in channel["target"] for channel in self.channels)
         document = {
             "asset": {"version": "2.0", "generator": f"shotc {__version__}"},
@@ -205,7 +212,7 @@ def _camera(file: _File, camera: CameraSamples) -> None:
 
 
 def _south(points: Array) -> Array:
-    """Return points of W (N, 3) along East, Up and South."""
+    """Return points of W (N, 3) along East, Up and South, shape (N, 3)."""
     return np.stack([points[:, 0], points[:, 2], -points[:, 1]], axis=-1) + 0.0
 
 

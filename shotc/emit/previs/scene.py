@@ -1,4 +1,4 @@
-"""What files for previsualization show: cameras over time, bodies that stand or move, and their colours."""
+"""The content of files for previsualization: cameras over time, standing and moving bodies, and colours."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 NEAR_M, FAR_M = 0.1, 10_000.0
-"""Depths between which the cameras see."""
+"""Near and far clipping depth of the cameras."""
 ZOOM_LEAST = 1e-9
-"""Radians by which a field of view changes where it is animated."""
+"""Radians of change, above which a field of view is animated."""
 
 
 class Paint(NamedTuple):
-    """A material: its name, its colour as sRGB, and how opaque it is, 0 to 1."""
+    """A material: name, sRGB colour, and opacity from 0 to 1."""
 
     name: str
     color: Rgb
@@ -39,7 +39,7 @@ class Paint(NamedTuple):
 
     @property
     def linear(self) -> Rgb:
-        """The colour as glTF and USD have it: without the curve of sRGB (IEC 61966-2-1)."""
+        """The colour in linear light, as glTF and USD store it (inverse of the sRGB curve, IEC 61966-2-1)."""
         red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in self.color)
         return (red, green, blue)
 
@@ -51,7 +51,12 @@ PAINTS = (TARGET, STANDING, EARTH, OUT, IN)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyMotion:
-    """How a body goes at times (M,): where its middle is, (M, 3), and how far it has turned, rad, (M,)."""
+    """The motion of a body.
+
+    times : (M,), seconds
+    places : position of its middle, (M, 3), metres
+    turns : rotation about the vertical, (M,), rad
+    """
 
     times: Array
     places: Array
@@ -60,13 +65,13 @@ class BodyMotion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SceneBody:
-    """Something that is seen.
+    """A visible body.
 
-    kind   : of triangles, of polylines or of points
-    points : (V, 3), metres; of W, or about its middle where it moves
-    runs   : of a mesh the corners of each triangle, (T, 3); of lines how many points each has, (L,);
-        of points none
-    width  : metres that a point stands for
+    kind : triangles, polylines or points
+    points : (V, 3), metres; in W, or relative to its middle if it moves
+    runs : for a mesh the corners of each triangle, (T, 3); for lines the number of points of each, (L,); for
+        points empty
+    width : diameter of a point, metres
     """
 
     name: str
@@ -80,9 +85,9 @@ class SceneBody:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CameraSamples:
-    """A drone's camera at the ticks of the output clock, (M,): seconds, metres of W, rad.
+    """A drone's camera at the ticks of the output clock, (M,): seconds, metres in W, rad.
 
-    film : the field of view of its first filmed frame, for what shows no zoom
+    film : field of view of its first filmed frame, for formats that show no zoom
     """
 
     name: str
@@ -96,13 +101,17 @@ class CameraSamples:
 
     @property
     def zooms(self) -> bool:
-        """Whether its field of view changes."""
+        """Whether the field of view changes."""
         return bool(np.ptp(self.hfov) > ZOOM_LEAST)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FilmSet:
-    """A plan as a film set. rate : ticks a second; frames : number of the last tick, from 0."""
+    """A plan as a film set.
+
+    rate : ticks a second
+    frames : number of the last tick, counted from 0
+    """
 
     title: str
     rate: float
@@ -112,13 +121,13 @@ class FilmSet:
 
     @property
     def paints(self) -> tuple[Paint, ...]:
-        """The materials of its bodies."""
+        """The materials of the bodies."""
         used = {body.paint for body in self.bodies}
         return tuple(paint for paint in PAINTS if paint in used)
 
 
 def scene_of(plan: VerifiedIR) -> FilmSet:
-    """Return what a plan's files for previsualization show."""
+    """Return the content of a plan's files for previsualization."""
     mission = plan.trajectory.keyframes.mission
     times = clock(mission.rate, scene_time(plan))
     bodies = [_ground(plan), *_standing(mission), *_zones(mission)]
@@ -128,7 +137,7 @@ def scene_of(plan: VerifiedIR) -> FilmSet:
 
 
 def frames_note(scene: FilmSet, file: str) -> str:
-    """Return the note on the clock of a file, which few programs take from it."""
+    """Return the note on a file's frame rate, which few programs read from the file."""
     return f"{file}: {scene.rate:g} frames a second, frames 0 to {scene.frames}"
 
 
@@ -148,7 +157,7 @@ def _camera(plan: VerifiedIR, drone: DroneTrajectory) -> CameraSamples:
 
 
 def _ground(plan: VerifiedIR) -> SceneBody:
-    """Return the terrain, or as much of the plane z = 0 as a plan needs and as much again on every side."""
+    """Return the terrain, or a part of the plane z = 0 three times as wide as the scene."""
     terrain = plan.trajectory.keyframes.mission.terrain
     if terrain is not None:
         mesh = mesh_of(terrain.ground.surface.triangles)

@@ -1,8 +1,8 @@
-"""mission.usda: the world and the animated cameras as text of USD, for Blender, Unreal, Houdini and Unity.
+"""mission.usda: the world and the animated cameras as USD text, for Blender, Unreal, Houdini and Unity.
 
-Z is up and a unit is a metre, so coordinates are those of W; time codes are ticks of the output clock. A
-camera's aperture and focal length count in tenths of a unit, and zoom is samples of its focal length.
-Format: openusd.org/release/api/class_usd_geom_camera.html and the text of its crate-free layers.
+Z is up and a unit is a metre, so coordinates are those of W. Time codes are ticks of the output clock. A
+camera's aperture and focal length are in tenths of a unit, and zoom is an animated focal length. Format:
+openusd.org/release/api/class_usd_geom_camera.html and the text form of its layers.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ from shotc.ir.trajectory import VerifiedIR
 
 FILE = "mission.usda"
 APERTURE = 0.36
-"""Width of the film, tenths of a metre: 36 mm."""
+"""Width of the film in tenths of a metre: 36 mm."""
 LINE_WIDTH_M = 0.1
 PLACE, TURN = "%d: (%.6f, %.6f, %.6f)", "%d: (%.9f, %.9f, %.9f, %.9f)"
 
 
 @dataclass(frozen=True, slots=True)
 class Usd:
-    """Writes one file with every camera."""
+    """Writes one file with all cameras."""
 
     name: ClassVar[str] = "usd"
     summary: ClassVar[str] = "mission.usda: animated cameras and the world, for Blender, Unreal and Houdini"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return mission.usda where there are cameras."""
+        """Return mission.usda; no file if there are no cameras."""
         fleets = without_fleets(plan, "usd")
         if not plan.trajectory.drones:
             return Emission((), notes=fleets)
@@ -92,13 +92,13 @@ def written(scene: FilmSet) -> str:
 
 
 class _Names:
-    """Names of the language as identifiers of USD, each once."""
+    """Makes unique USD identifiers from the mission's names."""
 
     def __init__(self) -> None:
         self._taken = {"Paints"}
 
     def of(self, name: str) -> tuple[str, str]:
-        """Return a name as an identifier that no other has, and as it is."""
+        """Return a name as a unique identifier, and unchanged."""
         plain = _identifier(name)
         free = next(
             n for i in range(len(self._taken) + 1) if (n := f"{plain}_{i}" if i else plain) not in self._taken
@@ -195,7 +195,7 @@ def _camera(name: tuple[str, str], camera: CameraSamples) -> Iterator[str]:
 
 
 def _moved(places: Array, turns: Array) -> list[str]:
-    """Return what carries a prim: a place, then a quaternion, whose real part USD writes first."""
+    """Return the transform of a prim: positions, then quaternions, whose real part USD writes first."""
     where = (PLACE % (i, *row) for i, row in enumerate((places + 0.0).tolist()))
     way = (TURN % (i, *row) for i, row in enumerate((turns[:, [3, 0, 1, 2]] + 0.0).tolist()))
     return [

@@ -1,4 +1,4 @@
-"""<mission>-report.html: what is proved of a flight, on one page for who has to allow it."""
+"""<mission>-report.html: the verified properties of a flight on one page, for the authority."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from shotc.ir.trajectory import VerifiedIR
 
 @dataclass(frozen=True, slots=True)
 class ReportEmitter:
-    """Writes one file without anything outside of it; the same plan gives the same bytes."""
+    """Writes one self-contained file; the same plan gives the same bytes."""
 
     name: ClassVar[str] = "report"
     summary: ClassVar[str] = "<mission>-report.html: every limit with its proved worst value, for authorities"
@@ -25,7 +25,10 @@ class ReportEmitter:
 
 
 def report(plan: VerifiedIR, simulated: Simulated | None = None) -> Artifact:
-    """Return the report; simulated : what `shotc simulate` found."""
+    """Return the report.
+
+    simulated : results of `shotc simulate`
+    """
     name = file_name(plan.trajectory.keyframes.mission.name)
     return Artifact(f"{name}-report.html", page(plan, simulated).encode())
 

@@ -1,4 +1,4 @@
-"""How near the nearest two drones of a fleet are over time: samples for a plot, not the proof."""
+"""The distance of the nearest two drones of a fleet over time: samples for a plot, which prove nothing."""
 
 from __future__ import annotations
 
@@ -17,14 +17,16 @@ from shotc.planning.on_pads import standing_at
 
 SAMPLES = 240
 NEIGHBOURS = 12
-"""Of a drone that are looked at where the nearest by the plain distance need not be the one that counts."""
+"""Neighbours of a drone that are examined for the cylinder's measure, because the Euclidean nearest drone
+need not be the nearest by that measure.
+"""
 
 
 class Nearness(NamedTuple):
-    """A fleet's nearest pair over time; metres of horizontal distance, as its separation counts them.
+    """Distance of a fleet's nearest pair over time, metres, in the measure of its separation.
 
-    times, distances : shape (T,), of two in the air where a fleet takes off in layers
-    needed : what its drones keep
+    times, distances : shape (T,); where a fleet takes off in layers, between drones in the air
+    needed : the separation
     """
 
     fleet: str
@@ -34,7 +36,7 @@ class Nearness(NamedTuple):
 
 
 def nearness(flown: TrajectoryIR) -> tuple[Nearness, ...]:
-    """Return the nearest pairs of every fleet of two drones or more."""
+    """Return the distances of the nearest pairs of every fleet of at least two drones."""
     mission = flown.keyframes.mission
     return tuple(_of(mission.fleet(flight.fleet), flight) for flight in flown.fleets if len(flight.coef) > 1)
 
@@ -53,7 +55,7 @@ def _of(fleet: Fleet, flight: FleetTrajectory) -> Nearness:
 
 
 def _least(points: Array, apart: Apart) -> float:
-    """Return how near the nearest two of points (n, 3) are, in stretched space."""
+    """Return the distance of the nearest two of points (n, 3), in space scaled by ``stretch``, metres."""
     tree = cKDTree(points)
     if apart.shape == "ellipsoid":
         return float(tree.query(points, k=2)[0][:, 1].min())

@@ -1,4 +1,4 @@
-"""The report's page: sections of tables and drawings, in HTML that needs nothing else and prints on A4."""
+"""The report's page: sections of tables and drawings in self-contained HTML that prints on A4."""
 
 from __future__ import annotations
 
@@ -30,7 +30,12 @@ Row = Sequence[str]
 
 
 class Simulated(NamedTuple):
-    """What `shotc simulate` found: how often and how it flew, tables with their heads, sentences."""
+    """Results of `shotc simulate`.
+
+    flown : number and kind of the runs
+    tables : each with its head as the first row
+    told : sentences
+    """
 
     flown: str
     tables: Sequence[Sequence[Row]]
@@ -38,7 +43,7 @@ class Simulated(NamedTuple):
 
 
 def page(plan: VerifiedIR, simulated: Simulated | None = None) -> str:
-    """Return the document."""
+    """Return the HTML document."""
     mission, found = plan.trajectory.keyframes.mission, volumes(plan.trajectory)
     near = nearness(plan.trajectory)
     sections = (
@@ -158,7 +163,7 @@ def _height(metres: float) -> str:
 
 
 def _corners(mission: MissionIR, found: Volumes) -> Iterator[Row]:
-    """Yield the corners of the geofence on the globe: of a box about it, which a ground station takes."""
+    """Yield two corners of the geofence's bounding box in latitude and longitude, for a ground station."""
     if mission.origin is None:
         return
     (west, south), (east, north) = (f(found.contingency.corners, axis=0) for f in (np.min, np.max))
@@ -234,7 +239,7 @@ def _ground(plan: VerifiedIR, found: Volumes) -> Iterator[Row]:
 
 
 def _from_audience(found: Volumes, seat: tuple[float, float]) -> str:
-    """Return how far a seat is from the volumes, in words."""
+    """Return the position of an audience relative to the volumes, in words."""
     names = ("flight geography", "contingency volume", "ground risk buffer")
     outlines = (found.flight, found.contingency, found.risk)
     for name, outline in zip(names, outlines, strict=True):
@@ -244,7 +249,7 @@ def _from_audience(found: Volumes, seat: tuple[float, float]) -> str:
 
 
 def _beyond(corners: np.ndarray, seat: tuple[float, float]) -> float:
-    """Return a lower bound of the distance of a place from a convex outline; 0 or less inside."""
+    """Return a lower bound of the distance of a point from a convex outline (k, 2); at most 0 inside."""
     ahead = np.roll(corners, -1, axis=0) - corners
     out = np.stack([ahead[:, 1], -ahead[:, 0]], axis=-1) / np.linalg.norm(ahead, axis=1)[:, None]
     return float(np.sum(out * (np.array(seat) - corners), axis=1).max())
@@ -278,7 +283,7 @@ def _wind(mission: MissionIR, simulated: Simulated | None) -> Iterator[str]:
 
 
 def _flown(simulated: Simulated | None) -> str:
-    """Return what was found in simulation; it is no proof, and says so."""
+    """Return the results of simulation; the text says that they prove nothing."""
     if simulated is None:
         return ""
     about = (

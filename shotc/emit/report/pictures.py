@@ -1,4 +1,4 @@
-"""Drawings of the report as SVG: a map of the site, and a curve over time."""
+"""Drawings of the report as SVG: a map of the site, and a plot over time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LEFT, RIGHT, BOTTOM, TOP = 46.0, 12.0, 30.0, 12.0
 
 
 def site_map(mission: MissionIR, found: Volumes) -> str:
-    """Return the map: volumes, zones, pads and audiences, North up, with a scale."""
+    """Return the map with volumes, zones, pads, audiences and a scale bar, North up."""
     seats = [display.viewpoint for display in mission.displays if display.viewpoint is not None]
     zones = [(zone, ground_plan(zone.solid)) for zone in mission.zones]
     risk = found.risk.corners
@@ -54,7 +54,10 @@ def site_map(mission: MissionIR, found: Volumes) -> str:
 
 
 def _scale(scale: float) -> list[str]:
-    """Return a bar of a round length; scale : pixels a metre."""
+    """Return a scale bar of a round length.
+
+    scale : pixels a metre
+    """
     rough = 0.25 * WIDTH / scale
     unit = 10.0 ** floor(log10(rough))
     length = max(k * unit for k in (1, 2, 5) if k * unit <= rough)
@@ -71,7 +74,7 @@ def _north() -> str:
 
 
 def nearness_plot(found: Nearness) -> str:
-    """Return how near the nearest two of a fleet are over time, and what they keep."""
+    """Return the plot of the nearest pair's distance over time, with the separation."""
     end = float(found.times[-1]) or 1.0
     most = 1.15 * max(float(np.median(found.distances)), 2.0 * found.needed)
     across, up = (WIDTH - LEFT - RIGHT) / end, (PLOT_HEIGHT - TOP - BOTTOM) / most

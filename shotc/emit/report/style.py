@@ -1,4 +1,4 @@
-"""How the report looks, on screen and on paper."""
+"""The report's style sheet, for screen and paper."""
 
 STYLE = """
 @page { size: A4; margin: 16mm 14mm; }

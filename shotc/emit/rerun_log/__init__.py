@@ -1,4 +1,4 @@
-"""mission.rrd: the plan as a rerun recording, laid out so that it explains itself."""
+"""mission.rrd: the plan as a rerun recording, with a layout that needs no explanation."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from shotc.ir.trajectory import VerifiedIR
 
 @dataclass(frozen=True, slots=True)
 class RerunEmitter:
-    """Writes the recording; needs rerun-sdk, and raises ModuleNotFoundError without it."""
+    """Writes the recording.
+
+    It needs rerun-sdk; without it, it raises ModuleNotFoundError.
+    """
 
     name: ClassVar[str] = "rerun"
     summary: ClassVar[str] = "mission.rrd: the world, the camera's view and the plots, for the rerun viewer"
@@ -22,7 +25,7 @@ class RerunEmitter:
         import shotc.emit.rerun_log.recording  # noqa: F401
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return mission.rrd; its contents are the same for the same plan, its bytes are not."""
+        """Return mission.rrd; the same plan gives the same content, but not the same bytes."""
         from shotc.emit.rerun_log.recording import record
 
         return Emission((Artifact("mission.rrd", record(plan)),))

@@ -1,6 +1,7 @@
-"""The two timelines of a recording: the mission's time, and that time from the first filmed frame on.
+"""The two timelines of a recording: mission time, and mission time that begins at the first filmed frame.
 
-A viewer opens a recording at the beginning of its timeline, and no layout can say otherwise.
+A viewer opens a recording at the beginning of its timeline, and no layout can change that. The second
+timeline therefore makes it open at the first filmed frame.
 """
 
 from __future__ import annotations
@@ -16,23 +17,26 @@ MISSION, FILMED = "t", "filmed"
 
 @dataclass(frozen=True, slots=True)
 class Clocked:
-    """A stream whose rows stand on both timelines: on FILMED none before ``start``, seconds."""
+    """A stream that logs on both timelines.
+
+    start : seconds; on FILMED, earlier rows stand at this time
+    """
 
     stream: Any
     start: float
 
     def log(self, entity: str, *values: Any, **more: Any) -> None:
-        """Log as the stream does."""
+        """Log with the stream."""
         self.stream.log(entity, *values, **more)
 
     def set_time(self, timeline: str, *, duration: float) -> None:
-        """Set the time of what is logged next, seconds."""
+        """Set the time of the following logs, seconds."""
         self.stream.set_time(timeline, duration=duration)
         if timeline == MISSION:
             self.stream.set_time(FILMED, duration=max(duration, self.start))
 
     def send_columns(self, entity: str, *, indexes: list[Any], columns: Any) -> None:
-        """Send columns as the stream does."""
+        """Send columns with the stream."""
         both = [each for index in indexes for each in self._both(index)]
         self.stream.send_columns(entity, indexes=both, columns=columns)
 

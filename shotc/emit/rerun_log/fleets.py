@@ -1,4 +1,4 @@
-"""Fleets in the recording: their lights over time, their pads, and what the audience sees."""
+"""Fleets in the recording: lights over time, pads, and the audience's view."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ GLOW = 0.35
 """Radius of a light, metres."""
 
 UNLIT = (70, 74, 82)
-"""Colour of a drone whose light is off: it is there, whatever the audience sees."""
+"""Colour of a drone whose light is off, so that it stays visible in the recording."""
 
 WIDTH = 1280
 NIGHT = (4, 6, 14, 255)
@@ -36,7 +36,7 @@ NIGHT = (4, 6, 14, 255)
 def log_fleets(stream: Any, plan: VerifiedIR) -> dict[str, tuple[Plot, ...]]:
     """Log every fleet as one cloud of lights along the timeline ``t``, and every audience as a camera.
 
-    Returns every fleet's plots.
+    Returns the plots of each fleet.
     """
     mission = plan.trajectory.keyframes.mission
     plots = {}
@@ -63,7 +63,7 @@ def log_fleets(stream: Any, plan: VerifiedIR) -> dict[str, tuple[Plot, ...]]:
 
 
 def log_words(stream: Any, plan: VerifiedIR) -> None:
-    """Log what the fleets show, the summary and the certificate of a mission of fleets alone."""
+    """Log the phases, the summary and the certificate of a mission that has only fleets."""
     for start, text in show_texts(plan):
         stream.set_time("t", duration=start)
         stream.log("summary", rr.TextDocument(text, media_type="text/markdown"))
@@ -92,7 +92,9 @@ def _lights(stream: Any, flight: FleetTrajectory, t: Array) -> None:
 
 
 def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[str, tuple[Plot, ...]]) -> Any:
-    """Return the layout of a mission of fleets alone: world, audience, words, plots; pictures play."""
+    """Return the layout of a mission that has only fleets: world, audience, texts and plots; the pictures
+    play.
+    """
     displays = plan.trajectory.keyframes.mission.displays
     views = [
         rrb.Spatial2DView(
@@ -119,7 +121,7 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
 
 
 def shown_span(plan: VerifiedIR) -> tuple[float, float] | None:
-    """Return when the first picture stands and when the last one is over, seconds, or None without one."""
+    """Return the time from the first to the last picture, seconds; None if there is none."""
     shown = [shown for flight in plan.trajectory.fleets for shown in flight.shown]
     if not shown:
         return None

@@ -1,4 +1,4 @@
-"""simulate.rrd: a run of a plan in the world as it was then, with the plan as a ghost beside it."""
+"""simulate.rrd: a simulated run of a plan with the run's own targets, and the plan as a ghost beside it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,12 @@ GHOST_HZ = 10.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ellipses:
-    """What a drone knew of a target at times (M,), s: place (M, 3), metres, and covariance (M, 3, 3)."""
+    """A drone's estimate of a target.
+
+    times : (M,), seconds
+    place : (M, 3), metres
+    covariance : (M, 3, 3)
+    """
 
     drone: str
     target: str
@@ -37,7 +42,9 @@ class Ellipses:
 def record_flown(plan: VerifiedIR, flown: VerifiedIR, known: tuple[Ellipses, ...]) -> bytes:
     """Return the recording of a run.
 
-    flown : the run as if it were a plan: its targets go where they really went
+    plan : the plan
+    flown : the run in the form of a plan; its targets have their true motion
+    known : the drones' estimates of targets
     """
     return recorded(
         plan.trajectory.keyframes.mission, "simulate ", lambda stream: _fill(stream, plan, flown, known)
@@ -83,7 +90,7 @@ def _sampled(curve: Any) -> tuple[Array, Array]:
 
 
 def _ghost(stream: Any, drone: str, times: Array, places: Array) -> None:
-    """Log where the plan has a drone: its path, and a dot that goes along it."""
+    """Log the plan's path of a drone, and a dot that moves along it."""
     entity = f"world/plan/{drone}"
     path = rr.LineStrips3D([places.tolist()], radii=rr.Radius.ui_points(0.8), colors=[rgba8(FLIGHT, 0.6)])
     stream.log(f"{entity}/path", path, static=True)
@@ -103,9 +110,9 @@ def _ghost(stream: Any, drone: str, times: Array, places: Array) -> None:
 
 
 def _ellipses(stream: Any, each: Ellipses) -> None:
-    """Log where a target is taken to be, as ellipsoids of two standard deviations."""
+    """Log the estimates of a target as ellipsoids of two standard deviations."""
     values, axes = np.linalg.eigh(each.covariance)
-    axes[np.linalg.det(axes) < 0, :, 0] *= -1.0  # a rotation has no mirror
+    axes[np.linalg.det(axes) < 0, :, 0] *= -1.0  # a rotation has determinant 1
     entity = f"world/estimates/{each.drone}/{each.target}"
     stream.send_columns(
         entity,

@@ -1,4 +1,4 @@
-"""How the recording is laid out: the world, the camera's own view, the facts, the plots underneath."""
+"""The layout of the recording: the world, the cameras' views, the facts, and the plots below them."""
 
 from __future__ import annotations
 
@@ -21,16 +21,17 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR
 
 BACKGROUND = (24, 27, 32, 255)
-TOGETHER = 4  # cameras whose pictures are shown at once
+TOGETHER = 4  # cameras whose views are shown at once
 SKY = (96, 118, 140, 255)
 
 
 def blueprint(
     plan: VerifiedIR, flown: dict[str, tuple[float, tuple[Plot, ...]]], bounds: tuple[Array, Array]
 ) -> Any:
-    """Return the blueprint of a recording, which opens at the first filmed frame and plays what is filmed.
+    """Return the blueprint of a recording, which opens at the first filmed frame and plays the filmed part.
 
-    flown : for every drone its last instant (s) and its plots; bounds : the corners of the scene
+    flown : end time (s) and plots of each drone
+    bounds : corners of the scene
     """
     mission = plan.trajectory.keyframes.mission
     drones = [mission.drone(name) for name in flown]
@@ -64,14 +65,17 @@ def blueprint(
 
 
 def _side_by_side(cameras: list[Any]) -> Any:
-    """Return all pictures beside each other, as long as they are large enough to be looked at."""
+    """Return all views side by side, or as tabs if there are too many."""
     if len(cameras) == 1:
         return cameras[0]
     return rrb.Grid(*cameras, grid_columns=2) if len(cameras) <= TOGETHER else rrb.Tabs(*cameras)
 
 
 def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
-    """Return the panels round the views, out of the way; the recording plays, or a span of it, seconds."""
+    """Return the panels around the views, collapsed.
+
+    span : the part of the recording that plays, seconds; None for all of it
+    """
     part = None
     if span is not None:
         part = AbsoluteTimeRange(*(round(end * 1e9) for end in span))
@@ -90,7 +94,10 @@ def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:
 
 
 def overview(bounds: tuple[Array, Array]) -> OpeningView:
-    """Return from where all of a scene is seen; bounds : its corners."""
+    """Return the viewpoint that shows a whole scene.
+
+    bounds : corners of the scene, metres
+    """
     low, high = bounds
     centre = (low + high) / 2
     reach = float(np.linalg.norm(high - low)) * 0.66 + 12.0
@@ -101,7 +108,10 @@ def overview(bounds: tuple[Array, Array]) -> OpeningView:
 
 
 def world_view(stand: OpeningView, cameras: list[str]) -> Any:
-    """Return the view of the world from outside; cameras : entities whose overlays it leaves out."""
+    """Return the view of the world from outside.
+
+    cameras : entities whose overlays it leaves out
+    """
     hidden = [f"- /{camera}/screen/**" for camera in cameras]
     return rrb.Spatial3DView(
         origin="world",
@@ -119,7 +129,10 @@ def world_view(stand: OpeningView, cameras: list[str]) -> Any:
 
 
 def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any:
-    """Return the view through a drone's camera, which is logged at the entity ``camera``."""
+    """Return the view through a drone's camera.
+
+    camera : entity of the camera
+    """
     hidden = [f"- /world/zones/{zone.name}/**" for zone in mission.zones if zone.keep == "in"]
     ground = "world/ground" if mission.terrain is None else TERRAIN
     standing = (STANDING,) if mission.meshes else ()
@@ -135,7 +148,10 @@ def camera_view(mission: MissionIR, drone: Drone, camera: str, name: str) -> Any
 
 
 def plot_view(name: str, plot: Plot, end: float) -> Any:
-    """Return the view of a plot of a drone or fleet; end : of its time, seconds."""
+    """Return the view of a plot of a drone or fleet.
+
+    end : end of the time axis, seconds
+    """
     return rrb.TimeSeriesView(
         origin=f"plots/{name}/{plot.name}",
         name=plot.title,
@@ -145,7 +161,11 @@ def plot_view(name: str, plot: Plot, end: float) -> Any:
 
 
 def error_view(origin: str, end: float, top: float) -> Any:
-    """Return the plot of a screen error; end : of its time, seconds; top : of its axis."""
+    """Return the plot of a screen error.
+
+    end : end of the time axis, seconds
+    top : end of the error axis
+    """
     return rrb.TimeSeriesView(
         origin=origin,
         name="Screen error",
@@ -156,7 +176,7 @@ def error_view(origin: str, end: float, top: float) -> Any:
 
 
 def time_axis(end: float) -> Any:
-    """Return an axis over all of a recording, seconds."""
+    """Return a time axis over the whole recording, which ends at ``end`` seconds."""
     span = rr.TimeRange(
         start=rr.TimeRangeBoundary.absolute(seconds=0.0), end=rr.TimeRangeBoundary.absolute(seconds=end)
     )

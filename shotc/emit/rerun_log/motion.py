@@ -1,4 +1,4 @@
-"""What moves in the recording: drones, their cameras, the overlay on the camera's view, the plots."""
+"""Moving entities of the recording: drones, cameras, the overlay on the camera's view, and plots."""
 
 from __future__ import annotations
 
@@ -26,23 +26,26 @@ from shotc.ir.sampling import framed, projected
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 WIDTH = 1280
-"""Pixels across the camera's view."""
+"""Width of the camera's view, pixels."""
 
 SCREEN_DEPTH = 0.3
-"""How far before the camera its overlay hangs, metres. The viewer draws 2D lines behind every 3D thing
-that it projects into a camera's view, so the overlay is 3D, too, and nearer than anything else."""
+"""Distance of the overlay from its camera, metres.
+
+The viewer draws 2D lines behind every 3D object that it projects into a camera's view. The overlay is
+therefore 3D, and nearer than anything else.
+"""
 
 LIMIT_COLOR, PROMISED = KEEP_OUT, "promised"
 AFTER = 1e-3
-"""How long after a shot its overlay goes, seconds."""
+"""Time after a shot at which its overlay disappears, seconds."""
 
 LINE_COLORS = (CAMERA, shade(SUBJECT, 1.45), (0.80, 0.47, 0.65), (0.60, 0.63, 0.68))
 
 
 def log_motion(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, frustum: float) -> tuple[Plot, ...]:
-    """Log one drone's flight along the timeline ``t``; return the plots that it has.
+    """Log one drone's flight along the timeline ``t`` and return its plots.
 
-    frustum : how far the drawn image plane is from the camera, metres
+    frustum : distance of the drawn image plane from the camera, metres
     """
     mission = plan.trajectory.keyframes.mission
     drone = mission.drone(flight.drone)
@@ -107,7 +110,7 @@ def _camera(stream: Any, drone: Drone, t: Array, poses: Array, frustum: float) -
             translation=poses[:, :3], quaternion=camera_quaternions(poses[:, CAM_YAW], poses[:, CAM_PITCH])
         ),
     )
-    # Where the lens does not zoom, one row without a time stands for all of them.
+    # For a lens that does not zoom, one row without a time is enough.
     fixed = bool(np.ptp(poses[:, HFOV]) < 1e-9)
     ticks, half = (t[:1], poses[:1, HFOV] / 2) if fixed else (t, poses[:, HFOV] / 2)
     index = [] if fixed else [rr.TimeColumn("t", duration=ticks)]
@@ -116,7 +119,7 @@ def _camera(stream: Any, drone: Drone, t: Array, poses: Array, frustum: float) -
     matrices = np.zeros((count, 3, 3))
     matrices[:, 0, 0] = matrices[:, 1, 1] = width / 2 / np.tan(half)
     matrices[:, :, 2] = (width / 2, height / 2, 1.0)
-    # All of a pinhole's parts in the same rows: a part without a time hides those that have one.
+    # All components of a pinhole are in the same rows: a component without a time hides those that have one.
     lens = rr.Pinhole.columns(
         image_from_camera=matrices,
         resolution=[[width, height]] * count,
@@ -125,7 +128,7 @@ def _camera(stream: Any, drone: Drone, t: Array, poses: Array, frustum: float) -
         line_width=[rr.Radius.ui_points(1.2)] * count,
     )
     stream.send_columns(f"{entity}/lens", indexes=index, columns=lens)
-    # Below this entity x and y are (u, v).
+    # Below this entity, x and y are (u, v).
     reach = SCREEN_DEPTH * np.tan(half)
     scale = np.stack([reach, -reach / drone.aspect, np.full(len(half), SCREEN_DEPTH)], axis=-1)
     place = np.tile([0.0, 0.0, SCREEN_DEPTH], (len(half), 1))
@@ -134,9 +137,12 @@ def _camera(stream: Any, drone: Drone, t: Array, poses: Array, frustum: float) -
 
 
 def camera_quaternions(yaw: Array, pitch: Array) -> Array:
-    """Return the turns from camera axes (right, down, forward) to W, shape (n, 4), order xyzw."""
-    # At yaw = pitch = 0 the axes are South, down and East: xyzw (-1, 1, -1, 1) / 2. Before it (on its
-    # left) come yaw about up and -pitch about North, together w, x, y, z:
+    """Return rotations from camera axes (right, down, forward) to W as quaternions xyzw, shape (n, 4).
+
+    yaw, pitch : rad, shape (n,)
+    """
+    # At yaw = pitch = 0 the axes are South, down and East: xyzw (-1, 1, -1, 1) / 2. This is multiplied from
+    # the left by the yaw about up and by -pitch about North, whose product w, x, y, z is:
     cy, sy, cp, sp = np.cos(yaw / 2), np.sin(yaw / 2), np.cos(pitch / 2), np.sin(pitch / 2)
     w, x, y, z = cy * cp, sy * sp, -cy * sp, sy * cp
     return np.stack([-w + x - y - z, w + x + y - z, -w + x + y + z, w + x - y + z], axis=-1) / 2
@@ -148,12 +154,12 @@ def frame_size(drone: Drone) -> tuple[int, int]:
 
 
 def camera_entity(drone: Drone) -> str:
-    """Return where a drone's camera is logged; ``lens`` and ``screen`` are below it."""
+    """Return the entity of a drone's camera, which has the children ``lens`` and ``screen``."""
     return f"world/cameras/{drone.name}"
 
 
 def _subject(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, span: Reference, t: Array) -> None:
-    """Log the outline of a framed subject, its centre, and where that is wanted, on the screen."""
+    """Log a framed subject on the screen: its outline, its centre and its reference."""
     mission = plan.trajectory.keyframes.mission
     drone, target = mission.drone(flight.drone), mission.target(span.target)
     ticks = t[(t >= span.start) & (t <= span.end)]
@@ -195,7 +201,7 @@ def _centre(stream: Any, entity: str, ticks: Array, shown: Frames) -> None:
 
 
 def _cross(aspect: float) -> list[Array]:
-    """Return the lines of a cross hair round the origin of the screen, each of shape (k, 2)."""
+    """Return the lines of a cross hair around the origin of the screen, shape (k, 2) each."""
     size = np.array([1.0, aspect])
     arms = ((1, 0), (-1, 0), (0, 1), (0, -1))
     turn = np.linspace(0, 2 * np.pi, 33)
@@ -204,7 +210,7 @@ def _cross(aspect: float) -> list[Array]:
 
 
 def _strips(stream: Any, entity: str, ticks: Array, strips: list[Array], lengths: list[int]) -> None:
-    """Log (u, v) lines for every tick, and none any more just after the last one."""
+    """Log (u, v) lines for every tick, and none just after the last tick."""
     if not strips:
         return
     points = np.concatenate(strips)
@@ -217,9 +223,9 @@ def _strips(stream: Any, entity: str, ticks: Array, strips: list[Array], lengths
 
 
 def strip_batch(points: Array, lengths: list[int]) -> Any:
-    """Return lines for rerun: all their points, shape (n, 3), and how many each has.
+    """Return lines for rerun, from all their points, shape (n, 3), and the number of points of each.
 
-    rerun's own conversion makes an object of every line, which takes most of the time.
+    rerun's own conversion makes an object for every line, which takes most of the time.
     """
     offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
     inner = Vec3DBatch(points.astype(np.float32)).as_arrow_array()
@@ -233,7 +239,7 @@ def _style(stream: Any, entity: str, color: tuple[int, int, int, int], width: fl
 
 
 def _composition(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, phase: Phase) -> None:
-    """Log the composition's lines while a shot is filmed; they change half-way between keyframes."""
+    """Log a composition's lines during its shot; they change half-way between keyframes."""
     placed = next(s for s in plan.trajectory.keyframes.shots if s.shot.id == phase.shot)
     drone = plan.trajectory.keyframes.mission.drone(flight.drone)
     marks = [k for k in flight.keyframes if k.shot == phase.shot]
@@ -275,7 +281,10 @@ def _screen_plot(plan: VerifiedIR, flight: DroneTrajectory, t: Array) -> Plot | 
 
 
 def log_plot(stream: Any, drone: str, plot: Plot, t: Array) -> None:
-    """Log a plot of a drone, or of a fleet, whose samples are at the times t, seconds."""
+    """Log a plot of a drone or a fleet.
+
+    t : times of the samples, seconds, shape (n,)
+    """
     for i, line in enumerate(plot.lines):
         color = LIMIT_COLOR if line.name == PROMISED else LINE_COLORS[i % len(LINE_COLORS)]
         entity = f"plots/{drone}/{plot.name}/{line.name.replace(' ', '_')}"

@@ -1,4 +1,4 @@
-"""Scenes and buildings in the recording: their triangles, each in its own shade, and points of clouds."""
+"""Scenes and buildings in the recording: shaded triangles, and points of clouds."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from shotc.emit.palette import STONE, rgba8
 from shotc.ir.mission import MissionIR
 
 STANDING = "world/standing"
-"""Where meshes are logged: below it, what the mission calls them."""
+"""Parent entity of the meshes, which have the names of the mission."""
 SKY_M = 1e4
-"""How high over everything the eye is from which faces are lit, metres."""
+"""Height of the eye from which faces are lit, metres."""
 
 
 def log_meshes(stream: Any, mission: MissionIR) -> None:
-    """Log what stands in the world by a file, without a time."""
+    """Log the meshes that the mission reads from files, without a time."""
     for mesh in mission.meshes:
         triangles = mesh.surface.triangles
         points = (triangles == triangles[:, :1]).all(axis=(1, 2))

@@ -1,4 +1,4 @@
-"""How the recording opens: at the first filmed frame, with the camera and its subjects in view."""
+"""The opening view of the recording: the first filmed frame, with the camera and its subjects in view."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from shotc.ir.terrain import ground_heights
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 HEADINGS = 8
-"""From so many sides the scene is looked at until nothing stands before a subject."""
+"""Number of directions that are tried for a view in which nothing hides a subject."""
 
 ELEVATION = radians(33.0)
-"""Of the eye over what it looks at."""
+"""Elevation of the eye above the point it looks at."""
 
 AWAY = 2.6
-"""Distance of the eye in radii of what it looks at; the viewer's lens of 55 deg takes 2.2."""
+"""Distance of the eye in radii of the scene it looks at; the viewer's lens of 55 deg needs at least 2.2."""
 
 NEAREST = 6.0
 """Metres added to that distance."""
@@ -33,25 +33,25 @@ OVER_GROUND = 3.0
 """Least height of the eye above terrain, metres."""
 
 AHEAD = 10.0
-"""How far ahead of it a camera without a subject is taken to look, metres."""
+"""Distance of the point that a camera without a subject is taken to look at, metres."""
 
 
 @dataclass(frozen=True, slots=True)
 class OpeningView:
-    """From where the world is seen, and what is in the middle, p_W in metres."""
+    """A viewpoint and the point in the middle of its view, in W, metres."""
 
     eye: tuple[float, float, float]
     look: tuple[float, float, float]
 
 
 def filmed_span(plan: VerifiedIR) -> tuple[float, float] | None:
-    """Return the times of the first and the last filmed frame, seconds, or None where nothing is filmed."""
+    """Return the times of the first and the last filmed frame, seconds; None if nothing is filmed."""
     phases = [p for flight in plan.trajectory.drones for p in flight.phases if p.shot is not None]
     return (min(p.start for p in phases), max(p.end for p in phases)) if phases else None
 
 
 def first_stand(plan: VerifiedIR) -> OpeningView | None:
-    """Return from where the first filmed frame's camera and subjects are seen, or None without a frame."""
+    """Return a view of the camera and its subjects at the first filmed frame; None if nothing is filmed."""
     span = filmed_span(plan)
     if span is None:
         return None
@@ -72,7 +72,9 @@ def first_stand(plan: VerifiedIR) -> OpeningView | None:
 
 
 def _toward(k: int) -> Array:
-    """Return the direction of the k-th eye: the first is in the south-west, where the light comes from."""
+    """Return the direction of the k-th eye, shape (3,); the first is south-west, where the light
+    comes from.
+    """
     turn = radians(236.0) + 2 * pi * k / HEADINGS
     return np.array([cos(ELEVATION) * cos(turn), cos(ELEVATION) * sin(turn), sin(ELEVATION)])
 
@@ -95,7 +97,7 @@ def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]
 
 
 def _over_ground(mission: MissionIR, eye: Array) -> Array:
-    """Return an eye, raised where it is in the ground or too near to it."""
+    """Return an eye, raised if it is below OVER_GROUND above the terrain."""
     if mission.terrain is None:
         return eye
     least = ground_heights(mission, eye[None, :2])[0] + OVER_GROUND
@@ -103,9 +105,9 @@ def _over_ground(mission: MissionIR, eye: Array) -> Array:
 
 
 def _covered(mission: MissionIR, subjects: list[str], seen: tuple[Array, Array], time: float) -> int:
-    """Return how many things stand before the subjects, and whether ground stands before the camera.
+    """Return the number of objects that hide subjects, plus 1 if the ground hides the camera.
 
-    seen : the eye, and the camera that it is to see, p_W (3,)
+    seen : the eye, and the camera that it should see, in W, (3,) each
     """
     eye, camera = seen
     at, when = eye[None, :], np.array([time])

@@ -1,4 +1,4 @@
-"""One recording from beginning to end: the world, every flight, the words, the layout."""
+"""A whole recording: world, flights, texts and layout."""
 
 from __future__ import annotations
 
@@ -26,23 +26,27 @@ from shotc.ir.trajectory import VerifiedIR
 def record(plan: VerifiedIR) -> bytes:
     """Return the recording of a plan, as a file with its footer.
 
-    Bad data raises instead of being dropped (strict mode).
+    Invalid data raises an error instead of being dropped (strict mode of rerun).
     """
     return recorded(plan.trajectory.keyframes.mission, "", lambda stream: _fill(stream, plan))
 
 
 def _plain(name: str) -> str:
-    """Return a name in the letters that an application id of the viewer has."""
+    """Return a name in the characters that the viewer allows in an application id."""
     return normalize("NFKD", name).encode("ascii", "ignore").decode()
 
 
 def recorded(mission: MissionIR, what: str, fill: Callable[[Any], None]) -> bytes:
-    """Return a recording of a mission that ``fill`` logs into a stream; what : of the mission, if not all."""
+    """Return a recording of a mission.
+
+    what : the part of the mission that it shows; "" for all of it
+    fill : logs the content into a stream
+    """
     identity = uuid5(NAMESPACE_URL, f"shotc:{what}{mission.name}:{mission.source_sha256}")
     strict = rr.strict_mode()
     rr.set_strict_mode(True)
     try:
-        # The viewer keeps one layout for every application id, so each mission has its own.
+        # The viewer keeps one layout for each application id, so each mission has its own.
         stream = rr.RecordingStream(
             f"shotc {what}{_plain(mission.name)}", recording_id=identity, send_properties=False
         )
@@ -78,5 +82,7 @@ def _fill(recording: rr.RecordingStream, plan: VerifiedIR) -> None:
 
 
 def frustum_length(bounds: tuple[Array, Array]) -> float:
-    """Return how far from the camera its image is drawn in a scene with these corners, metres."""
+    """Return the distance of the drawn image plane from its camera, metres, for a scene with
+    these corners.
+    """
     return float(np.clip(np.linalg.norm(bounds[1] - bounds[0]) / 14, 2.0, 40.0))

@@ -1,4 +1,4 @@
-"""The curves of a flight over time that are plotted: motion against its limits, and clearances."""
+"""The plotted curves of a flight over time: motion and its limits, and clearances."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from shotc.ir.phases import UPRIGHT
 from shotc.ir.trajectory import DroneTrajectory
 
 RATE, MOST = 25.0, 6000
-"""Samples a second, and the most of a whole flight: longer ones are sampled more coarsely."""
+"""Samples a second, and the most samples of a flight: longer flights are sampled more coarsely."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotCurve:
-    """One curve of a plot: its name, and its samples at the flight's sample times, NaN for none."""
+    """One curve of a plot: its name, and its values at the flight's sample times; NaN where it has none."""
 
     name: str
     values: Array
@@ -30,7 +30,7 @@ class PlotCurve:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plot:
-    """Curves that share an axis, and the limits that they must not cross.
+    """Curves with a common axis, and their limits.
 
     title : the quantity and its unit
     """
@@ -42,14 +42,14 @@ class Plot:
 
 
 def sample_times(flight: DroneTrajectory) -> Array:
-    """Return the times that a flight is sampled at, seconds, the last one its end."""
+    """Return the sample times of a flight, seconds, shape (n,); the last one is its end."""
     start, end = flight.curve.start, flight.curve.end
     count = int(min(MOST, np.ceil((end - start) * RATE))) + 1
     return np.linspace(start, end, max(count, 2))
 
 
 def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot, ...]:
-    """Return speeds, acceleration, jerk, turning rate and gimbal pitch against what the drone may do."""
+    """Return plots of speeds, acceleration, jerk, yaw rate and gimbal pitch with the drone's limits."""
     place, limits = flight.curve.channels(X, Y, Z), drone.limits
     velocity = place.derivative()(t)
     acceleration = np.linalg.norm(place.derivative(2)(t), axis=-1)
@@ -78,10 +78,10 @@ def motion_plots(flight: DroneTrajectory, drone: Drone, t: Array) -> tuple[Plot,
 
 
 def clearance_plot(flight: DroneTrajectory, drone: Drone, mission: MissionIR, t: Array) -> Plot:
-    """Return how much room is left to zones, targets and the ground, metres; none of it may be negative.
+    """Return the plot of the slack over clearances from zones, targets and the ground, metres.
 
-    Distances count from the body sphere. Floors of keep-in zones and clearances do not bind during
-    take-off and landing, so they are left out there (NaN).
+    Distances are measured from the sphere around the body. A negative slack is a violation. The floors of
+    keep-in zones and the clearances do not hold during take-off and landing, so the slack is NaN there.
     """
     p = flight.curve.channels(X, Y, Z)(t)
     free = np.ones(len(t), dtype=np.bool_)

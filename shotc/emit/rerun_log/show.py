@@ -1,4 +1,4 @@
-"""What explains a show in its recording: words about what is shown now, and plots of the whole fleet."""
+"""Texts on the current part of a show, and plots of the whole fleet."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ WORDS = {**SHOWN, "transit": "Flying to the next display", "shot": "Showing"}
 
 
 def show_texts(plan: VerifiedIR) -> list[tuple[float, str]]:
-    """Return what to show from which time on, seconds: what all fleets do, then summary and certificate."""
+    """Return texts with their start times, seconds: what all fleets do, then the summary and the
+    certificate.
+    """
     body = f"{_summary(plan)}\n\n{certificate_text(plan.certificate)}\n"
     fleets = plan.trajectory.fleets
     doing = {flight.fleet: dict(_heads(plan, flight)) for flight in fleets}
@@ -38,7 +40,10 @@ def show_texts(plan: VerifiedIR) -> list[tuple[float, str]]:
 
 
 def _heads(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
-    """Return what a fleet does from which time on, a title and a line; of one time the last counts."""
+    """Return what a fleet does, with start times; of several entries for one time the last is valid.
+
+    Each text is a title and a line.
+    """
     phases = [
         (phase.start, f"{WORDS[phase.name]}\n{phase.start:.1f} s to {phase.end:.1f} s")
         for phase in flight.phases
@@ -47,7 +52,7 @@ def _heads(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]
 
 
 def _pictures(plan: VerifiedIR, flight: FleetTrajectory) -> list[tuple[float, str]]:
-    """Return a heading for every picture, and one for the way to the next."""
+    """Return a heading for every picture, and one for the move to the next picture."""
     heads = []
     mission = plan.trajectory.keyframes.mission
     for shown in pictures_shown(flight):
@@ -69,7 +74,10 @@ def _summary(plan: VerifiedIR) -> str:
 
 
 def fleet_plots(fleet: Fleet, flight: FleetTrajectory, t: Array) -> tuple[Plot, ...]:
-    """Return the nearest pair against what is kept, and the largest speeds against the limits, at times t."""
+    """Return plots of the nearest pair with the separation, and of the largest speeds with the limits.
+
+    t : times, seconds, shape (T,)
+    """
     at = np.moveaxis(places(flight.breaks, flight.coef, t), 1, 0)
     rate = places(flight.breaks, flight.coef, t, 1)
     speed = np.hypot(rate[..., 0], rate[..., 1]).max(axis=0)
@@ -94,9 +102,9 @@ def fleet_plots(fleet: Fleet, flight: FleetTrajectory, t: Array) -> tuple[Plot, 
 
 
 def nearest_pair(points: Array, apart: Apart) -> float:
-    """Return how near the nearest two of points (n, 3) are, as ``geom.separation`` measures it, metres.
+    """Return the distance of the nearest two of points (n, 3), measured as in ``geom.separation``, metres.
 
-    It is nan where there are not two.
+    It is NaN for fewer than two points.
     """
     if len(points) < PAIR:
         return float("nan")
@@ -105,7 +113,8 @@ def nearest_pair(points: Array, apart: Apart) -> float:
     ball = float(tree.query(tall, k=2)[0][:, 1].min())
     if apart.shape == "ellipsoid":
         return ball
-    # The cylinder's measure is at least 1 / sqrt(2) of the distance, so this radius holds its nearest pair.
+    # The cylinder's measure is at least 1 / sqrt(2) of the Euclidean distance, so this radius contains its
+    # nearest pair.
     pairs = tree.query_pairs(ball * np.sqrt(2.0) * (1.0 + 1e-9), output_type="ndarray")
     away = np.abs(tall[pairs[:, 0]] - tall[pairs[:, 1]])
     return float(np.maximum(np.hypot(away[:, 0], away[:, 1]), away[:, 2]).min())

@@ -1,4 +1,4 @@
-"""compare.rrd: the camera views of several refiners side by side, on one clock, over one world."""
+"""compare.rrd: the camera views of several refiners side by side, on one timeline, in one world."""
 
 from __future__ import annotations
 
@@ -23,33 +23,36 @@ from shotc.ir.drone import Drone
 from shotc.ir.trajectory import VerifiedIR
 
 HEAD, PLOT, MOST = 0.04, 0.16, 0.7
-"""Shares of a window's height: a view's title, a plot, and the most of the columns together."""
+"""Shares of a window's height: a view's title, a plot, and the largest share of the columns together."""
 
 
 @dataclass(frozen=True, slots=True)
 class Within:
-    """A stream whose entities lie below a place of their own: ``world/a`` is ``world/<place>/a``."""
+    """A stream that moves entities below a name of their own: ``world/a`` becomes ``world/<place>/a``."""
 
     stream: Any
     place: str
 
     def log(self, entity: str, *values: Any, **more: Any) -> None:
-        """Log as the stream does."""
+        """Log with the stream."""
         self.stream.log(within(self.place, entity), *values, **more)
 
     def send_columns(self, entity: str, *values: Any, **more: Any) -> None:
-        """Send columns as the stream does."""
+        """Send columns with the stream."""
         self.stream.send_columns(within(self.place, entity), *values, **more)
 
 
 def within(place: str, entity: str) -> str:
-    """Return the entity moved below a place, which itself stays below the entity's root."""
+    """Return an entity moved below a name, which itself is below the entity's root."""
     root, _, rest = entity.partition("/")
     return f"{root}/{place}/{rest}"
 
 
 def record_comparison(comparison: Comparison, table: str) -> bytes:
-    """Return the recording; table : the comparison in Markdown. At least one condition has a plan."""
+    """Return the recording of a comparison; at least one condition must have a plan.
+
+    table : the comparison in Markdown
+    """
     return recorded(comparison.mission, "compare ", lambda stream: _fill(stream, comparison, table))
 
 
@@ -71,7 +74,9 @@ def _fill(recording: rr.RecordingStream, comparison: Comparison, table: str) -> 
 def _blueprint(
     comparison: Comparison, plans: list[tuple[Condition, VerifiedIR]], bounds: tuple[Array, Array]
 ) -> Any:
-    """Return the layout: a column a refiner of what its cameras see and how far off, the world below."""
+    """Return the layout: one column a refiner with its cameras' views and screen errors, and the
+    world below.
+    """
     end = max(flight.curve.end for _, plan in plans for flight in plan.trajectory.drones)
     top = error_top([trace.error for each, _ in plans for shot in each.shots for trace in shot.traces])
     columns = [_column(comparison, each, len(plans), (end, top)) for each, _ in plans]
@@ -92,7 +97,10 @@ def _filmed(plans: list[tuple[Condition, VerifiedIR]]) -> tuple[float, float]:
 
 
 def _column(comparison: Comparison, each: Condition, count: int, axes: tuple[float, float]) -> Any:
-    """Return one column of ``count``; axes : the ends of time, seconds, and of screen error."""
+    """Return one of ``count`` columns.
+
+    axes : ends of the axes of time, seconds, and of screen error
+    """
     views = []
     for name in dict.fromkeys(shot.drone for shot in each.shots):
         drone = comparison.mission.drone(name)
@@ -110,5 +118,5 @@ def _camera(each: Condition, drone: Drone) -> str:
 
 
 def place_of(refiner: str) -> str:
-    """Return the place of a refiner's entities; its name may hold any characters."""
+    """Return the parent name of a refiner's entities, escaped because a name may hold any character."""
     return f"refiners/{rr.escape_entity_path_part(refiner)}"

@@ -1,4 +1,4 @@
-"""Terrain in the recording: one mesh, its corners shared, so that it is shaded smoothly."""
+"""Terrain in the recording, as one mesh with shared corners for smooth shading."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The words of the recording: the mission in numbers, what is happening now, the certificate."""
+"""Texts of the recording: the mission in numbers, the current phase, and the certificate."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 
 HOW = {"bounded": "every instant", "exact": "arithmetic", "sampled": "samples"}
 BOOKKEEPING = ("jump", "rate at", "distance from", "drift", "depth", "times", "error of", "targets not")
-"""How claims begin that no author asked for: they say that the plan is what it says it is."""
+"""Beginnings of claims that no author asks for, which check the plan's own consistency."""
 
 SHOWN = {
     "takeoff": "Taking off",
@@ -21,13 +21,13 @@ SHOWN = {
 
 
 def phase_texts(plan: VerifiedIR, flight: DroneTrajectory) -> list[tuple[float, str]]:
-    """Return what to show from which time on, seconds: the phase, then mission and certificate."""
+    """Return texts with their start times, seconds: the phase, then mission and certificate."""
     body = f"{mission_text(plan)}\n\n{certificate_text(plan.certificate)}\n"
     return [(phase.start, f"{_now(plan, phase)}\n\n{body}") for phase in flight.phases]
 
 
 def mission_text(plan: VerifiedIR) -> str:
-    """Return the mission in a few lines of Markdown."""
+    """Return a summary of the mission in a few lines of Markdown."""
     mission = plan.trajectory.keyframes.mission
     total = max((flight.curve.end for flight in plan.trajectory.drones), default=0.0)
     framing = summary(screen_tracks(plan))
@@ -44,7 +44,7 @@ def mission_text(plan: VerifiedIR) -> str:
 
 
 def certificate_text(certificate: tuple[Claim, ...]) -> str:
-    """Return the certificate as a Markdown table: what is broken first, our own arithmetic last."""
+    """Return the certificate as a Markdown table, with broken claims first and consistency checks last."""
     rows = ["| | requirement | asked | worst | when | known |", "|---|---|---|---|---|---|"]
     order = sorted(certificate, key=_rank)
     for claim in order:
@@ -72,7 +72,7 @@ def _asked(claim: Claim) -> str:
 
 
 def verdict(claim: Claim) -> str:
-    """Return a word for what has become of a claim; none for one that asks for nothing."""
+    """Return the verdict on a claim in a word; "" for a claim without a limit."""
     if not isfinite(claim.limit):
         return ""
     if claim.holds:
@@ -81,7 +81,7 @@ def verdict(claim: Claim) -> str:
 
 
 def quantity(value: float, unit: str) -> str:
-    """Return a number with its unit as people read it: angles in degrees."""
+    """Return a number with its unit in readable form, with angles in degrees."""
     if not isfinite(value):
         return "–"
     if unit.startswith("rad"):

@@ -1,4 +1,4 @@
-"""What stands still in the recording: ground, zones, subjects, homes, flight paths, keyframes."""
+"""Static entities of the recording: ground, zones, subjects, homes, flight paths and keyframes."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 MANY = 12
-TRACK_RATE = 10.0  # places a second of a target that moves
-"""From more keyframes than this on, only the shot is named."""
+TRACK_RATE = 10.0  # samples a second of a moving target's track
+"""Number of keyframes, above which only the shot has a label."""
 
 PHASE_COLORS: dict[str, Rgb] = {
     "takeoff": VERTICAL,
@@ -41,7 +41,7 @@ def log_world(stream: Any, plan: VerifiedIR) -> None:
 
 
 def log_scene(stream: Any, plan: VerifiedIR) -> None:
-    """Log what stands in the world; the ground goes as far as the plan's flights need."""
+    """Log the world without flights; the ground covers the extent of the plan's flights."""
     mission = plan.trajectory.keyframes.mission
     stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     if mission.terrain is None:
@@ -63,7 +63,7 @@ def log_scene(stream: Any, plan: VerifiedIR) -> None:
 
 
 def log_flights(stream: Any, plan: VerifiedIR) -> None:
-    """Log the paths of all flights, and where their keyframes are."""
+    """Log the paths of all flights and their keyframes."""
     for flight in plan.trajectory.drones:
         _flight(stream, plan, flight)
 
@@ -109,7 +109,7 @@ def _zones(stream: Any, mission: MissionIR) -> None:
 
 
 def _targets(stream: Any, mission: MissionIR, last: float) -> None:
-    """Log the targets; one that moves is a body about its first place, carried along over time."""
+    """Log the targets; a moving one is a body at its first position with a transform over time."""
     for target in mission.targets:
         if target.track is not None:
             _motion(stream, target, last)
@@ -142,9 +142,12 @@ def _motion(stream: Any, target: Target, last: float) -> None:
 
 
 class Carried(NamedTuple):
-    """How a body that is logged where it is at time 0 comes to where it is at some times: turned, then moved.
+    """The transform of a body, logged at its position at time 0, to its positions at some times.
 
-    translation : metres, (M, 3); quaternion : xyzw, (M, 4), None where it does not turn
+    The rotation comes first, then the translation.
+
+    translation : metres, (M, 3)
+    quaternion : xyzw, (M, 4); None if it does not turn
     """
 
     translation: Array
@@ -152,13 +155,13 @@ class Carried(NamedTuple):
 
 
 def carried(target: Target, times: Array) -> Carried:
-    """Return how a target is carried along its track at mission times (M,)."""
+    """Return the transform of a target along its track at mission times (M,), seconds."""
     away = moved(target, times)
     if target.track is None or not target.shape.turns:
         return Carried(away, None)
     turn = headings(target.track, times) - target.track.heading(0.0)
     none, (x, y, z) = np.zeros(len(times)), target.centre
-    # rerun turns about W's origin, and a body turns about its centre.
+    # rerun rotates about W's origin, but a body turns about its centre.
     about = [x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn), np.full(len(times), z)]
     quaternion = np.column_stack([none, none, np.sin(turn / 2), np.cos(turn / 2)])
     return Carried(away + np.array(target.centre) - np.column_stack(about), quaternion)

@@ -1,7 +1,7 @@
-"""<mission>-site.kmz: where a mission is flown, on the map, for Google Earth.
+"""<mission>-site.kmz: the site of a mission on the map, for Google Earth.
 
-Pads, the flight's hull with its margins, zones, and where audiences stand. Heights are absolute, the altitude
-of `world.origin` plus z.
+It shows pads, the hull of the flight with its margins, zones, and audiences. Heights are absolute: the
+altitude of `world.origin` plus z.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
 
 MOST_NAMED = 500
-"""Pads of a fleet that are marks of their own; of more one mark holds all, which the viewer bears."""
+"""Most pads of a fleet that get a placemark each. A larger fleet gets one placemark for all pads, because the
+viewer is slow with more.
+"""
 STYLES = {
     "flight": ("ffb4e07a", "667ae0b4"),
     "contingency": ("ff00a5ff", "3300a5ff"),
@@ -35,19 +37,19 @@ STYLES = {
     "in": ("ffd8b25a", "00000000"),
     "out": ("ff2828c8", "662828c8"),
 }
-"""Colours of lines and of faces, as KML writes them: alpha, blue, green, red."""
+"""Colours of lines and of faces in KML's order: alpha, blue, green, red."""
 
 
 @dataclass(frozen=True, slots=True)
 class SiteEmitter:
-    """Writes one file of the whole mission; the same plan gives the same bytes."""
+    """Writes one file for the whole mission; the same plan gives the same bytes."""
 
     name: ClassVar[str] = "site"
     summary: ClassVar[str] = "<mission>-site.kmz: pads, hull of the flight with margins, zones and audience"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the file, or a warning where the mission has no place on the globe."""
+        """Return the file, or a warning if the mission has no origin."""
         mission = plan.trajectory.keyframes.mission
         if mission.origin is None:
             return Emission((), (_no_origin(mission),))
@@ -123,7 +125,7 @@ def _zones(folder: Element, mission: MissionIR, origin: GeoOrigin) -> None:
 
 
 def _polygon(mark: Element, origin: GeoOrigin, outline: AreaOutline, *, flat: bool = False) -> None:
-    """Draw an outline: with walls from its height down to the ground, or flat on the ground."""
+    """Draw an outline, either with walls from its height down to the ground, or flat on the ground."""
     polygon = SubElement(mark, f"{{{KML}}}Polygon")
     if not flat:
         text_element(polygon, KML, "extrude", "1")

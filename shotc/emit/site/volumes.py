@@ -1,9 +1,9 @@
-"""The volumes of a flight on the map: where it is flown, what lies around that, and where it may come down.
+"""The volumes of a flight on the map: flight geography, contingency volume and ground risk buffer.
 
-The flight's hull is that of its control points, in which its curves lie at every instant. The margin about
-it is the sum of what an operator usually accounts for: errors of positions, a second to react, and the way to
-stop. The ground risk buffer is as wide as the volume is high (1:1). The constants are assumptions of this
-module and were taken from no authority's text. The margins are a proposal; the authority decides.
+The flight geography is the hull of the control points, which contains the curves at every instant. The margin
+around it is the sum of what an operator usually accounts for: position errors, a second of reaction, and the
+stopping distance. The ground risk buffer is as wide as the volume is high (1:1). The constants are assumptions
+of this module and do not come from an authority's text. The margins are a proposal; the authority decides.
 """
 
 from __future__ import annotations
@@ -19,29 +19,38 @@ from shotc.ir.limits import Limits
 from shotc.ir.trajectory import TrajectoryIR
 
 OFF_ACROSS_M, OFF_UPRIGHT_M = 7.0, 4.0
-"""Assumed errors of positions, metres: 3 of the receiver, 3 of holding a place, 1 of the map; of height."""
+"""Assumed position errors, metres.
+
+Horizontally 3 of the receiver, 3 of position hold and 1 of the map; vertically 4.
+"""
 REACTION_S = 1.0
 SIDES = 32
-"""Of the polygon about a circle by which a hull is made wider."""
+"""Sides of the polygon around a circle that widens a hull."""
 
 
 class AreaOutline(NamedTuple):
-    """A convex area on the map, corners counter-clockwise (k, 2), metres in W, and its greatest height, z."""
+    """A convex area on the map.
+
+    corners : counter-clockwise, in W, metres, shape (k, 2)
+    top : greatest height, z in W, metres
+    """
 
     corners: Array
     top: float
 
     @property
     def area(self) -> float:
-        """Return its area, m^2."""
+        """Area, m^2."""
         x, y = self.corners.T
         return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2.0
 
 
 class Volumes(NamedTuple):
-    """Where drones fly, with the margins about that.
+    """The volumes of a flight.
 
-    flight : of their bodies; contingency : with the margins across and upright; risk : ground below and about
+    flight : hull of the drones' bodies
+    contingency : the flight geography with the margins
+    risk : the ground below and around
     across, upright, buffer : widths of the margins, metres
     ground : z from which heights count, that of the lowest pad
     """
@@ -56,7 +65,7 @@ class Volumes(NamedTuple):
 
 
 def volumes(flown: TrajectoryIR) -> Volumes:
-    """Return the volumes of a flight; there is one."""
+    """Return the volumes of a plan, which has at least one flight."""
     mission = flown.keyframes.mission
     fleets = [mission.fleet(flight.fleet) for flight in flown.fleets]
     drones = [mission.drone(track.drone) for track in flown.drones]
@@ -70,7 +79,7 @@ def volumes(flown: TrajectoryIR) -> Volumes:
     across = max(OFF_ACROSS_M + _stopping(limit.speed, limit) for limit in limits)
     upright = max(OFF_UPRIGHT_M + _stopping(limit.climb, limit) for limit in limits)
     flat = points[:, :2]
-    # A track in a line has no hull of its own; with the bodies about it, it has.
+    # A track along a line has no hull; with the radius of the body around it, it has one.
     own = widened(np.unique(flat, axis=0), radius)
     top = float(points[:, 2].max()) + radius
     margin = widened(own, across)
@@ -87,18 +96,21 @@ def volumes(flown: TrajectoryIR) -> Volumes:
 
 
 def _stopping(speed: float, limits: Limits) -> float:
-    """Return how far a drone goes before it stands, metres, from a speed, m/s."""
+    """Return the distance, metres, in which a drone stops from a speed, m/s, after the reaction time."""
     return REACTION_S * speed + speed**2 / (2.0 * limits.acceleration)
 
 
 def widened(corners: Array, margin: float) -> Array:
-    """Return the hull of points (n, 2) with a margin about it, counter-clockwise, (k, 2); never narrower."""
+    """Return the hull of points (n, 2) widened by a margin, counter-clockwise, shape (k, 2).
+
+    It is never narrower than the exact margin.
+    """
     points = (_outermost(corners)[:, None] + ring(margin, SIDES)).reshape(-1, 2)
     return np.asarray(points[ConvexHull(points).vertices])
 
 
 def _outermost(points: Array) -> Array:
-    """Return the corners of the hull of points (n, 2), or all where they lie in a line and it has none."""
+    """Return the corners of the hull of points (n, 2); all points if they lie on a line."""
     try:
         return np.asarray(points[ConvexHull(points).vertices])
     except (QhullError, ValueError):

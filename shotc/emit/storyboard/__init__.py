@@ -1,4 +1,4 @@
-"""storyboard.png: what the camera sees in every shot, with a map or a side view, on one page."""
+"""storyboard.png: the camera's pictures of every shot, with a map or a side view, on one page."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ DPI = 120.0
 
 @dataclass(frozen=True, slots=True)
 class StoryboardEmitter:
-    """Draws the storyboard; needs matplotlib, and raises ModuleNotFoundError without it."""
+    """Draws the storyboard.
+
+    It needs matplotlib; without it, it raises ModuleNotFoundError.
+    """
 
     name: ClassVar[str] = "storyboard"
     summary: ClassVar[str] = "storyboard.png: the camera's pictures at the keyframes, with maps"
@@ -24,7 +27,7 @@ class StoryboardEmitter:
         import shotc.emit.storyboard.page  # noqa: F401
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return storyboard.png, nothing where no camera flies; the same plan gives the same bytes."""
+        """Return storyboard.png; the same plan gives the same bytes. Without cameras there is no file."""
         if plan.trajectory.fleets and not plan.trajectory.drones:
             return Emission(
                 (), notes=("storyboard.png is left out: it shows what cameras see, and the mission has none",)

@@ -1,4 +1,4 @@
-"""The sides of a target that a camera sees, shaded, in a picture's rectangle."""
+"""Draws the visible sides of a target, shaded, in a picture's rectangle."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from shotc.geom.silhouette import project_loop, shape_outline
 from shotc.geom.vec import Vec3
 
 LIGHT = np.radians(215.0)
-"""Where the light comes from, an angle of W: fixed, so that shading tells the sides of a subject apart."""
+"""Direction to the light, an angle in W, rad; it is fixed, so that shading shows which side is seen."""
 
-STRIPS, RIM = 24, 64  # strips of the side of a cylinder, points of its rim
+STRIPS, RIM = 24, 64  # strips of a cylinder's side, points of its rim
 
 
 class Sides(NamedTuple):
-    """The upright sides of a body that face an eye.
+    """The vertical sides of a body that face an eye.
 
-    edges : their upper edges' ends on the map, offsets from the eye, shape (n, 2, 2)
-    outwards : where each of them faces, an angle of W, shape (n,)
-    top : the corners of its top, offsets from the eye, shape (K, 2)
+    edges : ends of their upper edges on the map, relative to the eye, shape (n, 2, 2)
+    outwards : directions of their outward normals, angles in W, shape (n,)
+    top : corners of the body's top, relative to the eye, shape (K, 2)
     """
 
     edges: Array
@@ -34,7 +34,10 @@ class Sides(NamedTuple):
 
 
 def draw_body(canvas: Canvas, shown: PictureRectangle, shape: BodyShape, offset: Vec3, color: Rgb) -> None:
-    """Draw a body; offset : its centre less the eye, W, metres."""
+    """Draw a body.
+
+    offset : its centre minus the eye, W, metres
+    """
     outline = shape_outline(shown.camera, offset, shape)
     if not len(outline):
         return
@@ -57,7 +60,10 @@ def draw_body(canvas: Canvas, shown: PictureRectangle, shape: BodyShape, offset:
 
 
 def sides_seen(shape: BodyShape, offset: Vec3) -> Sides:
-    """Return the upright sides of a body that face the eye; offset : its centre less the eye, W, metres."""
+    """Return the vertical sides of a body that face the eye.
+
+    offset : its centre minus the eye, W, metres
+    """
     return _round(shape, offset) if isinstance(shape, CylinderShape) else _flat(shape.solid(offset).points)
 
 

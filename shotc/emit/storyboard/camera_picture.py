@@ -1,4 +1,4 @@
-"""A camera pose, and where what it sees is drawn on the page."""
+"""A camera pose, and the map from its screen to the page."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from shotc.ir.target import Target
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PictureRectangle:
-    """A camera pose and the rectangle it is drawn into."""
+    """A camera pose and the rectangle of its picture."""
 
     camera: View
     eye: Vec3
@@ -26,17 +26,17 @@ class PictureRectangle:
 
     @property
     def horizon(self) -> float:
-        """Where the horizon is: v of the screen, beyond [-1, 1] where it is not in the picture."""
+        """The v of the horizon on screen; outside [-1, 1] it is not in the picture."""
         return -tan(self.pitch) / float(self.camera.half_height)
 
     def place(self, uv: Array) -> Array:
-        """Return page positions of screen points, shape (..., 2)."""
+        """Return page positions of screen points, shape (..., 2), inches."""
         x = self.box.x + (uv[..., 0] + 1) / 2 * self.box.width
         y = self.box.y + (uv[..., 1] + 1) / 2 * self.box.height
         return np.stack([x, y], axis=-1)
 
     def offset(self, target: Target) -> Vec3:
-        """Return the target's centre less the eye, W."""
+        """Return the target's centre minus the eye, W, metres."""
         x, y, z = target.centre
         return (x - self.eye[0], y - self.eye[1], z - self.eye[2])
 

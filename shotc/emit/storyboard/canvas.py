@@ -1,6 +1,6 @@
-"""A page to draw on, in inches from its lower left corner: the one module that speaks to matplotlib.
+"""A page to draw on, in inches from its lower left corner; the only module that uses matplotlib.
 
-No figure of pyplot's is touched.
+It leaves the figures of pyplot alone.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ from shotc.geom.bernstein import Array
 
 Color = tuple[float, ...]
 QUICK = 3
-"""Effort of compression, of 9."""
+"""Compression level of PNG, from 0 to 9."""
 
 LEAST_CAPITAL_PX = 9.0
 """Height of a capital letter in the smallest text of a page, pixels of the file."""
 
 SEAM = 0.6
-"""Width of the edges that close the seams between the quads of a net, points."""
+"""Width of the edges that close the seams between the quads of a mesh, points."""
 
 ELLIPSIS = "…"
 
@@ -65,11 +65,11 @@ class PageRectangle:
         return self.y + self.height
 
     def meets(self, other: PageRectangle) -> bool:
-        """Tell whether two rectangles overlap."""
+        """Return whether two rectangles overlap."""
         return self.x < other.right and other.x < self.right and self.y < other.top and other.y < self.top
 
     def holds(self, other: PageRectangle) -> bool:
-        """Tell whether another rectangle lies inside this one."""
+        """Return whether another rectangle lies inside this one."""
         return self.x <= other.x and self.y <= other.y and other.right <= self.right and other.top <= self.top
 
     def with_box(self, other: PageRectangle) -> PageRectangle:
@@ -84,7 +84,7 @@ class PageRectangle:
 
 @dataclass(frozen=True, slots=True)
 class Type:
-    """How a text is set: size in points, weight, where its anchor is, and a halo's colour."""
+    """The style of a text: size in points, weight, position of the anchor, and colour of a halo."""
 
     size: float = 9.0
     color: Rgb = INK
@@ -96,7 +96,7 @@ class Type:
 
 @dataclass(frozen=True, slots=True)
 class Fitted:
-    """A text as it fits into some room: its words, how it is set, and its width in inches."""
+    """A text fitted into a width: its words, its style, and its width in inches."""
 
     text: str
     style: Type
@@ -105,16 +105,16 @@ class Fitted:
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Keep the user's own style settings off the page; everything is measured and drawn inside this."""
+    """Suspend the user's matplotlib settings; the page is measured and drawn inside this context."""
     with mpl.rc_context():
         mpl.rcdefaults()
-        # Without hinting a text is as wide as its measure says at every size.
+        # Without hinting a text has its measured width at every size.
         mpl.rcParams["text.hinting"] = "no_hinting"
         yield
 
 
 class Canvas:
-    """A page of paper; what is drawn later lies on top. To be used in the house style."""
+    """A page; later drawings lie on top of earlier ones. It is used inside ``house_style``."""
 
     def __init__(self, width: float, height: float, dpi: float) -> None:
         self._figure = Figure(figsize=(width, height), dpi=dpi, facecolor=PAPER)
@@ -130,7 +130,7 @@ class Canvas:
         width: float = 0.0,
         clip: PageRectangle | None = None,
     ) -> None:
-        """Fill closed shapes, each of shape (k, 2); one colour for all or one each."""
+        """Fill closed shapes, shape (k, 2) each, with one colour for all or one for each."""
         self._add(
             PolyCollection(
                 list(shapes), facecolors=face, edgecolors=edge, linewidths=width, transform=self._inches
@@ -139,7 +139,7 @@ class Canvas:
         )
 
     def union(self, shapes: Sequence[Array], face: Color, clip: PageRectangle | None = None) -> None:
-        """Fill the union of closed shapes that all run the same way round, as one shape."""
+        """Fill the union of closed shapes, (k, 2) each and all of one orientation, as one shape."""
         parts = [Path(np.concatenate([s, s[:1]]), closed=True) for s in shapes]
         path = Path.make_compound_path(*parts)
         self._add(PathPatch(path, facecolor=face, edgecolor="none", transform=self._inches), clip)
@@ -152,7 +152,11 @@ class Canvas:
         clip: PageRectangle | None = None,
         dash: tuple[float, ...] | None = None,
     ) -> None:
-        """Draw open lines, each of shape (k, 2); width in points, dash in line widths."""
+        """Draw open lines, shape (k, 2) each.
+
+        width : points
+        dash : in line widths
+        """
         style: Any = "solid" if dash is None else (0.0, dash)
         self._add(
             LineCollection(
@@ -168,7 +172,7 @@ class Canvas:
         )
 
     def pieces(self, ends: Array, color: Color, width: float, clip: PageRectangle) -> None:
-        """Draw many short lines at once, shape (n, 2, 2), in one colour."""
+        """Draw many short lines, shape (n, 2, 2), in one colour."""
         codes = np.tile(np.array([Path.MOVETO, Path.LINETO], dtype=Path.code_type), len(ends))
         path = Path(ends.reshape(-1, 2), codes)
         self._add(
@@ -176,23 +180,25 @@ class Canvas:
         )
 
     def image(self, pixels: NDArray[np.uint8], box: PageRectangle) -> None:
-        """Put a picture into a rectangle; pixels : shape (rows, columns, 3), the upper left one first.
+        """Draw a raster picture into a rectangle.
 
-        Or (rows, columns, 4), where what is not opaque shows what is below.
+        pixels : (rows, columns, 3), the upper left one first; or (rows, columns, 4) with transparency
         """
-        smooth = "bilinear" if pixels.shape[2] == 3 else "nearest"  # or colours of what is not there mix in
+        smooth = "bilinear" if pixels.shape[2] == 3 else "nearest"  # no blending with transparent pixels
         picture = BboxImage(self._window(box), interpolation=smooth, origin="upper")
         picture.set_data(pixels)
         self._add(picture, None)
 
     def mesh(self, corners: Array, faces: Array, clip: PageRectangle) -> None:
-        """Fill the quads of a net, row by row, the last row on top; none where a corner is NaN.
+        """Fill the quads of a mesh, row by row, with the last row on top; a quad with a NaN corner is left
+        out.
 
-        corners : shape (m + 1, n + 1, 2); faces : colours, shape (m, n, 3)
+        corners : shape (m + 1, n + 1, 2)
+        faces : colours, shape (m, n, 3)
         """
         net = QuadMesh(corners, antialiased=True, transform=self._inches, linewidths=SEAM)
         net.set_facecolor(faces.reshape(-1, 3))
-        net.set_edgecolor(faces.reshape(-1, 3))  # or paper shows between two quads
+        net.set_edgecolor(faces.reshape(-1, 3))  # closes the seams between the quads
         self._add(net, clip)
 
     def disc(
@@ -237,12 +243,13 @@ class Canvas:
 
     @property
     def least_size(self) -> float:
-        """The smallest size of text that can be read in the file, points."""
+        """The smallest readable size of text in the file, points."""
         return LEAST_CAPITAL_PX / CAPITAL * 72.0 / float(self._figure.dpi)
 
     def fitted(self, text: str, style: Type, room: float) -> Fitted:
-        """Return a text that takes at most ``room`` inches: set smaller, and shortened where that would be
-        too small to be read.
+        """Return a text that is at most ``room`` inches wide.
+
+        The text is made smaller, down to the smallest readable size, and then shortened.
         """
         width = self.extent(text, style)[0]
         if width <= room:
@@ -256,17 +263,17 @@ class Canvas:
         return Fitted(shorter, style, width)
 
     def write(self, x: float, y: float, text: str, style: Type, room: float) -> float:
-        """Write one line of text in at most ``room`` inches; return the width it takes."""
+        """Write one line of text at most ``room`` inches wide, and return its width."""
         fitted = self.fitted(text, style, room)
         self.text(x, y, fitted.text, fitted.style)
         return fitted.width
 
     def png(self) -> bytes:
-        """Return the page as PNG bytes, the same for the same drawing."""
+        """Return the page as PNG bytes; the same drawing gives the same bytes."""
         with _without_glyph_warnings():
             self._agg.draw()
-        # matplotlib would write the page's transparency, of which there is none, and spend on
-        # compression three times as long as this for a file of the same size.
+        # matplotlib would also write an alpha channel, which is not needed, and take three times as long for
+        # a file of the same size.
         page = Image.fromarray(np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., :3]))
         stream = BytesIO()
         page.save(stream, "PNG", compress_level=QUICK, dpi=(self._figure.dpi, self._figure.dpi))
@@ -285,14 +292,14 @@ class Canvas:
 
 @contextmanager
 def _without_glyph_warnings() -> Iterator[None]:
-    """Draw a box for a letter that the font lacks, as in a title in Chinese, and say nothing of it."""
+    """Draw a box for a letter that the font lacks, for example in a Chinese title, without a warning."""
     with catch_warnings():
         filterwarnings("ignore", message=r"Glyph \d+ .*missing from font")
         yield
 
 
 def chip(canvas: Canvas, at: tuple[float, float], text: str, face: Rgb, size: float = 7.5) -> PageRectangle:
-    """Write white text on a coloured ground whose upper right corner is ``at``; return the ground."""
+    """Write white text on a coloured rectangle whose upper right corner is ``at``; return the rectangle."""
     style = Type(size, WHITE, bold=True, across="center", along="center")
     width, height = canvas.extent(text, style)
     box = PageRectangle(at[0] - width - 0.12, at[1] - height - 0.08, width + 0.12, height + 0.08)

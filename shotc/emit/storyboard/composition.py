@@ -1,4 +1,4 @@
-"""Which places on screen a shot gives its subjects, in words."""
+"""The compositions of a shot in words."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ SAME_PLACE = 1e-6
 
 
 def composition_text(placed: PlacedShot) -> str:
-    """Return a shot's compositions and which of their places it uses, by subject where they differ.
+    """Return a shot's compositions and the places used of each, by subject where subjects differ.
 
-    That is "thirds (center)", or "one left-third; other right-third"; "" where nothing is framed.
+    Examples are "thirds (center)" and "one left-third; other right-third"; it is "" if nothing is framed.
     """
     words: dict[str, dict[str, list[str]]] = {}
     for target, composition, reference in _wanted(placed):
@@ -28,7 +28,7 @@ def composition_text(placed: PlacedShot) -> str:
 
 
 def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
-    # What the composition pass chose: between keyframes a reference also passes by other places.
+    # Only what the composition pass chose counts: between keyframes a reference also passes other places.
     shot = placed.shot
     if not placed.keyframes:
         return [
@@ -44,7 +44,7 @@ def _wanted(placed: PlacedShot) -> list[tuple[str, Composition, Vec2 | None]]:
 
 
 def _in_turn(composition: Composition, subject: PlacedSubject) -> list[tuple[Composition, Vec2 | None]]:
-    """Return a subject's composition and place, then those places of its setpoints that are others."""
+    """Return a subject's composition and place, then the places of its setpoints."""
     first = (composition, subject.reference)
     later = [setpoint.place for setpoint in subject.setpoints if setpoint.place is not None]
     return [first, *((Composition(_name_of(place), (place,)), place) for place in later)]
@@ -55,7 +55,7 @@ def _phrase(name: str, flown: list[str]) -> str:
 
 
 def _place(composition: Composition, reference: Vec2 | None) -> str:
-    """Return the name of the point that is used, as a mission would write it; "" where there is no choice."""
+    """Return the name of the point that is used, as a mission would write it; "" if there is no choice."""
     if reference is None or len(composition.points) < 2:
         return ""
     if not any(_same(point, reference) for point in composition.points):

@@ -1,4 +1,4 @@
-"""Terrain on the drawing beside a shot's pictures: hillshade and contours on a plan, else a profile."""
+"""Terrain on the map beside a shot's pictures: hillshade and contours on a plan, a profile on a side view."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from shotc.geom.bernstein import Array
 from shotc.geom.surface.ground import Ground, height_at
 
 FINE_IN = 0.05
-"""Between the places of a plan at which the ground's height is looked up, inches."""
+"""Distance of the height samples of a plan, inches."""
 
 LEVELS = 10
-"""Contours of a plan, about."""
+"""Approximate number of contours of a plan."""
 
 LEAST_STEP_M = 0.5
 LABELLED = 5
-"""Every so manieth contour is bold and has its height, if at least two of them are on the plan."""
+"""Every LABELLED-th contour is bold and labelled with its height, if the plan shows at least two of them."""
 
 MOST_LABELS = 6
 LINE, BOLD = 0.45, 0.9
 """Widths of contours, points."""
 
 STRETCH = 400
-"""Places of a profile."""
+"""Samples of a profile."""
 
 _TURN = np.array([0, 1, 2])
 
@@ -39,9 +39,8 @@ _TURN = np.array([0, 1, 2])
 class PlanRelief:
     """The ground that a plan shows.
 
-    nodes : W, on a net of equal cells from edge to edge of the sheet, South first, (r, c, 3); z is NaN where
-        there is no ground
-    step  : between contours, metres; 0 where the ground is level
+    nodes : W, on a regular grid over the sheet, South first, (r, c, 3); z is NaN where there is no ground
+    step : metres between contours; 0 where the ground is level
     """
 
     nodes: Array
@@ -49,7 +48,7 @@ class PlanRelief:
 
     @property
     def levels(self) -> Array:
-        """The heights of the contours, z of W."""
+        """Heights of the contours, z of W, shape (n,)."""
         z = self.nodes[..., 2]
         if self.step == 0.0:
             return np.zeros(0)
@@ -59,7 +58,7 @@ class PlanRelief:
 
     @property
     def told(self) -> Array:
-        """The heights of the contours that are bold and labelled."""
+        """Heights of the bold, labelled contours, shape (n,)."""
         for every in (LABELLED, 2):
             number = np.round(self.levels / self.step) if self.step else self.levels
             found = self.levels[number % every == 0]
@@ -69,7 +68,7 @@ class PlanRelief:
 
     @property
     def triangles(self) -> Array:
-        """The net's triangles that are ground, (n, 3, 3)."""
+        """The grid's triangles with ground, (n, 3, 3)."""
         a, b = self.nodes[:-1, :-1], self.nodes[:-1, 1:]
         c, d = self.nodes[1:, 1:], self.nodes[1:, :-1]
         both = [np.stack(corners, axis=2).reshape(-1, 3, 3) for corners in ((a, b, c), (a, c, d))]
@@ -92,7 +91,7 @@ def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
 
 
 def draw_relief(canvas: Canvas, sheet: Sheet, relief: PlanRelief) -> None:
-    """Draw hillshade and contours; where there is no ground, the sheet stays as it is."""
+    """Draw hillshade and contours; the sheet is unchanged where there is no ground."""
     canvas.image(_pixels(relief), sheet.box)
     triangles, told = relief.triangles, relief.told
     for level in relief.levels:
@@ -112,7 +111,7 @@ def _pixels(relief: PlanRelief) -> np.ndarray:
 
 
 def contour(triangles: Array, level: float) -> Array:
-    """Return where triangles (n, 3, 3) are at a height: pieces of lines in the plan, (k, 2, 2)."""
+    """Return the level line of triangles (n, 3, 3) at a height, as line pieces in the plan, (k, 2, 2)."""
     above = triangles[..., 2] >= level
     count = above.sum(axis=1)
     cut = (count == 1) | (count == 2)
@@ -126,7 +125,7 @@ def contour(triangles: Array, level: float) -> Array:
 def contour_heights(
     canvas: Canvas, sheet: Sheet, relief: PlanRelief, taken: Sequence[PageRectangle]
 ) -> list[PageRectangle]:
-    """Write heights on a few contours, each near the middle where nothing else is; return their room."""
+    """Write heights on a few contours, each in free space near the middle; return the occupied rectangles."""
     rooms: list[PageRectangle] = []
     style = Type(6.8, shade(GROUND, 0.35), across="center", along="center_baseline", halo=GROUND_FAR)
     box, triangles = sheet.box, relief.triangles
@@ -147,9 +146,9 @@ def contour_heights(
 
 
 def profile(sheet: Sheet, ground: Ground, through: Array) -> Array:
-    """Return the ground in the vertical plane of a side view through a place (2,), on the sheet: (n, 2).
+    """Return the ground in the vertical plane of a side view through a place (2,), shape (n, 2).
 
-    Along the view and z of W, metres; z is NaN where there is no ground.
+    The columns are the position along the view and z of W, metres; z is NaN where there is no ground.
     """
     half = sheet.box.width / 2 / sheet.inches
     along = sheet.centre[0] + np.linspace(-half, half, STRETCH)
@@ -157,14 +156,14 @@ def profile(sheet: Sheet, ground: Ground, through: Array) -> Array:
 
 
 def profile_at(axes: Array, ground: Ground, through: Array, along: Array) -> Array:
-    """Return ``profile`` at places along the first of two axes, metres."""
+    """Return ``profile`` at positions (n,) along the first of two axes (2, 3), metres, shape (n, 2)."""
     way = axes[0, :2]
     xy = through + (along - through @ way)[:, None] * way
     return np.column_stack([along, height_at(ground, xy)])
 
 
 def draw_profile(canvas: Canvas, sheet: Sheet, line: Array) -> None:
-    """Draw the ground under a profile, as deep as the sheet goes."""
+    """Draw the ground below a profile down to the edge of the sheet."""
     known = np.isfinite(line[:, 1])
     ends = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]]).astype(int)))
     for start, end in ends.reshape(-1, 2):

@@ -1,4 +1,6 @@
-"""differences.png: each condition beside the last one, where they differ most, shot by shot."""
+"""differences.png: each condition beside the last one, at the time of their largest difference in
+each shot.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,10 @@ FACTS = 0.36
 
 
 def draw_differences(comparison: Comparison, dpi: float) -> bytes:
-    """Return the page as PNG bytes, the same for the same comparison; ValueError where nothing differs."""
+    """Return the page as PNG bytes; the same comparison gives the same bytes.
+
+    Raises ValueError if no two conditions have a plan.
+    """
     if not comparison.differences:
         raise ValueError("no two conditions have a plan")
     with house_style():
@@ -47,7 +52,10 @@ def _page(comparison: Comparison, dpi: float) -> bytes:
 def _row(
     canvas: Canvas, comparison: Comparison, found: ShotDifference, at: tuple[float, tuple[float, float]]
 ) -> None:
-    """Draw two pictures beside each other; at : the top of the row, and the size of a picture, inches."""
+    """Draw two pictures side by side.
+
+    at : top of the row, and size of a picture, inches
+    """
     top, (width, height) = at
     for column, (name, time) in enumerate(((found.condition, found.time), (found.other, found.other_time))):
         left = MARGIN + column * (CELL + GAP)

@@ -1,4 +1,4 @@
-"""Screen error over a shot as a small plot; where a target is not whole in the frame, it is shaded."""
+"""Screen error over a shot as a small plot, shaded where a target is not wholly in frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from shotc.ir.comparison import ComparedShot, Trace
 
 
 def draw_error(canvas: Canvas, box: PageRectangle, shot: ComparedShot, what: tuple[float, float]) -> None:
-    """Draw the errors of a shot; what : the time of the frame to mark, seconds, and the error at the top."""
+    """Draw the errors of a shot.
+
+    what : time of the frame to mark, seconds, and the end of the error axis
+    """
     time, top = what
     canvas.polygons([box.outline()], WHITE, FAINT, 0.6)
     cropped = [
@@ -36,7 +39,7 @@ def draw_error(canvas: Canvas, box: PageRectangle, shot: ComparedShot, what: tup
 
 
 def stretches(share: Array, flags: Mask) -> Iterator[tuple[float, float]]:
-    """Yield from where to where the flags are true, each half-way to the neighbouring samples, if any."""
+    """Yield the intervals in which the flags hold, each extended half-way to the neighbouring samples."""
     joined = np.concatenate([[False], joins(share), [False]])
     for a, b in runs(share, flags):
         low = 0.5 * (share[a - 1] + share[a]) if joined[a] else share[a]
@@ -45,7 +48,7 @@ def stretches(share: Array, flags: Mask) -> Iterator[tuple[float, float]]:
 
 
 def runs(share: Array, flags: Mask) -> Iterator[tuple[int, int]]:
-    """Yield first and one past the last of the samples that follow one another with their flags true."""
+    """Yield the first and one past the last index of consecutive samples whose flags hold."""
     joined = np.concatenate([[False], joins(share)])
     (firsts,) = np.nonzero(flags & ~(joined & np.roll(flags, 1)))
     (lasts,) = np.nonzero(flags & ~(np.roll(joined, -1) & np.roll(flags, -1)))
@@ -53,13 +56,13 @@ def runs(share: Array, flags: Mask) -> Iterator[tuple[int, int]]:
 
 
 def joins(share: Array) -> Mask:
-    """Tell which samples the next one follows on the clock; between others another target is filmed."""
+    """Return which samples are followed by the next on the clock; at gaps another target is filmed."""
     steps = np.diff(share)
     return np.asarray(steps <= 1.5 * float(np.median(steps))) if len(steps) else np.zeros(0, dtype=np.bool_)
 
 
 def _curves(box: PageRectangle, trace: Trace, top: float) -> Iterator[Array]:
-    """Yield the line of an error in parts: where none is known it is broken, above the top it is cut."""
+    """Yield the curve of an error in parts, broken where the error is unknown and cut at the top."""
     x = box.x + trace.share * box.width
     y = box.y + np.minimum(trace.error, 2 * top) / top * box.height
     for a, b in runs(trace.share, ~np.isnan(y)):

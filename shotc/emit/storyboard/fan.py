@@ -1,9 +1,12 @@
-"""Terrain as a camera sees it: rings about the eye, drawn from the farthest to the nearest.
+"""Terrain as a camera sees it: rings around the eye, drawn from the farthest to the nearest.
 
-A ring is cut into columns by directions that spread over the picture. Rings grow in proportion to their
-distance, so that all are of about one size on screen, however many triangles the ground has. Ground is
-a height over the plan, hence what is nearer in the plan is never behind what is farther: painting by rings
-is the exact order, and a ring that passes by the near side of a thing parts what it hides from what hides it.
+A ring is divided into columns by directions that spread over the picture. The distance between rings is
+proportional to their radius, so that all have about one size on screen, independent of the number of
+triangles.
+
+The ground is a height over the plan, so what is nearer in the plan is never behind what is farther. Painting
+by rings is therefore the exact order. An object is painted between the rings behind it and those that hide
+it.
 """
 
 from __future__ import annotations
@@ -25,22 +28,24 @@ from shotc.geom.pieces import Mask
 from shotc.geom.surface.ground import Ground, height_at
 
 RINGS, COLUMNS = 96, 64
-"""Of the ground in one picture; where straight down is in it, twice as many columns all round."""
+"""Rings and columns of a picture; a picture that shows the nadir has twice the columns, all around."""
 
 FIRST = 0.05
 """Radius of the first ring over the height of the eye above ground."""
 
 ROUND_NADIR = 1.2
-"""Half pictures from the middle up to which straight down is drawn all round."""
+"""Distance of the nadir from the middle of the picture, in half pictures, up to which columns go
+all around.
+"""
 
 UNDERFOOT = 1e-3
-"""Radius of the innermost ring where there is ground below the eye, metres."""
+"""Radius of the innermost ring if there is ground below the eye, metres."""
 
 HAZE = 20.0
-"""Distance at which ground has half faded into haze, over the height of the eye above ground."""
+"""Distance at which haze has taken half of the colour, over the height of the eye above ground."""
 
 FARTHEST_SCREEN = 50.0
-"""Screens from the middle beyond which places are not told apart: far outside, and safe to draw."""
+"""Half pictures from the middle at which positions are clipped, far outside the picture."""
 
 SAME_SLOPE = 1e-6
 LINE_PIECES = 160
@@ -48,12 +53,12 @@ LINE_PIECES = 160
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fan:
-    """Ground about an eye.
+    """The ground around an eye.
 
     radius : of the rings, metres, ascending, (R,)
-    angle  : of the columns, W, ascending, (C,)
-    z      : of the ground at rings and columns less the eye's, metres, (R, C); NaN where there is none
-    over   : height of the eye above the ground under it, metres, at least 1
+    angle : of the columns, in W, rad, ascending, (C,)
+    z : of the ground at rings and columns relative to the eye, metres, (R, C); NaN where there is none
+    over : height of the eye above the ground below it, metres, at least 1
     """
 
     radius: Array
@@ -63,20 +68,23 @@ class Fan:
 
     @property
     def points(self) -> Array:
-        """The ground at rings and columns, metres from the eye, (R, C, 3)."""
+        """The ground at rings and columns relative to the eye, metres, (R, C, 3)."""
         x = self.radius[:, None] * np.cos(self.angle)
         y = self.radius[:, None] * np.sin(self.angle)
         return np.stack([x, y, self.z], axis=-1)
 
     @property
     def horizon(self) -> Array:
-        """How steeply up one looks past the ground up to each ring, (R, C): rise over run."""
+        """Largest slope (rise over run) from the eye to the ground up to each ring, (R, C)."""
         slope = self.z / self.radius[:, None]
         return np.asarray(np.maximum.accumulate(np.where(np.isnan(slope), -np.inf, slope), axis=0))
 
 
 def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ()) -> Fan:
-    """Return the ground that a picture may show; parts : radii that a ring has to have, metres."""
+    """Return the ground that a picture may show.
+
+    parts : radii at which there must be a ring, metres
+    """
     eye = np.array(shown.eye)
     low, high = (box.reshape(-1, 3) for box in (ground.surface.low[-1], ground.surface.high[-1]))
     low, high = low.min(axis=0), high.max(axis=0)
@@ -87,7 +95,7 @@ def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ())
     first = min(max(FIRST * over, float(np.hypot(*gap))), reach / 2)
     rings = np.geomspace(first, reach, RINGS)
     if not gap.any():
-        rings[0] = UNDERFOOT  # straight down is no hole
+        rings[0] = UNDERFOOT  # no hole below the eye
     inner = [part for part in parts if rings[0] < part < reach]
     radius = np.unique(np.concatenate([rings, inner]))
     angle = _directions(shown.camera)
@@ -97,7 +105,7 @@ def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ())
 
 
 def _directions(camera: View) -> Array:
-    """Return the directions in the plan, of W, that a picture shows, spread evenly."""
+    """Return evenly spaced directions in the plan that cover a picture, angles in W, rad, shape (C,)."""
     yaw = float(np.arctan2(camera.sin_yaw, camera.cos_yaw))
     _, down, forward = camera.to_camera((0.0, 0.0, -1.0))
     if forward > 0 and abs(down) <= ROUND_NADIR * forward * camera.half_height:
@@ -111,7 +119,7 @@ def _directions(camera: View) -> Array:
 
 
 class FanPainter:
-    """Draws a fan from the farthest ring to the nearest, bit by bit, with its squares draped over it.
+    """Draws a fan step by step from the farthest ring to the nearest, with a square grid on it.
 
     grid : width of a square, metres
     """
@@ -125,7 +133,7 @@ class FanPainter:
         self._away = np.hypot(self._lines[..., 0], self._lines[..., 1])
 
     def draw_beyond(self, distance: float) -> None:
-        """Draw what is left of the ground beyond a distance in the plan, metres."""
+        """Draw the remaining ground beyond a distance in the plan, metres."""
         radius, top = self._fan.radius, self._top
         low = int(np.searchsorted(radius, distance * (1.0 - 1e-9)))
         if low >= top:
@@ -134,14 +142,14 @@ class FanPainter:
         rows = slice(low, top)
         corners, faces = self._corners[low : top + 1][::-1], self._faces[rows][::-1]
         self._canvas.mesh(corners, faces, self._shown.box)
-        # A piece that reaches over a ring is drawn on both sides: the nearer ground covers half of it.
+        # A line piece across a ring is drawn on both sides, because the nearer ground covers half of it.
         now = (self._away.max(axis=1) > radius[low]) & (self._away.min(axis=1) <= radius[top])
         if now.any():
             draw_squares(self._canvas, self._shown, self._lines[now], self._grid)
 
 
 def _on_page(shown: PictureRectangle, fan: Fan) -> Array:
-    """Return where rings and columns are on the page, (R, C, 2); NaN behind the camera."""
+    """Return the page positions of rings and columns, (R, C, 2); NaN behind the camera."""
     points = fan.points
     right, down, forward = shown.camera.to_camera((points[..., 0], points[..., 1], points[..., 2]))
     depth = np.where(forward > NEAR_M, forward, np.nan)
@@ -162,9 +170,9 @@ def _faces(fan: Fan) -> Array:
 
 
 def draped(fan: Fan, lines: Array) -> Array:
-    """Return pieces of lines (n, 2, 3) laid on the ground of a fan, without those that ground hides.
+    """Return line pieces (n, 2, 3) laid on the ground of a fan, without those that the ground hides.
 
-    Metres from the eye.
+    All are relative to the eye, metres.
     """
     at = _Cell.of(fan, lines)
     z = at.between(fan.z)
@@ -178,7 +186,7 @@ def draped(fan: Fan, lines: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Cell:
-    """Where points are in a fan: in the cell of a ring and a column, at shares (w, s) of it."""
+    """Positions of points in a fan: the cell of a ring and a column, and shares (w, s) in it."""
 
     ring: IntArray
     column: IntArray
@@ -199,12 +207,12 @@ class _Cell:
         return cls(ring, column, w, s, inside)
 
     def nearer(self, value: Array) -> Array:
-        """Return what a value (R, C) is at the ring before the points."""
+        """Return a value (R, C), interpolated at the ring before the points."""
         a, b = value[self.ring, self.column], value[self.ring, self.column + 1]
         return np.asarray(np.where(np.isinf(a) | np.isinf(b), -np.inf, a + (b - a) * self.s))
 
     def between(self, value: Array) -> Array:
-        """Return what a value (R, C) is at the points."""
+        """Return a value (R, C), interpolated at the points."""
         r, c, w, s = self.ring, self.column, self.w, self.s
         near = value[r, c] * (1 - s) + value[r, c + 1] * s
         return np.asarray(near * (1 - w) + (value[r + 1, c] * (1 - s) + value[r + 1, c + 1] * s) * w)

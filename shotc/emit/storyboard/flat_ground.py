@@ -1,4 +1,4 @@
-"""The flat ground that a camera sees, with its squares, and the sky above."""
+"""Flat ground as a camera sees it, with a square grid, and the sky above."""
 
 from __future__ import annotations
 
@@ -13,14 +13,17 @@ from shotc.geom.bernstein import Array
 from shotc.geom.vec import Vec3
 
 REACH, FADES = 30, 12
-"""How many squares the ground grid goes out from under the camera, and in how many steps it fades."""
+"""Squares from the camera to the edge of the grid, and steps in which it fades."""
 
 NEAR_M = 0.05
-"""Depth from which ground is drawn, metres."""
+"""Least depth at which the grid is drawn, metres."""
 
 
 def draw_flat(canvas: Canvas, shown: PictureRectangle, grid: float) -> None:
-    """Draw the sky, and the plane z = 0 with its squares; grid : width of a square, metres."""
+    """Draw the sky, and the plane z = 0 with its grid.
+
+    grid : width of a square, metres
+    """
     draw_sky(canvas, shown)
     horizon = shown.horizon
     if horizon > -1:
@@ -31,14 +34,17 @@ def draw_flat(canvas: Canvas, shown: PictureRectangle, grid: float) -> None:
 
 
 def draw_sky(canvas: Canvas, shown: PictureRectangle, below: Rgb = SKY) -> None:
-    """Draw the sky above the horizon; below : a colour for what is below it."""
+    """Draw the sky above the horizon.
+
+    below : colour of what is below the horizon
+    """
     canvas.polygons([shown.box.outline()], below)
     if shown.horizon < 1:
         _bands(canvas, shown, (shown.horizon, 1.0), SKY_LOW, SKY)
 
 
 def _bands(canvas: Canvas, shown: PictureRectangle, span: tuple[float, float], first: Rgb, last: Rgb) -> None:
-    # A soft gradient away from the horizon, over one screen height, in thin bands.
+    # A gradient away from the horizon, over one screen height, in thin bands.
     edges = span[0] + np.linspace(0.0, 1.0, 13) ** 1.5 * (2.0 if span[1] > 0 else -2.0)
     edges[-1] = span[1] * 40.0
     strips, colors = [], []
@@ -50,9 +56,10 @@ def _bands(canvas: Canvas, shown: PictureRectangle, span: tuple[float, float], f
 
 
 def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
-    """Return the lines of the squares about an eye, cut into pieces, metres from the eye, (n, 2, 3).
+    """Return the grid lines around an eye, cut into pieces, relative to the eye, metres, (n, 2, 3).
 
-    grid : width of a square, metres; pieces : of a line, short near the eye, so that they can fade
+    grid : width of a square, metres
+    pieces : pieces of a line, which are short near the eye so that they can fade
     """
     reach = REACH * grid
     centre = np.round(np.array(eye[:2]) / grid) * grid
@@ -70,7 +77,7 @@ def squares(eye: Vec3, grid: float, pieces: int = 40) -> Array:
 
 
 def draw_squares(canvas: Canvas, shown: PictureRectangle, pieces: Array, grid: float) -> None:
-    """Draw pieces of the squares' lines, metres from the eye, (n, 2, 3): the farther, the fainter."""
+    """Draw pieces of the grid lines, relative to the eye, metres, (n, 2, 3); distant ones are fainter."""
     reach = REACH * grid
     right, down, forward = shown.camera.to_camera((pieces[..., 0], pieces[..., 1], pieces[..., 2]))
     seen = (forward > NEAR_M).all(axis=1)

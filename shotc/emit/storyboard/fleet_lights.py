@@ -15,20 +15,22 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 
 RADIUS = 0.022
-"""Of a light, inches."""
+"""Radius of a light, inches."""
 CORNERS = 12
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetLights:
-    """Where the lights of fleets are, W, shape (n, 3), and their colours, 0 to 1, (n, 3); dark ones too."""
+    """Positions of the lights of fleets, W, metres, (n, 3), and colours, 0 to 1, (n, 3); dark drones
+    included.
+    """
 
     places: Array
     colors: Array
 
 
 def lights_at(plan: VerifiedIR, time: float) -> FleetLights | None:
-    """Return the lights at a time of the mission, s; None where no fleet flies."""
+    """Return the lights at a mission time, seconds; None if no fleet flies."""
     fleets = plan.trajectory.fleets
     if not fleets:
         return None
@@ -39,7 +41,7 @@ def lights_at(plan: VerifiedIR, time: float) -> FleetLights | None:
 
 
 def draw_lights(canvas: Canvas, shown: PictureRectangle, lights: FleetLights) -> None:
-    """Draw the lights in a picture, the near ones last; a dark drone is a ring."""
+    """Draw the lights in a picture, near ones last; a dark drone is a ring."""
     away = lights.places - np.array(shown.eye)
     u, v, depth = shown.camera.project((away[:, 0], away[:, 1], away[:, 2]))
     seen = np.flatnonzero((depth > 0) & (np.abs(u) <= 1.0) & (np.abs(v) <= 1.0))

@@ -1,4 +1,4 @@
-"""One panel of the storyboard: the camera's picture with its composition, and what is true at that moment."""
+"""One panel of the storyboard: the camera's picture with its composition, and a caption with facts."""
 
 from __future__ import annotations
 
@@ -28,27 +28,30 @@ LINE = 0.165
 """Height of a line of a caption, inches."""
 
 DOT, LEAST_UNDER_DOT = 0.038, 0.2
-"""Radius of the dot on a subject, and how wide or high one is that is seen under it, inches."""
+"""Radius of the dot on a subject, and least size of a subject that stays visible under it, inches."""
 
 WIDE = 2.3
-"""Narrower cells than this set the facts of a caption in two lines, inches."""
+"""Width of a cell, below which the facts of a caption take two lines, inches."""
 
 PICTURE_SIDES = ("over", "over from", "over to", "right top", "left top", "under", "right", "left", "on")
-"""Where the name of a thing in a picture may stand, best first."""
+"""Positions for the name of an object in a picture, best first."""
 
 POINTS_OF_THE_COMPASS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Where a panel goes: its picture, and the width that its caption may take, inches."""
+    """The rectangle of a panel's picture, and the width of its caption, inches."""
 
     picture: PageRectangle
     width: float
 
 
 def draw_frame(canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: MissionIR, grid: float) -> None:
-    """Draw a panel: the picture, and its caption under it; grid is the width of a ground square, metres."""
+    """Draw a panel: the picture with its caption below.
+
+    grid : width of a ground square, metres
+    """
     box, mission = cell.picture, frozen(mission, moment.time)
     shown = picture(moment.pose, box.width / box.height, box)
     draw_scene(canvas, shown, mission, moment.targets, grid)
@@ -69,12 +72,12 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: Mis
 
 
 def caption_height(width: float) -> float:
-    """Return the height of the caption under a picture in a cell of some width, inches."""
+    """Return the height of the caption below a picture in a cell of some width, inches."""
     return 0.24 + (3 if width > WIDE else 4) * LINE
 
 
 def compass(yaw: float) -> str:
-    """Return a camera yaw as a compass heading in degrees, with its point of the compass."""
+    """Return a camera yaw as compass heading in degrees, with its compass point."""
     heading = round(degrees(heading_of(yaw))) % 360
     return f"{heading:03d}° {POINTS_OF_THE_COMPASS[round(heading / 45) % 8]}"
 
@@ -94,9 +97,9 @@ def _composition(canvas: Canvas, shown: PictureRectangle, composition: Compositi
 def _marks(
     canvas: Canvas, shown: PictureRectangle, subject: FramedSubject, offset: Vec3, body: PageRectangle | None
 ) -> list[PageRectangle]:
-    """Draw where a subject is wanted and where it is; return the room that takes.
+    """Draw the reference and the actual position of a subject; return the occupied rectangles.
 
-    body : the rectangle of what is seen of it, or None
+    body : rectangle of the subject's visible part, or None
     """
     taken: list[PageRectangle] = []
     if subject.reference is not None:
@@ -114,7 +117,7 @@ def _marks(
 
 
 def _actual(canvas: Canvas, at: Vec2, body: PageRectangle | None) -> PageRectangle:
-    """Mark where a subject is: by a dot on it, or by a ring about one that the dot would cover."""
+    """Mark the position of a subject by a dot, or by a ring if the dot would cover the subject."""
     if body is None or max(body.width, body.height) >= LEAST_UNDER_DOT:
         canvas.disc(at, DOT, WHITE, INK, 0.9)
         return PageRectangle(at[0] - DOT, at[1] - DOT, 2 * DOT, 2 * DOT)
@@ -148,7 +151,7 @@ def _asked(canvas: Canvas, shown: PictureRectangle, asked: Vec2, reference: Vec2
 
 
 def _faults(canvas: Canvas, box: PageRectangle, framed: Sequence[FramedSubject]) -> list[PageRectangle]:
-    """Write what is wrong with the subjects, with its name where there are several; return the room."""
+    """Write the faults of subjects, with names if there are several; return the occupied rectangles."""
     taken: list[PageRectangle] = []
     top = box.top - 0.07
     for subject in framed:
@@ -166,7 +169,7 @@ def _names(
     subjects: Sequence[str],
     taken: list[PageRectangle],
 ) -> list[str]:
-    """Write the names of what is seen, the subjects' first, none on a target; return those without room."""
+    """Write the names of visible objects, subjects first and none on a target; return those without room."""
     box = shown.box
     inner = PageRectangle(box.x + 0.04, box.y + 0.04, box.width - 0.08, box.height - 0.08)
     things = sorted(name_places(shown, mission), key=lambda thing: thing[0] not in subjects)
@@ -188,7 +191,10 @@ def _names(
 def _caption(
     canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: MissionIR, lost: Sequence[str]
 ) -> None:
-    """Write what is true at a moment; lost : names of things in the picture that have no room in it."""
+    """Write the facts of a moment.
+
+    lost : names of visible objects that have no room in the picture
+    """
     pose, box = moment.pose, cell.picture
     base = box.y - 0.2
     canvas.disc((box.x + 0.095, base + 0.045), 0.095, INK, "none", 0)
@@ -223,5 +229,5 @@ def _height(pose: Array, mission: MissionIR) -> str:
 
 
 def metres(length: float) -> str:
-    """Return a length with digits that mean something on a set."""
+    """Return a length with one decimal below 10 m and none above."""
     return f"{length:.1f} m" if abs(length) < 9.95 else f"{length:.0f} m"

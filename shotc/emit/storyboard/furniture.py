@@ -1,4 +1,4 @@
-"""What every drawing carries for its reader, in corners that its content leaves free."""
+"""Scale bar, North arrow and other marks of a map, in corners that its content leaves free."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ UPPER_FIRST = (("right", "high"), ("left", "high"), ("right", "low"), ("left", "
 
 
 def round_length(length: float) -> float:
-    """Return the largest of 1, 2, 5, 10, 20, ... that is no longer than ``length``."""
+    """Return the largest of 1, 2, 5, 10, 20, ... that is at most ``length``."""
     power = 10.0 ** np.floor(np.log10(max(length, 1e-6)))
     return float(max(step for step in (1.0, 2.0, 5.0) if step * power <= length * (1 + 1e-9)) * power)
 
@@ -27,7 +27,7 @@ def corner(
     corners: Sequence[tuple[str, str]],
     content: Sequence[PageRectangle],
 ) -> PageRectangle:
-    """Return a rectangle in the corner that meets the least of the content, the first such corner."""
+    """Return a rectangle in the first corner that overlaps the fewest parts of the content."""
     rooms = []
     for across, up in corners:
         x = box.x + 0.07 if across == "left" else box.right - 0.07 - size[0]
@@ -39,9 +39,9 @@ def corner(
 def scale_bar(
     canvas: Canvas, sheet: Sheet, step: float, content: Sequence[PageRectangle], contours: float = 0.0
 ) -> PageRectangle:
-    """Draw the scale, and write how wide the sheet's squares are, metres; return the room that takes.
+    """Draw the scale bar with the width of the sheet's squares, ``step`` metres; return its rectangle.
 
-    contours : how far apart they are, metres; 0 where there are none
+    contours : metres between contours; 0 if there are none
     """
     length = round_length(0.26 * sheet.box.width / sheet.inches)
     width = length * sheet.inches
@@ -57,7 +57,7 @@ def scale_bar(
 
 
 def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) -> PageRectangle:
-    """Draw which way is North on a plan; return the room it takes."""
+    """Draw the North arrow of a plan; return its rectangle."""
     room = corner(sheet.box, (0.3, 0.52), UPPER_FIRST, content)
     x, y = room.x + 0.15, room.y + 0.14
     canvas.polygons([np.array([[x, y + 0.17], [x - 0.07, y - 0.1], [x, y - 0.05]])], INK)
@@ -67,7 +67,7 @@ def north_arrow(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) 
 
 
 def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) -> PageRectangle:
-    """Write which way one looks in a side view; return the room that takes."""
+    """Write the viewing direction of a side view; return its rectangle."""
     east, north = sheet.axes[0, :2]
     heading = round(np.degrees(heading_of(float(np.arctan2(east, -north))))) % 360
     text, style = f"side view, looking {heading:03d}°", Type(7.5, QUIET)
@@ -79,9 +79,9 @@ def view_name(canvas: Canvas, sheet: Sheet, content: Sequence[PageRectangle]) ->
 
 
 def height_marks(canvas: Canvas, sheet: Sheet, *, over_plane: bool = True) -> list[PageRectangle]:
-    """Write heights along the right edge of a side view, away from the camera; return the room they take.
+    """Write heights along the right edge of a side view; return their rectangles.
 
-    over_plane : the ground is the plane z = 0, which shows where 0 is
+    over_plane : the ground is the plane z = 0, so heights up to 0 need no label
     """
     box, style = sheet.box, Type(7.5, QUIET, across="right", along="center_baseline")
     step = max(1.0, round_length(0.75 / sheet.inches))

@@ -1,4 +1,4 @@
-"""Names beside things, each where there is room: under it, over it, left, right, or on it."""
+"""Labels beside objects, each where there is room: below, above, left, right, or on the object."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from shotc.emit.palette import WHITE, Rgb
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 
 GAP = 0.05
-"""Between a thing and its name, and between a name and everything else, inches."""
+"""Distance of a label from its object and from everything else, inches."""
 
 STEP = 0.04
-"""Between the places that are tried for a label that finds none beside its thing, inches."""
+"""Step of the search for a free place away from the object, inches."""
 
 FLUSH = ("over from", "over to", "under from", "under to")
 MAP_SIDES = ("under", "over", "left", "right", *FLUSH, "over left", "over right", "on")
@@ -22,9 +22,9 @@ MAP_SIDES = ("under", "over", "left", "right", *FLUSH, "over left", "over right"
 
 @dataclass(frozen=True, slots=True)
 class MapLabel:
-    """A name, the rectangle of its thing, and the sides of that on which it may stand, best first.
+    """A label, the rectangle of its object, and the allowed sides, best first.
 
-    inside : whether it stands best on the thing, where that has room for it
+    inside : whether its best place is on the object, if that is large enough
     """
 
     text: str
@@ -43,10 +43,12 @@ def write_labels(
     taken: Sequence[PageRectangle],
     avoid: Sequence[PageRectangle] = (),
 ) -> list[str]:
-    """Write labels inside a rectangle, the first ones first; return the names that found no room.
+    """Write labels inside a rectangle in their order; return the names that have no room.
 
-    A label stands beside its thing, or else in the nearest free place, with a line to its thing.
-    taken : where none may stand; avoid : where none stands that has a choice
+    A label is placed beside its object, or else in the nearest free place with a line to its object.
+
+    taken : rectangles that labels must not overlap
+    avoid : rectangles that labels do not overlap if there is another place
     """
     full, lost = list(taken), []
     for label in labels:
@@ -70,7 +72,10 @@ def nearest_room(
     taken: Sequence[PageRectangle],
     gap: float = GAP,
 ) -> PageRectangle | None:
-    """Return the free place of some size that is nearest to a thing, or None; gap : to what is taken."""
+    """Return the nearest free place of some size to an object, or None.
+
+    gap : distance from what is taken, inches
+    """
     width, height = size
     across = np.arange(inner.x, inner.right - width + 1e-9, STEP)
     up = np.arange(inner.y, inner.top - height + 1e-9, STEP)
@@ -85,14 +90,14 @@ def nearest_room(
         np.maximum(np.maximum(thing.x - (x + width), x - thing.right), 0.0),
         np.maximum(np.maximum(thing.y - (y + height), y - thing.top), 0.0),
     )
-    # Of places equally near, the one that is most in line with the thing.
+    # A small penalty prefers, among equally near places, the one most in line with the object.
     off += 1e-3 * np.hypot(x + width / 2 - _middle(thing)[0], y + height / 2 - _middle(thing)[1])
     best = int(np.argmin(np.where(free, off, np.inf)))
     return PageRectangle(float(x[best]), float(y[best]), width, height)
 
 
 def leader(canvas: Canvas, room: PageRectangle, thing: PageRectangle, color: Rgb) -> None:
-    """Draw the line from a label to its thing, from the point nearest to it to that thing's edge."""
+    """Draw the line from a label to its object, between their nearest points."""
     x, y = _middle(thing)
     start = min(max(x, room.x), room.right), min(max(y, room.y), room.top)
     end = min(max(start[0], thing.x), thing.right), min(max(start[1], thing.y), thing.top)
@@ -110,7 +115,10 @@ def free_room(
     label: MapLabel,
     others: tuple[Sequence[PageRectangle], Sequence[PageRectangle]],
 ) -> PageRectangle | None:
-    """Return where a label of some size goes, or None; others : what is taken, and what to avoid."""
+    """Return the place of a label of some size, or None.
+
+    others : taken rectangles, and rectangles to avoid
+    """
     taken, avoid = others
     width, height = size
     roomy = label.inside and label.thing.width > 1.3 * width and label.thing.height > 4 * height
@@ -121,7 +129,7 @@ def free_room(
 
 
 def _meets(room: PageRectangle, others: Sequence[PageRectangle]) -> bool:
-    # A little less than the gap to its own thing, which may be among the others.
+    # The distance is a little less than the label's gap from its own object, which may be among the others.
     wide = PageRectangle(
         room.x - 0.9 * GAP, room.y - 0.9 * GAP, room.width + 1.8 * GAP, room.height + 1.8 * GAP
     )

@@ -1,4 +1,4 @@
-"""The drawing beside a shot's pictures: the scene from above, or from the side, with path and frames."""
+"""The map beside a shot's pictures: the scene from above or from the side, with path and frames."""
 
 from __future__ import annotations
 
@@ -45,13 +45,15 @@ NUMBER = 0.095
 """Radius of a frame's number, inches."""
 
 MOST_SQUARES = 20
-"""In half of what a sheet shows; they are drawn larger where there would be more."""
+"""Most squares in half the width of a sheet; with more, the squares are made larger."""
 
 
 def draw_map(canvas: Canvas, box: PageRectangle, board: ShotBoard, mission: MissionIR, grid: float) -> None:
-    """Draw the map of one shot into ``box``; grid is the width of a ground square in its pictures, metres.
+    """Draw the map of one shot into ``box``.
 
-    Names that find no room on it are written under it.
+    Names that have no room on it are written below it.
+
+    grid : width of a ground square in the shot's pictures, metres
     """
     whole, mission = mission, standing(mission, board)
     sheet = sheet_of(box, board, mission)
@@ -80,7 +82,7 @@ def draw_map(canvas: Canvas, box: PageRectangle, board: ShotBoard, mission: Miss
 
 
 def _step(sheet: Sheet, grid: float) -> float:
-    """Return the width of a sheet's squares, metres: the pictures' own where these are not too many."""
+    """Return the width of a sheet's squares, metres: that of the pictures if there are not too many."""
     most = float(np.max(reach_of(sheet)))
     return grid if most <= MOST_SQUARES * grid else round_length(most / 8)
 
@@ -93,7 +95,7 @@ def _paper(canvas: Canvas, sheet: Sheet, step: float, relief: PlanRelief | None)
 
 
 def _ground_below(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) -> None:
-    """Draw the ground of a side view: the plane z = 0, or terrain where the path is, cut open."""
+    """Draw the ground of a side view: the plane z = 0, or a section of the terrain below the path."""
     box = sheet.box
     if mission.terrain is not None:
         draw_profile(canvas, sheet, profile(sheet, mission.terrain.ground, board.path[:, :2].mean(axis=0)))
@@ -105,12 +107,12 @@ def _ground_below(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: Missi
 
 
 def reach_of(sheet: Sheet) -> Array:
-    """Return half of what a sheet shows, metres along both its axes."""
+    """Return half the extent of a sheet along both axes, metres, shape (2,)."""
     return np.asarray(np.array([sheet.box.width, sheet.box.height]) / 2 / sheet.inches)
 
 
 def squares(canvas: Canvas, sheet: Sheet, step: float) -> None:
-    """Draw lines a step apart, metres, across a sheet."""
+    """Draw grid lines ``step`` metres apart across a sheet."""
     half = reach_of(sheet)
     low, high = sheet.centre - half, sheet.centre + half
     x = np.arange(np.ceil(low[0] / step), np.floor(high[0] / step) + 1) * step
@@ -134,7 +136,7 @@ def zones(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
 
 
 def _tracks(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) -> None:
-    """Draw the way that moving targets go while the shot is filmed."""
+    """Draw the tracks of moving targets during the shot."""
     times = np.linspace(board.start, board.end, 60)
     for target in mission.targets:
         if target.track is not None:
@@ -148,7 +150,7 @@ def _targets(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
 
 
 def _body(sheet: Sheet, target: Target) -> Array:
-    """Return the shape of a target on the page, never too small to be seen."""
+    """Return the outline of a target on the page, large enough to be visible, shape (k, 2)."""
     solid, least = target.solid, 0.06 / sheet.inches
     if target.radius < least:
         x, y, _ = target.centre
@@ -157,7 +159,7 @@ def _body(sheet: Sheet, target: Target) -> Array:
 
 
 def _frustum(canvas: Canvas, sheet: Sheet, moment: StoryboardFrame, aspect: float) -> None:
-    """Draw which way the camera sees: the outline of the nearest part of its field of view."""
+    """Draw the near part of the camera's field of view."""
     reach = min(0.75, 0.3 * sheet.box.height) / sheet.inches
     yaw, pitch, half = (float(moment.pose[c]) for c in (CAM_YAW, CAM_PITCH, HFOV))
     seen = view(yaw, pitch, half, aspect)
@@ -196,7 +198,7 @@ def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) ->
 
 
 def _clear_of(strip: Array, marks: Array, start: int) -> int:
-    """Return the place on a path nearest to one on it that no frame's number covers, as an index."""
+    """Return the index of the point on a path nearest to ``start`` that no frame number covers."""
     room = np.linalg.norm(strip[:, None] - marks, axis=-1).min(axis=1)
     free = np.flatnonzero(room > 2.2 * NUMBER)
     free = free[(free > 2) & (free < len(strip) - 3)]
@@ -206,7 +208,7 @@ def _clear_of(strip: Array, marks: Array, start: int) -> int:
 def _furniture(
     canvas: Canvas, sheet: Sheet, what: tuple[float, PlanRelief | None], board: ShotBoard, mission: MissionIR
 ) -> list[PageRectangle]:
-    """Draw directions, scale, how wide the squares are and how far contours are apart; return the room."""
+    """Draw direction, scale bar, and distances of squares and contours; return the occupied rectangles."""
     step, relief = what
     content = _content(sheet, board, mission)
     if sheet.is_plan:
@@ -219,7 +221,7 @@ def _furniture(
 
 
 def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[PageRectangle]:
-    """Return the room of what a map is drawn for: path, frames, home, targets and zones."""
+    """Return the rectangles of a map's content: path, frames, home, targets and zones."""
     content = [_square(at, 0.06) for at in sheet.place(board.path[::4])]
     content += [_square(sheet.place(m.pose[:3]), 2 * NUMBER) for m in board.moments]
     content.append(_square(sheet.place(np.array(board.drone.home)), 0.1))
@@ -231,7 +233,7 @@ def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[PageRec
 def _numbers(
     canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[PageRectangle]
 ) -> None:
-    """Write the frames' numbers where the camera is, or beside it: none on a target or another number."""
+    """Write the frame numbers at or beside the cameras, and none on a target or on another number."""
     bodies = [seen for t in mission.targets if (seen := sheet.visible(_body(sheet, t))) is not None]
     spots = []
     for moment in board.moments:
@@ -248,7 +250,7 @@ def _numbers(
 
 
 def _spot(sheet: Sheet, moment: StoryboardFrame, taken: list[PageRectangle]) -> tuple[float, float]:
-    """Return a free place for a frame's number: on it, or beside it, behind the camera first."""
+    """Return a free place for a frame's number: at the camera, or beside it, first behind it."""
     x, y = (float(c) for c in sheet.place(moment.pose[:3]))
     back = float(moment.pose[CAM_YAW]) + pi if sheet.is_plan else pi
     ways = [(away, back + turn) for away in (0.24, 0.42) for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7)]
@@ -267,7 +269,7 @@ def _square(at: Array, half: float) -> PageRectangle:
 def _names(
     canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR, taken: list[PageRectangle]
 ) -> list[str]:
-    """Write the names of what is on the map; return those that find no room."""
+    """Write the names of objects on the map; return those without room."""
     labels = []
     for target in {t.name: t for t in mission.targets}.values():
         seen = sheet.visible(_body(sheet, target))
@@ -288,6 +290,6 @@ def _names(
         sheet.box.x + 0.03, sheet.box.y + 0.03, sheet.box.width - 0.06, sheet.box.height - 0.06
     )
     lines = [_square(at, 0.03) for at in sheet.place(board.path[::2])]
-    # Names may stand on a zone, but not on one so small that it would be lost under them.
+    # Names may cover a zone, but not one so small that they would hide it.
     small = [label.thing for label in labels[named:] if label.thing.height < 0.6]
     return write_labels(canvas, inner, labels, [*taken, *bodies], [*lines, *small])

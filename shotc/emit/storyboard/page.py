@@ -1,4 +1,4 @@
-"""The storyboard's page: where each shot's map and pictures go, the heading above and the proof below."""
+"""The storyboard's page: the layout of maps and pictures, the heading above and the certificate below."""
 
 from __future__ import annotations
 
@@ -35,12 +35,18 @@ from shotc.rounding import as_minutes, at_least
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
 HEADING, FOOTING, BAND, LINE = 1.40, 0.85, 0.60, 0.18
 MANY = 4
-"""From more shots than this on, pictures and maps are set smaller."""
+"""Number of shots, above which pictures and maps are smaller."""
 
 
 @dataclass(frozen=True, slots=True)
 class ShotLayout:
-    """How one shot is set: width of its map, size of a picture, width of its cell, pictures in a row."""
+    """The layout of one shot.
+
+    map_width : of its map, inches
+    picture : width and height of a picture, inches
+    cell : width of a picture's cell, inches
+    columns : pictures in a row
+    """
 
     map_width: float
     picture: tuple[float, float]
@@ -53,7 +59,7 @@ class ShotLayout:
         return self.picture[1] + caption_height(self.cell)
 
     def rows(self, board: ShotBoard) -> int:
-        """Return how many rows of pictures a shot takes."""
+        """Return the number of rows of pictures of a shot."""
         return max(1, ceil(len(board.moments) / self.columns))
 
     def height(self, board: ShotBoard) -> float:
@@ -62,12 +68,12 @@ class ShotLayout:
 
 
 def band_height(board: ShotBoard) -> float:
-    """Return the height of the words above a shot's pictures, inches: a line for each of its subjects."""
+    """Return the height of the text above a shot's pictures, inches; each subject has a line."""
     return BAND + LINE * max(0, len(board.framing) - 1)
 
 
 def layout(aspect: float, shots: int) -> ShotLayout:
-    """Return how shots filmed with one picture format are set on a page of many."""
+    """Return the layout of shots with one aspect ratio, on a page of some number of shots."""
     map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY else (3.0, 4, 2.4)
     room = WIDTH - 2 * MARGIN - map_width - 0.35
     width = min((room + GAP) / columns - GAP, tallest * aspect)
@@ -100,7 +106,9 @@ def _page(plan: VerifiedIR, dpi: float) -> bytes:
 
 
 def _grid_of(boards: tuple[ShotBoard, ...], mission: MissionIR) -> float:
-    """Return one width of ground squares for all pictures: about a third of the usual height over ground."""
+    """Return the width of ground squares in all pictures: about two thirds of the usual height
+    over ground.
+    """
     poses = [m.pose for board in boards for m in board.moments]
     heights = [abs(float(pose[2]) - mission.ground(float(pose[0]), float(pose[1]))) for pose in poses]
     return max(1.0, round_length(float(np.median(heights)) / 1.5)) if heights else 10.0
@@ -136,7 +144,7 @@ def _ratio(aspect: float) -> str:
 
 
 def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
-    """Return what the legend has to explain on this page."""
+    """Return the entries of this page's legend."""
     framed = [subject for board in boards for moment in board.moments for subject in moment.framed]
     mission = plan.trajectory.keyframes.mission
     keeps = {zone.keep for zone in mission.zones}
@@ -154,7 +162,7 @@ def _entries(plan: VerifiedIR, boards: tuple[ShotBoard, ...]) -> list[str]:
 
 
 def _legend(canvas: Canvas, base: float, entries: list[str], grid: float) -> float:
-    """Draw the legend at the right edge and return where it begins."""
+    """Draw the legend at the right edge and return the position of its left end."""
     entries = [*entries, f"grid in pictures {grid:g} m"]
     style = Type(8.5, QUIET)
     widths = [canvas.extent(text, style)[0] + 0.46 for text in entries]
@@ -229,7 +237,9 @@ def _band(canvas: Canvas, top: float, board: ShotBoard) -> None:
 
 
 def _told(canvas: Canvas, base: float, i: int, board: ShotBoard) -> float:
-    """Write how one of a shot's subjects is framed, the last one lowest; return where that begins."""
+    """Write the framing of one of a shot's subjects, the last subject lowest; return the left end of the
+    text.
+    """
     target, framing = board.framing[i]
     text = _framing(framing)
     if len(board.framing) > 1:
@@ -284,7 +294,7 @@ def _footing(canvas: Canvas, certificate: tuple[Claim, ...]) -> None:
 
 
 def headline(certificate: tuple[Claim, ...]) -> str:
-    """Return the certificate in one line: how many hard requirements hold, and how they were shown."""
+    """Return the certificate in one line: how many hard requirements hold, and how many at every instant."""
     hard = [claim for claim in certificate if claim.hard]
     always = sum(claim.method == "bounded" for claim in hard)
     lost = sum(not claim.holds for claim in hard)
@@ -294,7 +304,10 @@ def headline(certificate: tuple[Claim, ...]) -> str:
 
 
 def not_promised(certificate: tuple[Claim, ...], most: int = 3) -> list[str]:
-    """Return what no shot promises and none keeps either, in words; beyond ``most``, their number."""
+    """Return the missed claims that no shot promises, in words.
+
+    most : largest number of claims in words; the rest is counted
+    """
     words = []
     for claim in certificate:
         if claim.hard or claim.holds:

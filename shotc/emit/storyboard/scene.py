@@ -25,15 +25,18 @@ from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.target import Target
 
 AT_FOOT = 0.985
-"""Ground up to this share of the way to a thing hides it; beyond is the ground that the thing stands on."""
+"""Share of the distance to an object, up to which ground is painted over it. Ground beyond is what the object
+stands on, and is painted before it.
+"""
 
 
 def draw_scene(
     canvas: Canvas, shown: PictureRectangle, mission: MissionIR, subjects: Collection[str], grid: float
 ) -> None:
-    """Draw everything that stands in the world, the far things first.
+    """Draw the whole world, far objects first.
 
-    subjects : the targets that are drawn in full colour; grid : width of a ground square, metres
+    subjects : targets in full colour
+    grid : width of a ground square, metres
     """
     subjects = {part for name in subjects for part in mission.parts_of(name)}
     things = painting_order(shown.eye, _things(mission))
@@ -49,14 +52,17 @@ def draw_scene(
         layers.append(FanPainter(canvas, shown, fan_of(shown, mission.terrain.ground, [*away, *bands]), grid))
     layers += [] if meshes is None else [meshes]
     for thing, distance in zip(things, away, strict=True):
-        # What is nearer than a thing comes after it, and so hides what it stands before.
+        # What is nearer than an object is painted after it, and so covers it.
         _draw_beyond(layers, distance, bands)
         _thing(canvas, shown, thing, subjects)
     _draw_beyond(layers, 0.0, bands)
 
 
 def _draw_beyond(layers: Sequence[FanPainter | MeshPainter], distance: float, bands: Sequence[float]) -> None:
-    """Draw what is left beyond a distance in the plan, by turns where there are bands of it, metres."""
+    """Draw the remaining ground and meshes beyond a distance in the plan, metres.
+
+    bands : distances in the plan, metres, at which painting alternates between the two
+    """
     for band in [*(b for b in sorted(bands, reverse=True) if b > distance), distance]:
         for layer in layers:
             layer.draw_beyond(band)
@@ -74,11 +80,12 @@ def _things(mission: MissionIR) -> list[Target | Zone]:
 
 
 def painting_order(eye: Vec3, things: list[Target | Zone]) -> list[Target | Zone]:
-    """Return things in an order in which the later ones may cover the earlier ones.
+    """Return objects in an order in which later ones may cover earlier ones.
 
-    Of two things one above the other the one on the far side of a level between them comes first; of two
-    targets that overlap the one that holds the other, which is a part of it and is to be seen, or else the
-    farther one in space; otherwise the farther one on the map.
+    Of two objects one above the other, the one on the far side of a level between them comes first. Of two
+    overlapping targets, the one that contains the other comes first, because the other is a part of it and
+    should be visible; otherwise the one farther in space. In all other cases the one farther on the map comes
+    first.
     """
     left, order = sorted(things, key=lambda thing: -_distance(eye, thing)), []
     while left:
@@ -101,18 +108,18 @@ def _is_behind(eye: Vec3, a: Target | Zone, b: Target | Zone) -> bool:
 
 
 def _overlap(a: Target, b: Target) -> bool:
-    return bool(parts_of_one(a, b, np.zeros(1))[0])  # in the picture of a moment every target stands
+    return bool(parts_of_one(a, b, np.zeros(1))[0])  # at one moment every target stands
 
 
 def _holds(a: Target, b: Target) -> bool:
-    """Tell whether all of a target is in another, which spans as much or more of every direction."""
+    """Return whether a target contains another: in height, and its inscribed cylinder in the plan."""
     (a_low, a_high), (b_low, b_high) = _span(a), _span(b)
     off = hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1])
     return a_low <= b_low and b_high <= a_high and off + b.radius <= _within(a)
 
 
 def _within(target: Target) -> float:
-    """Return the radius of the upright cylinder about its centre that it holds, metres."""
+    """Return the radius of the largest vertical cylinder about its centre inside a target, metres."""
     shape = target.shape
     return min(shape.length, shape.width) / 2 if isinstance(shape, BoxShape) else shape.radius
 
@@ -163,9 +170,9 @@ def _is_behind_ground(eye: Vec3, mission: MissionIR, target: Target) -> bool:
 
 
 def name_places(shown: PictureRectangle, mission: MissionIR) -> list[tuple[str, Rgb, PageRectangle]]:
-    """Return name, colour and page rectangle of everything that is in the picture, the near first.
+    """Return name, colour and page rectangle of every object in the picture, near ones first.
 
-    A target whose axis is behind ground is not in it.
+    A target whose axis is behind the ground is left out.
     """
     names = []
     for thing in reversed(painting_order(shown.eye, _things(mission))):

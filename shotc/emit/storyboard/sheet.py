@@ -1,4 +1,4 @@
-"""The scale drawing beside a shot's pictures as geometry: which way it looks, and how much it shows."""
+"""Geometry of the map beside a shot's pictures: its viewing direction and its extent."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from shotc.ir.path import CAM_YAW
 from shotc.ir.terrain import ground_heights
 
 BORDER, SHARE = 0.45, 0.17
-"""Left free round the content: inches, and of a small sheet no more than this share of its height."""
+"""Free border around the content: inches, and for a small sheet at most this share of its height."""
 
 NEAR = 1.3
-"""What stands within the content's extent times this is shown too, whole."""
+"""Objects within the content's extent times this factor are shown as well."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sheet:
-    """A drawing's rectangle and its scale: ``inches`` per metre about the ``centre`` it shows.
+    """A map's rectangle and scale: ``inches`` per metre about the ``centre`` of the view.
 
-    axes : what runs right and what runs up on the sheet, unit vectors of W, shape (2, 3); the
-    drawing is a plan where those are East and North, and a side view where up is up
+    axes : directions to the right and up on the sheet, unit vectors of W, shape (2, 3). East and North give a
+        plan; a vertical second axis gives a side view.
     """
 
     box: PageRectangle
@@ -37,15 +37,15 @@ class Sheet:
 
     @property
     def is_plan(self) -> bool:
-        """Whether the scene is seen from above."""
+        """Whether the view is from above."""
         return bool(self.axes[1, 2] == 0)
 
     def place(self, points: Array) -> Array:
-        """Return page positions of points of W, shape (..., 3) to (..., 2)."""
+        """Return page positions, shape (..., 2), of points of W, shape (..., 3)."""
         return self.at(points @ self.axes.T)
 
     def at(self, flat: Array) -> Array:
-        """Return page positions of points of the drawing's plane, metres."""
+        """Return page positions, shape (..., 2), of points in the map's plane, metres."""
         middle = np.array([self.box.x + self.box.width / 2, self.box.y + self.box.height / 2])
         return np.asarray(middle + (flat - self.centre) * self.inches)
 
@@ -54,7 +54,7 @@ class Sheet:
         return self.at(outline(self.axes, solid))
 
     def visible(self, shape: Array) -> PageRectangle | None:
-        """Return the part of a page shape's rectangle that is on the sheet, or None."""
+        """Return the part of an outline's (k, 2) bounding rectangle that is on the sheet, or None."""
         left, bottom = (float(c) for c in np.maximum(shape.min(axis=0), (self.box.x, self.box.y)))
         right, top = (float(c) for c in np.minimum(shape.max(axis=0), (self.box.right, self.box.top)))
         return (
@@ -63,10 +63,10 @@ class Sheet:
 
 
 def sheet_of(box: PageRectangle, board: ShotBoard, mission: MissionIR) -> Sheet:
-    """Return the drawing that shows a shot: a side view where it rises more than it travels, else a plan."""
+    """Return the map of a shot: a side view if the shot rises more than it travels, else a plan."""
     axes = side_axes(board, mission) if rises(board.path) else np.eye(3)[:2]
     low, high = _extent(axes, board, mission)
-    # A camera that stands still deserves as much ground as it sees.
+    # A camera that stands still gets a map as large as its height above ground suggests.
     over = board.path[:, 2] - ground_heights(mission, board.path[:, :2])
     least = max(10.0, 0.8 * float(np.median(np.abs(over))))
     span = np.maximum(high - low, least)
@@ -74,13 +74,13 @@ def sheet_of(box: PageRectangle, board: ShotBoard, mission: MissionIR) -> Sheet:
     inches = float(min((box.width - 2 * border) / span[0], (box.height - 2 * border) / span[1]))
     centre = (low + high) / 2
     if axes[1, 2] != 0:
-        # What is seen from the side stands at the bottom.
+        # In a side view the content is at the bottom of the sheet.
         centre[1] = low[1] + (box.height / 2 - border) / inches
     return Sheet(box, axes, centre, inches)
 
 
 def rises(path: Array) -> bool:
-    """Tell whether a path, shape (n, 3), goes about as far up or down as it goes along, or farther."""
+    """Return whether a path, shape (n, 3), is about as high as wide, or higher."""
     across, height = np.hypot(*np.ptp(path[:, :2], axis=0)), np.ptp(path[:, 2])
     return bool(height > max(1.0, 0.8 * across))
 
@@ -88,7 +88,7 @@ def rises(path: Array) -> bool:
 def side_axes(board: ShotBoard, mission: MissionIR) -> Array:
     """Return the axes of the side view in which the camera is left of its subject, shape (2, 3).
 
-    Without a subject to its side it is the view in which the camera looks to the right.
+    Without a subject to its side, the camera looks to the right in the view.
     """
     first = board.moments[0]
     way = np.array([np.cos(first.pose[CAM_YAW]), np.sin(first.pose[CAM_YAW])])
@@ -100,7 +100,7 @@ def side_axes(board: ShotBoard, mission: MissionIR) -> Array:
 
 
 def outline(axes: Array, solid: Solid) -> Array:
-    """Return a solid's outline seen along the normal of two axes, metres in their plane, shape (k, 2)."""
+    """Return a solid's outline projected along the normal of two axes (2, 3), metres, shape (k, 2)."""
     if isinstance(solid, Cylinder):
         turn = np.linspace(0, 2 * np.pi, 73)[:-1]
         ring = np.array(solid.centre) + solid.radius * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
@@ -114,7 +114,7 @@ def outline(axes: Array, solid: Solid) -> Array:
 
 
 def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, Array]:
-    """Return the lower left and upper right corner of what is to be shown, metres."""
+    """Return the lower left and the upper right corner of the content, metres in the map's plane."""
     framed = {part for m in board.moments for name in m.targets for part in mission.parts_of(name)}
     subjects = [target for target in mission.targets if target.name in framed]
     shapes = [board.path @ axes.T, *(outline(axes, subject.solid) for subject in subjects)]
@@ -130,7 +130,7 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
         first, last = _corners([shape])
         near = (first < high + reach).all() and (last > low - reach).all()
         if near:
-            # What is larger than the shot itself is cut off.
+            # An object larger than the shot is cut off.
             most = high - low + 2 * reach
             shapes.append(np.clip(shape, low - most / 2, high + most / 2))
     below, above = _corners(shapes)
@@ -138,7 +138,7 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
 
 
 def _lowest_ground(board: ShotBoard, mission: MissionIR) -> float:
-    """Return z of the lowest ground under a path and its subjects, metres."""
+    """Return z of the lowest ground below a path and its subjects, metres."""
     framed = {part for m in board.moments for name in m.targets for part in mission.parts_of(name)}
     feet = [np.array([t.centre[:2]]) for t in mission.targets if t.name in framed]
     return float(ground_heights(mission, np.concatenate([board.path[:, :2], *feet])).min())

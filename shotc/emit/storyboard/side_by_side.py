@@ -1,4 +1,4 @@
-"""compare.png: every refiner's worst picture of each shot, above the screen error over the shot."""
+"""compare.png: every refiner's worst picture of each shot, above its screen error over time."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from shotc.ir.trajectory import VerifiedIR
 MARGIN, GAP, CELL = 0.55, 0.32, 3.15
 HEADING, NAMES, PLOT, FACTS = 1.15, 0.42, 1.15, 0.72
 TALLEST = 3.0
-"""Height of the tallest picture, inches: of a camera held upright."""
+"""Height of the tallest picture, inches, for a camera in portrait format."""
 
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """Where one refiner's column of one shot goes: left edge, base line of its name, size of its picture."""
+    """Position of one refiner's column of a shot: left edge, top, and size of its picture, inches."""
 
     left: float
     top: float
@@ -34,15 +34,16 @@ class Panel:
 
 
 def draw_comparison(comparison: Comparison, dpi: float) -> bytes:
-    """Return the page as PNG bytes, the same for the same comparison."""
+    """Return the page as PNG bytes; the same comparison gives the same bytes."""
     with house_style():
         return _page(comparison, dpi)
 
 
 def worst_frame(shot: ComparedShot) -> float:
-    """Return when a shot shows its targets worst, seconds of mission time.
+    """Return the mission time at which a shot shows its targets worst, seconds.
 
-    That is where one is cropped most; where none is, where one is farthest from its place; else half-way.
+    It is the time of the largest cropping, else that of the largest screen error, else the middle of the
+    shot.
     """
     cropped = [(float(t.margin.min()), float(t.times[int(np.argmin(t.margin))])) for t in shot.traces]
     if cropped and min(cropped)[0] < 0.0:
@@ -103,7 +104,10 @@ def _shot(canvas: Canvas, comparison: Comparison, shot: Shot, first: Panel) -> N
 def _flown(
     canvas: Canvas, plan: VerifiedIR, shot: ComparedShot, panel: Panel, what: tuple[int, float]
 ) -> None:
-    """Draw the column of a shot that is flown; what : the number of the column and the top of its plot."""
+    """Draw the column of a shot with a plan.
+
+    what : number of the column, and the end of the error axis
+    """
     number, top = what
     width, height = panel.picture
     moment = moment_at(plan, shot, worst_frame(shot), number)
@@ -119,14 +123,14 @@ def _flown(
 
 
 def moment_at(plan: VerifiedIR, shot: ComparedShot, time: float, number: int) -> StoryboardFrame:
-    """Return what a shot shows at a mission time, with its number on the page."""
+    """Return the content of a shot's picture at a mission time, with its number on the page."""
     (placed,) = (p for p in plan.trajectory.keyframes.shots if p.shot.id == shot.id)
     (flight,) = (f for f in plan.trajectory.drones if f.drone == shot.drone)
     return passing(plan, (placed, flight), time, number)
 
 
 def draw_moment(canvas: Canvas, cell: Cell, plan: VerifiedIR, moment: StoryboardFrame) -> None:
-    """Draw the camera's picture at a moment, over a grid that is as wide as it is high."""
+    """Draw the camera's picture at a moment, with grid squares that suit its height over ground."""
     mission = plan.trajectory.keyframes.mission
     over = float(moment.pose[2]) - mission.ground(float(moment.pose[0]), float(moment.pose[1]))
     draw_frame(canvas, cell, moment, mission, max(1.0, round_length(abs(over) / 1.5)))

@@ -1,7 +1,8 @@
-"""Triangles as pixels: each is covered by points less than a pixel apart, of which the nearest is seen.
+"""Draws triangles as pixels: points less than a pixel apart cover each triangle, and the nearest point is
+seen.
 
-However many triangles there are, a picture costs about as many points as it has pixels, times how often they
-lie behind one another. What is larger than a few pixels is quartered first, and what is outside is left out.
+The cost of a picture is about the number of its pixels times the depth complexity, however many triangles
+there are. Triangles larger than a few pixels are quartered first, and those outside the picture are left out.
 """
 
 from __future__ import annotations
@@ -18,29 +19,29 @@ from shotc.geom.pieces import Mask
 from shotc.geom.surface.triangles import highest, lowest
 
 LONGEST_PX = 48.0
-"""Longest side of a triangle that is covered by points at once."""
+"""Longest side of a triangle that is covered by points without quartering, pixels."""
 LEAST_M = 0.2
-"""Longest side of a triangle that is behind the eye in part, metres."""
+"""Longest side of a triangle that is partly behind the eye, metres."""
 STEP_PX = 0.7
-"""Points of a triangle are nearer to each other than this."""
+"""Largest distance between neighbouring points of a triangle, pixels."""
 AT_ONCE = 1_000_000
-"""Points that are made at once."""
+"""Most points that are made in one batch."""
 BLOCK = 64
-"""Triangles that follow one another, and so are near one another, which are left out together."""
+"""Consecutive (and thus neighbouring) triangles that are culled together."""
 _CORNERS = tuple((i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1))
 EDGE = 0.82
-"""How light a pixel is beside one that is far nearer."""
+"""Lightness of a pixel beside one that is much nearer."""
 NEARER = 0.06
-"""Share of its distance by which that one is nearer."""
+"""Share of a pixel's distance by which its neighbour has to be nearer to count as much nearer."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OnPage:
-    """Points as a picture shows them.
+    """Points in a picture.
 
-    at     : shape (..., 2), columns and rows of pixels, rows from the top
-    depth  : shape (...), the less the nearer; inf where a point is not in front of the picture
-    beyond : shape (..., n), on whose outer side of n planes it is that bound what is seen
+    at : shape (..., 2), columns and rows of pixels, rows from the top
+    depth : shape (...), smaller is nearer; inf where a point is not in front of the picture
+    beyond : shape (..., n), whether a point is outside each of the n planes of the view frustum
     """
 
     at: Array
@@ -49,14 +50,15 @@ class OnPage:
 
 
 Project = Callable[[Array], OnPage]
-"""Takes points (..., 3), metres of W."""
+"""Takes points (..., 3) in W, metres."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DepthRaster:
     """The nearest point of each pixel.
 
-    colors : shape (rows, columns, 3), 0 to 1; points : W, (rows, columns, 3), NaN where there is none
+    colors : shape (rows, columns, 3), 0 to 1
+    points : W, metres, (rows, columns, 3); NaN where there is none
     """
 
     colors: Array
@@ -64,11 +66,11 @@ class DepthRaster:
 
     @property
     def shown(self) -> Mask:
-        """Which pixels there is something in, (rows, columns)."""
+        """Whether a pixel shows something, (rows, columns)."""
         return ~np.isnan(self.points[..., 0])
 
     def pixels(self, which: Mask) -> NDArray[np.uint8]:
-        """Return some of the pixels as bytes (rows, columns, 4); the others are not opaque."""
+        """Return the selected pixels as bytes (rows, columns, 4); the others are transparent."""
         out = np.zeros((*which.shape, 4), dtype=np.uint8)
         out[..., :3] = np.round(255.0 * self.colors)
         out[..., 3] = np.where(which & self.shown, 255, 0)
@@ -76,7 +78,7 @@ class DepthRaster:
 
 
 def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRaster:
-    """Return what a picture of size (rows, columns) shows of triangles."""
+    """Return the picture of triangles, of size (rows, columns)."""
     rows, columns = size
     depth = np.full(rows * columns, np.inf)
     colors, points = np.zeros((rows * columns, 3)), np.full((rows * columns, 3), np.nan)
@@ -89,7 +91,7 @@ def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRas
         own = np.flatnonzero(cuts == cut)
         for some in np.array_split(own, 1 + len(own) * len(share) // AT_ONCE):
             a, b, c = (small.triangles[some, k, None] for k in range(3))
-            # Not einsum, which takes three times as long for so short a sum.
+            # einsum takes three times as long for such short sums.
             p = (share[:, :1] * a + share[:, 1:2] * b + share[:, 2:] * c).reshape(-1, 3)
             tint = np.repeat(small.colors[some], len(share), axis=0)
             _put(project(p), p, tint, (depth, colors, points), size)
@@ -99,7 +101,7 @@ def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRas
 
 
 def _small(faces: Faces, project: Project) -> Faces:
-    """Return the triangles that may be seen, none longer than LONGEST_PX."""
+    """Return the potentially visible triangles, none longer than LONGEST_PX."""
     within = _in_view(faces.triangles, project)
     triangles, colors = faces.triangles[within], faces.colors[within]
     done = [Faces(triangles[:0], colors[:0])]
@@ -119,7 +121,9 @@ def _small(faces: Faces, project: Project) -> Faces:
 
 
 def _in_view(triangles: Array, project: Project) -> Mask:
-    """Tell which triangles are in boxes round BLOCK that follow one another which may be seen, (N,)."""
+    """Return which triangles are in a potentially visible bounding box of BLOCK consecutive
+    triangles, (N,).
+    """
     if not len(triangles):
         return np.zeros(0, dtype=bool)
     begins = np.arange(0, len(triangles), BLOCK)
@@ -142,7 +146,7 @@ def _quartered(triangles: Array) -> Array:
 
 
 def _shares(cut: int) -> Array:
-    """Return the weights of corners at points of a triangle whose sides are cut into so many, (S, 3)."""
+    """Return the barycentric weights of points in a triangle with each side divided into ``cut``, (S, 3)."""
     i, j = np.meshgrid(np.arange(cut + 1), np.arange(cut + 1), indexing="ij")
     inside = i + j <= cut
     i, j = i[inside], j[inside]
@@ -152,7 +156,10 @@ def _shares(cut: int) -> Array:
 def _put(
     page: OnPage, p: Array, tint: Array, into: tuple[Array, Array, Array], size: tuple[int, int]
 ) -> None:
-    """Put points into the pixels where they are the nearest yet; into : depths, colours, points."""
+    """Write points into the pixels in which they are the nearest so far.
+
+    into : depths, colours and points of the pixels
+    """
     rows, columns = size
     column, row = page.at[:, 0], page.at[:, 1]
     ok = np.flatnonzero(
@@ -161,7 +168,8 @@ def _put(
     pixel, depth = row[ok].astype(int) * columns + column[ok].astype(int), page.depth[ok]
     nearer = depth < into[0][pixel]
     ok, pixel, depth = ok[nearer], pixel[nearer], depth[nearer]
-    # Of the points of a pixel the last one stays: the nearest, and of those that are as near the first.
+    # The last point written to a pixel stays. The order makes it the nearest, and the first of equally near
+    # ones.
     order = np.argsort(depth, kind="stable")[::-1]
     last = np.full(rows * columns, -1)
     last[pixel[order]] = order
@@ -172,7 +180,7 @@ def _put(
 
 
 def _edges(depth: Array) -> Array:
-    """Return how light pixels are: darker beside what is far nearer, or where there is nothing."""
+    """Return the lightness of pixels: darker beside much nearer pixels and beside empty ones."""
     light = np.ones_like(depth)
     for axis in (0, 1):
         for step in (1, -1):

@@ -1,4 +1,4 @@
-"""Scenes and buildings in a storyboard: as a camera sees them, and on maps."""
+"""Scenes and buildings in the storyboard's pictures and maps."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from shotc.ir.mission import MissionIR
 
 PIXELS_AN_INCH = 165.0
 NEAR_M = 0.05
-"""Depth from which something is drawn, metres."""
+"""Least depth at which something is drawn, metres."""
 FAR_M = 1e5
-"""Where the eye of a map is, metres off."""
+"""Distance of a map's eye from W's origin, metres."""
 UPRIGHT = 0.75
-"""How light on a map a face is that is seen edge on."""
+"""Lightness on a map of a face that is seen edge-on."""
 BANDS = 24
-"""Distances at which terrain and what stands on it are drawn by turns."""
+"""Number of distances at which painting alternates between terrain and meshes."""
 
 
 class MeshPainter:
-    """Draws the meshes of a mission into a picture, from the far to the near, bit by bit."""
+    """Draws the meshes of a mission into a picture step by step, from far to near."""
 
     def __init__(self, canvas: Canvas, shown: PictureRectangle, mission: MissionIR) -> None:
         self._canvas, self._shown = canvas, shown
@@ -54,12 +54,12 @@ class MeshPainter:
 
     @property
     def bands(self) -> list[float]:
-        """Distances in the plan from the nearest to the farthest of what is seen, metres."""
+        """Distances in the plan from the nearest to the farthest visible point, metres."""
         seen = self._away[self._away > 0.0]
         return list(np.geomspace(seen.min(), seen.max(), BANDS)) if seen.size else []
 
     def draw_beyond(self, distance: float) -> None:
-        """Draw what is left of the meshes beyond a distance in the plan, metres."""
+        """Draw the remaining meshes beyond a distance in the plan, metres."""
         now = (self._away >= distance) & (self._away < self._drawn)
         self._drawn = min(self._drawn, distance)
         if now.any():

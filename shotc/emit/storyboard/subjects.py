@@ -1,4 +1,4 @@
-"""Whom a moment of a shot frames: where each subject is wanted, by which composition, and how it is seen."""
+"""The framed subjects at a moment of a shot: reference, composition and faults of each."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from shotc.ir.sampling import SAME_TIME, projected, references
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 NOTICE_SHARE = 0.05
-"""Of an outline: less that is covered is not told beside a picture."""
+"""Covered share of an outline, below which it is not mentioned beside a picture."""
 
 MOVED = 0.02
-"""From how far on it is told where the user's own framing had a subject, (u, v) units."""
+"""Distance in (u, v) units, above which the user's own framing of a subject is shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class FramedSubject:
     """One subject at one moment.
 
-    reference : (u, v) wanted of it, or None
-    asked : (u, v) where the user's own heading and pitch had put it, or None
-    fault : "cropped", "hidden" or how much of it is covered where it is not seen as it should be, or ""
+    reference : (u, v) of its reference, or None
+    asked : (u, v) that the user's own heading and pitch give, or None
+    fault : "cropped", "hidden", or its covered share in words; "" without a fault
     """
 
     target: str
@@ -41,7 +41,7 @@ class FramedSubject:
 
     @property
     def is_moved(self) -> bool:
-        """Whether composition moved the subject visibly away from where the user had it."""
+        """Whether composition moved the subject visibly away from the user's own framing."""
         if self.asked is None or self.reference is None:
             return False
         return bool(np.hypot(*np.subtract(self.asked, self.reference)) > MOVED)
@@ -50,7 +50,7 @@ class FramedSubject:
 def at_keyframe(
     plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], at: KeyframeTime
 ) -> tuple[FramedSubject, ...]:
-    """Return whom a keyframe frames: one subject, or none."""
+    """Return the framed subject of a keyframe, if there is one."""
     placed, flight = pair
     keyframe, written = placed.keyframes[at.index], placed.shot.keyframes[at.index]
     if keyframe.target is None:
@@ -70,7 +70,7 @@ def at_keyframe(
 def at_time(
     plan: VerifiedIR, pair: tuple[PlacedShot, DroneTrajectory], time: float
 ) -> tuple[FramedSubject, ...]:
-    """Return whom a shot frames at some time, seconds, the foremost first."""
+    """Return the framed subjects of a shot at a time, seconds, the most important first."""
     placed, flight = pair
     shot = placed.shot
     spans = _spans([f for f in flight.framing if f.shot == shot.id], time)
@@ -91,7 +91,7 @@ def at_time(
 
 
 def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:
-    """Return the stretches that a time is in; where one ends as another begins, the later one."""
+    """Return the references that hold at a time; where one ends as another begins, only the later one."""
     inside = [f for f in framing if f.start - SAME_TIME <= time <= f.end + SAME_TIME]
     last = max((f.start for f in inside), default=0.0)
     return [f for f in inside if time < f.end - SAME_TIME] or [f for f in inside if f.start == last]
@@ -100,7 +100,7 @@ def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:
 def _composition(shot: Shot, target: str, keyframe: int) -> Composition:
     if shot.keyframes:
         return shot.keyframes[keyframe].composition
-    # Where a subject goes from place to place, lines for one of them would mislead.
+    # For a subject that goes from place to place, the lines of one place would mislead.
     own = (
         subject.composition
         for subject in shot.subjects

@@ -1,4 +1,4 @@
-"""The moment of a shot whose framing is worst, as the certificate tells it."""
+"""The moment with the worst framing of a shot, according to the certificate."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from shotc.rounding import at_least, at_most
 
 @dataclass(frozen=True, slots=True)
 class WorstFrame:
-    """When a shot is framed worst, seconds, and by how much, in words."""
+    """The time of a shot's worst framing, seconds, and the error in words."""
 
     time: float
     words: str
@@ -23,7 +23,7 @@ class WorstFrame:
 
 @dataclass(frozen=True, slots=True)
 class _Edge:
-    """How far inside the frame a whole target is where that is least, metres, and when, seconds."""
+    """The least margin of a whole target inside the frame, metres, with its time, seconds."""
 
     margin: float
     time: float
@@ -31,10 +31,10 @@ class _Edge:
 
 
 def worst_framing(plan: VerifiedIR, flight: DroneTrajectory, shot: str) -> WorstFrame | None:
-    """Return the worst moment of a shot, or None where the certificate tells nothing of its framing.
+    """Return the worst moment of a shot; None if the certificate has no claim on its framing.
 
-    That is where a target is cropped most; where none is, where one is farthest from its place; where
-    none has a place, where one is nearest to the edge of the frame.
+    It is the moment of the largest cropping. If no target is cropped, it is that of the largest screen error.
+    If no target has a reference either, it is that of the least margin to the frame's edge.
     """
     claims = [c for c in plan.certificate if c.shot == shot and c.time is not None]
     whole = [c for c in claims if c.constraint.endswith(IN_FRAME)]

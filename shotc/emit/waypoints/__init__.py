@@ -1,1 +1,1 @@
-"""What files of waypoints have in common: samples of the plan, places, clearances, the picture they add."""
+"""What the waypoint formats share: samples of the plan, positions, clearances, and the added screen error."""

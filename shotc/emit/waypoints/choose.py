@@ -1,7 +1,7 @@
-"""Choosing points: as few as keep picture, place and clearances under all flight models at once.
+"""Chooses waypoints: as few as keep picture, position and clearances within bounds under all flight models.
 
-Every stretch begins with its two ends; the worst of its legs gets a point in its middle until all is within
-bounds or no leg can be cut any more.
+Every stretch begins with its two end points. Repeatedly, the worst leg beyond its bounds gets a point in its
+middle, until all legs are within bounds or none can be divided further.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 WORST, MEAN = 0.05, 0.02  # half frames that a file may add to a shot
-KEPT = 0.93  # of these when points are chosen: places and angles are rounded afterwards
-STEADY = 0.8  # of these when the drone stands and zooms: stays are whole tenths of a second
-POSITION = 1.0  # metres that a way may leave the plan
-NEARER = 0.02  # metres by which a clearance may be cut deeper than by the plan
-UNEVEN = 2.2  # times as long as its neighbour a leg may be where that one is beyond its bounds
-LEG_MOST = 40.0  # metres, so that samples of legs are near to each other
-TURN_MOST = radians(150.0)  # of one leg, so that the shortest turn is the planned one
+KEPT = 0.93  # share of these bounds when points are chosen; positions and angles are rounded afterwards
+STEADY = 0.8  # share of these bounds when the drone stands and zooms; stays are rounded to tenths of a second
+POSITION = 1.0  # metres that a path may deviate from the plan
+NEARER = 0.02  # metres by which a clearance may be violated more than by the plan
+UNEVEN = 2.2  # ratio of the lengths of neighbouring legs, above which the longer one is divided
+LEG_MOST = 40.0  # metres, so that samples of legs are close together
+TURN_MOST = radians(150.0)  # rad of one leg, so that the shortest turn is the planned one
 SPEED_LEAST, SPEED_MOST = 0.1, 15.0  # m/s
-CURVE_SHARE = 0.45  # of the shorter leg at a point, where its corner is rounded at most
-CURVE_LEAST, CURVE_MOST = 0.2, 2.0  # metres; the least at a stop
+CURVE_SHARE = 0.45  # largest distance of a corner's rounding from its point, over the shorter leg
+CURVE_LEAST, CURVE_MOST = 0.2, 2.0  # metres; the least one at a stop
 ROUNDS = 400
 
 
@@ -46,11 +46,11 @@ ROUNDS = 400
 class Chooser:
     """Chooses the points of one drone's route.
 
-    way : (n,), metres flown before each sample, stays at STAY_PACE
-    planned : by how much each sample is too near to each obstacle, m, (n,) each
-    halts : whether the machine stands still at every point where it does something
-    lens : whose zoom the file commands; None where it does not
-    photos : of the shots that take some in place of a film
+    way : (n,), metres flown before each sample; stays count with STAY_PACE
+    planned : missing clearance at each sample, one array (n,) for each obstacle, metres
+    halts : whether the machine stands still at every point with an action
+    lens : the lens whose zoom the file commands; None if it commands none
+    photos : photo settings of the shots that take photos instead of a film
     """
 
     track: SampledFlight
@@ -79,7 +79,7 @@ class Chooser:
         return _joined(needed, parts)[0]
 
     def route(self, stations: list[Station]) -> Route:
-        """Return the stations as a route, nothing rounded."""
+        """Return the stations as a route, without rounding."""
         stops = np.array([s.stops or (self.halts and bool(s.actions)) for s in stations])
         poses, time = self.track.poses, self.track.time
         position = poses.position[[s.first for s in stations]]
@@ -98,13 +98,13 @@ class Chooser:
         )
 
     def _stay(self, stretch: SampleRange) -> list[PointAction]:
-        """Return what is done while the drone stands, films and may zoom."""
+        """Return the actions while the drone stands and films, and possibly zooms."""
         assert self.lens is not None
         part = slice(stretch.first, stretch.last + 1)
         return stay_and_zoom(self.lens, self.track.time[part], self.track.poses.hfov[part], WORST * STEADY)
 
     def _actions(self, stations: list[Station]) -> tuple[tuple[PointAction, ...], ...]:
-        """Return what is done at each station: its own, then the zoom for the way that begins there."""
+        """Return the actions at each station: its own, then the zoom for the leg that begins there."""
         if self.lens is None:
             return tuple(s.actions for s in stations)
         last, done = None, []
@@ -120,13 +120,13 @@ class Chooser:
         return tuple(done)
 
     def _lens_of(self, a: int, b: int) -> float:
-        """Return the field of view of a leg, rad: in its middle, or at its end where nothing is filmed."""
+        """Return the field of view of a leg, rad: a middle value if it is filmed, else that at its end."""
         hfov = self.track.poses.hfov
         filmed = any(s.shot and s.first <= a and b <= s.last for s in self.track.stretches)
         return middle_lens(hfov[a : b + 1]) if filmed else float(hfov[b])
 
     def _edges(self, stations: list[Station], samples: Index, leg: Index) -> Array:
-        """Return how far the edge of the picture is off at each sample, half frames."""
+        """Return the shift of the picture's edge at each sample, half frames, shape (n,)."""
         if self.lens is None:
             return np.zeros(len(samples))
         lenses = np.array([self._lens_of(a.last, b.first) for a, b in pairwise(stations)])
@@ -139,7 +139,7 @@ class Chooser:
         return float(stay.max() + stay.min()) / 2
 
     def _seeds(self, gap: StationInterval) -> list[int]:
-        """Return the first points within a gap: none, but where its ends are one place."""
+        """Return the initial points inside a gap: two if its ends coincide, else none."""
         position = self.track.poses.position
         if np.linalg.norm(position[gap.last] - position[gap.first]) >= LEG_LEAST:
             return []
@@ -153,9 +153,9 @@ class Chooser:
         return int(np.searchsorted(self.way, way))
 
     def _cuts(self, stations: list[Station], owners: Index, scores: list[Array]) -> dict[int, int]:
-        """Return the samples to put points at, by leg: one for each part that is beyond its bounds.
+        """Return the samples for new points, by leg: one for each part that is beyond its bounds.
 
-        A leg much shorter than a neighbour bends most curves most, and the neighbour is cut instead.
+        A leg much shorter than its neighbour bends most curves most; the neighbour is divided instead.
         """
         ends = [(a.last, b.first) for a, b in pairwise(stations)]
         length = [self.way[b] - self.way[a] for a, b in ends]
@@ -173,7 +173,7 @@ class Chooser:
         return cuts
 
     def _middle(self, a: int, b: int) -> int | None:
-        """Return the sample in the middle of a leg, or None where its halves would be too short."""
+        """Return the sample in the middle of a leg, or None if its halves would be too short."""
         middle = self._at((self.way[a] + self.way[b]) / 2)
         return middle if a < middle < b and self._far(a, middle) and self._far(middle, b) else None
 
@@ -182,9 +182,10 @@ class Chooser:
         return bool(np.linalg.norm(position[b] - position[a]) >= LEG_LEAST)
 
     def _scores(self, stations: list[Station], owners: Index, parts: list[_Part]) -> list[Array]:
-        """Return how far each leg of each part is beyond its bounds, 1 is at them.
+        """Return the error of each leg of each part over its bound; 1 is at the bound.
 
-        Where a part's mean alone is beyond its bound, so are all of its legs, in the order of their worst.
+        If a part exceeds only the bound of its mean, all of its legs do, in the order of their largest
+        errors.
         """
         if len(stations) < 2:
             return [np.zeros(1) for _ in parts]
@@ -221,7 +222,10 @@ class Chooser:
         return np.concatenate(spans), np.repeat(np.arange(len(spans)), [len(s) for s in spans])
 
     def _judge(self, route: Route, flown: Legs, samples: Index, leg: Index) -> tuple[Array, list[Array]]:
-        """Return the distance of each sample from its flown place, m, and by turning the error on screen."""
+        """Return the distance of each sample from its flown position, metres, and its screen errors.
+
+        There is one array of screen errors for each of TURNINGS.
+        """
         first = np.searchsorted(leg, leg)
         last = np.searchsorted(leg, leg, side="right") - 1
         way = self.way[samples]
@@ -249,7 +253,7 @@ class Chooser:
         return np.linalg.norm(position - planned.position, axis=1), errors
 
     def _nearer(self, flown: Legs, samples: Index, leg: Index, off: Array) -> Array:
-        """Return by how much each leg cuts a clearance deeper than the plan does there, m."""
+        """Return how much deeper each leg violates a clearance than the plan does there, metres."""
         count = len(flown.way)
         reach = _most(off, leg, count) + NEARER
         nearer = np.zeros(count)
@@ -265,7 +269,7 @@ class Chooser:
 
 @dataclass(slots=True)
 class _Part:
-    """A gap with the samples chosen in it, in order."""
+    """A gap with the samples chosen in it, in ascending order."""
 
     gap: StationInterval
     inner: list[int] = field(default_factory=list)
@@ -298,7 +302,7 @@ def _joined(needed: list[Station], parts: list[_Part]) -> tuple[list[Station], I
 
 
 def _most(values: Array, leg: Index, count: int, start: float = 0.0) -> Array:
-    """Return the greatest of the values of each leg."""
+    """Return the maximum of the values of each leg."""
     most = np.full(count, start)
     np.maximum.at(most, leg, values)
     return most

@@ -1,4 +1,4 @@
-"""How near points come to what a drone must stay out of; arrays of points at once."""
+"""Missing clearance of points and curves beside obstacles, vectorised."""
 
 from __future__ import annotations
 
@@ -17,12 +17,15 @@ from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.obstacles import flight_space
 from shotc.planning.over_ground import OverGround
 
-CLOSED_M = 1e-4  # of a curve, below which its parts are not told apart
-SHARES = np.linspace(0.0, 1.0, 65)  # of a curve, at which the worst of one that is not proved is looked for
+CLOSED_M = 1e-4  # metres, size of a curve, below which it is not subdivided further
+SHARES = np.linspace(0.0, 1.0, 65)  # parameters of a curve at which its worst point is sought
 
 
 class Level(NamedTuple):
-    """Flat ground, or the greatest height above it where ``upper``; height : z of the drone's centre, m."""
+    """Flat ground, or the greatest height above it if ``upper``.
+
+    height : z of the drone's centre at the limit, metres
+    """
 
     owner: Owner
     height: float
@@ -30,11 +33,11 @@ class Level(NamedTuple):
 
 
 Obstacle = Clearance | OverGround | BesideMesh | Level
-"""What a file's legs may come nearer to than the plan does."""
+"""An obstacle that a file's legs might come nearer to than the plan does."""
 
 
 def bounds(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
-    """Return all that stands and binds a flight: keep-outs, zones to stay in, ground and greatest height."""
+    """Return all standing limits of a flight: keep-outs, keep-in zones, ground and greatest height."""
     inside = tuple(each for each in clearances_of(mission, drone) if each.inside)
     flat: list[Level] = []
     if mission.terrain is None:
@@ -46,18 +49,21 @@ def bounds(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
 
 
 def keep_outs(mission: MissionIR, drone: Drone) -> tuple[Obstacle, ...]:
-    """Return zones, standing targets, parked drones, terrain and meshes, with what they are held to."""
+    """Return zones, standing targets, parked drones, terrain and meshes, with their clearances."""
     around = (*clearances_of(mission, drone), *from_parked(mission, drone))
     return (*(each for each in around if not each.inside), *flight_space(mission, drone).surfaces)
 
 
 def owner_of(obstacle: Obstacle, place: Array) -> Owner:
-    """Return whose limit is nearest to a place (3,)."""
+    """Return the owner of the limit nearest to a position (3,), metres."""
     return obstacle.owner_at(place) if isinstance(obstacle, OverGround | BesideMesh) else obstacle.owner
 
 
 def shortfall(obstacle: Obstacle, points: Array) -> Array:
-    """Return by how much each point, shape (n, 3), is too near to the obstacle, metres; negative is free."""
+    """Return the missing clearance of points, metres, shape (n,); it is negative where there is slack.
+
+    points : shape (n, 3), W, metres
+    """
     if isinstance(obstacle, Level):
         return points[:, 2] - obstacle.height if obstacle.upper else obstacle.height - points[:, 2]
     if not isinstance(obstacle, Clearance):
@@ -71,11 +77,15 @@ def shortfall(obstacle: Obstacle, points: Array) -> Array:
 
 
 def nearer_between(obstacle: Obstacle, curves: Array, allowed: float) -> tuple[Array, float] | None:
-    """Return where Bernstein curves (k, n, 3) are nearer to an obstacle than allowed, and by how much.
+    """Return the position where curves are nearer to an obstacle than allowed, and the lack there, metres.
 
-    allowed : metres that they may lack. None where they are proved to keep that at every point: a curve's
-    middle is no farther from its other points than from its control points, and what is lacking changes by no
-    more than the place. Terrain, whose height does, and meshes have proofs of their own.
+    The result is None if the curves are proved to keep the clearance everywhere. The proof uses two facts: a
+    curve's midpoint is at most as far from its other points as from its control points, and the lack changes
+    at most as much as the position. The second does not hold for terrain and meshes, which have proofs of
+    their own.
+
+    curves : Bernstein control points, shape (k, n, 3), metres
+    allowed : metres that they may lack
     """
     if isinstance(obstacle, OverGround | BesideMesh):
         curves = curves[obstacle.lowered(allowed).lack(curves) > 0.0]

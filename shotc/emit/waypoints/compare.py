@@ -1,4 +1,6 @@
-"""Plan against re-flight: what a file of waypoints adds to position, heading and picture."""
+"""Compares a re-flight with the plan: the error that a waypoint file adds to position, heading
+and picture.
+"""
 
 from __future__ import annotations
 
@@ -22,18 +24,20 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-SEARCH = 3.0  # metres of way before and behind the expected place in which the nearest point is sought
-CHUNK = 256  # planned points compared at once, to bound memory
-ORDER = 1e-3  # how much a metre of wrong progress counts against a metre of distance
+SEARCH = 3.0  # metres of progress before and after the expected one, in which the nearest point is sought
+CHUNK = 256  # planned points compared in one batch, to bound memory
+ORDER = 1e-3  # weight of a metre of wrong progress over that of a metre of distance
 
 
 @dataclass(frozen=True, slots=True)
 class ShotError:
-    """What a file adds to one shot: half frames, the worst frame's mission time.
+    """The error that a file adds to one shot.
 
-    lag : largest difference in time between plan and re-flight, s, counted from the shot's first frame
-    drift : how far the framed target moves in the lag of a frame at most, m
-    edge : how far the edge of the picture is off by the lens at most, half frames
+    worst, mean : screen error, half frames
+    time : mission time of the worst frame, seconds
+    lag : largest difference in time between plan and re-flight, seconds, counted from the shot's first frame
+    drift : largest motion of the framed target during the lag of a frame, metres
+    edge : largest shift of the picture's edge by the lens, half frames
     """
 
     shot: str
@@ -47,7 +51,11 @@ class ShotError:
 
 @dataclass(frozen=True, slots=True)
 class Error:
-    """What a file adds: metres, rad, (u, v) units; where the picture is worst; seconds filmed."""
+    """The error that a file adds: metres, rad, (u, v) units.
+
+    shot, time : where the screen error is largest
+    filmed, planned : seconds filmed in the re-flight and in the plan
+    """
 
     position: float
     heading: float
@@ -60,12 +68,16 @@ class Error:
 
     @property
     def edge(self) -> float:
-        """How far the edge of the picture is off by the lens at most, half frames."""
+        """Largest shift of the picture's edge by the lens, half frames."""
         return max((each.edge for each in self.shots), default=0.0)
 
 
 class _Met(NamedTuple):
-    """Re-flown poses, the mission times of the planned ones they are nearest to, when they are flown, s."""
+    """Re-flown poses matched to planned ones.
+
+    time : mission times of the planned poses, seconds
+    elapsed : times of the re-flown poses, seconds
+    """
 
     time: Array
     poses: Poses
@@ -73,9 +85,10 @@ class _Met(NamedTuple):
 
 
 def compare(mission: MissionIR, flight: DroneTrajectory, flown: ReflownSamples, most: float = inf) -> Error:
-    """Measure a re-flight against the plan at the output rate, by progress and not by time.
+    """Return the error of a re-flight against the plan at the output rate, matched by progress and not by
+    time.
 
-    most : Hz, a rate that is enough
+    most : highest rate that is needed, Hz
     """
     rate = min(mission.rate, most)
     position = heading = filmed = planned = 0.0
@@ -94,7 +107,7 @@ def compare(mission: MissionIR, flight: DroneTrajectory, flown: ReflownSamples, 
         shots.append(_shot_error(mission, flight, shot, plan, met))
         filmed += float(np.ptp(flown.elapsed[inside]))
         planned += end - start
-    # Of two frames that are equally bad, the later one is named.
+    # Of two equally bad frames, the later one is named.
     worst = max(reversed(shots), key=lambda s: s.worst, default=ShotError("", 0.0, 0.0, 0.0, 0.0, 0.0))
     return Error(position, heading, worst.worst, worst.shot, worst.time, filmed, planned, tuple(shots))
 
@@ -115,7 +128,9 @@ def _shot_error(mission: MissionIR, flight: DroneTrajectory, shot: str, plan: Po
 
 
 def nearest_miss(obstacles: tuple[Obstacle, ...], flown: ReflownSamples) -> tuple[str, float]:
-    """Return the obstacle whose clearance is cut deepest, and by how much, m; ("", 0) if none is."""
+    """Return the obstacle with the largest violation of its clearance, and the violation, metres; else ("",
+    0).
+    """
     if not len(flown.position):
         return ("", 0.0)
     cuts = ((float(shortfall(o, flown.position).max()), str(o.owner)) for o in obstacles)
@@ -124,7 +139,7 @@ def nearest_miss(obstacles: tuple[Obstacle, ...], flown: ReflownSamples) -> tupl
 
 
 def _parts(flight: DroneTrajectory) -> list[tuple[int, tuple[str | None, float, float]]]:
-    """Return the stretches between starts and stops of recording, numbered as the re-flight counts."""
+    """Return the stretches between starts and stops of recording, numbered as in the re-flight."""
     parts: list[tuple[int, tuple[str | None, float, float]]] = []
     number, shot = 0, None
     for phase in flight.phases:
@@ -146,7 +161,7 @@ def _frames(start: float, end: float, rate: float) -> Array:
 
 
 def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bool_]) -> _Met:
-    """Return what is nearest to the planned poses in a re-flight, in order of progress."""
+    """Return the poses of a re-flight nearest to the planned ones, in order of progress."""
     position = flown.position[inside]
     progress = flown.progress[inside] - flown.progress[inside][0]
     done = _progress(plan.position, time)
@@ -172,7 +187,9 @@ def _progress(position: Array, time: Array) -> Array:
 
 
 def _nearest(points: Array, expected: Array, position: Array, progress: Array) -> tuple[Array, Array]:
-    """Return segment index and share on it of the nearest point of the flown line near ``expected``."""
+    """Return the nearest point of the flown line near the ``expected`` progress: segment index and share on
+    it.
+    """
     if len(position) == 1:
         return np.zeros(len(points), dtype=int), np.zeros(len(points))
     chunks = [

@@ -1,4 +1,4 @@
-"""What a re-flight of a file is: samples of where the drone and its camera would be."""
+"""The samples of a file's re-flight: poses of the drone and its camera."""
 
 from __future__ import annotations
 
@@ -9,16 +9,19 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-STAY_PACE = 0.1  # m/s at which stays count as progress, as does all slower motion
+STAY_PACE = 0.1  # m/s; the least pace of progress, which stays and slow motion count with
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReflownSamples:
     """Samples of the re-flight, between take-off and landing.
 
-    part : (n,), counts starts and stops of recording: odd while the shots are filmed, in order
-    progress : (n,), way flown in m, stays at STAY_PACE
-    elapsed : (n,), s; hfov : (n,), rad, NaN where no field of view is commanded
+    position : (n, 3), W, metres
+    body_yaw, cam_yaw, cam_pitch : (n,), rad
+    part : (n,), number of starts and stops of recording so far; it is odd while a shot is filmed
+    progress : (n,), metres flown; stays count with STAY_PACE
+    elapsed : (n,), seconds
+    hfov : (n,), rad; NaN where no field of view is commanded
     """
 
     position: Array

@@ -1,4 +1,4 @@
-"""Between the mission's East-North-Up frame and what a flight plan carries: WGS84 and height above home."""
+"""Conversion between W (East, North, Up) and a flight plan's coordinates: WGS84 and height above home."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ METRE_DECIMALS = 4
 
 @dataclass(frozen=True, slots=True)
 class GeoPosition:
-    """A global position: degrees, degrees, metres above home."""
+    """A global position: latitude and longitude in degrees, metres above home."""
 
     lat: float
     lon: float
@@ -27,10 +27,12 @@ class GeoPosition:
 
 @dataclass(frozen=True, slots=True)
 class Geo:
-    """The tie between W and the globe for one drone.
+    """The relation between W and the globe for one drone.
 
-    home_lat, home_lon : degrees; home_alt : metres above mean sea level
-    Heights above sea level are treated as ellipsoidal ones: only differences of them are used.
+    Heights above sea level are treated as ellipsoidal heights, because only their differences are used.
+
+    home_lat, home_lon : degrees
+    home_alt : metres above mean sea level
     """
 
     origin: GeoOrigin
@@ -39,7 +41,7 @@ class Geo:
     home_alt: float
 
     def places(self, points: Array) -> list[GeoPosition]:
-        """Return the global places of points of W, shape (n, 3), rounded as the files carry them."""
+        """Return the global positions of points of W, shape (n, 3), rounded as in the files."""
         return [
             GeoPosition(
                 round(float(a), DEGREE_DECIMALS),
@@ -50,17 +52,17 @@ class Geo:
         ]
 
     def place(self, point: Vec3) -> GeoPosition:
-        """Return the global place of one point of W."""
+        """Return the global position of one point of W."""
         return self.places(np.array([point]))[0]
 
     def point(self, place: GeoPosition) -> Array:
-        """Return the point of W, shape (3,), of a global place."""
+        """Return the point of W, shape (3,), metres, of a global position."""
         where = np.array([[place.lat, place.lon, place.alt + self.home_alt]])
         return np.asarray(to_world(where, self.origin)[0])
 
 
 def tie(origin: GeoOrigin, home: Vec3) -> Geo:
-    """Return the tie for a drone whose pad is at ``home`` in W."""
+    """Return the relation for a drone whose pad is at ``home`` in W."""
     lat, lon, alt = (float(c) for c in of_world(np.array([home]), origin)[0])
     return Geo(
         origin,

@@ -1,4 +1,4 @@
-"""Fields of view in files of waypoints: commanded in steps, judged by the edge of the picture."""
+"""Fields of view in waypoint files: commanded in steps, judged by the edge of the picture."""
 
 from __future__ import annotations
 
@@ -14,37 +14,43 @@ from shotc.ir.drone import LensRange
 
 Array = NDArray[np.float64]
 
-SAME_LENS = 2e-3  # half frames at the edge of the picture, by which lenses may differ to count as one
+SAME_LENS = 2e-3  # half frames at the picture's edge, below which two fields of view count as equal
 
 
 def edge(planned: Array | float, flown: Array | float) -> Array:
-    """Return how far from the edge of the picture the planned edge is shown, half frames.
+    """Return the shift of the picture's edge, half frames.
 
-    planned, flown : horizontal fields of view, rad
+    planned, flown : horizontal fields of view, rad, shape (n,) or scalar
     """
     return np.abs(np.tan(np.asarray(planned) / 2) / np.tan(np.asarray(flown) / 2) - 1)
 
 
 def middle_lens(hfov: Array) -> float:
-    """Return the field of view that shows the least of some as much too large as the greatest too small."""
+    """Return the field of view, rad, whose largest errors on both sides are equal.
+
+    It is the geometric mean of the extremes of tan(hfov / 2).
+
+    hfov : fields of view, rad, shape (n,)
+    """
     half = np.log(np.tan(hfov / 2))
     return 2 * atan(exp(float(half.max() + half.min()) / 2))
 
 
 def zoomed(lens: LensRange, hfov: float) -> PointAction:
-    """Return a zoom to a field of view, rad."""
+    """Return the action that zooms to a field of view, rad."""
     return PointAction("zoom", focal=round(1000 * lens.focal(hfov), 1))
 
 
 def shown_by(lens: LensRange, action: PointAction) -> float:
-    """Return the field of view to which an action zooms, rad."""
+    """Return the field of view that an action zooms to, rad."""
     return field_of_view(action.focal, 1000 * lens.frame)
 
 
 def stay_and_zoom(lens: LensRange, time: Array, hfov: Array, most: float) -> list[PointAction]:
-    """Return the stays and zooms of a camera that stands at times (n,) and has fields of view (n,), rad.
+    """Return the stays and zooms of a camera that stands at times (n,), seconds, with fields of view (n,),
+    rad.
 
-    most : half frames at the edge of the picture, by which a step may be off
+    most : largest shift of the picture's edge by a step, half frames
     """
     half = np.log(np.tan(hfov / 2))
     rise, span = half - half.min(), float(np.ptp(half))

@@ -1,18 +1,18 @@
-"""What a machine does when its link is lost: as its file says, or as the vehicle is set."""
+"""What a machine does when its link is lost: according to its file, or to its own settings."""
 
 from __future__ import annotations
 
 from shotc.ir.drone import Drone, LinkLost, Safety
 
 NOTHING = Safety(None, None, ())
-RETURN_OVER = 10.0  # metres above the highest point at which it returns; DJI Fly has a height of its own
+RETURN_OVER = 10.0  # metres from the highest point up to the return height; DJI Fly has its own setting
 DJI_ACTIONS: dict[LinkLost, str] = {
     "return": "goBack",
     "hover": "hover",
     "land": "landing",
     "continue": "goBack",
 }
-"""Values of executeRCLostAction; of a mission that goes on it is not asked."""
+"""Values of executeRCLostAction; if the mission continues, the value is not used."""
 
 _DONE: dict[LinkLost, str] = {
     "return": "returns home",
@@ -35,15 +35,19 @@ _ARDUPILOT: dict[LinkLost, str] = {
 
 
 def return_height(highest: float, safety: Safety | None) -> float:
-    """Return the height above the pad at which a file has a drone return; highest : of its points, m."""
+    """Return the height above the pad of a file's return, metres.
+
+    highest : height of its highest point above the pad, metres
+    """
     written = None if safety is None else safety.return_height
     return highest + RETURN_OVER if written is None else written
 
 
 def link_notes(drone: Drone, height: float, *, written: bool) -> list[str]:
-    """Return what is told of a drone's link, and what is to be set by hand.
+    """Return the notes on a drone's link loss: what it does, and what has to be set by hand.
 
-    height : over the pad at which the file has it return, m; written : whether the file can say what is done
+    height : return height in the file, above the pad, metres
+    written : whether the file can state the behaviour
     """
     safety = drone.safety or NOTHING
     if drone.autopilot in ("px4", "ardupilot"):
@@ -66,7 +70,7 @@ def _at_least(safety: Safety) -> str:
 
 
 def _vehicle(drone: Drone, safety: Safety) -> str:
-    """Say what is the vehicle's own: no mission file of MAVLink holds its parameters."""
+    """Return the note on the vehicle's own settings, which MAVLink mission files do not contain."""
     px4 = drone.autopilot == "px4"
     name = f"{drone.autopilot} {drone.name}"
     text = f"{name}: the vehicle's own settings decide what happens when the link is lost, not the file"

@@ -1,7 +1,8 @@
-"""From a verified plan to the files of machines that fly curves through waypoints without a clock.
+"""Makes files from a verified plan for machines that fly curves through waypoints without a clock.
 
-A format says how points are written and read, how many a file holds, and by which curves its machines fly.
-Points are chosen under all flight models at once; what is written is read back and flown under each of them.
+A format defines how points are written and read, how many a file holds, and which curves its machines may
+fly. Points are chosen under all flight models at once. The written files are read back and flown under each
+model.
 """
 
 from __future__ import annotations
@@ -36,23 +37,28 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 Array = NDArray[np.float64]
 
-CUT_LEAST = 0.05  # metres by which a re-flight may be nearer to anything than the plan is
-STRAIGHT = np.radians(0.05)  # off a target, within which a camera looks at its axis: files have tenths
-SAME_PLACE = 0.1  # metres between points that some machines take for one, and refuse
-ASIDE = 0.15  # metres that one of them moves
-FINE = 160  # samples of a leg, less one, at which clearances are judged before they are proved between
-RATE_MOST = 10.0  # Hz of frames at which a picture is judged: it changes slowly
+CUT_LEAST = 0.05  # metres by which a re-flight may come nearer to an obstacle than the plan
+STRAIGHT = np.radians(0.05)  # rad off a target that a camera looks straight at; files have tenths of a degree
+SAME_PLACE = 0.1  # metres between points, below which some machines refuse them as equal
+ASIDE = 0.15  # metres by which such a point is moved
+FINE = 160  # intervals of a leg at which clearances are judged, before they are proved in between
+RATE_MOST = 10.0  # Hz of the judged frames; the picture changes slowly
 
 
 @dataclass(frozen=True, slots=True)
 class FileFormat:
-    """A family of files.
+    """A file format of waypoint missions.
 
-    emitter : its name; machines : the autopilots that take it; most : points of a file; ending : of its name
-    farthest : metres of way of a file
-    shapes : the curves by which its machines may fly; halts : whether they stop where they do something
-    zooms : those of the machines whose zoom it commands; says_link_lost : whether it says what is done then
-    photos : those that take photos as it says
+    emitter : name of its emitter
+    machines : autopilots that take it
+    most : most points of a file
+    ending : end of the file's name
+    shapes : curves that its machines may fly
+    halts : whether the machines stop at points with actions
+    zooms : machines whose zoom it commands
+    says_link_lost : whether it states what is done on link loss
+    photos : machines that take photos on its command
+    farthest : greatest length of a file's path, metres
     """
 
     emitter: str
@@ -69,12 +75,12 @@ class FileFormat:
     farthest: float = np.inf
 
     def lens(self, drone: Drone) -> LensRange | None:
-        """Return the lens that its files zoom, None where they do not."""
+        """Return the lens that its files zoom; None if they do not zoom."""
         return drone.lens if drone.zooms and drone.autopilot in self.zooms else None
 
 
 def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
-    """Return the files of all drones that fly a format, with what it cannot carry and the error it adds."""
+    """Return the files of all drones that fly a format, with warnings and the error that it adds."""
     ir = plan.trajectory
     mission = ir.keyframes.mission
     told = list(report.fleetless(mission, ir.fleets, form.emitter))
@@ -101,9 +107,9 @@ def emit_files(plan: VerifiedIR, form: FileFormat) -> Emission:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Written:
-    """The files of a drone, the route read back from them, and the places of its legs by each curve.
+    """The files of a drone, the route read back from them, and samples of its legs for each curve model.
 
-    photographed : shots of which they take photos
+    photographed : shots of which the files take photos
     """
 
     artifacts: tuple[Artifact, ...]
@@ -113,13 +119,13 @@ class _Written:
 
     @property
     def ways(self) -> Array:
-        """Places all along what the drone may come by, (n, 3)."""
+        """Positions along all paths that the drone may take, (n, 3), metres."""
         return np.concatenate([evenly(legs.reshape(-1, 3)) for legs in self.legs])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Job:
-    """One drone's part of the emission."""
+    """The emission for one drone."""
 
     mission: MissionIR
     flight: DroneTrajectory
@@ -141,7 +147,7 @@ class _Job:
         return _Job(mission, flight, drone, form, tie(mission.origin, drone.home), track, chooser, obstacles)
 
     def written(self) -> _Written:
-        """Choose the points, write them, and read them back."""
+        """Return the files: points are chosen, written and read back."""
         stations = self.chooser.stations()
         points = waypoints_of(_parted(self.chooser.route(stations)), self.geo)
         watched = self._watched(stations)
@@ -149,7 +155,7 @@ class _Job:
         position = np.array([self.geo.point(p.place) for p in points])
         blocks = split(points, np.linalg.norm(np.diff(position, axis=0), axis=1), self.form)
         if len(blocks) > 1 and self.chooser.photos:
-            # What is begun in one file is not gone on with in the next.
+            # An action that begins in one file does not continue in the next.
             return replace(self, chooser=replace(self.chooser, photos={})).written()
         named = [f"-{i + 1}" for i in range(len(blocks))] if len(blocks) > 1 else [""]
         artifacts = tuple(
@@ -161,7 +167,9 @@ class _Job:
         return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
 
     def _watched(self, stations: list[Station]) -> list[GeoPosition | None]:
-        """Return what stands still and is looked straight at from each station of a shot, all through it."""
+        """Return for each station the standing target that the camera looks straight at during the whole
+        shot, or None.
+        """
         found: list[GeoPosition | None] = [None] * len(stations)
         for each in (s for s in self.track.stretches if s.shot is not None):
             inside = [i for i, s in enumerate(stations) if each.first <= s.first and s.last <= each.last]
@@ -175,7 +183,7 @@ class _Job:
         return found
 
     def emission(self, written: _Written) -> Emission:
-        """Return the files, unless they come too near to something, and what is to be told of them."""
+        """Return the files with notes and warnings; no files if they come too near to an obstacle."""
         not_carried = report.lens(self.mission, self.flight) if self.chooser.lens is None else []
         faults = [*self._broken(written), *(d for d in not_carried if d.code == report.PROMISED)]
         if faults:
@@ -201,7 +209,7 @@ class _Job:
         return len(self.form.shapes) * len(TURNINGS)
 
     def _error(self, route: Route) -> Error:
-        """Return the worst that a file adds under any flight model."""
+        """Return the largest error that a file adds under any flight model."""
         errors: list[Error] = []
         for shape, turning in product(self.form.shapes, TURNINGS):
             flown = fly(route, legs_of(route, shape), turning, self.chooser.lens)
@@ -217,7 +225,9 @@ class _Job:
         )
 
     def _broken(self, written: _Written) -> list[Diagnostic]:
-        """Return what a re-flight comes nearer to than the plan, under the curve that is worst for it."""
+        """Return a fault for each obstacle that a re-flight comes nearer to than the plan, under the worst
+        curve.
+        """
         found: list[Diagnostic] = []
         for obstacle, planned in zip(self.obstacles, self.chooser.planned, strict=True):
             held = max(float(planned.max()), 0.0)
@@ -238,15 +248,17 @@ class _Job:
         return found
 
     def _between(self, route: Route, obstacle: Obstacle, allowed: float) -> tuple[Array, float] | None:
-        """Return where one of the curves lacks more than allowed though no sample does; None is proved."""
+        """Return a violation between samples under any of the curves; None if it is proved that there is
+        none.
+        """
         found = (nearer_between(obstacle, shape.cubics(route), allowed) for shape in self.form.shapes)
         return next((each for each in found if each is not None), None)
 
 
 def _photos(mission: MissionIR, track: SampledFlight) -> dict[str, Photos]:
-    """Return the photos of shots in which the drone is on its way all along, and that no other shot touches.
+    """Return the photo settings of shots during which the drone always moves and that no other shot adjoins.
 
-    Formats tell intervals of legs: a drone that stands has none.
+    Formats state photo intervals for legs, so a drone that stands would take none.
     """
     found: dict[str, Photos] = {}
     for name in dict.fromkeys(s.shot for s in track.stretches if s.shot is not None):
@@ -272,7 +284,7 @@ def _worst_shot(errors: list[ShotError]) -> ShotError:
 
 
 def _parted(route: Route) -> Route:
-    """Move points that share a place with an earlier one towards the one before them.
+    """Move points that coincide with an earlier point towards their predecessor.
 
     An orbit that ends where it began has such points, and so has a flight that ends above its pad.
     """
@@ -285,7 +297,7 @@ def _parted(route: Route) -> Route:
 
 
 def _two(points: list[Waypoint]) -> list[Waypoint]:
-    """Return at least two points, as every format asks: the second half-way down to the pad."""
+    """Return at least two points, as every format demands; the added one is half-way down to the pad."""
     if len(points) > 1:
         return points
     place = replace(points[0].place, alt=points[0].place.alt / 2)
@@ -293,7 +305,7 @@ def _two(points: list[Waypoint]) -> list[Waypoint]:
 
 
 def waypoints_of(route: Route, geo: Geo) -> list[Waypoint]:
-    """Return a route as it stands in files."""
+    """Return a route in the form of files."""
     return [
         Waypoint(
             place,
@@ -309,7 +321,7 @@ def waypoints_of(route: Route, geo: Geo) -> list[Waypoint]:
 
 
 def split(points: list[Waypoint], legs: Array, form: FileFormat) -> list[list[Waypoint]]:
-    """Return blocks that a format holds; each begins where the last one ends, at a stop if it can.
+    """Return blocks that fit into files; each begins where the one before ends, preferably at a stop.
 
     legs : metres from each point to the next, (n - 1,)
     """
@@ -327,12 +339,12 @@ def split(points: list[Waypoint], legs: Array, form: FileFormat) -> list[list[Wa
 
 
 def _fitting(legs: Array, form: FileFormat) -> int:
-    """Return how many of the points that legs (n - 1,) join go into a file, two at least."""
+    """Return how many of the points joined by legs (n - 1,), metres, fit into a file; at least two."""
     return max(2, min(form.most, 1 + int((np.cumsum(legs) <= form.farthest).sum())))
 
 
 def joined(blocks: list[list[Waypoint]]) -> list[Waypoint]:
-    """Return the points of all blocks, each place once."""
+    """Return the points of all blocks, without the repeated ends."""
     points = list(blocks[0])
     for before, block in pairwise(blocks):
         actions: tuple[PointAction, ...] = (*before[-1].actions, *block[0].actions)

@@ -1,7 +1,7 @@
-"""Flight models: all the ways in which a machine may fly a route, as nobody has published the one.
+"""Flight models: all ways in which a machine may fly a route, because the true one is not published.
 
-What is open is the curve, whether it begins anew at a stop, and whether angles turn with the way or with
-time, which depends on how hard the machine accelerates. What a file adds is the worst over all of them.
+Unknown are the curve, whether it begins anew at a stop, and whether angles follow the path length or the
+time. The last depends on the machine's acceleration. The error of a file is the worst over all models.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from shotc.ir.drone import LensRange
 
 Array = NDArray[np.float64]
 
-SAMPLES = 33  # of a leg, less one
-GENTLE, BRISK = 1.5, 3.0  # m/s^2, of the ramps between speeds
+SAMPLES = 33  # intervals of a leg
+GENTLE, BRISK = 1.5, 3.0  # m/s^2, accelerations between speeds
 STAY_STEP = 0.1  # seconds between samples of a stay
-SLOWEST = 0.05  # m/s, so that no leg takes for ever
+SLOWEST = 0.05  # m/s, so that every leg ends
 
 
 @dataclass(frozen=True, slots=True)
 class CurveModel:
-    """Curves by which a machine may fly a route.
+    """A family of curves that a machine may fly along a route.
 
-    tangents : of the cubics through its points; None of straight legs with rounded corners
+    tangents : tangents of the cubics through the points; None for straight legs with rounded corners
     cut : whether a curve begins anew at a stop
     """
 
@@ -38,13 +38,13 @@ class CurveModel:
     cut: bool = True
 
     def samples(self, route: Route, count: int) -> Array:
-        """Return samples (m - 1, count + 1, 3) of the legs of a route."""
+        """Return samples (m - 1, count + 1, 3) of the legs of a route, metres."""
         if self.tangents is None:
             return paths.rounded(route.position, route.curve, count)
         return paths.through(route.position, route.stops, self.tangents, count, cut=self.cut)
 
     def cubics(self, route: Route) -> Array:
-        """Return the Bernstein control points (k, 4, 3) of all its curves, in order."""
+        """Return the Bernstein control points (k, 4, 3) of all its curves in order, metres."""
         if self.tangents is None:
             return paths.corners(route.position, route.curve).reshape(-1, 4, 3)
         return paths.cubics(route.position, route.stops, self.tangents, cut=self.cut)
@@ -52,7 +52,11 @@ class CurveModel:
 
 @dataclass(frozen=True, slots=True)
 class AngleRamps:
-    """How angles go from one point to the next: ramps in m/s^2; by time, or by way."""
+    """How angles change from one point to the next.
+
+    ramp : acceleration of the drone, m/s^2
+    by_time : whether angles are linear in time, else in path length
+    """
 
     ramp: float
     by_time: bool
@@ -72,19 +76,20 @@ SPLINES: dict[str, paths.Tangents] = {
     "a natural cubic spline": paths.natural,
     **{f"Bezier curves with handles of {share:g} legs": paths.handles(share) for share in (0.2, 0.4, 0.6)},
 }
-"""Curves that machines of DJI may fly through points, in words."""
+"""Curves that DJI machines may fly through points, by name."""
 _STRAIGHT = CurveModel(paths.straight)
 CURVED = (*(CurveModel(t, cut) for t, cut in product(SPLINES.values(), (True, False))), _STRAIGHT)
-"""Curves through the points, as DJI's machines may fly them."""
+"""The curve models of DJI's machines."""
 ROUNDED = (CurveModel(), _STRAIGHT)
-"""Straight legs with rounded corners, as Litchi flies them."""
+"""The curve models of Litchi: straight legs with rounded corners, or without."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Legs:
-    """Samples of every leg of a route.
+    """Samples of all legs of a route.
 
-    position : (m - 1, k + 1, 3); way : (m - 1, k + 1), metres from the leg's beginning
+    position : (m - 1, k + 1, 3), metres
+    way : (m - 1, k + 1), metres from the leg's beginning
     """
 
     position: Array
@@ -92,7 +97,7 @@ class Legs:
 
     @property
     def share(self) -> Array:
-        """Progress on each leg, 0 to 1."""
+        """Progress on each leg, 0 to 1, (m - 1, k + 1)."""
         return self.way / np.maximum(self.way[:, -1:], paths.SHORT)
 
 
@@ -104,9 +109,9 @@ def legs_of(route: Route, shape: CurveModel, count: int = SAMPLES) -> Legs:
 
 
 def times_of(route: Route, legs: Legs, ramp: float) -> Array:
-    """Return the seconds since each leg's beginning, (m - 1, k + 1): at its speed, with ramps between speeds.
+    """Return the seconds since each leg's beginning, (m - 1, k + 1), with speed ramps of ``ramp`` m/s^2.
 
-    A machine brakes before it stops, and changes from one speed to the next behind the point.
+    A machine brakes before it stops, and changes from one speed to the next after the point.
     """
     length = legs.way[:, -1]
     goal = np.maximum(route.speed[:-1], SLOWEST)
@@ -129,16 +134,17 @@ def times_of(route: Route, legs: Legs, ramp: float) -> Array:
 
 
 def turned(route: Route, legs: Legs, times: Array, turning: AngleRamps) -> Array:
-    """Return the share of its turn that each sample of a leg has made, (m - 1, k + 1)."""
+    """Return the share of its turn at each sample of a leg, (m - 1, k + 1)."""
     if not turning.by_time:
         return legs.share
     return np.asarray(times / np.maximum(times[:, -1:], paths.SHORT))
 
 
 def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = None) -> ReflownSamples:
-    """Return the flight over the legs, stays included; camera and body have one yaw, no gimbal pans here.
+    """Return the flight over the legs with stays; camera and body have the same yaw, because gimbals do not
+    pan here.
 
-    lens : what zooms are of, at once; None where there are none
+    lens : lens of the zooms, which take no time; None if there are none
     """
     times = times_of(route, legs, turning.ramp)
     share = turned(route, legs, times, turning)
@@ -166,7 +172,7 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
 
 
 def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
-    """Return rows of position, yaw, pitch, way and time of a stay at a point."""
+    """Return the rows of a stay at a point: position, yaw, pitch, path length and time."""
     time = np.linspace(0.0, seconds, max(2, int(seconds / STAY_STEP)) + 1)
     place = legs.position[i, 0] if i < len(legs.position) else legs.position[-1, -1]
     ones = np.ones(len(time))
@@ -176,7 +182,7 @@ def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
 
 
 def _stamped(rows: Array, part: float, way: float, now: float, hfov: float) -> Array:
-    """Return rows with progress and time counted on, the part of the film, and the field of view."""
+    """Return rows with accumulated progress and time, the number of the part, and the field of view."""
     counted = rows.copy()
     counted[:, 5] += way
     counted[:, 6] += now

@@ -1,7 +1,8 @@
-"""Ways through waypoints, as machines fly them that keep their curves to themselves.
+"""Paths through waypoints of machines whose curves are not published.
 
-Every leg, the way from one point to the next, is sampled alike. DJI says "third-order Bezier curve" and no
-more; its flights look like a centripetal Catmull-Rom spline. Litchi rounds corners by a quadratic Bezier.
+Every leg, from one point to the next, has the same number of samples. DJI states only "third-order Bezier
+curve"; its flights look like a centripetal Catmull-Rom spline. Litchi rounds corners with a quadratic Bezier
+curve.
 """
 
 from __future__ import annotations
@@ -20,13 +21,14 @@ Mask = NDArray[np.bool_]
 Tangents = Callable[[Array], tuple[Array, Array]]
 """From points (m, 3) to the handles of each leg, (m - 1, 3) each: from its start, and back from its end."""
 
-SHORT = 1e-9  # metres, instead of a length that is none
+SHORT = 1e-9  # metres, in place of a length of zero
 
 
 def through(points: Array, stops: Mask, tangents: Tangents, count: int, *, cut: bool) -> Array:
-    """Return samples (m - 1, count + 1, 3) of the cubics through points (m, 3).
+    """Return samples (m - 1, count + 1, 3) of the cubics through points (m, 3), metres.
 
-    stops : (m,), where the machine stands still; cut : whether the curve begins anew there
+    stops : (m,), whether the machine stands still at a point
+    cut : whether the curve begins anew at a stop
     """
     ctrl = cubics(points, stops, tangents, cut=cut)
     basis = bernstein_basis(3, np.linspace(0.0, 1.0, count + 1))
@@ -47,15 +49,16 @@ def cubics(points: Array, stops: Mask, tangents: Tangents, *, cut: bool) -> Arra
 
 
 def straight(points: Array) -> tuple[Array, Array]:
-    """Return the handles of straight legs."""
+    """Return the handles of straight legs, (m - 1, 3) each, for points (m, 3)."""
     third = np.diff(points, axis=0) / 3
     return third, third
 
 
 def catmull_rom(alpha: float) -> Tangents:
-    """Return Catmull-Rom tangents; alpha : 0 uniform, 0.5 centripetal, 1 chordal. End points are mirrored.
+    """Return Catmull-Rom tangents (Yuksel, Schaefer and Keyser, "Parameterization and applications of
+    Catmull-Rom curves", 2011). End points are mirrored.
 
-    Yuksel, Schaefer and Keyser, "Parameterization and applications of Catmull-Rom curves", 2011.
+    alpha : 0 uniform, 0.5 centripetal, 1 chordal
     """
 
     def tangents(points: Array) -> tuple[Array, Array]:
@@ -71,7 +74,9 @@ def catmull_rom(alpha: float) -> Tangents:
 
 
 def handles(share: float) -> Tangents:
-    """Return handles along the chord between a point's neighbours, ``share`` of the leg long."""
+    """Return tangents parallel to the chord between a point's neighbours, with handles of ``share`` of the
+    leg.
+    """
 
     def tangents(points: Array) -> tuple[Array, Array]:
         way = np.diff(points, axis=0)
@@ -84,7 +89,7 @@ def handles(share: float) -> Tangents:
 
 
 def natural(points: Array) -> tuple[Array, Array]:
-    """Return the handles of the natural cubic spline over the length of the chords."""
+    """Return the handles of the natural cubic spline parameterised by chord length, for points (m, 3)."""
     way = np.diff(points, axis=0)
     span = np.maximum(np.linalg.norm(way, axis=1), SHORT)
     count = len(points)
@@ -101,10 +106,11 @@ def natural(points: Array) -> tuple[Array, Array]:
 
 
 def rounded(points: Array, sizes: Array, count: int) -> Array:
-    """Return samples (m - 1, count + 1, 3) of straight legs whose corners are quadratic Bezier curves.
+    """Return samples (m - 1, count + 1, 3) of straight legs with quadratic Bezier curves at the corners.
 
-    sizes : (m,), metres from an inner point to where its curve begins and ends; a leg begins and ends at the
-        middle of a curve, so none goes through its inner points
+    A leg begins and ends at the middle of a curve, so it does not pass through its inner points.
+
+    sizes : (m,), metres from an inner point to both ends of its curve
     """
     ctrl, bend = corners(points, sizes), count // 8
     bent = bernstein_basis(3, np.linspace(0.0, 1.0, bend + 1))
@@ -130,6 +136,6 @@ def corners(points: Array, sizes: Array) -> Array:
 
 
 def _raised(quadratic: Array) -> Array:
-    """Return the control points (m, 4, 3) of quadratics (m, 3, 3) as cubics."""
+    """Return quadratics (m, 3, 3) as cubics (m, 4, 3)."""
     a, b, c = quadratic[:, 0], quadratic[:, 1], quadratic[:, 2]
     return np.stack([a, (a + 2 * b) / 3, (2 * b + c) / 3, c], axis=1)

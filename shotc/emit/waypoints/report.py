@@ -1,4 +1,6 @@
-"""What emitters of waypoints tell: what a format cannot carry, why nothing is written, and what it adds."""
+"""Notes and warnings of the waypoint emitters: what a format cannot carry, why no file is
+written, its error.
+"""
 
 from __future__ import annotations
 
@@ -25,20 +27,20 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least, exposure
 
 ZOOM_LEAST = np.radians(0.1)
-PROMISED = "E122"  # of a zoom that is not carried where framing is promised
+PROMISED = "E122"  # for a zoom that is not carried although the shot promises its framing
 UNKNOWN_LENS = (
     "say what the camera carries, as `camera: {zoom: [24 mm, 70 mm]}`, or film the shot with the field of"
     " view of the drone"
 )
 OTHER_LENS = "film the shot with the field of view of the drone, or zoom by hand"
 UNPROMISED = ", and remove its `require`: no file can promise a zoom by hand"
-TURN_LEAST = np.radians(1.0)  # of a camera on a drone that stands
+TURN_LEAST = np.radians(1.0)  # turn of the camera while the drone stands, above which it is mentioned
 FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
-"""What the files of an emitter are called."""
+"""Names of the emitters' files."""
 
 
 def no_origin(mission: MissionIR, emitter: str) -> Diagnostic:
-    """Say that there is no place on the globe to write down."""
+    """Return the warning that the mission has no origin, so that there are no files."""
     return Diagnostic(
         "E101",
         f"the {FILES[emitter]} files are skipped: the mission has no world.origin",
@@ -51,7 +53,7 @@ def no_origin(mission: MissionIR, emitter: str) -> Diagnostic:
 def fleetless(
     mission: MissionIR, fleets: tuple[FleetTrajectory, ...], emitter: str
 ) -> tuple[Diagnostic, ...]:
-    """Say once that fleets get no mission files; nothing without fleets, or where they get show files."""
+    """Return one warning that fleets get no mission files; none without fleets or if they get show files."""
     if not fleets or "skyc" in mission.emit:
         return ()
     names = ", ".join(f"`{track.fleet}` ({len(track.coef)} drones)" for track in fleets)
@@ -67,7 +69,7 @@ def fleetless(
 
 
 class FlownHere(NamedTuple):
-    """The flights of machines that take some files; notes and diagnostics of the others."""
+    """The flights of machines that take some files, and notes and diagnostics on the others."""
 
     flights: list[DroneTrajectory]
     notes: list[str]
@@ -77,9 +79,9 @@ class FlownHere(NamedTuple):
 def flown_here(
     mission: MissionIR, flights: tuple[DroneTrajectory, ...], emitter: str, machines: tuple[Autopilot, ...]
 ) -> FlownHere:
-    """Return the flights of machines that take these files, and what is told of the others.
+    """Return the flights of machines that take these files, with notes and warnings on the others.
 
-    That is a note where some of the mission's drones take them, and a warning for each drone where none does.
+    There is a note if some of the mission's drones take them, and a warning for each drone if none does.
     """
     here = [f for f in flights if mission.drone(f.drone).autopilot in machines]
     others = [mission.drone(f.drone) for f in flights if mission.drone(f.drone).autopilot not in machines]
@@ -101,7 +103,7 @@ def _not_flown(mission: MissionIR, drone: Drone, emitter: str, machines: tuple[A
 
 
 def without_waypoints(mission: MissionIR, flights: tuple[DroneTrajectory, ...]) -> tuple[Diagnostic, ...]:
-    """Say which drones fly no waypoints by themselves, so that an app has to steer them."""
+    """Return the warnings on drones that cannot fly waypoints by themselves, so that an app steers them."""
     drones = [mission.drone(f.drone) for f in flights]
     return tuple(
         Diagnostic(
@@ -117,10 +119,10 @@ def without_waypoints(mission: MissionIR, flights: tuple[DroneTrajectory, ...]) 
 
 
 def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
-    """Say which shots are not filmed with the lens as it stands, for files that change no field of view.
+    """Return warnings on shots whose field of view a file without zoom does not carry.
 
-    It is an error, and no file is to be written, where the shot promises its framing and the edge of the
-    picture is off by more than files may add.
+    The warning becomes an error, and no file is written, if the shot promises its framing and the picture's
+    edge shifts by more than files may add.
     """
     drone = mission.drone(flight.drone)
     out: list[Diagnostic] = []
@@ -162,7 +164,7 @@ def _promises(shot: Shot) -> bool:
 def beyond(
     mission: MissionIR, flight: DroneTrajectory, track: SampledFlight, error: Error
 ) -> list[Diagnostic]:
-    """Say which shots a file shows otherwise than the plan, and why."""
+    """Return warnings on shots that a file shows differently from the plan, with the reason."""
     out: list[Diagnostic] = []
     for each in error.shots:
         if max(each.worst, each.edge) <= WORST and each.mean <= MEAN:
@@ -187,7 +189,7 @@ def beyond(
 
 
 def _why(track: SampledFlight, each: ShotError) -> tuple[str, str]:
-    """Return why a shot is shown otherwise, and what to do."""
+    """Return the reason for a shot's difference from the plan, and a remedy."""
     for stretch in track.stretches:
         part = slice(stretch.first, stretch.last + 1)
         turn = max(np.ptp(track.poses.cam_yaw[part]), np.ptp(track.poses.cam_pitch[part]))
@@ -206,7 +208,7 @@ def _why(track: SampledFlight, each: ShotError) -> tuple[str, str]:
 def drifts(
     mission: MissionIR, flight: DroneTrajectory, track: SampledFlight, error: Error
 ) -> list[Diagnostic]:
-    """Say how far a moving target is away from where it is filmed: these files have no clock."""
+    """Return warnings on the motion of moving targets during the lag of a file without clock."""
     out: list[Diagnostic] = []
     for each in error.shots:
         names = dict.fromkeys(r.target for r in flight.framing if r.shot == each.shot)
@@ -235,7 +237,7 @@ def drifts(
 
 
 def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: float) -> Diagnostic:
-    """Say that a file would be flown too near to something, and is not written."""
+    """Return the error that a file comes too near to an obstacle, so that it is not written."""
     return Diagnostic(
         "E119",
         f"no file is written for {drone.name}: its curve comes {at_least(depth)} m too near to {owner.words}",
@@ -249,9 +251,9 @@ def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: f
 
 
 def meets(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> Diagnostic:
-    """Say that two drones would meet, were they not where they are in time, and get no files.
+    """Return the error that only timing keeps two drones apart, so that they get no files.
 
-    flown : the drones that these files are for, one of the two at least
+    flown : drones of these files, at least one of the two
     """
     refused = " and ".join(name for name in meeting.names if name in flown)
     return Diagnostic(
@@ -268,7 +270,7 @@ def meets(mission: MissionIR, meeting: WaysTooNear, flown: Collection[str]) -> D
 
 
 def notes(drone: Drone, files: list[str], count: int, error: Error, models: int) -> list[str]:
-    """Return the lines that say what a drone's files are worth."""
+    """Return the notes on the error of a drone's files."""
     named = ", ".join(files)
     text = f"{drone.autopilot} {named}: {count} waypoints, position within {at_least(error.position)} m"
     if not error.shot:
@@ -282,12 +284,13 @@ def notes(drone: Drone, files: list[str], count: int, error: Error, models: int)
 
 
 def zoomed_to(error: Error) -> str:
-    """Return what the steps of a zoom do to the picture, nothing where there are none."""
+    """Return the text on the error of zoom steps; "" without zoom."""
     return f"; the edge of the picture zooms to within {at_least(error.edge, 3)}" if error.edge > 0 else ""
 
 
 def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
-    """Return what of the exposure the pilot sets: no mission file says it in a way that cameras agree on.
+    """Return the note on exposure settings for the pilot, because no mission file states them in a common
+    way.
 
     focuses : whether the file commands the focus
     """
@@ -304,7 +307,10 @@ def by_hand(drone: Drone, *, focuses: bool = False) -> list[str]:
 def filmed_instead(
     mission: MissionIR, flight: DroneTrajectory, emitter: str, taken: Collection[str]
 ) -> list[Diagnostic]:
-    """Say which shots are films in these files, though photos are asked for; taken : those with photos."""
+    """Return warnings on shots that the files film although the mission asks for photos.
+
+    taken : shots with photos
+    """
     flown = [mission.shot(phase.shot) for phase in flight.phases if phase.shot is not None]
     return [
         Diagnostic(
@@ -320,7 +326,7 @@ def filmed_instead(
 
 
 def no_rally(mission: MissionIR, drone: Drone, emitter: str) -> Diagnostic:
-    """Say that a format has no rally points."""
+    """Return the warning that a format has no rally points."""
     assert drone.safety is not None
     count = len(drone.safety.rally)
     return Diagnostic(

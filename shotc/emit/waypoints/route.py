@@ -16,10 +16,11 @@ Array = NDArray[np.float64]
 
 
 class PointAction(NamedTuple):
-    """What is done at a point: recording starts or stops, the drone stays some seconds, or the lens zooms.
+    """An action at a point: recording starts or stops, the drone stays, or the lens zooms.
 
-    focal : focal length to zoom to, mm, as the lens counts them
-    photos : what starts or stops in place of a film, or None
+    seconds : duration of a stay
+    focal : focal length to zoom to, mm, in the lens's own units
+    photos : photos that start or stop instead of a film, or None
     """
 
     kind: Literal["start", "stop", "stay", "zoom"]
@@ -32,10 +33,13 @@ class PointAction(NamedTuple):
 class Waypoint:
     """One point of a file.
 
-    heading : of the camera, degrees clockwise from North in [-180, 180); pitch : degrees, negative looks down
-    speed : of the leg that begins here, m/s; stops : whether the drone stands still here
-    actions : in their order; curve : metres from here to where a corner is rounded, for machines that do
-    watched : the centre of the target that stands and that the camera looks straight at, if there is one
+    heading : of the camera, degrees clockwise from North in [-180, 180)
+    pitch : of the camera, degrees, negative looks down
+    speed : of the leg that begins here, m/s
+    stops : whether the drone stands still here
+    actions : in their order
+    curve : metres from here to the ends of a rounded corner, for machines that round corners
+    watched : centre of the standing target that the camera looks straight at, if there is one
     """
 
     place: GeoPosition
@@ -50,10 +54,13 @@ class Waypoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Route:
-    """Waypoints as arrays in W, a row each.
+    """Waypoints as arrays in W, with a row each.
 
-    position : (m, 3), m; yaw, pitch : (m,), rad, yaw without jumps, each turn the shortest
-    speed : (m,), m/s; stops : (m,); curve : (m,), m
+    position : (m, 3), metres
+    yaw, pitch : (m,), rad; yaw is unwrapped, each turn being the shortest
+    speed : (m,), m/s
+    stops : (m,)
+    curve : (m,), metres
     actions : of each point
     """
 
@@ -67,7 +74,7 @@ class Route:
 
 
 def route_of(points: list[Waypoint], geo: Geo) -> Route:
-    """Return waypoints, as read from a file, in W."""
+    """Return the route of waypoints that were read from a file."""
     return Route(
         np.array([geo.point(p.place) for p in points]),
         np.unwrap([yaw_of(float(np.radians(p.heading))) for p in points]),

@@ -1,4 +1,6 @@
-"""Where a route has to have a point: at the ends of shots and ways, and where the plan stands still."""
+"""The points that a route needs: the ends of shots and transits, and the places where the plan
+stands still.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,8 @@ from shotc.ir.photos import Photos
 Array = NDArray[np.float64]
 
 LEG_LEAST = 0.7  # metres between neighbouring points; DJI's older machines refuse 0.5
-SETTLE = 1.0  # seconds at most of a stay that is not filmed: without a clock nobody waits for anything
-STAY_LEAST = 0.1  # seconds; a stay of 0 makes DJI's machines refuse the file
+SETTLE = 1.0  # seconds of an unfilmed stay at most; without a clock, waiting has no use
+STAY_LEAST = 0.1  # seconds; DJI's machines refuse a file with a stay of 0
 STANDSTILL = 0.05  # m/s
 
 
@@ -24,8 +26,8 @@ STANDSTILL = 0.05  # m/s
 class Station:
     """A point of a route.
 
-    first, last : samples of the track between which the plan stands here; the same where it does not
-    aim : the sample whose camera angles the point has, None for the middle of those between first and last
+    first, last : samples of the track between which the plan stands here; equal if it does not stand
+    aim : sample whose camera angles the point has; None for the middle of the angles from first to last
     """
 
     first: int
@@ -37,7 +39,7 @@ class Station:
 
 @dataclass(frozen=True, slots=True)
 class StationInterval:
-    """The way between two stations, ``first`` to ``last`` of the track."""
+    """The part of the track between two stations, from sample ``first`` to ``last``."""
 
     first: int
     last: int
@@ -50,11 +52,13 @@ def stations_of(
     stay: Callable[[SampleRange], list[PointAction]] | None = None,
     photos: Mapping[str, Photos] | None = None,
 ) -> tuple[list[Station], list[StationInterval]]:
-    """Return the stations that a track needs, and the gap after each but the last.
+    """Return the stations that a track needs, and the gaps between them.
 
-    way : (n,), metres flown before each sample; stay : what is done in a filmed one, if more than to stay
-    photos : of the shots that take some in place of a film
-    A stretch too short for two points is a stay at the first of them.
+    A stretch too short for two points becomes a stay at the first of them.
+
+    way : (n,), metres flown before each sample
+    stay : gives the actions of a filmed stay; None for a plain stay
+    photos : photo settings of the shots that take photos instead of a film
     """
     groups, gaps = _grouped(track, way)
     shot: str | None = None
@@ -115,7 +119,7 @@ def _aim(
     first: int,
     last: int,
 ) -> int | None:
-    """Return the sample whose angles serve what is filmed: the way on, the way here, or the stay itself."""
+    """Return the sample whose angles suit what is filmed: the next leg, the last leg, or the stay itself."""
     if after is not None and after.shot is not None:
         return last
     if before is not None and before.shot is not None:
@@ -131,7 +135,7 @@ def _changed(before: str | None, after: str | None, photos: Mapping[str, Photos]
 
 
 def _speed(track: SampledFlight, index: int) -> float:
-    """Return the speed about a sample, the smaller of before and behind it, m/s."""
+    """Return the speed at a sample, m/s: the smaller of those before and after it."""
     low, high = max(index - 1, 0), min(index + 1, len(track.time) - 1)
     steps = np.linalg.norm(np.diff(track.poses.position[low : high + 1], axis=0), axis=1)
     times = np.diff(track.time[low : high + 1])

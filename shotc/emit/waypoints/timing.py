@@ -1,4 +1,4 @@
-"""Drones that would meet without a clock: places of two flights nearer to each other than the separation."""
+"""Pairs of drones that would collide without a clock, because their paths come nearer than the separation."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from shotc.ir.owners import target_owner
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clearances import Clearance
 
-TRACK_STEP_S = 0.5  # between places of a target that moves
-STEP = 0.5  # metres between places of a way; at 3 m that makes a distance 0.02 m too large at most
-LESS = 0.05  # metres of a separation that rounding may cost
+TRACK_STEP_S = 0.5  # seconds between positions of a moving target
+STEP = 0.5  # metres between positions of a path; at 3 m a distance is at most 0.02 m too large
+LESS = 0.05  # metres of a separation that rounding may take
 
 
 class WaysTooNear(NamedTuple):
-    """Two drones by name, and how near their ways come, m."""
+    """Two drones by name, and the distance of their paths, metres."""
 
     names: tuple[str, str]
     distance: float
@@ -33,10 +33,10 @@ class WaysTooNear(NamedTuple):
 def kept_apart_by_time(
     mission: MissionIR, ways: dict[str, Array], others: Sequence[DroneTrajectory]
 ) -> list[WaysTooNear]:
-    """Return the pairs of drones whose ways come nearer than the separation, whenever they are there.
+    """Return the pairs of drones whose paths come nearer than the separation, at whatever times.
 
-    ways : places (n, 3) of each drone without a clock; those above its pad are added
-    others : the flights of drones that other machines fly; pairs of these are none
+    ways : positions (n, 3) of each drone without a clock, metres; those above its pad are added
+    others : flights of drones with a clock; pairs of these are not examined
     """
     trees = {
         name: cKDTree(np.concatenate([way, *_columns(mission, name, way)])) for name, way in ways.items()
@@ -53,7 +53,9 @@ def kept_apart_by_time(
 
 
 def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str) -> float:
-    """Return by how much a way (n, 3) is too near to a moving target, wherever that is in the flight, m."""
+    """Return the missing clearance of a path (n, 3) from a moving target, wherever it is on its track,
+    metres.
+    """
     target, drone = mission.target(name), mission.drone(flight.drone)
     metres = mission.rules.beside_target(drone.radius)
     times = np.arange(flight.curve.start, flight.curve.end + TRACK_STEP_S, TRACK_STEP_S)
@@ -62,19 +64,19 @@ def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str)
 
 
 def evenly(way: Array) -> Array:
-    """Return places (k, 3) every STEP along a way given by places (n, 3), its ends among them."""
+    """Return positions (k, 3) every STEP along a path through positions (n, 3), both ends included."""
     done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1)))
     at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP) + 1))
     return np.stack([np.interp(at, done, axis) for axis in way.T], axis=1)
 
 
 def _places(flight: DroneTrajectory) -> Array:
-    """Return the places of a flight from pad to pad, (n, 3)."""
+    """Return the positions of a flight from pad to pad, (n, 3)."""
     curve = flight.curve
     return curve(np.arange(curve.start, curve.end + SAMPLE_STEP, SAMPLE_STEP))[:, :3]
 
 
 def _columns(mission: MissionIR, name: str, way: Array) -> list[Array]:
-    """Return places between the pad and the first and the last place of a way."""
+    """Return positions between the pad and both ends of a path, (k, 3) each."""
     home = np.array(mission.drone(name).home)
     return [evenly(np.stack([home, end])) for end in (way[0], way[-1])]

@@ -1,7 +1,7 @@
-"""A drone's verified trajectory as samples, cut into the stretches that a flight plan must honour.
+"""A drone's verified trajectory as samples, divided into the stretches that a flight plan must keep.
 
-A stretch is (part of) one phase between take-off and landing, either moving or at rest; waypoints
-stand at its two ends, and thinning chooses those between.
+A stretch is a part of one phase between take-off and landing, either moving or at rest. Waypoints stand at
+its two ends, and thinning chooses those in between.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-SAMPLE_STEP = 0.1  # seconds; at 10 m/s and 3 m/s^2 the curve leaves its samples' chords by 4 mm
-REST_SPREAD = 1e-4  # metres of control points within which a piece stands still
+SAMPLE_STEP = 0.1  # seconds; at 10 m/s and 3 m/s^2 the curve deviates from its samples' chords by 4 mm
+REST_SPREAD = 1e-4  # metres, extent of the control points of a piece that stands still
 REST_LEAST = 0.25  # seconds; a shorter standstill is a turning point of the motion, not a hold
-LOST = 9.0  # half frames, of what a re-flight has behind the camera
-FAR = 1e4  # metres to the point that stands for "straight ahead" where nothing is framed
+LOST = 9.0  # half frames, the screen error of a subject behind the re-flown camera
+FAR = 1e4  # metres to the point straight ahead that is watched where nothing is framed
 
 
 @dataclass(frozen=True, slots=True)
 class SampleRange:
-    """Samples ``first`` to ``last`` of one phase; ``rest`` where the drone stands still."""
+    """Samples ``first`` to ``last`` of one phase; ``rest`` if the drone stands still."""
 
     first: int
     last: int
@@ -43,7 +43,7 @@ class SampleRange:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Poses:
-    """Camera poses: position (n, 3) in W; angles and field of view (n,), rad."""
+    """Camera poses: position (n, 3) in W, metres; angles and field of view (n,), rad."""
 
     position: Array
     body_yaw: Array
@@ -56,7 +56,8 @@ class Poses:
 class SampledFlight:
     """Samples of one drone's flight from the end of take-off to the start of landing.
 
-    time : (n,), s; subject : point of W that is watched, shape (n, 3)
+    time : (n,), seconds
+    subject : watched point in W at each sample, metres, (n, 3)
     start_yaw : body yaw on the pad before the flight, rad
     """
 
@@ -68,13 +69,13 @@ class SampledFlight:
 
 
 def poses_at(flight: DroneTrajectory, time: Array) -> Poses:
-    """Return the planned camera poses at mission times, shape (n,)."""
+    """Return the planned camera poses at mission times (n,), seconds."""
     value = flight.curve(time)
     return Poses(value[:, :3], value[:, BODY_YAW], value[:, CAM_YAW], value[:, CAM_PITCH], value[:, HFOV])
 
 
 def track_of(mission: MissionIR, flight: DroneTrajectory) -> SampledFlight:
-    """Sample a drone's flight between take-off and landing."""
+    """Return the samples of a drone's flight between take-off and landing."""
     spans = _spans(flight)
     begin = spans[0][0] if spans else flight.phases[0].end
     times: list[Array] = [np.array([begin])]
@@ -92,7 +93,9 @@ def track_of(mission: MissionIR, flight: DroneTrajectory) -> SampledFlight:
 
 
 def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: Poses) -> Array:
-    """Return the point watched at each time, (n, 3): the framed target's centre, else straight ahead."""
+    """Return the watched point at each time, (n, 3), metres: the framed target's centre, else
+    straight ahead.
+    """
     level = np.cos(poses.cam_pitch)
     ahead = [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)]
     subject: Array = poses.position + FAR * np.stack(ahead, axis=1)
@@ -104,7 +107,9 @@ def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: 
 
 
 def project(poses: Poses, subject: Array, drone: Drone) -> Array:
-    """Return the screen place (u, v) of a point seen from each pose, shape (n, 2); NaN behind the camera."""
+    """Return the screen position (u, v) of points (n, 3) seen from poses (n,), shape (n, 2); NaN behind the
+    camera.
+    """
     half = np.tan(poses.hfov / 2)
     camera = View(
         np.cos(poses.cam_yaw),
