@@ -2,8 +2,9 @@
 
 The flight geography is the hull of the control points, which contains the curves at every instant. The margin
 around it is the sum of what an operator usually accounts for: position errors, a second of reaction, and the
-stopping distance. The ground risk buffer is as wide as the volume is high (1:1). The constants are assumptions
-of this module and do not come from an authority's text. The margins are a proposal; the authority decides.
+stopping distance. The ground risk buffer is as wide as the volume is high (1:1). The constants are
+assumptions of this module and do not come from an authority's text. The margins are a proposal; the authority
+decides.
 """
 
 from __future__ import annotations
