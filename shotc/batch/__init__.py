@@ -1,1 +1,1 @@
-"""Many missions, each planned as `shotc plan` plans one; a batch that is stopped goes on from there."""
+"""Plans many missions, each as `shotc plan` does; a batch that was stopped resumes where it stopped."""

@@ -1,7 +1,7 @@
-"""Missions of a batch that are planned while others are not: a batch that is killed goes on from there.
+"""Progress file of a batch: it records finished missions, so that a batch that was killed can resume.
 
-An entry that belongs to another text, another version or other options is passed over, and so is one of whose
-files any has changed since. The file goes when the batch is finished.
+An entry is ignored if it belongs to another text, another version or other options, or if any of its files
+has changed since. The file is deleted when the batch is finished.
 """
 
 from __future__ import annotations
@@ -23,21 +23,24 @@ NAME = "plan.unfinished.jsonl"
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """The missions of a batch that are planned."""
+    """The record of a batch's finished missions."""
 
     file: ProgressFile
 
     @staticmethod
     def of(root: Path) -> Record:
-        """Return what is kept in the folder of the folders of all missions."""
+        """Return the record in a folder.
+
+        root : the folder that holds the folders of all missions
+        """
         return Record(ProgressFile(root / NAME))
 
     def done(self) -> dict[str, dict[str, Any]]:
-        """Return what is kept, by the key of its job."""
+        """Return the recorded entries by the key of their job."""
         return {entry["key"]: entry for entry in self.file.entries()}
 
     def add(self, job: Job, made: Planned) -> None:
-        """Keep a mission whose files are written."""
+        """Record a mission whose files are written."""
         entry = {
             "outcome": made.outcome._asdict(),
             "read": made.read,
@@ -54,7 +57,7 @@ def _sha256(artifact: Artifact) -> str:
 
 
 def key_of(job: Job) -> str:
-    """Return what tells a job from all others: its text, the version and all options."""
+    """Return the key of a job: a hash of its text, the version and all options."""
     options = job.options
     chosen = (options.refiner, options.deadline, options.autopilot, options.seed, options.headings)
     told = repr((__version__, job.name, str(job.folder), chosen, job.emitters))
@@ -62,9 +65,10 @@ def key_of(job: Job) -> str:
 
 
 def still_true(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | None:
-    """Return what came of a job before, or None where it has to be planned again.
+    """Return the recorded outcome of a job; None if the job has to be planned again.
 
-    entry : of ``Record.done``; root : of the folders of all missions
+    entry : one of ``Record.done``
+    root : the folder that holds the folders of all missions
     """
     with suppress(OSError, KeyError, TypeError, ValueError):
         outcome = MissionOutcome(**entry["outcome"])
@@ -76,7 +80,10 @@ def still_true(job: Job, entry: dict[str, Any], root: Path) -> MissionOutcome | 
 
 
 def folder_of(outcome: MissionOutcome, root: Path) -> Path:
-    """Return the folder for the files of a mission; root : of the folders of all missions."""
+    """Return the folder for the files of a mission.
+
+    root : the folder that holds the folders of all missions
+    """
     return root / file_name(outcome.mission or "")
 
 

@@ -1,4 +1,4 @@
-"""One mission of many: planned in whichever process, with what is printed and written of it."""
+"""One mission of a batch, planned in any process, with its outcome and its files."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ if TYPE_CHECKING:  # the base install has no numpy
 
 
 class Job(NamedTuple):
-    """A mission and how to plan it; it is pickled.
+    """A mission and its options; it can be pickled.
 
-    name : how the file is shown; folder : of the files that it names, absolute
-    emitters : None means those that the mission asks for
+    name : the file's name in messages
+    folder : absolute path of the folder of the files that the mission names
+    emitters : names of emitters; None for those that the mission asks for
     """
 
     data: bytes
@@ -32,10 +33,12 @@ class Job(NamedTuple):
 
 
 class MissionOutcome(NamedTuple):
-    """What came of a mission, in one row.
+    """The outcome of a mission, as one row.
 
-    name : of its file; mission : its name, None where the file says none
-    in_the_air : from the first take-off to the last landing, s; proved : number of claims
+    name : of its file
+    mission : its name; None if the file has none
+    in_the_air : from the first take-off to the last landing, seconds
+    proved : number of claims
     """
 
     name: str
@@ -47,10 +50,10 @@ class MissionOutcome(NamedTuple):
 
 
 class Planned(NamedTuple):
-    """A mission that was planned, or why not.
+    """The result of planning a mission.
 
-    artifacts : none where an error rejects the mission
-    read : (name, SHA-256, hexadecimal) of all files that it names
+    artifacts : empty if an error rejects the mission
+    read : (name, SHA-256 in hexadecimal) of all files that the mission names
     """
 
     outcome: MissionOutcome
@@ -61,7 +64,7 @@ class Planned(NamedTuple):
 
 
 def planned(job: Job) -> Planned:
-    """Plan a mission and make its files."""
+    """Return the plan's files of a job's mission, or the errors."""
     done = compile_source(job.data, job.name, job.folder, job.options)
     if done.plan is None:
         outcome = _outcome(job, done.mission, None, done.diagnostics)

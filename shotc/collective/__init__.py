@@ -1,33 +1,34 @@
-"""Collective return: from every stated time of a show all drones come home, and nobody comes too near.
+"""Collective return: a safe way home for all drones of a show from every stated time.
 
-Whoever calls a show off wants one command that is safe at any time. Each return has three parts, and what
-keeps the drones apart in each is a theorem:
+The person who stops a show wants one command that is safe at any time. Each return has three parts, and a
+theorem keeps the drones apart in each:
 
-1. They brake on their way (``braking``). All share one scaling of time, so they are only where the plan has
-   them, all together: nearest pairs, zones and the ground are those of the plan.
-2. From where they rest, in any formation whose drones are d apart, they go to the places over their pads.
-   Any two of its places, x_i and x_j, and their goals g_i and g_j, matched by least squares, have
-   (x_i - x_j).(g_i - g_j) >= 0, for else they would do better swapped. On straight lines or on arcs all share
-   the scalars a and b, and with r0, r1 the relative places of a pair before and after,
+1. They brake on their paths (``braking``). All share one scaling of time, so at each instant the whole fleet
+   is in a formation of the plan. The nearest pairs, zones and the ground are those of the plan.
+2. From the formation at rest, whose drones are at least d apart, they move to the places over their pads. Let
+   x_i and x_j be two places of the formation, and g_i and g_j their goals. If the matching has least squares,
+   (x_i - x_j).(g_i - g_j) >= 0, because otherwise a swap would be better. On straight lines or on arcs all
+   drones share the scalars a and b. With r0 and r1 the relative positions of a pair before and after,
 
        |p_i - p_j|^2 = a^2 |r0|^2 + b^2 |r1|^2 + 2 a b r0.r1 >= a^2 d0^2 + b^2 d1^2 >= d^2
 
-   outside the ellipse of ``show.geom.arcs``. That holds whatever the formation was: a picture, the middle of
-   a move, or a stretch of an animation. So a return exists from everywhere that has room for it.
-3. They come down straight onto their pads, as at the end of the show.
+   outside the ellipse of ``show.geom.arcs``. This holds for any formation: a picture, the middle of a move,
+   or a part of an animation. So a return exists from every place with enough free space.
+3. They descend vertically onto their pads, as at the end of the show.
 
-Where the way of part 2 has no room, as beside a mast, the fleet goes on to where it stops next and turns home
-there; where that has no room either, it goes back through all that it has flown, which is free of everything
-that stands, and lands where it took off. What has begun its way home as planned goes on.
+If part 2 has no free space, for example beside a mast, the fleet flies on to its next stop and returns from
+there. If there is no free space there either, it flies back through all that it has flown. This path is free
+of standing obstacles, and the drones land where they took off. A fleet that has already begun its planned
+return continues it.
 
-Where fleets, or groups of one, would meet on their ways, they choose in turn: each takes the first way that
-is clear of those before it, and stands for a while where it has come to rest, if no way is. Cameras that film
-the show go on as planned, and the fleets keep clear of them in the same way.
+If several fleets, or groups of one, would meet on their returns, they choose one after another. Each takes the
+first way home that is clear of those before it. If there is none, it waits for a while at its rest. Cameras
+that film the show continue as planned, and the fleets keep clear of them in the same way.
 
-None of this is trusted. Every return is a flight of its own, cubic B-splines as in a plan, and is proved as a
-plan is, at every instant: limits, zones, ground, targets, the nearest of all pairs (``geom.separation``), the
-pads, and the endurance; of several fleets each against each. Of the seconds in which a fleet stands the
-return is the same, and is proved once where no target moves.
+Verification does not rely on these theorems. Every return is a trajectory of its own, of cubic B-splines as in
+a plan, and is verified as a plan is, at every instant: limits, zones, ground, targets, the nearest of all
+pairs (``geom.separation``), the pads, and the endurance. Several fleets are verified pair by pair. While a
+fleet stands, its return is the same from every time; it is verified once if nothing around it moves or burns.
 """
 
 from __future__ import annotations
@@ -43,12 +44,15 @@ from shotc.ir.trajectory import Claim, TrajectoryIR, VerifiedIR
 from shotc.passes.verify.fleets.apart import between
 
 MOST_TURNS = 6
-"""Orders in which fleets are tried."""
+"""Most orders of fleets that are tried."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Return:
-    """The return of all fleets from one time, seconds; between : what is proved of fleets against fleets."""
+    """The return of all fleets from one time, seconds.
+
+    between : claims on pairs of fleets
+    """
 
     time: float
     fleets: tuple[FleetReturn, ...]
@@ -56,31 +60,30 @@ class Return:
 
     @property
     def holds(self) -> bool:
-        """Tell whether all of it can be flown."""
+        """Return whether all claims hold."""
         return not self.broken
 
     @property
     def broken(self) -> list[Claim]:
-        """Return what it breaks."""
+        """Return the claims that do not hold."""
         return [c for c in (*self.between, *(c for f in self.fleets for c in f.claims)) if not c.holds]
 
     @property
     def down(self) -> float:
-        """Return when the last drone has landed, seconds."""
+        """Return the time at which the last drone has landed, seconds."""
         return max(fleet.down for fleet in self.fleets)
 
     @property
     def nearest(self) -> Claim | None:
-        """Return the claim of the pair that comes nearest, for what it is to keep."""
+        """Return the claim on the nearest pair, relative to its separation."""
         apart = [c for c in self.between if c.drones]
         apart += [c for f in self.fleets for c in f.claims if c.constraint.startswith("separation")]
         return min(apart, key=lambda c: c.worst / c.limit, default=None)
 
 
 def collective_returns(plan: VerifiedIR, every: float, progress: Callable[[str], None]) -> list[Return]:
-    """Return how the fleets of a plan come home from every multiple of a time, from lift-off to landing.
-
-    every : seconds
+    """Return the returns of a plan's fleets from every multiple of ``every`` seconds, from lift-off to
+    landing.
     """
     ir = plan.trajectory
     homings = [Homing(ir, flight) for flight in ir.fleets]
@@ -103,9 +106,9 @@ def collective_returns(plan: VerifiedIR, every: float, progress: Callable[[str],
 def _in_turn(
     ir: TrajectoryIR, time: float, homings: list[Homing], first: tuple[FleetReturn, ...]
 ) -> tuple[FleetReturn, ...] | None:
-    """Return ways home on which fleets give way to each other, one after another; None where none are found.
+    """Return ways home of fleets that avoid each other, chosen one after another; None if none are found.
 
-    first : what each would fly if it were alone
+    first : the way home of each fleet if it were alone
     """
     for turns in islice(permutations(range(len(homings))), MOST_TURNS):
         placed: dict[int, FleetReturn] = {}
@@ -125,7 +128,7 @@ def _in_turn(
 
 
 def _choices(homing: Homing, time: float, first: FleetReturn) -> Iterator[FleetReturn]:
-    """Yield the ways home of a fleet that hold: at once, then after waiting where it has come to rest."""
+    """Yield the valid ways home of a fleet: first without waiting, then with waiting at rest."""
     yield first
     if first.track is None:
         return
@@ -151,7 +154,7 @@ def _clear(
 def _between(
     ir: TrajectoryIR, time: float, homings: list[Homing], fleets: tuple[FleetReturn, ...]
 ) -> list[Claim]:
-    """Claim the separation of every two fleets, all the way home."""
+    """Return the claims on the separation of every two fleets during the whole return."""
     if len(fleets) == 1:
         return []
     mission, claims = ir.keyframes.mission, []

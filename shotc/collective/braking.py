@@ -1,16 +1,18 @@
-"""Braking along the way that is flown: a fleet that comes to rest by one scaling of time that all share.
+"""Brakes a fleet on its planned paths with one scaling of time for all drones.
 
-From t0 on everybody is where the plan has it at time s(t), with s' from 1 down to 0: p_i(s(t)). So the whole
-fleet takes only positions that it takes in the plan, all of them together: what stands is as far away as in
-the plan and any two drones are as far apart, whatever way they are on: straight, on arcs, or pushed apart.
-Speeds are those of the plan times s' <= 1. Accelerations, p'' s'^2 + p' s'', and jerks are not, and decide
-how soon the fleet can rest. With u the share of the braking time D, s' = 1 - 3 u^2 + 2 u^3: it takes half
-its time of the plan.
+From t0 on each drone has its planned position at time s(t), where s' decreases from 1 to 0: p_i(s(t)). The
+whole fleet therefore takes only formations of the plan. Clearances and separations are those of the plan,
+whatever the paths are: straight lines, arcs, or paths pushed apart.
 
-The result is the cubic B-spline of ``geom.fleet_spline`` over even pieces of h seconds with control points
-q - h^2 q'' / 6, which is off q = p(s(t)) by terms of h^4 and meets place, velocity and acceleration at t0.
-Its control points are sums, with weights that all drones share, of places in the plan: on straight lines it
-is the same move with another share of the way. Nothing is taken for granted of it: it is proved as a plan is.
+Speeds are those of the plan times s' <= 1. Accelerations, p'' s'^2 + p' s'', and jerks may be larger than in
+the plan, and they determine how soon the fleet can rest. With u the share of the braking time D, s' = 1 - 3
+u^2 + 2 u^3; braking uses D / 2 of the plan's time.
+
+The result is the cubic B-spline of ``geom.fleet_spline`` over uniform pieces of h seconds with control points
+q - h^2 q'' / 6. It differs from q = p(s(t)) by terms of order h^4, and has the same position, velocity and
+acceleration at t0. Its control points are weighted sums of planned positions, with the same weights for all
+drones. On straight lines it is therefore the same move with another share of the path. None of this is
+assumed: the result is verified as a plan is.
 """
 
 from __future__ import annotations
@@ -28,26 +30,33 @@ from shotc.geom.fleet_spline import DEGREE, knots
 from shotc.ir.limits import Limits
 
 PIECE_S = 0.25
-"""Pieces of a braking fleet, at most, seconds."""
+"""Longest piece of a braking fleet, seconds."""
 LEAST_PIECES = 4
 DELAYS_S = (0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
-"""Seconds that the fleet goes on before it brakes, where that is sooner done than braking at once."""
+"""Seconds of flight before braking; a delay helps if the fleet can then brake faster."""
 BRAKING_S = (0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0)
 """Seconds of braking that are tried."""
 BUSIEST_TIMES = 12
-"""Instants at which the drones are found that are tried for all."""
+"""Sampled instants at which the most demanding drones are found."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rest:
-    """A fleet that comes to rest; breaks : (P + 1,), coef : (n, P + 3, 3), the last three equal."""
+    """The motion of a fleet until it rests.
+
+    breaks : (P + 1,), seconds
+    coef : (n, P + 3, 3), the last three control points equal
+    """
 
     breaks: Array
     coef: Array
 
 
 class FlightSpline:
-    """A planned flight that can be read at any time; breaks, coef : as of ``ir.fleet.FleetTrajectory``."""
+    """A planned flight that can be evaluated at any time.
+
+    breaks, coef : as in ``ir.fleet.FleetTrajectory``
+    """
 
     def __init__(self, breaks: Array, coef: Array) -> None:
         self._breaks = breaks
@@ -55,16 +64,17 @@ class FlightSpline:
         self._of_order = [spline, spline.derivative(1), spline.derivative(2)]
 
     def at(self, times: Array, order: int, rows: Array | slice = slice(None)) -> Array:
-        """Return places, or a derivative, of some drones at times of shape (T,), shape (n, T, 3)."""
+        """Return positions or a derivative of some drones at times (T,), shape (n, T, 3)."""
         at = np.clip(times, self._breaks[0], self._breaks[-1])
         spline = self._of_order[order]
         some = BSpline.construct_fast(spline.t, spline.c[:, rows], spline.k)
         return np.asarray(np.moveaxis(some(at), 0, 1))
 
     def braked(self, time: float, sooner: float, limits: Limits) -> Rest | None:
-        """Return how the fleet comes to rest first, from a time on; None where not before another time.
+        """Return the earliest rest of the fleet after a time; None if it is not before another time.
 
-        sooner : seconds of mission time by which the fleet rests in any case
+        time : from when on the fleet may brake, seconds
+        sooner : mission time at which the fleet rests anyway, seconds
         """
         busy = self._busiest(time, sooner)
         for delay, braking in _programmes(sooner - time):
@@ -75,7 +85,7 @@ class FlightSpline:
         return None
 
     def _spline(self, time: float, programme: tuple[float, float], rows: Array | slice) -> Rest:
-        """Return the spline of some drones that go on for so many seconds, and then brake for so many."""
+        """Return the spline of some drones with a programme of delay and braking time, seconds."""
         total = sum(programme)
         count = max(LEAST_PIECES, int(np.ceil(total / PIECE_S)))
         h = total / count
@@ -85,7 +95,7 @@ class FlightSpline:
         place, velocity, acceleration = (self.at(at, order, rows) for order in range(3))
         q2 = acceleration * rate[:, None] ** 2 + velocity * bend[:, None]
         ctrl = place - h**2 / 6.0 * q2
-        # What the first three say at the start: place, velocity and acceleration there, exactly.
+        # The first three control points give the exact position, velocity and acceleration at the start.
         turn, step = 0.5 * h**2 * q2[:, 0], h * velocity[:, 0]
         first = [ctrl[:, 0] + turn - step, ctrl[:, 0], ctrl[:, 0] + turn + step]
         last = [place[:, -1]] * DEGREE
@@ -93,7 +103,7 @@ class FlightSpline:
         return Rest(time + since, coef)
 
     def _busiest(self, time: float, end: float) -> Array:
-        """Return the rows of the drones that do most of something in a stretch of time."""
+        """Return the rows of the drones with the largest speeds and accelerations in a time interval."""
         times = np.linspace(time, min(end, float(self._breaks[-1])), BUSIEST_TIMES)
         velocity, acceleration = self.at(times, 1), self.at(times, 2)
         up = velocity[..., 2]
@@ -102,20 +112,22 @@ class FlightSpline:
 
 
 def _programmes(less: float) -> Iterator[tuple[float, float]]:
-    """Yield delays and braking times that together take less than some seconds, the shortest first."""
+    """Yield delays and braking times with a sum below ``less`` seconds, the shortest sum first."""
     found = [both for both in product(DELAYS_S, BRAKING_S) if sum(both) < less]
     yield from sorted(found, key=lambda both: (sum(both), both[0]))
 
 
 def _scaled(since: Array, delay: float, braking: float) -> tuple[Array, Array, Array]:
-    """Return s, s' and s'' (see the module) at seconds since t0, each of their shape; s counts from t0."""
+    """Return s, s' and s'' (see the module) at seconds since t0, in the shape of ``since``; s
+    counts from t0.
+    """
     u = np.clip((since - delay) / braking, 0.0, 1.0)
     s = np.minimum(since, delay) + braking * (u - u**3 + 0.5 * u**4)
     return s, 1.0 - 3.0 * u**2 + 2.0 * u**3, 6.0 * (u**2 - u) / braking
 
 
 def _within(rest: Rest, limits: Limits) -> bool:
-    """Tell whether control points of derivatives keep every limit; what lies in their hull does, too."""
+    """Return whether the control points of derivatives keep every limit; the curves then keep them too."""
     velocity = rates(rest.breaks, rest.coef, 1)
     if float(np.hypot(velocity[..., 0], velocity[..., 1]).max()) > limits.speed:
         return False

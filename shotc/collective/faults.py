@@ -1,4 +1,4 @@
-"""Times of a show from which no fleet can come home: a diagnostic for each row of them with one cause."""
+"""Times of a show without a return: one diagnostic for each run of times with the same cause."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from shotc.rounding import at_least
 
 
 class _Broken(NamedTuple):
-    """A return, and the first of the claims that it breaks; None where it holds."""
+    """A return, and the first claim that it breaks; None if all hold."""
 
     found: Return
     claim: Claim | None
 
 
 def no_return(mission: MissionIR, returns: Sequence[Return]) -> Iterator[Diagnostic]:
-    """Yield V063 for every row of times in which returns break the same limit."""
+    """Yield V063 for every run of consecutive times whose returns break the same limit."""
     worst = [_Broken(found, next(iter(found.broken), None)) for found in returns]
     for cause, row in groupby(worst, key=_cause):
         if cause is not None:

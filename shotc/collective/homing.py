@@ -1,4 +1,4 @@
-"""How one fleet comes to its pads from any time of its flight, and what is proved of it."""
+"""Finds the way home of one fleet from any time of its flight, and makes its claims."""
 
 from __future__ import annotations
 
@@ -33,11 +33,13 @@ from shotc.show.geom.windows import at_rest, windows
 class FleetReturn:
     """The return of one fleet from one time of its show.
 
-    rest : when it has stopped, seconds
-    over : when it is over its pads; down : when it has landed
-    track : what it flies that is not planned, from rest on or with its braking; None where it is on its pads,
-        or on its way to them as planned
-    claims : what is proved of that; waits : seconds that it stands at rest, for others to pass
+    rest : time of its rest, seconds
+    over : time at which it is over its pads, seconds
+    down : time at which it has landed, seconds
+    track : the unplanned part of its flight, with its braking or from its rest on; None if the fleet stands
+        on its pads or is on its planned return
+    claims : claims on that part
+    waits : seconds that it waits at rest for others to pass
     """
 
     fleet: str
@@ -50,17 +52,19 @@ class FleetReturn:
 
     @property
     def holds(self) -> bool:
-        """Tell whether it can be flown."""
+        """Return whether all its claims hold."""
         return all(claim.holds for claim in self.claims)
 
 
 WAITS_S = (3.0, 6.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0)
-"""How long a fleet stands at rest, for others to pass."""
+"""Seconds that a fleet waits at rest for others to pass."""
 NEAR_S = 1e-6
-"""Seconds by which times that are one differ at most."""
+"""Seconds, below which two times count as equal."""
 
 _Way = Callable[[int, float], FleetReturn]
-"""Makes a return from a break at which the fleet stops, and the time from which it flies it, s."""
+"""Makes a return from the index of a break at which the fleet stops, and the time of its
+departure, seconds.
+"""
 
 
 class Homing:
@@ -74,14 +78,14 @@ class Homing:
         self._stops = at_rest(flight.coef)
         self._lifted = float(flight.breaks[windows(flight.coef)[0].first])
         self._homeward = next(phase.start for phase in flight.phases if phase.name == "return")
-        # Of several times at one stop the proof is one only if nothing around it moves or burns.
+        # The claims are the same for all times at one stop only if nothing around it moves or burns.
         burns = any(display.pyro for display in mission.displays if display.fleet == flight.fleet)
         still = all(target.track is None for target in mission.targets)
         self._same = still and not burns and not ir.drones
         self._known: dict[tuple[_Way, int], FleetReturn] = {}
 
     def at(self, time: float) -> FleetReturn:
-        """Return how the fleet comes home from a time on: the first way that holds, or the quickest."""
+        """Return the first way home from a time whose claims hold, or else the first one tried."""
         name, end = self.flight.fleet, float(self.flight.breaks[-1])
         if time <= self._lifted:
             return FleetReturn(name, time, time, time, None, ())
@@ -93,19 +97,21 @@ class Homing:
             if way.holds:
                 return way
             tried.append(way)
-        # A camera passes, and a product burns down, after a while.
+        # Waiting lets a camera pass and a pyrotechnic product burn out.
         if self.ir.drones or burning_at(self.ir.keyframes.mission, name, time):
             waited = (self.waiting(way, seconds) for seconds, way in product(WAITS_S, tried))
             return next((way for way in waited if way.holds), tried[0])
         return tried[0]
 
     def ways(self, time: float) -> Iterator[FleetReturn]:
-        """Yield the ways home from a time at which the fleet is in the air, and not yet on its way home."""
+        """Yield the ways home from a time at which the fleet is in the air and not yet on its
+        planned return.
+        """
         for found in self._ways(time):
             yield replace(found, claims=(*found.claims, self._endurance(found.down)))
 
     def waiting(self, way: FleetReturn, seconds: float) -> FleetReturn:
-        """Return a way home on which the fleet stands for a time, s, where it has come to rest."""
+        """Return a way home on which the fleet waits for some seconds at its rest."""
         track = way.track
         assert track is not None
         at = int(np.searchsorted(track.breaks, way.rest - NEAR_S))
@@ -120,7 +126,9 @@ class Homing:
         return replace(flown, claims=claims, waits=seconds)
 
     def flown(self, time: float, way: FleetReturn) -> tuple[Array, Array]:
-        """Return all that the fleet flies from the time of a return on, breaks and control points."""
+        """Return the whole flight from the time of a return on: breaks (P + 1,) and control points (n, P + 3,
+        3).
+        """
         planned = rest_of(self.flight.breaks, self.flight.coef, time)
         if way.track is None:
             return planned
@@ -134,7 +142,7 @@ class Homing:
         )
 
     def _ways(self, time: float) -> Iterator[FleetReturn]:
-        """Yield the ways home: straight from where it brakes, from where it stops next, and as it came."""
+        """Yield the ways home: from where it brakes, from its next stop, and back along its flown path."""
         breaks = self.flight.breaks
         stop = int(self._stops[np.searchsorted(breaks[self._stops], time)])
         rest = float(breaks[stop])
@@ -151,23 +159,23 @@ class Homing:
         yield self._once(self._as_it_came, stop, rest)
 
     def _once(self, way: _Way, stop: int, time: float) -> FleetReturn:
-        """Return a way home from a stop, which is proved once where nothing around it moves."""
+        """Return a way home from a stop; it is verified only once if nothing around it moves or burns."""
         known = self._known.get((way, stop))
         if known is None or not self._same:
             known = self._known[way, stop] = way(stop, time)
         return _moved(known, time)
 
     def _from_stop(self, stop: int, time: float) -> FleetReturn:
-        """Return the way home straight from a stop."""
+        """Return the direct way home from a stop."""
         return self._judged(FlightScore(self._at_stop(stop), time), time)
 
     def _judged(self, score: FlightScore, rest: float) -> FleetReturn:
-        """Return the way home of a fleet that rests, with its proof."""
+        """Return the way home of a fleet at rest, with its claims."""
         come_home(score, self._mover)
         return self._proved(score, rest)
 
     def _as_it_came(self, stop: int, time: float) -> FleetReturn:
-        """Return the way home through all that was flown up to a stop, in which nothing can be met."""
+        """Return the way home back along the flown path up to a stop, which is free of standing obstacles."""
         coef, breaks = self.flight.coef, self.flight.breaks
         flown = [w for w in windows(coef) if w.last <= stop]
         score = FlightScore(self._at_stop(stop), time)
@@ -183,7 +191,7 @@ class Homing:
         return self._claimed(score.trajectory(self.flight.fleet, self.flight.lights), rest)
 
     def _claimed(self, track: FleetTrajectory, rest: float) -> FleetReturn:
-        """Return the way home that is flown so, with its proof."""
+        """Return a way home with the claims on its track."""
         over, down = track.phases[-1].start, track.phases[-1].end
         flight = FleetFlight.of(self.ir.keyframes.mission, track)
         claims = (
@@ -206,13 +214,13 @@ class Homing:
 
 
 def _slower(breaks: Array, coef: Array, limits: Limits) -> float:
-    """Return how many times as long a flight takes back, for what climbed descends."""
+    """Return the factor on the time of a flight that is flown backwards, where climb becomes descent."""
     up = rates(breaks, coef, 1)[..., 2]
     return max(1.0, float(up.max()) / limits.descent, -float(up.min()) / limits.climb)
 
 
 def _moved(known: FleetReturn, time: float) -> FleetReturn:
-    """Return the same return from another time of rest."""
+    """Return the same way home, shifted to another time of rest."""
     if time == known.rest or known.track is None:
         return known
     claims = tuple(c if c.time is None else replace(c, time=c.time - known.rest + time) for c in known.claims)

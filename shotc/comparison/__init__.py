@@ -1,6 +1,6 @@
-"""One mission planned under several refiners: each judged by the same measures, and shown side by side.
+"""Plans one mission with several refiners, measures each plan in the same way and shows them side by side.
 
-The mission is compiled once up to its convex path; every refiner starts from that.
+The mission is compiled once up to its convex path, from which every refiner starts.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from shotc.ir.path import PathIR
 from shotc.source.file import SourceFile
 
 USUAL = ("none", "ang", "look-at", "framing-only", "ours-4pt", "ours")
-"""The order of the framing paper, from the path as it is to the whole method."""
+"""The refiners in the order of the framing paper, from the unrefined path to the whole method."""
 
 
 class Report(NamedTuple):
-    """A comparison, or None where the mission was rejected before any refiner, with what there is to say."""
+    """A comparison with diagnostics; the comparison is None if the mission is rejected before any refiner."""
 
     comparison: Comparison | None
     diagnostics: tuple[Diagnostic, ...]
@@ -34,16 +34,16 @@ class Report(NamedTuple):
 
 
 def ordered(names: Iterable[str]) -> list[str]:
-    """Return refiners in the order in which they are compared: the usual ones, then others by name."""
+    """Return refiners in the order of the comparison: first the usual ones, then others by name."""
     known = set(names)
     return [name for name in USUAL if name in known] + sorted(known - set(USUAL))
 
 
 class Options(NamedTuple):
-    """What to compare.
+    """Options of a comparison.
 
-    refiners : of ``plugins.names("refiners")``, in the order in which they are shown
-    smoothings : seconds, each tried with every refiner instead of the mission's; the mission's where None
+    refiners : of ``plugins.names("refiners")``, in their order of display
+    smoothings : seconds; each is tried with every refiner. None is the mission's own smoothing
     deadline, progress : as in ``api.PlanOptions``
     """
 
@@ -54,10 +54,12 @@ class Options(NamedTuple):
 
 
 def compare_source(data: bytes, name: str, folder: Path | None, options: Options) -> Report:
-    """Plan one mission under some refiners; data, name, folder : as in ``api.compile_source``.
+    """Return the comparison of one mission under some refiners.
 
-    A refiner without a plan is a condition that says so; only a mission that no refiner could plan is
-    rejected.
+    A refiner without a plan becomes a condition without a plan. The mission is rejected only if no refiner
+    could plan it.
+
+    data, name, folder : as in ``api.compile_source``
     """
     conditions: list[Condition] = []
     first: tuple[PathIR, Compilation] | None = None
@@ -79,7 +81,7 @@ def compare_source(data: bytes, name: str, folder: Path | None, options: Options
 
 
 def _without_show(path: PathIR) -> PathIR:
-    """Return the flights of cameras alone, which stay out of the airspace of the show that they film."""
+    """Return the flights of cameras alone; they stay out of the airspace of the show that they film."""
     mission = path.keyframes.mission._replace(displays=(), fleets=())
     return replace(path, keyframes=path.keyframes._replace(mission=mission))
 

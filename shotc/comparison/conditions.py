@@ -1,4 +1,4 @@
-"""One mission under one refiner: refined, timed, proved and measured."""
+"""One mission under one refiner: refined, timed, verified and measured."""
 
 from __future__ import annotations
 
@@ -24,12 +24,15 @@ KEPT_CONVEX = "R003"
 
 
 def condition(name: str, path: PathIR, deadline: float | None, ctx: PassContext) -> Condition:
-    """Return the mission under the refiner of this name, from its convex path on; deadline as in planning."""
+    """Return the mission under a refiner, from its convex path on.
+
+    deadline : seconds for the refiner, as in planning
+    """
     source = plugins.one("refiners", name)
     if source.plugin is None:
         return Condition(name, source.package, None, source.diagnostics)
     seat = Seat(source.plugin, source.package, source.reference)
-    # To keep a path takes no time, and to watch over it a new process.
+    # Keeping the path takes no time; a deadline would start a process to watch it.
     limit = None if name == plugins.NO_REFINER else deadline
     done = run((RefinePath(seat, limit), ParameterizeTime()), path, ctx)
     seconds = done.reports[0].seconds
@@ -46,7 +49,7 @@ def condition(name: str, path: PathIR, deadline: float | None, ctx: PassContext)
 
 
 def _proved(ir: TrajectoryIR, ctx: PassContext) -> tuple[VerifiedIR | None, tuple[Diagnostic, ...]]:
-    """Return the plan where every limit holds, and what is broken of limits and promises."""
+    """Return the plan if all limits hold, and the faults of limits and promises."""
     faults = _errors(judge(ir, ctx).diagnostics)
     if any(d.code not in PROMISES for d in faults):
         return None, faults
@@ -54,7 +57,7 @@ def _proved(ir: TrajectoryIR, ctx: PassContext) -> tuple[VerifiedIR | None, tupl
 
 
 def unpromised(ir: TrajectoryIR) -> TrajectoryIR:
-    """Return the trajectory of a mission whose shots promise nothing of their framing."""
+    """Return the trajectory of the same mission without promises on framing."""
 
     def free(shot: Shot) -> Shot:
         return shot._replace(promise=Promise())

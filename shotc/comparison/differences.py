@@ -1,7 +1,9 @@
-"""Where two conditions differ: the measure by which Gebhardt and Hilliges chose the videos of their study.
+"""Difference of two conditions by the measure with which Gebhardt and Hilliges chose the videos of their
+study.
 
-At equal shares of a shot's time it adds metres between the cameras to degrees between where they look. Its
-mean over a shot tells how much two conditions differ, its largest value at which frame.
+At equal shares of a shot's time it adds the metres between the cameras and the degrees between their viewing
+directions. The mean over a shot measures how different two conditions are. The maximum determines the frame
+to show.
 """
 
 from __future__ import annotations
@@ -16,11 +18,13 @@ from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
 
 STAGES = 500
-"""Places of a shot at which two conditions are compared."""
+"""Intervals of a shot, at whose ends two conditions are compared."""
 
 
 def differences(conditions: Sequence[Condition]) -> tuple[ShotDifference, ...]:
-    """Return how each condition differs from the last one with a plan, each shot, the greatest first."""
+    """Return the differences of each condition from the last one with a plan, shot by shot, the largest
+    first.
+    """
     planned = [(each, each.plan) for each in conditions if each.plan is not None]
     if len(planned) < 2:
         return ()
@@ -52,7 +56,7 @@ def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) 
 
 
 def _poses(plan: VerifiedIR, shot: ComparedShot) -> Array:
-    """Return x, y, z, yaw and pitch of a camera at even times of a shot, shape (STAGES + 1, 5)."""
+    """Return x, y, z, yaw and pitch of a camera at uniform times of a shot, shape (STAGES + 1, 5)."""
     (track,) = (track for track in plan.trajectory.drones if track.drone == shot.drone)
     pose = track.curve(np.linspace(shot.start, shot.end, STAGES + 1))
     return np.asarray(pose[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
@@ -61,8 +65,8 @@ def _poses(plan: VerifiedIR, shot: ComparedShot) -> Array:
 def turned(a: Array, b: Array) -> Array:
     """Return the angles of the rotations between cameras of yaw and pitch (M, 2), rad, shape (M,).
 
-    With unit quaternions of a yaw about the upright and then a pitch it is 2 arccos |q . q'|, and q . q' is
-    the product of the cosines of half the differences.
+    The angle between unit quaternions is 2 arccos |q . q'|. For a yaw about the vertical followed by a pitch,
+    q . q' is the product of the cosines of half the differences.
     """
     half = np.cos(0.5 * (a - b))
     return np.asarray(2.0 * np.arccos(np.minimum(np.abs(half[:, 0] * half[:, 1]), 1.0)))

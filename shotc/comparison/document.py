@@ -1,4 +1,4 @@
-"""A comparison as JSON; without clock readings it is the same for the same mission."""
+"""A comparison as JSON; without measured times, the same mission gives the same text."""
 
 from __future__ import annotations
 
@@ -15,9 +15,11 @@ FORMAT, VERSION = "shotc-compare", 1
 
 
 def json_text(comparison: Comparison, *, seconds: bool) -> str:
-    """Return the document; ``seconds``: with how long each refiner took.
+    """Return the document.
 
-    An error on screen is "inf" where it counts frames with the target behind the camera.
+    An error on screen is "inf" if it includes frames with the target behind the camera.
+
+    seconds : whether to include the time that each refiner took
     """
     mission = comparison.mission
     return layout.text(

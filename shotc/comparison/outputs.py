@@ -1,4 +1,4 @@
-"""The files of a comparison: the table for machines and for people, the picture and the recording."""
+"""The files of a comparison: JSON, a table in Markdown, pictures and a recording."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ DPI = 110.0
 
 
 def artifacts(comparison: Comparison, progress: Callable[[str], None]) -> Emission:
-    """Return compare.json, compare.md, two pictures and compare.rrd; all but that are the same every time.
+    """Return compare.json, compare.md, compare.png, differences.png and compare.rrd.
 
-    differences.png is there where two conditions have a plan. Where rerun is not installed its
-    recording is left out with a warning.
+    All but the recording are reproducible. differences.png exists if two conditions have a plan. The
+    recording is left out with a warning if rerun is not installed.
     """
     made = [
         Artifact("compare.json", json_text(comparison, seconds=False).encode("ascii")),

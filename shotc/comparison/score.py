@@ -1,6 +1,6 @@
 """The measures of a comparison: screen error, target in frame, jerk and duration of every shot.
 
-Framing is read off the samples that verification judges.
+Framing is measured on the samples of verification.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from shotc.passes.verify.framing import view_of
 from shotc.planning.clock.ideals import ideal_places
 
 MOST = 0.95
-PLACES_HZ = 10.0  # of a camera, that are compared with where the shot would have it
+PLACES_HZ = 10.0  # Hz of the camera positions that are compared with the ideal
 STILL = MotionMeasures(0.0, 0.0, 0.0, 0.0, 0.0)
 ROUNDS = "refine_rounds"
-"""Under SHOT.ROUNDS the statistics of a path say how often its refiner solved the shot."""
+"""Name of the statistic SHOT.refine_rounds: how often the refiner solved the shot."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 """Exact for the square of a quintic's third derivative, which has degree four."""
 
 
 def flown_shots(plan: VerifiedIR) -> tuple[ComparedShot, ...]:
-    """Return all shots of a plan, measured, in the order they are filmed."""
+    """Return all shots of a plan, measured, in the order of filming."""
     flown = [
         _flown(plan, track, phase)
         for track in plan.trajectory.drones
@@ -48,7 +48,9 @@ def flown_shots(plan: VerifiedIR) -> tuple[ComparedShot, ...]:
 
 
 def total(plan: VerifiedIR, shots: Sequence[ComparedShot]) -> Score:
-    """Return the score of all shots together: frames count alike, and so does every second filmed."""
+    """Return the score of all shots together; each frame has the same weight, and so has each
+    filmed second.
+    """
     motions = [shot.motion for shot in shots]
     motion = (
         MotionMeasures(*(float(sum(column)) for column in zip(*motions, strict=True))) if motions else STILL
@@ -57,7 +59,7 @@ def total(plan: VerifiedIR, shots: Sequence[ComparedShot]) -> Score:
 
 
 def score(traces: Sequence[Trace], motion: MotionMeasures) -> Score:
-    """Return the score of some traces and of the motion that they were seen in."""
+    """Return the score of some traces and of the motion of their cameras."""
     margin = np.concatenate([np.empty(0), *(trace.margin for trace in traces)])
     points = np.concatenate([np.empty(0), *(trace.points for trace in traces)])
     covered = np.concatenate([np.empty(0), *(trace.covered for trace in traces)])
@@ -84,9 +86,9 @@ def _rms(squared: float, duration: float) -> float:
 
 
 def squared_jerk(curve: Piecewise, start: float, end: float, *channels: int) -> float:
-    """Return the integral of the squared norm of jerk over a stretch of time.
+    """Return the integral of the squared norm of jerk over a time interval.
 
-    channels : of the curve; x, y and z where none are given, m^2/s^5
+    channels : of the curve; without any x, y and z, in m^2/s^5
     """
     pieces = cut(curve, start, end).channels(*(channels or (X, Y, Z)))
     for _ in range(3):

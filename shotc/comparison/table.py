@@ -1,4 +1,4 @@
-"""A comparison as one table: a heading, a row a refiner, and with several shots a row for each of them."""
+"""A comparison as a table: a heading, a row for each refiner, and rows for its shots if there are several."""
 
 from __future__ import annotations
 
@@ -39,7 +39,10 @@ LEGEND = (
 
 
 def rows(comparison: Comparison, *, seconds: bool) -> list[tuple[str, ...]]:
-    """Return the heading and all rows; ``seconds``: with how long each refiner took, by the clock."""
+    """Return the heading and all rows.
+
+    seconds : whether to include the time that each refiner took
+    """
     several = len(comparison.mission.shots) > 1
     table = [HEADING, *(row for each in comparison.conditions for row in _rows(each, several=several))]
     keep = [i for i, name in enumerate(HEADING) if (several or name != "shot")]
@@ -48,7 +51,7 @@ def rows(comparison: Comparison, *, seconds: bool) -> list[tuple[str, ...]]:
 
 
 def remarks(comparison: Comparison) -> list[str]:
-    """Return a line for every refiner without a plan, broken promise, shot that stayed convex, difference."""
+    """Return a line for every refiner without a plan, broken promise, unrefined shot, and difference."""
     lines = []
     for each in comparison.conditions:
         lines += [
@@ -79,7 +82,7 @@ def markdown(comparison: Comparison, *, seconds: bool) -> str:
 
 
 def conditions_of(comparison: Comparison) -> str:
-    """Return how many refiners are compared, and with how many smoothings."""
+    """Return the number of refiners and of smoothings in words."""
     refiners = len({each.refiner for each in comparison.conditions})
     smoothings = len({each.smoothing for each in comparison.conditions})
     text = counted(refiners, "refiner")
@@ -87,7 +90,7 @@ def conditions_of(comparison: Comparison) -> str:
 
 
 def counted(number: int, noun: str) -> str:
-    """Return a number with its noun."""
+    """Return a number with its noun in the right form."""
     return f"{number} {noun}{'s' * (number != 1)}"
 
 

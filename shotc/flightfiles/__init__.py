@@ -1,6 +1,5 @@
-"""Files of flights that any tool may have written, held against a mission.
+"""Verifies flight files, which any tool may have written, against a mission.
 
-``course.py`` rebuilds a flight by waypoints in all the ways that its machine may fly it, as polynomials;
-``judge.py`` has verification prove of it what it claims of plans; ``match.py`` finds whose flight a file is,
-and ``tell.py`` reports.
+``course.py`` rebuilds a waypoint flight in all ways that its machine may fly it, as polynomials. ``judge.py``
+makes the claims of verification on it. ``match.py`` finds the drone of each file, and ``tell.py`` reports.
 """

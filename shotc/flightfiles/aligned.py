@@ -1,8 +1,8 @@
-"""A drone's flight on the clock as a track: its camera's angles, its phases, and what its shots are to frame.
+"""Aligns a drone's flight on the clock with the mission: its camera angles, phases and framing as a track.
 
-The shots stand in the table's own columns, or at the times that the mission fixes; others are not aligned,
-and nothing is claimed of them. The camera is at a shot's keyframes when it is nearest to them, in order. No
-file says where its target is wanted between two keyframes: any place between theirs will do.
+A shot's times come from the table's own columns, or from the mission if it fixes them. Other shots are not
+aligned, and there are no claims on them. The camera is taken to be at a keyframe when it is nearest to it, in
+order. No file states the reference between two keyframes, so any place between theirs is accepted.
 """
 
 from __future__ import annotations
@@ -30,14 +30,15 @@ from shotc.planning.framing.moments import placed_at
 
 NAMES: tuple[PhaseName, ...] = ("takeoff", "transit", "shot", "return", "land")
 STEP_S = 0.1
-"""Seconds between places of a shot at which a keyframe may be met."""
+"""Seconds between samples of a shot at which a keyframe may be passed."""
 
 
 class Aligned(NamedTuple):
-    """A track, and what of it its file tells.
+    """A track, and what its file states.
 
-    told : whether its phases are the table's own; missing : shots of the drone that are not aligned
-    looks, faces : whether the angles of its camera, and the heading of its body, are known
+    told : whether the phases come from the table
+    missing : shots of the drone that are not aligned
+    looks, faces : whether the camera's angles and the body's heading are known
     """
 
     track: DroneTrajectory
@@ -50,7 +51,12 @@ class Aligned(NamedTuple):
 def aligned(
     keyframes: KeyframeIR, drone: Drone, flown: ClockedFlight, upright: tuple[float, float]
 ) -> Aligned:
-    """Return the track of a drone; upright : when it leaves the vertical over its pad, and is back on it."""
+    """Return the track of a drone.
+
+    upright : times at which it leaves the vertical over its pad and is back on it, seconds
+
+    Raises Unread if a field of view in the table is impossible.
+    """
     mission, rows = keyframes.mission, flown.rows
     curve, looks = _with_camera(drone, flown)
     told = None if rows is None else _told(mission, rows, curve)
@@ -73,7 +79,9 @@ def aligned(
 
 
 def _with_camera(drone: Drone, flown: ClockedFlight) -> tuple[Piecewise, bool]:
-    """Return the curve of all channels, angles straight between rows, and whether its camera's are known."""
+    """Return the curve of all channels, with angles linear between rows, and whether the camera's
+    are known.
+    """
     curve, rows = flown.curve, flown.rows
     pose = np.zeros((*curve.ctrl.shape[:2], len(CHANNELS)))
     pose[..., :3], pose[..., HFOV] = curve.ctrl, drone.hfov
@@ -93,7 +101,10 @@ def _with_camera(drone: Drone, flown: ClockedFlight) -> tuple[Piecewise, bool]:
 
 
 def lens_of(rows: DroneRows) -> Array | None:
-    """Return the field of view of every row, rad, None where a table has none; refuse what no lens shows."""
+    """Return the field of view of every row, rad, shape (N,); None if the table has none.
+
+    Raises Unread if a value is outside the range of lenses.
+    """
     found = rows.values(CAMERA[2])
     if found is None:
         return None
@@ -112,10 +123,10 @@ def _straight(values: Array) -> Array:
 
 
 def _told(mission: MissionIR, rows: DroneRows, curve: Piecewise) -> tuple[Phase, ...] | None:
-    """Return the phases that the table has, None where it has none that are known here.
+    """Return the phases in the table; None if it has none that are known here.
 
-    A shot is from its first row to its last; else what lies between two phases belongs to the later one, but
-    to the one before where that is no landing.
+    A shot lasts from its first row to its last. The time between two other phases belongs to the later one if
+    that is a landing, else to the earlier one.
     """
     names, shots = rows.texts(PHASE), rows.texts(SHOT)
     if names is None or shots is None or not set(names) <= set(NAMES):
@@ -163,7 +174,11 @@ def _by_mission(
 
 
 def _met(placed: PlacedShot, curve: Piecewise, phase: Phase) -> list[KeyframeTime]:
-    """Return when the camera is nearest to each keyframe of a shot, in order, so that all are near."""
+    """Return the times at which the camera passes the keyframes of a shot.
+
+    The times are in order and minimise the sum of squared distances to the keyframes (dynamic programming
+    over samples).
+    """
     if placed.shot.ideal is not None or not placed.keyframes:
         return []
     count = max(2, int((phase.end - phase.start) / STEP_S) + 1)
@@ -190,7 +205,9 @@ def _framed(
     phase: Phase,
     flown: tuple[DroneTrajectory, Sequence[KeyframeTime]],
 ) -> Iterator[Reference]:
-    """Yield what a shot is to frame: its subjects all along, or the targets of its keyframes between them."""
+    """Yield the references of a shot: its subjects throughout, or its keyframes' targets between
+    keyframes.
+    """
     track, met = flown
     if placed.shot.ideal is not None:
         if not is_keyed(placed.shot):
@@ -216,7 +233,7 @@ def _framed(
 
 
 def _subjects(mission: MissionIR, placed: PlacedShot, phase: Phase) -> Iterator[Reference]:
-    """Yield the subjects of a shot on its own clock, each where the mission wants it at every tick."""
+    """Yield the subjects of a shot on its own clock, with the mission's reference at every tick."""
     times = ticks(mission.rate, phase.start, phase.end)
     for subject in placed.subjects:
         wanted = [subject.asked(float(t) - phase.start).place for t in times]

@@ -1,12 +1,15 @@
 """Flights with a clock: rows of a table, or curves of a show, as cubics over mission time.
 
-Between two rows with velocities a flight is the cubic that has the places and velocities of both; without
-them it is straight. How far another flight through the same rows can be from it follows from the drone's
-limits. With an acceleration of at most A and a jerk of at most J the difference vanishes with its rate at
-both rows, and its second and third derivatives are at most 8 A / 3 and 2 J: the cubic's jerk is a mean of the
-flight's, its acceleration one of weights whose sizes add up to 5 / 3. So the difference is at most A h^2 / 6
-and J h^3 / 12, its rate 2 A h / 3 and J h^2 / 4, h seconds between rows. Of straight lines it is at most
-A h^2 / 8, and their speeds are means that every flight reaches.
+Between two rows with velocities a flight is the cubic with the positions and velocities of both. Without
+velocities it is straight. The drone's limits bound how far another flight through the same rows can be from
+it.
+
+Let A bound the acceleration, J the jerk, and let h be the seconds between rows. The difference of the two
+flights vanishes with its rate at both rows. Its second and third derivatives are at most 8 A / 3 and 2 J: the
+cubic's jerk is a weighted mean of the flight's, and its acceleration is one with weights whose absolute
+values add up to 5 / 3. So the difference is at most A h^2 / 6 and J h^3 / 12, and its rate at most 2 A h / 3
+and J h^2 / 4. For straight lines the difference is at most A h^2 / 8, and their speeds are means that every
+flight reaches.
 """
 
 from __future__ import annotations
@@ -28,22 +31,22 @@ from shotc.ir.limits import Limits
 from shotc.ir.mission import GeoOrigin
 
 UPRIGHT_M = 0.1
-"""Metres from the vertical over its pad within which a drone is taking off or landing."""
+"""Metres from the vertical over its pad, within which a drone counts as taking off or landing."""
 PARTS = 64
-"""Of a piece on which a drone leaves the vertical, between which the end of its take-off is put."""
+"""Parts of the piece on which a drone leaves the vertical, one of which ends its take-off."""
 SAMPLED_ROWS = 500
-"""Rows whose digits are counted."""
+"""Most rows whose digits are counted."""
 MOST_M, MOST_M_S = 0.02, 0.1
-"""Of what a table leaves open between its rows, as much is granted where a limit is missed."""
+"""Most metres and m/s of a table's uncertainty between rows that are granted against a limit."""
 SHOW_PLACE_M = 1e-3
-"""Metres to which shows are written: a tenth of a millimetre, and our own within half a millimetre."""
+"""Rounding of show files, metres: a tenth of a millimetre, and half a millimetre in shotc's own files."""
 
 
 @dataclass(frozen=True, slots=True)
 class Leeway:
-    """What a file leaves open, m and m/s, as far as it is granted.
+    """The granted uncertainty of a file, metres and m/s.
 
-    between : how far a flight within the drone's limits can be from the rebuilt one, m
+    between : largest distance of a flight within the drone's limits from the rebuilt one, metres
     """
 
     place: float
@@ -55,9 +58,11 @@ class Leeway:
 class ClockedFlight:
     """One drone's flight on the clock.
 
-    name : of the drone; curve : x, y, z, cubic, from 0 s; rows : of a table, None of a .skyc
+    name : of the drone
+    curve : x, y, z in metres, cubic, from 0 s
+    rows : of a table; None for a .skyc
     show : whether the file is of a show, whose drones may have other names than the mission's
-    at : gives the place in the file of a time
+    at : returns the place in the file of a time
     """
 
     name: str
@@ -70,7 +75,10 @@ class ClockedFlight:
 
 
 def of_rows(rows: DroneRows, name: str, file: str, limits: Limits) -> ClockedFlight:
-    """Return the flight of a drone by its rows; limits : the drone's own."""
+    """Return the flight of a drone from its rows.
+
+    limits : of the drone
+    """
     time, place = rows.time, rows.place
     step = np.diff(time)[:, None]
     third = place[:-1] + step / 3 * _rate(rows)[0], place[1:] - step / 3 * _rate(rows)[1]
@@ -101,12 +109,12 @@ def of_rows(rows: DroneRows, name: str, file: str, limits: Limits) -> ClockedFli
 
 
 def inside(file: str, rows: DroneRows) -> str:
-    """Return how to show the file that rows stand in, which may be a member of an archive."""
+    """Return the displayed name of the rows' file, which may be a member of an archive."""
     return f"{file}/{rows.member}" if rows.member else file
 
 
 def _rate(rows: DroneRows) -> tuple[Array, Array]:
-    """Return velocities at the beginning and at the end of every interval."""
+    """Return velocities at the beginning and at the end of every interval, shape (N - 1, 3) each."""
     if rows.velocity is not None:
         return rows.velocity[:-1], rows.velocity[1:]
     mean = np.diff(rows.place, axis=0) / np.diff(rows.time)[:, None]
@@ -114,7 +122,7 @@ def _rate(rows: DroneRows) -> tuple[Array, Array]:
 
 
 def quantum(columns: Sequence[Sequence[str]]) -> float:
-    """Return half a unit of the last digit that the largest numbers of columns have."""
+    """Return half a unit of the last digit of the largest numbers in columns."""
     texts = [text for column in columns for text in column[:: max(1, len(column) // SAMPLED_ROWS)]]
     largest = max((abs(float(text)) for text in texts if text), default=0.0)
     if largest == 0.0:
@@ -124,7 +132,7 @@ def quantum(columns: Sequence[Sequence[str]]) -> float:
 
 
 def of_show(flight: ShowFlight, show: SkycShow, file: str, origin: GeoOrigin | None) -> ClockedFlight:
-    """Return the flight of a drone of a show, moved to where the show's frame stands in the mission's."""
+    """Return the flight of a show's drone, moved from the show's frame to the mission's."""
     there = shift(show.origin, origin)
     node = Node("", 1, 1, wide=1)
     steps = np.diff(flight.breaks)
@@ -140,7 +148,9 @@ def of_show(flight: ShowFlight, show: SkycShow, file: str, origin: GeoOrigin | N
 
 
 def leaves(curve: Piecewise, pad: Array, pads: Array) -> tuple[float, float]:
-    """Return when a drone leaves the vertical over its pad, and when it is over the one that it lands on."""
+    """Return the times at which a drone leaves the vertical over its pad and is over its landing pad,
+    seconds.
+    """
     last = curve.ctrl[-1, -1]
     end = pads[int(np.argmin(norm(pads - last)))]
     up = _first_beyond(curve.breaks, curve.ctrl, pad)
@@ -149,7 +159,7 @@ def leaves(curve: Piecewise, pad: Array, pads: Array) -> tuple[float, float]:
 
 
 def _first_beyond(breaks: Array, ctrl: Array, pad: Array) -> float:
-    """Return up to when a curve stays within ``UPRIGHT_M`` of a vertical; a piece too many is cut finely."""
+    """Return the time until which a curve stays within ``UPRIGHT_M`` of a vertical, to a part of a piece."""
     beyond = norm(ctrl[:, :, :2] - pad[:2]).max(axis=1) > UPRIGHT_M
     if not beyond.any():
         return float(breaks[-1])

@@ -1,8 +1,8 @@
-"""Flights by files of waypoints, which have no clock: all ways that a machine may take through the points.
+"""Rebuilds flights from waypoint files, which have no clock, in all ways that a machine may fly them.
 
-Before the points a machine climbs upright from its pad and goes straight to the first of them; behind them it
-lands upright where its file says so. Times count at the speeds of the file and tell only where on the way a
-thing is: when it is there nobody knows.
+Before the waypoints a machine climbs vertically from its pad and goes straight to the first one. After them
+it lands vertically where its file says so. Times are counted at the file's speeds and only identify places on
+the path; the true times are unknown.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.phases import Phase, PhaseName
 
 FAR_M = 20_000.0
-"""Metres from the pad beyond which a waypoint belongs to no flight of it."""
+"""Metres from the pad, above which a waypoint cannot belong to a flight from it."""
 SAME_M = 1e-3
-"""Metres within which two points are one."""
+"""Metres, below which two points are one."""
 AT_HOME_M = 1.0
-"""Metres from its pad within which a machine lands at home."""
+"""Metres from its pad, within which a machine lands at home."""
 BRIEFEST_S, LONGEST_S = 1e-3, 1e6
-"""Seconds of the shortest and of the longest leg, so that times can be told apart."""
+"""Seconds of the shortest and of the longest leg, so that times stay distinct."""
 CURVE_SHARE = 0.1
 """Share of a leg's time in which one of its rounded corners is flown."""
 
@@ -41,8 +41,10 @@ CURVE_SHARE = 0.1
 class UntimedLeg(NamedTuple):
     """One part of a course.
 
-    start, end : seconds at the file's speeds; to : the point that it leads to; file : that has it
-    speed : along the way, m/s, None where the file says none
+    start, end : seconds at the file's speeds
+    to : the point at its end
+    file : the file of that point
+    speed : m/s along the path; None if the file states none
     within : whether it leads from one waypoint to the next
     """
 
@@ -57,11 +59,11 @@ class UntimedLeg(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class UntimedFlight:
-    """A flight by a file without a clock.
+    """A flight from a file without a clock.
 
-    ways : the curves x, y, z that it may be flown on, cubic, and what each of them is, in words
-    legs : its parts in order, the same of every way
-    landing : metres from the pad to where it lands, None where it stays in the air
+    ways : possible curves x, y, z, cubic, with a description of each
+    legs : its parts in order, the same for all curves
+    landing : metres from the pad to where it lands; None if it stays in the air
     """
 
     drone: Drone
@@ -73,7 +75,7 @@ class UntimedFlight:
 
     @property
     def phases(self) -> tuple[Phase, ...]:
-        """Take-off, the way, and the landing."""
+        """Take-off, transit and landing."""
         spans: dict[PhaseName, Phase] = {}
         for leg in self.legs:
             before = spans.get(leg.phase)
@@ -87,7 +89,10 @@ class UntimedFlight:
 
 
 class _Part(NamedTuple):
-    """A leg before it has a time: control points (k, 4, 3) of each way."""
+    """A leg without a time.
+
+    ctrl : control points (k, 4, 3) of each possible curve
+    """
 
     ctrl: tuple[Array, ...]
     to: tuple[FlightPoint, str]
@@ -100,9 +105,11 @@ class _Part(NamedTuple):
 def course_of(
     mission: MissionIR, drone: Drone, plan: Waypoints, files: Sequence[str]
 ) -> UntimedFlight | tuple[str, Refused]:
-    """Return the course of a drone by the points of its files, or which file is refused; there is an origin.
+    """Return the course of a drone from the points of its files, or the refused file and the reason.
 
-    files : the name of each point's file
+    The mission must have an origin.
+
+    files : file name of each point
     """
     assert mission.origin is not None
     geo = tie(mission.origin, drone.home)
@@ -143,7 +150,7 @@ def course_of(
 def _landing(
     drone: Drone, ends: tuple[Array, Array], to: tuple[FlightPoint, str], of: tuple[int, float]
 ) -> Iterator[_Part]:
-    """Yield the way to above where it lands, and down from there."""
+    """Yield the leg to above the landing place, and the descent from there."""
     (last, place), (count, away) = ends, of
     above = np.array([place[0], place[1], last[2]])
     if np.linalg.norm(above - last) > SAME_M:
@@ -153,7 +160,7 @@ def _landing(
 
 
 def _place(mission: MissionIR, geo: Geo, point: FlightPoint, drone: Drone) -> Array | Refused:
-    """Return a point in W; refuse one that is far from the pad."""
+    """Return a point in W, shape (3,); refuse one that is far from the pad."""
     height = point.height - (geo.home_alt if point.level == "sea" else 0.0)
     place = geo.point(GeoPosition(point.lat, point.lon, height))
     away = float(np.linalg.norm(place - np.array(drone.home)))
@@ -169,7 +176,9 @@ def _place(mission: MissionIR, geo: Geo, point: FlightPoint, drone: Drone) -> Ar
 
 
 def _models(points: Sequence[FlightPoint], places: Array, plan: Waypoints) -> list[tuple[str, list[Array]]]:
-    """Return the ways through the points, in words, each as the control points (k, 4, 3) of its legs."""
+    """Return the possible curves through the points: a description, and control points (k, 4, 3)
+    of each leg.
+    """
     stops = np.array([point.stops for point in points])
     if len(points) == 1:
         return [("straight legs", [])]
@@ -193,7 +202,7 @@ def _each(ctrl: Array) -> list[Array]:
 
 
 def _sizes(points: Sequence[FlightPoint], places: Array) -> Array:
-    """Return how far from its point each corner is rounded, m; none where the machine stands still."""
+    """Return the rounding distance of each corner, metres, shape (m,); 0 where the machine stands still."""
     length = np.linalg.norm(np.diff(places, axis=0), axis=1)
     shorter = np.minimum(np.append(length, np.inf), np.insert(length, 0, np.inf))
     asked = np.array([0.0 if point.stops else point.curve for point in points])
@@ -204,7 +213,7 @@ def _sizes(points: Sequence[FlightPoint], places: Array) -> Array:
 def _approach(
     drone: Drone, plan: Waypoints, to: tuple[FlightPoint, str], goal: tuple[Array, int]
 ) -> Iterator[_Part]:
-    """Yield the climb from the pad, and the ways to the first point."""
+    """Yield the climb from the pad, and the legs to the first point."""
     first, count = goal
     home = np.array(drone.home)
     top = max(float(first[2]), home[2] + plan.climb, home[2] + SAME_M)
@@ -222,7 +231,7 @@ def _legs(
     kept: Sequence[tuple[FlightPoint, str, Array]],
     models: Sequence[list[Array]],
 ) -> Iterator[_Part]:
-    """Yield the legs from point to point, and the stays at points."""
+    """Yield the legs between points, and the stays at points."""
     count = len(models)
     for i, (point, file, at) in enumerate(kept):
         if point.stay > 0.0:
@@ -247,7 +256,7 @@ def _straight(
 
 
 def _in_force(drone: Drone, plan: Waypoints | None, pace: Pace | None) -> Pace:
-    """Return the speeds of a leg: its own, those that the autopilot begins with, or the drone's limits."""
+    """Return the speeds of a leg: its own, else the autopilot's defaults, else the drone's limits."""
     own = drone.limits
     usual = Speeds(own.speed, own.climb, own.descent)
     if plan is not None and plan.family == "mavlink":
@@ -262,7 +271,7 @@ def _in_force(drone: Drone, plan: Waypoints | None, pace: Pace | None) -> Pace:
 
 
 def _lasts(way: Array, pace: Pace) -> tuple[float, float]:
-    """Return how long a straight leg takes, and how fast it is along its way, m/s."""
+    """Return the duration of a straight leg, seconds, and its speed along the path, m/s."""
     length = float(np.linalg.norm(way))
     if isfinite(pace.along):
         lasts = length / pace.along
@@ -273,7 +282,7 @@ def _lasts(way: Array, pace: Pace) -> tuple[float, float]:
 
 
 def _timed(parts: Sequence[_Part]) -> tuple[list[Piecewise], tuple[UntimedLeg, ...]]:
-    """Return the ways over the times of their parts, and the legs."""
+    """Return the curves over the times of their parts, and the legs."""
     ends = np.cumsum([0.0, *(part.seconds for part in parts)])
     spans = list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
     legs = tuple(

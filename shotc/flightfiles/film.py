@@ -1,4 +1,4 @@
-"""What is proved of drones that film, on the clock: verification's claims, and limits by what rows prove."""
+"""Claims on filming drones with a clock: those of verification, and limits proved from rows."""
 
 from __future__ import annotations
 
@@ -29,13 +29,16 @@ from shotc.passes.verify.space import space
 from shotc.passes.verify.transits import transits
 
 MOST_PAIRWISE = 10
-"""Drones of which every pair has a claim of its own; of more the nearest pair has."""
+"""Most drones for which every pair has a claim of its own; with more only the nearest pair has one."""
 
 
 def judged(
     keyframes: KeyframeIR, flights: Sequence[ClockedFlight], tracks: Sequence[Aligned], away: frozenset[str]
 ) -> Iterator[FileClaim]:
-    """Yield every claim about drones that film; away : the drones whose flights have no clock."""
+    """Yield all claims on filming drones.
+
+    away : drones whose flights have no clock
+    """
     mission = keyframes.mission
     ir = TrajectoryIR(keyframes, tuple(each.track for each in tracks), (), ())
     standing = tuple(track for track in parked(ir) if track.drone not in away)
@@ -48,7 +51,7 @@ def judged(
         yield from _motion(flight, flown)
         claims = [*_claims(flight, each, ir, standing)]
         if flown.rows is not None and flown.rows.velocity is not None:
-            claims += energy(flight)  # which straight lines would take for none
+            claims += energy(flight)  # straight lines would show no acceleration
         for own in claims:
             yield placed(flown, own)
     found = [each.track for each in tracks]
@@ -64,7 +67,7 @@ def judged(
 
 
 def placed(flown: ClockedFlight, found: Claim) -> FileClaim:
-    """Return a claim with its place in the file, which holds within what that leaves open."""
+    """Return a claim with its place in the file; it holds up to the file's uncertainty."""
     kept = to_tolerance(found, {"m": flown.leeway.place})
     if found.time is None:
         return FileClaim(kept, None)
@@ -85,7 +88,7 @@ def _motion(flight: JudgedFlight, flown: ClockedFlight) -> Iterator[FileClaim]:
 def _claims(
     flight: JudgedFlight, each: Aligned, ir: TrajectoryIR, standing: Sequence[DroneTrajectory]
 ) -> Iterator[Claim]:
-    """Yield what verification claims of a flight whose curve is given, shots where they are aligned."""
+    """Yield the claims of verification on a flight with a given curve; on shots only if they are aligned."""
     curve, drone = flight.track.curve, flight.drone
     away = float(np.linalg.norm(curve(curve.start)[:3] - np.array(drone.home)))
     yield claim(
@@ -110,12 +113,12 @@ def _claims(
 
 
 def _of_keyframes(found: Claim) -> bool:
-    """Tell whether a claim is about references, which are made here and not the file's."""
+    """Return whether a claim is about references, which are made here and are not in the file."""
     return found.constraint.startswith(("frames without", "reference off", "keyframes without"))
 
 
 def _nearest(least: float, flights: Sequence[ClockedFlight], first: int | None = None) -> FileClaim:
-    """Claim the separation of many drones: the nearest pair of all."""
+    """Return the claim on the separation of many drones: that of the nearest pair."""
     found = closest_of([flight.curve for flight in flights], Apart("ellipsoid", least, least, 0.0), first)
     one, other = flights[found.first], flights[found.second]
     limit = Limit(f"separation from {other.name}", least, "m", ("rules", "separation"), upper=False)
@@ -125,13 +128,13 @@ def _nearest(least: float, flights: Sequence[ClockedFlight], first: int | None =
 def beside_fleets(
     least: float, films: Sequence[ClockedFlight], shown: Sequence[ClockedFlight]
 ) -> Iterator[FileClaim]:
-    """Claim the separation of drones that film from those of fleets."""
+    """Yield the claim on the separation of filming drones from those of fleets."""
     if films and shown:
         yield _nearest(least, [*films, *shown], len(films))
 
 
 def unkept(keyframes: KeyframeIR, each: Aligned, found: Sequence[FileClaim]) -> Iterator[str]:
-    """Yield what shots promise of which nothing was judged, and why."""
+    """Yield the promises of shots on which there is no claim, with the reason."""
     names = [(own.claim.shot, own.claim.constraint) for own in found]
     ends = {"in_frame": " in frame", "screen_error": " screen error", "size": " size ", "visible": " visible"}
     unseen = (

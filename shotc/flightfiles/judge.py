@@ -1,6 +1,6 @@
-"""What is proved of a flight by waypoints: verification's claims of it, in every way that it may be flown.
+"""Claims on waypoint flights: those of verification, on all curves that may be flown.
 
-Of all ways the worst value counts. Nothing is claimed that takes a clock.
+The worst value of all curves counts. There are no claims that need a clock.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ from shotc.passes.verify.pair import from_fleets
 from shotc.passes.verify.space import space
 
 NEAR_M = 0.05
-"""Metres by which a clearance may be cut: files round places, and our own are written within that."""
+"""Metres of tolerance on a clearance, because files round positions; shotc's own files keep within it."""
 FAST_M_S = 0.05
-"""m/s by which a speed may be beyond its limit."""
+"""m/s of tolerance on a speed."""
 TILTED_RAD = radians(0.1)
-"""Radians by which an angle may be, which files round to tenths of a degree."""
+"""Radians of tolerance on an angle; files round to tenths of a degree."""
 TOLERANCES = {"m": NEAR_M, "m/s": FAST_M_S, "rad": TILTED_RAD}
 BUILT = ("drift from the vertical", "depth below home")
-"""Claims of what was rebuilt upright."""
+"""Claims on the vertical parts, which were built here."""
 
 
 class FileClaim(NamedTuple):
-    """A claim, where in its file the worst value is met, and what is to be said of it."""
+    """A claim, the place of its worst value in the file, and notes."""
 
     claim: Claim
     where: Label | None
@@ -50,7 +50,10 @@ class FileClaim(NamedTuple):
 
 
 def _found(course: UntimedFlight, claim: Claim, way: str = "") -> FileClaim:
-    """Return a claim about a course; way : the one on which its worst value is met, if it matters."""
+    """Return a claim about a course.
+
+    way : description of the curve with the worst value, if it matters
+    """
     if claim.time is None:
         return FileClaim(claim, None)
     leg = course.leg_at(claim.time)
@@ -65,9 +68,9 @@ def _on(leg: UntimedLeg) -> str:
 
 
 def judged(mission: MissionIR, courses: Sequence[UntimedFlight], keyframes: KeyframeIR) -> list[FileClaim]:
-    """Return every claim that can be made of flights without a clock, drone by drone.
+    """Return all possible claims on flights without a clock, drone by drone.
 
-    mission : with its targets that stand, for where another one is at a time no file says
+    mission : only its standing targets are used, because no file states when a drone is near a moving one
     """
     standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
     ir_of = keyframes._replace(mission=standing)
@@ -81,7 +84,10 @@ def judged(mission: MissionIR, courses: Sequence[UntimedFlight], keyframes: Keyf
 
 
 def to_tolerance(found: Claim, tolerances: Mapping[str, float]) -> Claim:
-    """Return a claim that holds where its value is beyond the limit by what a file leaves open, by units."""
+    """Return a claim that also holds if its value exceeds the limit by at most the tolerance.
+
+    tolerances : by unit
+    """
     over = found.worst - found.limit if found.upper else found.limit - found.worst
     return replace(found, holds=found.holds or over <= tolerances.get(found.unit, 0.0))
 
@@ -96,7 +102,7 @@ def _flight(mission: MissionIR, course: UntimedFlight, curve: Piecewise) -> Judg
 def _space(
     mission: MissionIR, course: UntimedFlight, keyframes: KeyframeIR, courses: Sequence[UntimedFlight]
 ) -> Iterator[FileClaim]:
-    """Yield what is kept of the mission's world on the worst of all ways, and of drones on their pads."""
+    """Yield the claims on the mission's world on the worst of all curves, and on drones on their pads."""
     worst: dict[str, FileClaim] = {}
     for way, curve in course.ways:
         flight = _flight(mission, course, curve)
@@ -113,7 +119,7 @@ def _space(
 
 
 def from_pads(flight: JudgedFlight, standing: Iterable[DroneTrajectory]) -> Iterator[Claim]:
-    """Claim the separation from drones that have no file, which stand at home."""
+    """Yield the claims on the separation from drones without a file, which stand at home."""
     least = flight.mission.rules.separation
     whole = pieces(flight.track.curve.channels(0, 1, 2))
     for track in standing:
@@ -123,18 +129,18 @@ def from_pads(flight: JudgedFlight, standing: Iterable[DroneTrajectory]) -> Iter
 
 
 def _first_way(course: UntimedFlight) -> DroneTrajectory:
-    """Return the first way of a course as a track, which tells that the drone flies."""
+    """Return the first curve of a course as a track, which shows that the drone flies."""
     _, curve = course.ways[0]
     return DroneTrajectory(course.drone.name, curve, course.phases, (), ())
 
 
 def _less(one: Claim, other: Claim) -> bool:
-    """Tell whether a claim leaves less room than another one of the same constraint."""
+    """Return whether a claim is worse than another one of the same constraint."""
     return one.worst > other.worst if one.upper else one.worst < other.worst
 
 
 def _limits(course: UntimedFlight) -> Iterator[Claim]:
-    """Claim what the file says of angles, of where it lands, and how long it takes at least."""
+    """Yield the claims on the file's angles, on its landing place, and on its least duration."""
     name, drone = course.drone.name, course.drone
     if course.landing is not None:
         limit = Limit("distance from home", AT_HOME_M, "m", (*drone.path, "home"))
@@ -153,9 +159,9 @@ def _limits(course: UntimedFlight) -> Iterator[Claim]:
 
 
 def _paces(course: UntimedFlight) -> Iterator[Claim]:
-    """Claim the speeds that the file asks for, each as far as its leg is level, or rises.
+    """Yield the claims on the file's speeds, divided into horizontal and vertical speed on each leg.
 
-    They are those of straight legs: how a machine shares them out over its curves nobody has published.
+    The speeds are those on straight legs, because the speeds on a machine's curves are not published.
     """
     asked = []
     for leg in course.legs:
@@ -180,7 +186,9 @@ def _apart(mission: MissionIR, pair: tuple[UntimedFlight, UntimedFlight]) -> Ite
 
 
 def apart_at_any_time(mission: MissionIR, one: UntimedFlight, name: str, other: Pieces) -> FileClaim:
-    """Claim the separation of a flight without a clock from another one, whenever each is where it is."""
+    """Return the claim on the separation of a flight without a clock from another one, at any
+    pair of times.
+    """
     least = mission.rules.separation
     found = nearest(join([pieces(curve) for _, curve in one.ways]), other, gap(least))
     limit = Limit(f"separation from {name}", least, "m", ("rules", "separation"), upper=False)

@@ -1,4 +1,4 @@
-"""Whose flight a file is: a drone's of the mission, by the file's name or by what the user says."""
+"""Finds the drone of a flight file, from the file's name or from the user's options."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from shotc.ir.show import Fleet, drone_names
 from shotc.source.file import WHOLE_FILE
 
 MOST_NAMED = 5
-"""Drones that are named one by one."""
+"""Most drones that are named in a message."""
 ON_PAD_M = 1.0
-"""Metres from a pad within which a drone of a show stands on it."""
+"""Metres from a pad, within which a drone of a show stands on it."""
 PART = re.compile(r"(?P<drone>.+?)(?:-(?P<part>[1-9][0-9]?))?(?:-litchi)?", re.IGNORECASE)
 
 
 class Owned(NamedTuple):
-    """The files of one drone, in the order in which they are flown: their places among all."""
+    """A drone with the indices of its files, in the order of flight."""
 
     drone: Drone
     files: tuple[int, ...]
@@ -37,11 +37,13 @@ class Owned(NamedTuple):
 def owners(
     mission: MissionIR, names: Sequence[str], told: Sequence[str]
 ) -> tuple[tuple[Owned, ...], tuple[Diagnostic, ...]]:
-    """Return the drones that have files, in the order of the mission, and what belongs to nobody.
+    """Return the drones that have files, in the mission's order, and faults on files without a drone.
 
-    names : of the files; told : the drone of each, as many, or of none
-    A file is of the drone that it is named after: ``cam1.kmz``, ``cam1-litchi.csv``, or ``cam1-1.kmz`` and on
-    for the parts of one flight. Where the mission has one drone, every file is of that one.
+    A file belongs to the drone that it is named after: ``cam1.kmz``, ``cam1-litchi.csv``, or ``cam1-1.kmz``
+    and so on for the parts of one flight. If the mission has one drone, every file belongs to it.
+
+    names : of the files
+    told : drone of each file by the user's options, or empty
     """
     known = {drone.name: drone for drone in mission.drones}
     found: dict[str, list[tuple[int, int]]] = {}
@@ -62,7 +64,7 @@ def owners(
 
 
 def _of(name: str, known: dict[str, Drone]) -> tuple[str, int]:
-    """Return the drone of a file and the number of the part that it is, from 0."""
+    """Return the drone of a file, "" if unknown, and the index of the file's part of the flight, from 0."""
     stem = PurePath(name).stem
     if stem in known:
         return stem, 0
@@ -89,7 +91,7 @@ def _nobody(name: str, told: str, known: list[str]) -> Diagnostic:
 
 
 def _twice(found: dict[str, list[tuple[int, int]]], names: Sequence[str]) -> list[Diagnostic]:
-    """Report files that claim to be the same part of one drone's flight."""
+    """Report files that are the same part of one drone's flight."""
     faults = []
     for drone, files in found.items():
         parts = [part for part, _ in files]
@@ -104,10 +106,11 @@ def _twice(found: dict[str, list[tuple[int, int]]], names: Sequence[str]) -> lis
 def named(
     mission: MissionIR, flights: Sequence[ClockedFlight], others: Collection[str]
 ) -> tuple[dict[str, ClockedFlight], tuple[Diagnostic, ...]]:
-    """Return flights on the clock by the names of the mission's drones, and what does not fit.
+    """Return flights on the clock by the names of the mission's drones, and the faults.
 
-    others : the drones that have another file
-    Drones of shows that bear other names are those on whose pads they stand.
+    If no name in a show file is known, each drone gets the name of the pad on which it stands.
+
+    others : drones that have another file
     """
     pads = {name: pad for f in mission.fleets for name, pad in zip(drone_names(f), f.pads, strict=True)}
     pads |= {drone.name: drone.home for drone in mission.drones}
@@ -146,7 +149,7 @@ def _away(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
 
 
 def _by_pads(flights: Sequence[ClockedFlight], pads: dict[str, Vec3]) -> list[ClockedFlight]:
-    """Return flights with the names of the pads that they begin on, where none of a file has a known name."""
+    """Return flights with the names of their start pads, for files in which no drone has a known name."""
     known = {flight.file for flight in flights if flight.name in pads}
     return [flight if flight.file in known else _on_its_pad(flight, pads) for flight in flights]
 
@@ -159,7 +162,7 @@ def _on_its_pad(flight: ClockedFlight, pads: dict[str, Vec3]) -> ClockedFlight:
 
 
 def _incomplete(fleet: Fleet, found: dict[str, ClockedFlight]) -> Diagnostic | None:
-    """Report a fleet of which some drones have a flight and others have none."""
+    """Report a fleet of which only some drones have a flight."""
     missing = [name for name in drone_names(fleet) if name not in found]
     if not missing or len(missing) == len(fleet.pads):
         return None

@@ -1,7 +1,7 @@
-"""Limits of motion of flights with a clock: at every instant of the rebuilt curves, or of what rows prove.
+"""Claims on the motion of flights with a clock, from the rebuilt curves or directly from rows.
 
-Of rows the acceleration between two of them is at least the mean that their velocities tell, and so on for
-what is derived of angles: where that mean is beyond a limit, every flight through these rows breaks it.
+Between two rows the largest acceleration is at least the mean that their velocities give; the same holds for
+the derivatives of angles. If that mean exceeds a limit, every flight through these rows breaks it.
 """
 
 from __future__ import annotations
@@ -23,18 +23,18 @@ from shotc.ir.origin import KeyPath
 from shotc.passes.verify.claims import Limit, WorstValue, gap
 
 STEEP_STEP_S = 0.02
-"""Seconds of a piece below which a show's rounding makes more acceleration than there is."""
+"""Least duration of a show's piece, seconds; on shorter ones rounding would dominate the acceleration."""
 
 
 class FlightPieces(NamedTuple):
-    """Pieces of many flights, and whose each is: its place among them."""
+    """Pieces of many flights, and the index of the flight of each."""
 
     pieces: Pieces
     owner: Array
 
 
 class LimitFinding(NamedTuple):
-    """A worst value against a limit, with what the file leaves open, and whose it is."""
+    """A worst value with its limit, the file's uncertainty, and the index of its flight."""
 
     limit: Limit
     worst: WorstValue
@@ -43,7 +43,7 @@ class LimitFinding(NamedTuple):
 
 
 def bagged(parts: Sequence[Pieces]) -> FlightPieces:
-    """Return the pieces of each of some flights as one bag."""
+    """Return the pieces of several flights as one collection."""
     return FlightPieces(join(parts), np.repeat(np.arange(len(parts)), [len(part) for part in parts]))
 
 
@@ -55,7 +55,7 @@ def bag_of(flights: Sequence[ClockedFlight]) -> FlightPieces:
 def speeds(
     flights: Sequence[ClockedFlight], bag: FlightPieces, limits: Limits, path: KeyPath
 ) -> Iterator[LimitFinding]:
-    """Yield the speeds of flights with the same limits, proved for every instant."""
+    """Yield the speeds of flights with the same limits, proved at every instant."""
     velocity = bag.pieces.derivative()
     wind = np.array([*limits.wind, 0.0])
     name = "airspeed" if any(limits.wind) else "speed"
@@ -76,7 +76,10 @@ def speeds(
 
 
 def who(bag: FlightPieces, at: float, value: object, *, upper: bool) -> int:
-    """Return whose value is the worst one at a time; value : as it was bounded."""
+    """Return the index of the flight with the worst value at a time.
+
+    value : the function that was bounded
+    """
     assert callable(value)
     inside = (bag.pieces.low <= at + 1e-9) & (bag.pieces.high >= at - 1e-9)
     some = bag.pieces.pick(inside)
@@ -86,7 +89,7 @@ def who(bag: FlightPieces, at: float, value: object, *, upper: bool) -> int:
 
 
 def accelerations(flights: Sequence[ClockedFlight], limits: Limits, path: KeyPath) -> Iterator[LimitFinding]:
-    """Yield the acceleration, and the jerk where a table has a column of acceleration."""
+    """Yield the acceleration, and the jerk if a table has accelerations."""
     for name, most, unit, of in (
         ("acceleration", limits.acceleration, "m/s^2", _acceleration),
         ("jerk", limits.jerk, "m/s^3", _jerk),
@@ -99,7 +102,7 @@ def accelerations(flights: Sequence[ClockedFlight], limits: Limits, path: KeyPat
 
 
 Peak = tuple[float, float, float]
-"""The largest value, less what is left open; when, s; and what is left open."""
+"""The largest value in excess of the uncertainty: the value, its time in seconds, and the uncertainty."""
 
 
 def _acceleration(flight: ClockedFlight) -> Peak | None:
@@ -133,7 +136,7 @@ def _rounding(rows: DroneRows, *columns: str) -> float:
 
 
 def _mean(values: Array, time: Array, rounding: float) -> Peak | None:
-    """Return the largest rate between two rows of values (N, k)."""
+    """Return the largest rate of change between two rows of values (N, k)."""
     if len(time) < 2:
         return None
     step = np.diff(time)
@@ -146,7 +149,7 @@ def _peak(size: Array, time: Array, leeway: Array) -> Peak:
 
 
 def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
-    """Yield angles, rates and accelerations of the body and of the gimbal, where a table has the columns."""
+    """Yield angles, rates and accelerations of body and gimbal, if a table has the columns."""
     rows = flight.rows
     if rows is None:
         return
@@ -179,7 +182,7 @@ def turns(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
 
 
 def zooms(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
-    """Yield fields of view and how fast they change, where a table has them and the mission says the lens."""
+    """Yield fields of view and their rates, if a table has them and the mission describes the lens."""
     lens = drone.lens
     hfov = None if flight.rows is None else flight.rows.values("hfov_rad")
     if lens is None or hfov is None or flight.rows is None:
@@ -200,7 +203,7 @@ def zooms(flight: ClockedFlight, drone: Drone) -> Iterator[LimitFinding]:
 def _rates(
     rows: DroneRows, of: tuple[str, Array, Sequence[str]], most: tuple[float, float], paths: Sequence[KeyPath]
 ) -> Iterator[LimitFinding]:
-    """Yield how fast an angle changes at least, and how fast that does: means over one interval, and two."""
+    """Yield lower bounds of an angle's rate and acceleration: means over one and over two intervals."""
     name, angle, columns = of
     rounding = 2 * _rounding(rows, *columns)
     step = np.diff(rows.time)
@@ -210,7 +213,8 @@ def _rates(
         Limit(f"{name} rate", most[0], "rad/s", paths[0]), WorstValue(peak[0], peak[1]), peak[2], 0
     )
     if len(rate) > 1:
-        # The rate somewhere within an interval is its mean: of two they are no farther apart than both take.
+        # The mean rate of an interval is reached somewhere in it. These instants of two neighbouring
+        # intervals are at most the sum of both apart.
         wide = step[:-1] + step[1:]
         peak = _peak(
             np.abs(np.diff(rate)) / wide,
@@ -226,6 +230,6 @@ def _rates(
 
 
 def beyond(move: LimitFinding) -> bool:
-    """Tell whether a value is beyond its limit by more than the file leaves open."""
+    """Return whether a value exceeds its limit by more than the file's uncertainty."""
     over = move.worst.value - move.limit.value if move.limit.upper else move.limit.value - move.worst.value
     return over > move.leeway and move.limit.value not in (inf, -inf)

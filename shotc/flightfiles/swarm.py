@@ -1,4 +1,4 @@
-"""What is proved of a fleet's flights on the clock, all of them at once; each has breaks of its own."""
+"""Claims on all flights of a fleet together, with a clock; each flight has its own breaks."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ from shotc.planning.take_off import bodies_of, take_off_of
 Span = tuple[float, float]
 
 AT_PAD_M = 0.05
-"""Metres from their pads at which flights begin and end."""
+"""Metres from the pad, within which a flight begins and ends on it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Swarm:
-    """A fleet's flights, in the order of its pads, and their pieces: free, and upright over pads.
+    """A fleet's flights in the order of its pads, with their pieces, divided into free and vertical ones.
 
-    ends : the pad that each lands on, or where it ends
+    pads : positions of the pads, W, metres, shape (n, 3)
     """
 
     mission: MissionIR
@@ -79,7 +79,7 @@ class Swarm:
 
 
 def judged(swarm: Swarm) -> Iterator[FileClaim]:
-    """Yield every claim about a fleet: one a constraint, with the drone that comes nearest to the limit."""
+    """Yield all claims on a fleet: one for each constraint, with the drone nearest to the limit."""
     fleet, limits = swarm.fleet, swarm.fleet.limits
     yield from _pads(swarm)
     for move in (
@@ -95,7 +95,7 @@ def judged(swarm: Swarm) -> Iterator[FileClaim]:
 def moved(
     subject: str, flights: Sequence[ClockedFlight], move: LimitFinding, *, fleet: bool = False
 ) -> FileClaim:
-    """Return a claim about motion, which holds within what its file leaves open."""
+    """Return a claim on motion; it holds up to the file's uncertainty."""
     flight, time = flights[move.owner], move.worst.time or 0.0
     x, y, z = flight.curve(time).tolist()
     worst = WorstValue(move.worst.value, move.worst.time, move.worst.method, (x, y, z))
@@ -105,7 +105,7 @@ def moved(
 
 
 def when(flight: ClockedFlight, time: float) -> tuple[str, ...]:
-    """Return the notes that say when a thing is, and where in a file without lines."""
+    """Return the notes on a time, and on the place in a file that has no lines."""
     element = () if flight.rows is not None else (f"in {flight.at(time).text}",)
     return (f"at t = {time:.3f} s", *element)
 
@@ -121,7 +121,7 @@ def _told(swarm: Swarm, limit: Limit, bound: ProvedExtreme, owner: int) -> FileC
 
 
 def _pads(swarm: Swarm) -> Iterator[FileClaim]:
-    """Claim that drones begin on their pads, end on them if it says so, and are not too long in the air."""
+    """Yield the claims on start and landing pads, and on the endurance."""
     fleet = swarm.fleet
     ends = [(0.0, f.curve.ctrl[0, 0], k) for k, f in enumerate(swarm.flights)]
     if fleet.returns == "own":
@@ -140,7 +140,10 @@ def _pads(swarm: Swarm) -> Iterator[FileClaim]:
 
 
 def _moving(flight: ClockedFlight, least: float = 0.0) -> Span:
-    """Return when a drone leaves its first place, and when it comes to its last one; least : of a move, m."""
+    """Return the times at which a drone leaves its first position and reaches its last one, seconds.
+
+    least : smallest motion that counts, metres
+    """
     curve = flight.curve
     moves = np.asarray((np.abs(curve.ctrl - curve.ctrl[:, :1]) > least).any(axis=(1, 2)))
     if not moves.any():
@@ -150,9 +153,9 @@ def _moving(flight: ClockedFlight, least: float = 0.0) -> Span:
 
 
 def _aloft(swarm: Swarm) -> Array:
-    """Return when every drone is off its pads, shape (n, 2); always where its flight ends elsewhere.
+    """Return the times between which each drone is off its pads, shape (n, 2); infinite if it ends elsewhere.
 
-    On a piece of its flight it stands where it moves by less than what the file leaves open.
+    A drone stands on a piece of its flight if it moves by less than the file's uncertainty.
     """
     spans = []
     for flight in swarm.flights:
@@ -164,7 +167,7 @@ def _aloft(swarm: Swarm) -> Array:
 
 
 def _space(swarm: Swarm) -> Iterator[FileClaim]:
-    """Claim zones, the ground, heights and standing or moving targets."""
+    """Yield the claims on zones, ground, heights, and standing and moving targets."""
     mission, rules = swarm.mission, swarm.mission.rules
     for zone in mission.zones:
         name = f"zone {zone.name}"
@@ -185,7 +188,7 @@ def _space(swarm: Swarm) -> Iterator[FileClaim]:
 
 
 def _ground(swarm: Swarm) -> Iterator[FileClaim]:
-    """Claim the height above flat ground."""
+    """Yield the claims on the height above flat ground."""
     free, rules, radius = swarm.free, swarm.mission.rules, swarm.fleet.radius
     if len(free.pieces):
         low = inf_channel(free.pieces, 2, gap(rules.ground_clearance + radius))
@@ -203,7 +206,7 @@ def _clearance(rules: Rules) -> Limit:
 
 
 def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[FileClaim]:
-    """Claim the upright height above terrain, and the body's distance from it; beyond it nothing holds."""
+    """Yield the claims on the height above terrain and the body's distance from it; none holds outside it."""
     free, rules, radius, ground = swarm.free, swarm.mission.rules, swarm.fleet.radius, terrain.ground
 
     def above(p: Array) -> Array:
@@ -228,7 +231,9 @@ def _terrain(swarm: Swarm, terrain: Terrain) -> Iterator[FileClaim]:
 
 
 def _beside(swarm: Swarm, mesh: ObstacleMesh) -> Iterator[FileClaim]:
-    """Claim the distance from a scene or from buildings; over its pad a body may be as near as it stands."""
+    """Yield the claims on the distance from a scene or buildings; over its pad a body may be as near as its
+    pad.
+    """
     least, body = swarm.mission.rules.obstacle_clearance, swarm.fleet.radius + mesh.spacing
     name, pads = f"distance from {mesh.kind}", mesh.signed_distance(swarm.pads)
     for bag, at_home in ((swarm.free, False), (swarm.upright, True)):
@@ -257,7 +262,7 @@ def _keep_out(swarm: Swarm, limit: Limit, solid: Solid) -> Iterator[FileClaim]:
     upright = swarm.upright
     if not len(upright.pieces):
         return
-    # On the vertical over its pad a body may be as near as it stands there.
+    # On the vertical over its pad, a body may be as near as it is on the pad.
     near = np.minimum(
         radius, np.min([separation(part, swarm.pads)[0] for part in convex_parts(solid)], axis=0)
     )
@@ -291,7 +296,7 @@ def _keep_in(swarm: Swarm, limit: Limit, solid: Solid) -> FileClaim:
 
 
 def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> FileClaim:
-    """Claim the distance from a target that moves, drone by drone."""
+    """Return the claim on the distance from a moving target, the worst of all drones."""
     radius = swarm.fleet.radius
     worst, owner = ProvedExtreme(np.inf, np.inf, 0.0), 0
     for k, flight in enumerate(swarm.flights):
@@ -305,7 +310,9 @@ def _keep_from(swarm: Swarm, limit: Limit, target: Target) -> FileClaim:
 
 
 def _separation(swarm: Swarm) -> Iterator[FileClaim]:
-    """Claim the separation; of a fleet that takes off in layers that of two in the air, and of bodies."""
+    """Yield the claims on separation; for a fleet that takes off in layers on drones in the air and on
+    bodies.
+    """
     fleet = swarm.fleet
     if not take_off_of(fleet).layered:
         yield from _kept(swarm, "separation", fleet.apart)
@@ -318,7 +325,7 @@ def _kept(swarm: Swarm, name: str, apart: Apart, spans: Array | None = None) -> 
     fleet = swarm.fleet
     found = closest_of([flight.curve for flight in swarm.flights], apart, spans=spans)
     if not isfinite(found.proven):
-        return  # No two are ever in the air.
+        return  # no two drones are in the air at once
     own = (*fleet.path, "separation")
     origins = swarm.mission.origins
     path: KeyPath = own if own in origins.keys or own in origins.values else ("rules", "separation")

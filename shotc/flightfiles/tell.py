@@ -1,4 +1,6 @@
-"""Broken claims of files in the user's terms: the file's line, the mission's limit, where, and what helps."""
+"""Diagnostics for broken claims on files: the file's line, the mission's limit, the position, and
+a remedy.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ from shotc.passes.verify.report import limit_label, rule_of, side_of, state_of
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 
 SEEN = "V025"
-"""The code of a drone in another one's picture."""
+"""Code of a drone in another one's picture."""
 HELPS = {
     "V002": "change speed more gently there",
     "V003": "change speed more gently there",
@@ -41,7 +43,10 @@ HELPS = {
     "V047": "fly {lack} lower there",
     "V052": "keep {lack} farther away there",
 }
-"""What helps whoever wrote the file; lack : by how much the limit is missed."""
+"""Remedies for the author of a file.
+
+lack : by how much the limit is missed
+"""
 
 
 def told(mission: MissionIR, found: Sequence[FileClaim]) -> Iterator[Diagnostic]:
@@ -83,7 +88,7 @@ def _notes(claim: Claim, found: FileClaim) -> Iterator[str]:
 
 
 def models(courses: Sequence[UntimedFlight]) -> Iterator[str]:
-    """Yield how each flight was rebuilt, and what is not judged of it."""
+    """Yield notes on how each waypoint flight was rebuilt, and what is not judged."""
     for course in courses:
         name, files = course.drone.name, ", ".join(f"`{file}`" for file in course.files)
         ways = [way for way, _ in course.ways]
@@ -104,7 +109,7 @@ def models(courses: Sequence[UntimedFlight]) -> Iterator[str]:
 
 
 def rebuilt(films: Sequence[ClockedFlight], swarms: Sequence[Swarm]) -> Iterator[str]:
-    """Yield how flights with a clock were rebuilt, and how well their files tell them."""
+    """Yield notes on how flights with a clock were rebuilt, and how accurate their files are."""
     groups = [(flown.name, [flown]) for flown in films]
     groups += [(swarm.fleet.name, list(swarm.flights)) for swarm in swarms]
     for name, flights in groups:
@@ -126,7 +131,7 @@ def rebuilt(films: Sequence[ClockedFlight], swarms: Sequence[Swarm]) -> Iterator
 
 
 def unjudged(mission: MissionIR, courses: Sequence[UntimedFlight], swarms: Sequence[Swarm]) -> Iterator[str]:
-    """Yield what files without a clock leave open, and shows."""
+    """Yield notes on what is not judged for files without a clock and for shows."""
     moving = [f"`{target.name}`" for target in mission.targets if target.track is not None]
     words = ["acceleration, jerk and rates of turning", "framing, visibility and promises of shots"]
     if moving:

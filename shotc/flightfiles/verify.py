@@ -1,4 +1,4 @@
-"""Files of flights, proved against a mission: bytes in, a certificate and diagnostics out."""
+"""Verifies flight files against a mission: bytes in, a certificate and diagnostics out."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from shotc.source.file import SourceFile
 
 
 class FlightFile(NamedTuple):
-    """A file: its bytes, and how to show it."""
+    """The bytes of a file, and its displayed name."""
 
     data: bytes
     name: str
@@ -47,11 +47,11 @@ class FlightFile(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class FlightsReport:
-    """What became of files of flights.
+    """The result of verifying flight files.
 
-    holds : whether all that was judged holds
-    certificate : every claim that was made, broken ones included
-    notes : how the flights were rebuilt, and what is not judged of them and why
+    holds : whether all claims hold
+    certificate : all claims, broken ones included
+    notes : how the flights were rebuilt, and what is not judged and why
     """
 
     holds: bool
@@ -64,7 +64,10 @@ class FlightsReport:
 def verify_flights(
     files: Sequence[FlightFile], against: MissionFile, drones: Sequence[str] = ()
 ) -> FlightsReport:
-    """Prove flights that any tool may have written against a mission; the files' drones as of ``owners``."""
+    """Return the report on flight files, which any tool may have written, against a mission.
+
+    drones : the drone of each file, or empty; see ``owners``
+    """
     reads = [read(file.data, Path(file.name).as_posix()) for file in files]
     asked = lower_for_flights(*against, partial(_filmed, reads))
     sources = {against.name: asked.file}
@@ -92,7 +95,7 @@ def _is_other(each: Read) -> bool:
 
 
 def _with_members(report: FlightsReport, reads: Sequence[Read]) -> FlightsReport:
-    """Return a report with the tables of archives that its diagnostics point into."""
+    """Return a report with the archives' tables to which its diagnostics refer."""
     labelled = {label.file for diagnostic in report.diagnostics for label in diagnostic.labels}
     tables = {
         inside(each.file, rows): rows
@@ -108,7 +111,7 @@ def _with_members(report: FlightsReport, reads: Sequence[Read]) -> FlightsReport
 def _owned(
     keyframes: KeyframeIR, reads: Sequence[Read], drones: Sequence[str], sources: dict[str, SourceFile]
 ) -> FlightsReport:
-    """Find whose the flights are, then prove them."""
+    """Return the report after assigning flights to drones."""
     mission = keyframes.mission
     plain = [i for i, each in enumerate(reads) if isinstance(each.found, Waypoints)]
     names = [reads[i].file.removesuffix(f"/{WAYLINES}") for i in plain]
@@ -135,7 +138,10 @@ def _owned(
 
 
 def _clocked(mission: MissionIR, each: Read, told: str) -> list[ClockedFlight] | Diagnostic:
-    """Return the flights with a clock of a file; told : whose it is, if the user says so."""
+    """Return the flights with a clock in a file.
+
+    told : name of its drone by the user's options, or ""
+    """
     if isinstance(each.found, SkycShow):
         return [of_show(flight, each.found, each.file, mission.origin) for flight in each.found.flights]
     if not isinstance(each.found, tuple) or isinstance(each.found, Waypoints | Refused):
@@ -177,7 +183,7 @@ def _proved(
         claims = [*waypoints_judged(mission, courses, beside)]
         away = frozenset(course.drone.name for course in courses)
         claims += film.judged(beside, films, tracks, away)
-    except Unread as stopped:  # a cell of a column that only films need
+    except Unread as stopped:  # a faulty cell in a column that only filming drones need
         return FlightsReport(False, (), (_refused(films[0].file, stopped.refused),), sources)
     for swarm in swarms:
         claims += swarm_judged(swarm)
@@ -195,7 +201,7 @@ def _proved(
 
 
 def _beside_pads(keyframes: KeyframeIR, swarms: Sequence[Swarm]) -> KeyframeIR:
-    """Return the mission with the fleets alone that have no files, and so stand on their pads."""
+    """Return the mission with only those fleets that have no files and stand on their pads."""
     flown = {flight.name for swarm in swarms for flight in swarm.flights}
     fleets = tuple(fleet for fleet in keyframes.mission.fleets if drone_names(fleet)[0] not in flown)
     return keyframes._replace(mission=keyframes.mission._replace(fleets=fleets))
@@ -213,7 +219,7 @@ def _between(
     films: Sequence[ClockedFlight],
     swarms: Sequence[Swarm],
 ) -> Iterator[FileClaim]:
-    """Yield the separations of flights of different kinds."""
+    """Yield the claims on the separation of flights of different kinds."""
     for course in courses:
         for flown in films:
             yield apart_at_any_time(mission, course, flown.name, pieces(flown.curve))
@@ -225,7 +231,7 @@ def _between(
 
 
 def _course(mission: MissionIR, own: Owned, reads: Sequence[Read]) -> UntimedFlight | Diagnostic:
-    """Return the flight of a drone by all its files, one after another."""
+    """Return the flight of a drone from all its files, joined in order."""
     plans = [each.found for each in reads if isinstance(each.found, Waypoints)]
     of_file = [each.file for each, plan in zip(reads, plans, strict=True) for _ in plan.points]
     plan = plans[-1]._replace(points=tuple(p for each in plans for p in each.points), climb=plans[0].climb)
@@ -242,7 +248,7 @@ def _refused(file: str, why: Refused) -> Diagnostic:
 
 
 def _nowhere(mission: MissionIR) -> tuple[Diagnostic, ...]:
-    """Say that a mission without a place on earth cannot be held against latitudes."""
+    """Return a fault if the mission has no origin to compare latitudes with."""
     if mission.origin is not None:
         return ()
     text = "these files have latitudes and longitudes, and the mission has no place on earth"
@@ -251,7 +257,7 @@ def _nowhere(mission: MissionIR) -> tuple[Diagnostic, ...]:
 
 
 def _others(mission: MissionIR, flown: Collection[str]) -> tuple[str, ...]:
-    """Say who is taken to stand, for want of a file."""
+    """Return the note on drones without a file, which are taken to stand at home."""
     names = [f"`{drone.name}`" for drone in mission.drones if drone.name not in flown]
     names += [f"`{fleet.name}`" for fleet in mission.fleets if drone_names(fleet)[0] not in flown]
     if not names:

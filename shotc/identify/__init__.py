@@ -1,1 +1,1 @@
-"""Targets that keyframes mean, found in a mission's scene (Gebhardt and Hilliges, Sec. 5)."""
+"""Identifies the targets that keyframes mean in a mission's scene (Gebhardt and Hilliges, Sec. 5)."""

@@ -1,4 +1,4 @@
-"""Which cluster each keyframe means: by the rays through its own box, or as the paper prints it."""
+"""Chooses the cluster that each keyframe means: by the rays through its box, or by the paper's rule."""
 
 from __future__ import annotations
 
@@ -13,16 +13,17 @@ from shotc.identify.cylinders import Upright
 from shotc.identify.views import CameraPose
 
 MIDDLE = 0.5
-"""Standard deviation of the weights of rays about the middle of their box, in its half sides."""
+"""Standard deviation of the rays' weights about the middle of their box, in its half sides."""
 LEAST_LINES = 3
-"""Columns and rows of rays that have to hit what is meant: less is the edge of something beside the box."""
+"""Least columns and rows of rays that hit the chosen cluster; fewer hit only the edge of a neighbour."""
 
 
 class Choice(NamedTuple):
-    """What a keyframe means.
+    """The cluster that a keyframe means.
 
-    cluster : its number; share : of the weight of all that its box holds, 0 to 1
-    runner_up : the cluster with the next largest share, None where there is none
+    cluster : its number
+    share : its share of the weight of all clusters in the box, 0 to 1
+    runner_up : the cluster with the next largest share, or None
     """
 
     cluster: int
@@ -31,10 +32,12 @@ class Choice(NamedTuple):
 
 
 def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | None:
-    """Return the cluster that most of the rays through a keyframe's box hit, weighted towards its middle.
+    """Return the cluster that most rays through a keyframe's box hit, with larger weights near its middle.
 
-    cluster : of each point, shape (P,). None where no ray hits a cluster. Of what also reaches out of the
-    box, the weight is less by the share of it that does: a box is drawn about what is meant, not across it.
+    The result is None if no ray hits a cluster. The weight of a cluster is multiplied by the share of its
+    rays that are inside the box, because a box is drawn around what is meant and not across it.
+
+    cluster : of each point, shape (P,)
     """
     mine = (points.keyframe == keyframe) & (cluster != LOOSE)
     within = mine & points.within()
@@ -42,7 +45,7 @@ def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | No
         return None
     count = int(cluster.max()) + 1
     square = (points.place[within] ** 2).sum(axis=1)
-    # The least square is taken off: far from the middle all weights would be 0.
+    # The least square is subtracted, so that not all weights underflow far from the middle.
     weight = np.exp(-(square - square.min()) / (2.0 * MIDDLE**2))
     weights = np.bincount(cluster[within], weight, count)
     inside, all_of_it = (np.bincount(cluster[which], minlength=count) for which in (within, mine))
@@ -56,9 +59,9 @@ def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | No
 
 
 def as_printed(camera: CameraPose, cylinders: Mapping[int, Upright] | Sequence[Upright]) -> int | None:
-    """Return the cylinder whose centre is nearest to the line straight ahead (Gebhardt and Hilliges, Sec. 5).
+    """Return the cylinder whose centre is nearest to the optical axis (Gebhardt and Hilliges, Sec. 5).
 
-    None where none is in front of the camera.
+    The result is None if no cylinder is in front of the camera.
     """
     numbers = list(cylinders) if isinstance(cylinders, Mapping) else list(range(len(cylinders)))
     centres = np.array([cylinders[n].middle for n in numbers]).reshape(-1, 3)

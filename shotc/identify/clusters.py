@@ -1,4 +1,6 @@
-"""Points that belong together: what rays of all keyframes hit, linked where they lie as near as rays do."""
+"""Clusters of points that rays of all keyframes hit; points are linked if they are as near as the rays'
+spacing.
+"""
 
 from __future__ import annotations
 
@@ -14,25 +16,25 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 
 VOXEL_M = 0.5
-"""Side of the cells of which one point each is linked."""
+"""Side of the cells, each of which has one point in the linking, metres."""
 LINK_FOOTPRINTS, LEAST_LINK_M, MOST_LINK_M = 2.5, 0.9, 6.0
-"""Points are linked that are nearer than so many footprints of their rays, within these bounds."""
+"""Link distance in footprints of the rays, and its bounds in metres."""
 LEAST_POINTS = 25
-"""Points in boxes of what may be a target."""
+"""Least points in boxes of a cluster that may be a target."""
 NOBODY = -1
 LOOSE = -1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Points:
-    """What rays of keyframes hit above the ground.
+    """The points above the ground that rays of keyframes hit.
 
-    point     : shape (P, 3), metres of W
-    footprint : shape (P,), how wide a ray is there, metres
-    owner     : shape (P,), the number of the building that each belongs to; NOBODY where that is not known
-    foot      : shape (P,), the lowest z of that building, metres; inf where it is not known
-    keyframe  : shape (P,), the number of the keyframe whose ray it is
-    place     : shape (P, 2), where in the box the ray goes, across and up: -1 to 1, more beside the box
+    point : shape (P, 3), W, metres
+    footprint : shape (P,), width of a ray at the point, metres
+    owner : shape (P,), number of the point's building; NOBODY where it is unknown
+    foot : shape (P,), lowest z of that building, metres; inf where it is unknown
+    keyframe : shape (P,), number of the ray's keyframe
+    place : shape (P, 2), position of the ray in the box, across and up: -1 to 1, larger outside the box
     """
 
     point: Array
@@ -46,14 +48,17 @@ class Points:
         return len(self.point)
 
     def within(self, sides: float = 1.0) -> Mask:
-        """Tell which rays go through the boxes, shape (P,); sides : of the boxes, as shares of theirs."""
+        """Return which rays pass through the boxes, shape (P,).
+
+        sides : size of the boxes, relative to their own
+        """
         return np.asarray((np.abs(self.place) <= sides).all(axis=1))
 
 
 def clusters(points: Points) -> IntArray:
     """Return the number of each point's cluster, shape (P,); LOOSE where it is too small to be a target.
 
-    Points of two different owners are not linked, however near. Clusters are numbered by their size.
+    Points of two different owners are not linked. Clusters are numbered by size, the largest first.
     """
     if not len(points):
         return np.zeros(0, dtype=np.intp)
@@ -69,7 +74,7 @@ def clusters(points: Points) -> IntArray:
 
 
 def _linked(point: Array, footprint: Array, owner: IntArray) -> IntArray:
-    """Return the connected component of each point, shape (K,)."""
+    """Return the number of the connected component of each point, shape (K,)."""
     link = np.clip(LINK_FOOTPRINTS * footprint, LEAST_LINK_M, MOST_LINK_M)
     pairs = cKDTree(point).query_pairs(float(link.max()), output_type="ndarray")
     a, b = pairs[:, 0], pairs[:, 1]

@@ -1,4 +1,4 @@
-"""What of a target no keyframe sees: the far side of the bodies whose near side is in the boxes."""
+"""Adds the hidden side of a target: the corners of bodies whose visible side is in the boxes."""
 
 from __future__ import annotations
 
@@ -13,19 +13,21 @@ from shotc.identify.views import CameraPose
 from shotc.ir.mission import MissionIR
 
 MARGIN = 1.5
-"""Half sides of a box within which a body has to lie on screen: then it is what the box is drawn about."""
+"""Size of a box, in its half sides, inside which a body lies if the box is drawn around it."""
 LEAST_SHARE = 0.02
-"""Share of a target's points that have to be of a body, so that the body belongs to it."""
+"""Least share of a target's points on a body that belongs to it."""
 
 
 def hidden_corners(
     mission: MissionIR, hit: tuple[IntArray, IntArray], views: Sequence[tuple[CameraPose, ScreenBox]]
 ) -> Array:
-    """Return the corners of the bodies that a target is made of, shape (K, 3), metres of W.
+    """Return the corners of the bodies of a target, shape (K, 3), W, metres.
 
-    hit : mesh and triangle of each of its points; views : cameras, and the boxes that mean it
-    A body counts whose outline lies in every box, or close about it. To what reaches farther, such as a
-    church of which the tower is meant, nothing is added.
+    Only bodies count whose outline is inside, or just outside, every box. A body that reaches farther adds
+    nothing, for example a church of which the tower is meant.
+
+    hit : mesh and triangle of each of its points
+    views : cameras, and the boxes that mean it
     """
     mesh, triangle = hit
     body = np.zeros(len(mesh), dtype=np.intp)
@@ -43,7 +45,7 @@ def hidden_corners(
 
 
 def _within(corners: Array, camera: CameraPose, box: ScreenBox) -> bool:
-    """Tell whether all corners (K, 3) show in a box, or close about it."""
+    """Return whether all corners (K, 3) appear inside a box or just outside it."""
     u, v, depth = camera.view.project(tuple((corners - np.array(camera.eye)).T))
     if (depth <= 0.0).any():
         return False

@@ -1,4 +1,4 @@
-"""Upright cylinders round points: the least one, and the one of Appendix F as it is printed."""
+"""Vertical cylinders around points: the least one, and the one of Appendix F as printed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.vec import Vec2
 
 TO_GROUND_M = 3.0
-"""Height above ground below which what is seen is taken to stand on it: its foot may be hidden."""
+"""Height above ground, metres, below which visible points are taken to reach the ground."""
 ROUNDING = 1.0 + 1e-9
 
 
@@ -22,12 +22,12 @@ class Circle(NamedTuple):
     radius: float
 
     def holds(self, point: Array) -> bool:
-        """Tell whether a point (2,) is inside, to rounding."""
+        """Return whether a point (2,) is inside, up to rounding."""
         return bool(np.hypot(*(point - self.centre)) <= self.radius * ROUNDING + 1e-12)
 
 
 class Upright(NamedTuple):
-    """An upright cylinder, metres of W."""
+    """A vertical cylinder, W, metres."""
 
     centre: Vec2
     radius: float
@@ -36,7 +36,7 @@ class Upright(NamedTuple):
 
     @property
     def height(self) -> float:
-        """How high it is, metres."""
+        """Height, metres."""
         return self.top - self.bottom
 
     @property
@@ -46,21 +46,24 @@ class Upright(NamedTuple):
 
     @property
     def described(self) -> str:
-        """Where it is and how large, for people."""
+        """Its position and size in words."""
         x, y, z = self.middle
         return f"about [{x:.1f}, {y:.1f}, {z:.1f}], radius {self.radius:.1f} m, height {self.height:.1f} m"
 
 
 def enclosing(points: Array, ground: float) -> Upright:
-    """Return the least cylinder about points (P, 3); ground : z of the ground there, metres."""
+    """Return the least cylinder around points (P, 3).
+
+    ground : z of the ground below them, metres
+    """
     return _upright(least_circle(points[:, :2]), points, ground)
 
 
 def printed(points: Array, ground: float) -> Upright:
-    """Return the cylinder of Gebhardt and Hilliges, Appendix F, about points (P, 3).
+    """Return the cylinder of Gebhardt and Hilliges, Appendix F, around points (P, 3).
 
-    Its circle has the farthest pair as its diameter, and need not hold all points. They print that distance
-    as the radius; it is halved here.
+    The diameter of its circle is the farthest pair, so it need not contain all points. The paper states that
+    distance as the radius; it is halved here.
     """
     corners = _outermost(points[:, :2])
     away = np.linalg.norm(corners[:, None] - corners[None], axis=-1)
@@ -82,9 +85,11 @@ def _upright(circle: Circle, points: Array, ground: float) -> Upright:
 
 
 def least_circle(points: Array) -> Circle:
-    """Return the smallest circle that holds points (P, 2), metres; by Welzl's way, over their hull's corners.
+    """Return the smallest circle around points (P, 2), metres, by Welzl's algorithm on the corners of their
+    hull.
 
-    E. Welzl, Smallest enclosing disks (1991), without recursion; the points go by distance from the middle.
+    E. Welzl, Smallest enclosing disks (1991), without recursion; the points are ordered by distance from the
+    middle.
     """
     corners = _outermost(points)
     corners = corners[np.argsort(-np.linalg.norm(corners - corners.mean(axis=0), axis=1), kind="stable")]
@@ -104,11 +109,11 @@ def least_circle(points: Array) -> Circle:
 
 
 def _outermost(points: Array) -> Array:
-    """Return the corners of the hull of points (P, 2), or the ends of those that lie on a line."""
+    """Return the corners of the hull of points (P, 2); the two ends if they lie on a line."""
     if len(points) > 3:
         try:
             return np.asarray(points[ConvexHull(points).vertices])
-        except QhullError:  # they lie on a line
+        except QhullError:  # the points lie on a line
             order = np.lexsort((points[:, 1], points[:, 0]))
             return np.asarray(points[[order[0], order[-1]]])
     return points
@@ -123,7 +128,7 @@ def _about(p: Array, q: Array) -> Circle:
 
 
 def _through(p: Array, q: Array, r: Array) -> Circle:
-    """Return the circle through three points; of points on a line, that about the two farthest."""
+    """Return the circle through three points; for points on a line, the one about the farthest two."""
     a, b = q - p, r - p
     twice = 2.0 * float(a[0] * b[1] - a[1] * b[0])
     if abs(twice) < 1e-12 * max(float(a @ a), float(b @ b), 1e-300):

@@ -1,7 +1,7 @@
-"""From boxes on keyframes to targets: rays, clusters, cylinders and a choice, in this order.
+"""Finds the targets in boxes of keyframes, by rays, clusters, cylinders and a choice, in this order.
 
 The method is that of Gebhardt and Hilliges, "Optimization-based user support for cinematographic quadrotor
-camera target framing", Sec. 5 and Appendix F, with another rule for which cylinder a keyframe means.
+camera target framing", Sec. 5 and Appendix F, with another rule for the cylinder that a keyframe means.
 """
 
 from __future__ import annotations
@@ -25,26 +25,29 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import ground_heights
 
 BOX_RAYS, RAYS = 32, 56
-"""Rays along either side of a box, and of the larger one that is looked at: what is beside a box tells how
-much of what is in it belongs there."""
+"""Rays along each side of a box, and of the larger box that is examined. The surroundings of a box show how
+much of an object is inside it.
+"""
 GROWN = RAYS / BOX_RAYS
 SLACK = 1.3
-"""Half sides of a box up to which what is hit shapes the cylinder: boxes are drawn by hand."""
+"""Size of a box, in its half sides, inside which points shape the cylinder; it is above 1 because users draw
+boxes by hand.
+"""
 NAMED_SHARE = 0.6
-"""Share of a cluster's points that have to be of one named part, so that it bears that name."""
+"""Least share of a cluster's points on one named part, for the cluster to have its name."""
 
 
 class Glance(NamedTuple):
-    """A keyframe's camera, and the box on its screen that holds what is meant."""
+    """A keyframe's camera, and the box on its screen."""
 
     camera: CameraPose
     box: ScreenBox
 
 
 class Clustered(NamedTuple):
-    """What glances hit: points, and the cluster of each, shape (P,).
+    """The points that rays of all glances hit, and the cluster of each, shape (P,).
 
-    seen : of each glance, its box and what is about it
+    seen : the rays of each glance, through its box and around it
     hit : mesh and triangle of each point, shape (P,) each
     """
 
@@ -55,14 +58,15 @@ class Clustered(NamedTuple):
 
     @property
     def size(self) -> int:
-        """How many clusters there are."""
+        """Number of clusters."""
         return int(self.cluster.max(initial=LOOSE)) + 1
 
 
 class ClusterTarget(NamedTuple):
     """A cluster that glances mean.
 
-    glances : their numbers; name : that the file gives to what it is a part of, None without
+    glances : their numbers
+    name : of its part in the file, or None
     """
 
     cluster: int
@@ -72,9 +76,9 @@ class ClusterTarget(NamedTuple):
 
 
 class SearchResult(NamedTuple):
-    """What was found in a scene.
+    """The result of a search in a scene.
 
-    choices : what each glance means; None where its box holds nothing that can be a target
+    choices : the choice of each glance; None if its box holds nothing that can be a target
     targets : in the order of their first glances
     """
 
@@ -84,7 +88,7 @@ class SearchResult(NamedTuple):
 
 
 def find(mission: MissionIR, glances: Sequence[Glance]) -> SearchResult:
-    """Find what glances mean; a cluster that several mean is one target."""
+    """Return the targets of glances; a cluster that several glances mean is one target."""
     made = cluster_glances(mission, glances)
     choices = tuple(by_own_rays(made.points, made.cluster, i) for i in range(len(glances)))
     meant = dict.fromkeys(choice.cluster for choice in choices if choice is not None)
@@ -99,7 +103,10 @@ def _target(
     glances: Sequence[Glance],
     meant: tuple[Sequence[Choice | None], int],
 ) -> ClusterTarget:
-    """Return what some glances mean; meant : the choice of each, and the cluster."""
+    """Return the target of some glances.
+
+    meant : the choices of all glances, and the cluster
+    """
     choices, cluster = meant
     numbers = tuple(i for i, choice in enumerate(choices) if choice is not None and choice.cluster == cluster)
     mine = (made.cluster == cluster) & np.isin(made.points.keyframe, numbers)
@@ -107,18 +114,18 @@ def _target(
     hit = (made.hit[0][mine], made.hit[1][mine])
     behind = hidden_corners(mission, hit, [glances[i] for i in numbers])
     cylinder = cylinder_about(mission, np.concatenate([made.points.point[shaping], behind]))
-    # What stands before a building hides its foot.
+    # Objects in front of a building may hide its foot.
     cylinder = cylinder._replace(bottom=min(cylinder.bottom, float(made.points.foot[shaping].min())))
     return ClusterTarget(cluster, numbers, cylinder, _name(mission, _parts(mission, hit)))
 
 
 def cylinder_about(mission: MissionIR, points: Array) -> Upright:
-    """Return the least upright cylinder about points (P, 3), down to the ground where they end near it."""
+    """Return the least vertical cylinder around points (P, 3), extended to the ground if they end near it."""
     return enclosing(points, _ground_at(mission, points))
 
 
 def cluster_glances(mission: MissionIR, glances: Sequence[Glance]) -> Clustered:
-    """Return the clusters of what rays through all boxes, and beside them, hit above the ground."""
+    """Return the clusters of points above the ground that rays through all boxes, and around them, hit."""
     tiles = RAYS // TILE_RAYS
     seen = tuple(look(mission, glance.camera, _grown(glance.box), (tiles, tiles)) for glance in glances)
     points = _points(mission, seen)
@@ -126,7 +133,7 @@ def cluster_glances(mission: MissionIR, glances: Sequence[Glance]) -> Clustered:
 
 
 def _grown(box: ScreenBox) -> ScreenBox:
-    """Return a box with what is about it, as far as rays go."""
+    """Return a box enlarged to the extent of the rays."""
     u, v = 0.5 * (box.u_min + box.u_max), 0.5 * (box.v_min + box.v_max)
     du, dv = 0.5 * GROWN * (box.u_max - box.u_min), 0.5 * GROWN * (box.v_max - box.v_min)
     return ScreenBox(u - du, u + du, v - dv, v + dv)
@@ -157,7 +164,7 @@ def _hit(seen: Sequence[RayHits]) -> tuple[IntArray, IntArray]:
 
 
 def _owned(mission: MissionIR, seen: Sequence[RayHits]) -> tuple[IntArray, Array]:
-    """Return the building that each point belongs to, and the lowest z of that; shape (P,) each."""
+    """Return the building of each point, and the lowest z of the building; shape (P,) each."""
     mesh, triangle = _hit(seen)
     owner, foot = np.full(len(mesh), NOBODY), np.full(len(mesh), np.inf)
     first = 0
@@ -172,7 +179,7 @@ def _owned(mission: MissionIR, seen: Sequence[RayHits]) -> tuple[IntArray, Array
 
 
 def _parts(mission: MissionIR, hit: tuple[IntArray, IntArray]) -> IntArray:
-    """Return mesh and part of what is hit, shape (K, 2)."""
+    """Return mesh and part of each hit, shape (K, 2)."""
     mesh, triangle = hit
     part = np.zeros(len(mesh), dtype=np.intp)
     for number in np.unique(mesh):
@@ -181,7 +188,7 @@ def _parts(mission: MissionIR, hit: tuple[IntArray, IntArray]) -> IntArray:
 
 
 def _name(mission: MissionIR, parts: IntArray) -> str | None:
-    """Return the name of the part that most points, (K, 2), are of, where the file gives it one."""
+    """Return the name of the part with most points, from parts (K, 2); None if the file does not name it."""
     (mesh, part), count = Counter(map(tuple, parts.tolist())).most_common(1)[0]
     name = mission.meshes[mesh].names[part]
     unnamed = name == mission.meshes[mesh].file.rpartition("/")[2].rpartition(".")[0]
@@ -194,7 +201,7 @@ def _ground_at(mission: MissionIR, points: Array) -> float:
 
 
 class RayShares(NamedTuple):
-    """What the rays through a box meet, as shares of all of them."""
+    """Shares of the rays through a box by what they hit."""
 
     sky: float
     ground: float
@@ -202,7 +209,10 @@ class RayShares(NamedTuple):
 
 
 def held(seen: RayHits) -> RayShares:
-    """Return what a box holds; seen : it, and what is about it."""
+    """Return the content of a box.
+
+    seen : the rays through the box and around it
+    """
     aside = (RAYS - BOX_RAYS) // 2
     mesh = seen.mesh[aside : RAYS - aside, aside : RAYS - aside]
     return RayShares(*(float(part.mean()) for part in (mesh == SKY, mesh == GROUND, mesh >= 0)))

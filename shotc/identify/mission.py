@@ -1,4 +1,4 @@
-"""From a mission's text to the same text with the targets that its keyframes mean."""
+"""Adds to a mission's text the targets that its keyframes mean."""
 
 from __future__ import annotations
 
@@ -37,13 +37,14 @@ from shotc.spec.load import load
 
 UNFIT = re.compile(r"[^A-Za-z0-9_-]+")
 LONGEST = 60
-"""Characters of a target's name, so that a number fits behind it."""
+"""Characters of a target's name, which leave room for a number behind it."""
 
 
 class Identified(NamedTuple):
-    """A target that was found.
+    """An identified target.
 
-    tasks : numbers of the keyframes that mean it; shares : of what their boxes hold, 0 to 1
+    tasks : numbers of the keyframes that mean it
+    shares : its share of the content of each keyframe's box, 0 to 1
     """
 
     name: str
@@ -53,10 +54,10 @@ class Identified(NamedTuple):
 
 
 class Identification(NamedTuple):
-    """What came of a mission.
+    """The result for a mission.
 
-    text : the mission with its targets, None where there is an error
-    tasks, pictures : the keyframes that were looked at, and what their cameras see
+    text : the mission with its targets; None if there is an error
+    tasks, pictures : the examined keyframes, and their cameras' pictures
     """
 
     text: bytes | None
@@ -69,7 +70,7 @@ class Identification(NamedTuple):
 
 
 class TextLocation(NamedTuple):
-    """Where a text comes from or goes to: its name, and the folder of the files that it names."""
+    """The source or destination of a text: its name, and the folder of the files that it names."""
 
     name: str
     folder: Path | None
@@ -78,10 +79,10 @@ class TextLocation(NamedTuple):
 def identify_source(
     data: bytes, of: TextLocation, to: TextLocation, saliency: Guesser | None
 ) -> Identification:
-    """Find the targets that a mission's keyframes mean, and write them into it.
+    """Return a mission with the targets that its keyframes mean.
 
-    of, to : the mission, and what is made of it, which has to check clean there
-    saliency : who guesses the boxes of keyframes that have none; None leaves those keyframes alone
+    of, to : locations of the mission and of the result, which must pass the checks there
+    saliency : guesses the boxes of keyframes without one; None ignores those keyframes
     """
     kinds = plugins.shot_kinds()
     loaded = load(data, of.name, of.folder, models_of(kinds.plugins), kinds.unusable)
@@ -113,7 +114,7 @@ def identify_source(
 def _with_boxes(
     mission: MissionIR, asked: Sequence[SearchTask], pictures: Sequence[Array], saliency: Guesser | None
 ) -> tuple[tuple[SearchTask, ...], list[Diagnostic]]:
-    """Return keyframes with the boxes that were guessed, or the faults of those without."""
+    """Return keyframes with guessed boxes, or faults on those without a guess."""
     out, faults = [], []
     for task, seen in zip(asked, pictures, strict=True):
         if task.box is None and saliency is not None:
@@ -129,7 +130,7 @@ def _with_boxes(
 def _written(
     done: Identification, mission: MissionIR, found: SearchResult, text: tuple[bytes, TextLocation]
 ) -> Identification:
-    """Return the mission with what was found, if it is one that checks clean."""
+    """Return the mission with the found targets, if it passes the checks."""
     data, to = text
     names = _names(mission, found)
     cylinders = {name: target.cylinder for name, target in zip(names, found.targets, strict=True)}
@@ -166,7 +167,7 @@ def _share(found: SearchResult, number: int) -> float:
 
 
 def _names(mission: MissionIR, found: SearchResult) -> list[str]:
-    """Return a name for each target: that of the file, fit for a mission, or a number; none that is taken."""
+    """Return a unique name for each target: that in the file, adapted to the language, or a number."""
     taken = {target.name for target in (*mission.targets, *mission.groups)}
     names: list[str] = []
     for target in found.targets:

@@ -1,4 +1,4 @@
-"""Buildings of their own in meshes: what is not linked with its neighbour, however near that stands."""
+"""Separate buildings in meshes; points of different buildings are not linked, however near they are."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from shotc.ir.terrain import ground_heights
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Owners:
-    """Of each triangle that a mesh was made of the building that it belongs to.
+    """The building of each triangle from which a mesh was made.
 
-    owner : shape (n,), its number, NOBODY where that is not known
-    foot  : shape (n,), the lowest z of that building, metres; inf where it is not known
+    owner : shape (n,), its number; NOBODY where it is unknown
+    foot : shape (n,), lowest z of that building, metres; inf where it is unknown
     """
 
     owner: IntArray
@@ -29,9 +29,9 @@ class Owners:
 
 
 def owners_of(mission: MissionIR, mesh: ObstacleMesh) -> Owners:
-    """Return whom the triangles of a mesh belong to.
+    """Return the owners of the triangles of a mesh.
 
-    Of footprints each is a building. Of a scene it is a closed body that stands on the ground, with the
+    Each footprint is a building. In a scene a building is a closed body that stands on the ground, with the
     closed bodies that stand on it: a roof, a chimney, the tank of a water tower.
     """
     owner = mesh.part if mesh.kind == "buildings" else mesh.body
@@ -50,7 +50,7 @@ def owners_of(mission: MissionIR, mesh: ObstacleMesh) -> Owners:
 
 
 def _lowest(mesh: ObstacleMesh, owner: IntArray) -> Array:
-    """Return the lowest corner of each owner, by its number, shape (owners, 3); inf for a number of none."""
+    """Return the lowest corner of each owner, shape (owners, 3); zeros for an unused number."""
     triangles = mesh.surface.triangles
     corner = triangles[np.arange(len(triangles)), triangles[..., 2].argmin(axis=1)]
     of = owner[mesh.surface.source]
@@ -62,11 +62,12 @@ def _lowest(mesh: ObstacleMesh, owner: IntArray) -> Array:
 
 
 def _carriers(mesh: ObstacleMesh, stands: Mask) -> IntArray:
-    """Return of each body the number of that which it stands on, its own where there is none; (bodies,).
+    """Return for each body the number of the body that carries it, or its own, shape (bodies,).
+
+    A closed body stands on the one below with the largest common area of their bounding boxes, and so on
+    whatever carries that one.
 
     stands : which bodies are closed and stand on the ground, (bodies,)
-
-    A closed body stands on the one below whose box it shares the most of, and with that on what is below it.
     """
     on, carried = np.arange(len(stands)), stands.copy()
     low, high = _boxes(mesh, len(stands))
@@ -83,7 +84,7 @@ def _carriers(mesh: ObstacleMesh, stands: Mask) -> IntArray:
 
 
 def _boxes(mesh: ObstacleMesh, count: int) -> tuple[Array, Array]:
-    """Return the lower and the upper corners of the boxes about bodies, (bodies, 3) each, metres."""
+    """Return the lower and the upper corners of the bodies' bounding boxes, (bodies, 3) each, metres."""
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     of = mesh.body[mesh.surface.source]
     np.minimum.at(low, of, mesh.surface.triangles.min(axis=1))

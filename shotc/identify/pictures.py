@@ -1,4 +1,4 @@
-"""Pictures of a mission's world as its keyframes show it: shaded scene, ground and sky."""
+"""Pictures of a mission's world from its keyframes: shaded scene, ground and sky."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from shotc.identify.views import GROUND as ON_GROUND
 from shotc.ir.mission import MissionIR
 
 COLUMNS = 320
-"""Pixels across."""
+"""Width, pixels."""
 LIT, DARK = (0.86, 0.84, 0.80), (0.36, 0.37, 0.40)
-"""Colours of what faces the camera, and of what it sees from the side."""
+"""Colours of faces towards the camera, and of faces seen edge-on."""
 FAR_M = 400.0
 """Distance over which the ground fades."""
 
 
 def picture(mission: MissionIR, camera: CameraPose) -> Array:
-    """Return what a camera sees of a mission's world, shape (rows, columns, 3), the upper left pixel first.
+    """Return a camera's picture of the mission's world, shape (rows, columns, 3), the upper left pixel first.
 
-    Red, green and blue are of 0 to 1.
+    Red, green and blue range from 0 to 1.
     """
     across = COLUMNS // TILE_RAYS
     up = max(1, round(across / camera.aspect))

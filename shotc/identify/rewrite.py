@@ -1,4 +1,4 @@
-"""A mission's text with targets added: by places in the text, so that comments and layout stay."""
+"""Adds targets to a mission's text by edits at offsets, so that comments and layout stay."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CM = 100.0
 
 
 class Named(NamedTuple):
-    """What a keyframe is given: the target in it, and the box that was guessed, None where one is drawn."""
+    """What is added to a keyframe: its target, and a guessed box; None if the keyframe has a box."""
 
     path: KeyPath
     target: str
@@ -28,14 +28,14 @@ class Named(NamedTuple):
 
 
 class _Edit(NamedTuple):
-    """Text to put in at an offset."""
+    """Text to insert at an offset."""
 
     at: int
     text: str
 
 
 class NotEditable(Exception):
-    """Keys cannot be put in where a mapping is written; ``path`` is of that mapping."""
+    """Keys cannot be inserted into the mapping at ``path``, as it is written."""
 
     def __init__(self, path: KeyPath) -> None:
         super().__init__(path)
@@ -43,10 +43,12 @@ class NotEditable(Exception):
 
 
 def rewritten(data: bytes, name: str, targets: Mapping[str, Upright], named: Sequence[Named]) -> bytes:
-    """Return a mission's bytes with targets, and with the keyframes that name them.
+    """Return a mission's bytes with targets added, and keyframes that name them.
 
-    data : of a mission without faults; name : to show it under. NotEditable where its keyframes, or its
-    targets, are written elsewhere, as by an alias.
+    Raises NotEditable if the keyframes or the targets are written elsewhere, for example by an alias.
+
+    data : a mission without faults
+    name : its displayed name
     """
     document = parse(data, name)
     text = _Text(document)
@@ -64,7 +66,7 @@ def rewritten(data: bytes, name: str, targets: Mapping[str, Upright], named: Seq
 def _entry(upright: Upright) -> str:
     bottom, top = floor(upright.bottom * CM) / CM, ceil(upright.top * CM) / CM
     x, y = (round(c, 2) for c in upright.centre)
-    # Rounded up, the cylinder still holds what it was put about.
+    # Rounding up keeps the points inside the cylinder.
     radius = ceil(upright.radius * CM + 1.0) / CM
     at = ", ".join(_number(c) for c in (x, y, 0.5 * (bottom + top)))
     return f"{{at: [{at}], radius: {_number(radius)}, height: {_number(top - bottom)}}}"
@@ -89,7 +91,7 @@ def _applied(text: str, edits: Sequence[_Edit]) -> str:
 
 
 class _Text:
-    """A mission's text, and where its keys and values stand."""
+    """A mission's text, with the positions of its keys and values."""
 
     def __init__(self, document: Document) -> None:
         self.file: SourceFile = document.file
@@ -102,7 +104,9 @@ class _Text:
             self._lines.append(match.end())
 
     def given(self, path: KeyPath, keys: Mapping[str, str]) -> Iterator[_Edit]:
-        """Put keys into a mapping that is there and holds something."""
+        """Yield the edits that insert keys into an existing, non-empty mapping; raise NotEditable if it is
+        not written here.
+        """
         inside = [key for key in self.keys if key[:-1] == path]
         if not inside or self._offset(self.keys[inside[0]]) < self._offset(self.values[path]):
             raise NotEditable(path)
@@ -119,7 +123,10 @@ class _Text:
         yield _Edit(at, "".join(f"{self.end}{indent}{key}: {value}" for key, value in keys.items()))
 
     def added(self, path: KeyPath, entries: Mapping[str, str]) -> Iterator[_Edit]:
-        """Put entries into a mapping at the top of the mission, which may not be there yet."""
+        """Yield the edits that insert entries into a top-level mapping, which may not exist yet.
+
+        Raises NotEditable if it is not written here.
+        """
         if path not in self.keys:
             yield self._new_section(str(path[0]), entries)
             return
@@ -142,7 +149,7 @@ class _Text:
             return _Edit(first, f"{name}: {{{inside}}}, ")
         follows = next((key,) for key in _BEFORE_DRONES if (key,) in self.keys)
         line = self.keys[follows].line
-        # Comments right above a key belong to it.
+        # Comments directly above a key belong to it.
         while line > 1 and self.file.line(line - 1).startswith("#"):
             line -= 1
         indent = " " * (self.keys[follows].column - 1)
@@ -153,13 +160,13 @@ class _Text:
         return self.text[self._after_properties(path)] in "{["
 
     def _after_properties(self, path: KeyPath) -> int:
-        """Return where a value begins, behind its anchor and tag."""
+        """Return the offset at which a value begins, after its anchor and tag."""
         start = self._offset(self.values[path])
         properties = _PROPERTIES.match(self.text, start)
         return start if properties is None else properties.end()
 
     def _ends_its_line(self, path: KeyPath) -> bool:
-        """Tell whether behind a value nothing of the mission stands on its last line."""
+        """Return whether a value is followed by nothing else of the mission on its last line."""
         value = self.values[path]
         parts = [key for key in self.values if key[:-1] == path]
         if parts and not self._is_flow(path):
@@ -179,7 +186,7 @@ class _Text:
 def _compare(
     before: Document, after: Document, targets: Mapping[str, Upright], named: Sequence[Named]
 ) -> None:
-    """Raise NotEditable where the new text says anything else than the old one with what was added."""
+    """Raise NotEditable if the new text's content differs from the old one's with the additions."""
     wanted = _copied(before.root)
     if targets:
         held = after.root.get("targets", {}) if isinstance(after.root, dict) else {}

@@ -1,7 +1,7 @@
-"""A guess of what a picture is about: the seat of saliency models, and the one that needs nothing but sums.
+"""Guesses the subject of a picture: the interface of saliency models, and a model without training data.
 
-Gebhardt and Hilliges found that no saliency model they tried knows what somebody means better than the middle
-of the picture does (Sec. 5): what comes from here is a guess that its author has to look at.
+Gebhardt and Hilliges found that no saliency model they tried predicts the intended target better than the
+middle of the picture does (Sec. 5). A result is therefore a guess that the author has to check.
 """
 
 from __future__ import annotations
@@ -18,16 +18,18 @@ from shotc.geom.camera import ScreenBox
 from shotc.plugins import OURS
 
 WIDTH = 80
-"""Columns of the picture that is looked at: what is smaller is no subject."""
+"""Columns of the examined picture; smaller details are no subject."""
 BLUR_PX = 2.0
 TIMES_MEAN = 2.0
-"""Of the mean of the map, from which a place is salient."""
+"""Saliency over its mean, above which a pixel is salient."""
 
 
 class Saliency(Protocol):
-    """What guesses where in a picture its subject is.
+    """A model that guesses the position of the subject in a picture.
 
-    name : as `--saliency` says it; summary : one line for listings; api : version of this contract
+    name : for `--saliency`
+    summary : one line for listings
+    api : version of this interface
     """
 
     name: ClassVar[str]
@@ -35,22 +37,22 @@ class Saliency(Protocol):
     api: ClassVar[int]
 
     def box(self, picture: Array) -> ScreenBox | None:
-        """Return the box round the subject, or None where there seems to be none.
+        """Return the box around the subject, or None if there is none.
 
-        picture : shape (rows, columns, 3), the upper left pixel first, red, green and blue of 0 to 1
+        picture : shape (rows, columns, 3), the upper left pixel first; red, green and blue from 0 to 1
         """
 
 
 class Guesser(NamedTuple):
-    """A saliency model, and the package that it comes from."""
+    """A saliency model and its package."""
 
     model: Saliency
     package: str
 
     def box(self, picture: Array) -> ScreenBox | Diagnostic | None:
-        """Return the box that the model gives, None where it gives none, or why that cannot be used.
+        """Return the box that the model gives, None if it gives none, or a diagnostic if the box is unusable.
 
-        picture : as of ``Saliency.box``
+        picture : as in ``Saliency.box``
         """
         what = f"saliency model `{self.model.name}`"
         try:
@@ -70,7 +72,7 @@ def _is_box(box: ScreenBox) -> bool:
 
 
 class SpectralResidual:
-    """What is unlike the rest of a picture, by its spectrum.
+    """The spectral residual: what differs from the rest of a picture, by its spectrum.
 
     X. Hou, L. Zhang, Saliency detection: a spectral residual approach (2007), Eq. 7 to 10.
     """
@@ -80,7 +82,10 @@ class SpectralResidual:
     api: ClassVar[int] = 1
 
     def box(self, picture: Array) -> ScreenBox | None:
-        """Return the box round the heaviest part of what is salient; picture : shape (rows, columns, 3)."""
+        """Return the box around the connected salient region with the largest weight.
+
+        picture : shape (rows, columns, 3)
+        """
         salient = _salient(_smaller(picture.mean(axis=2)))
         if not np.isfinite(salient).all() or salient.max() <= 0.0:
             return None
@@ -99,14 +104,14 @@ class SpectralResidual:
 
 
 def _smaller(grey: Array) -> Array:
-    """Return a picture of WIDTH columns or more, of means of squares of pixels; shape (rows, columns)."""
+    """Return a picture averaged over square blocks, with at least WIDTH columns; shape (rows, columns)."""
     by = max(1, grey.shape[1] // WIDTH)
     rows, columns = (length // by for length in grey.shape)
     return np.asarray(grey[: rows * by, : columns * by].reshape(rows, by, columns, by).mean(axis=(1, 3)))
 
 
 def _salient(grey: Array) -> Array:
-    """Return how salient each pixel is, shape (rows, columns), at least 0."""
+    """Return the saliency of each pixel, shape (rows, columns), at least 0."""
     spectrum = np.fft.fft2(grey)
     amplitude = np.log(np.abs(spectrum) + 1e-9)
     residual = amplitude - uniform_filter(amplitude, 3, mode="wrap")

@@ -1,4 +1,4 @@
-"""The sheet of pictures: what each keyframe shows, its box, and the cylinders that were found."""
+"""The sheet of pictures: each keyframe's view with its box and the found cylinders."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ CELL = (WIDTH - 2 * MARGIN - (COLUMNS - 1) * GAP) / COLUMNS
 
 
 class SheetRow(NamedTuple):
-    """A target as the sheet shows it; shares : of what the box of each keyframe, by number, holds."""
+    """A target on the sheet.
+
+    shares : its share of the box's content, by number of keyframe
+    """
 
     name: str
     cylinder: Upright
@@ -35,7 +38,10 @@ class SheetRow(NamedTuple):
 def draw_sheet(
     title: str, tasks: Sequence[SearchTask], pictures: Sequence[Array], rows: Sequence[SheetRow]
 ) -> bytes:
-    """Return the sheet as PNG bytes; pictures : of each task, shape (rows, columns, 3), 0 to 1."""
+    """Return the sheet as PNG bytes.
+
+    pictures : of each task, shape (rows, columns, 3), 0 to 1
+    """
     with house_style():
         return _sheet(title, tasks, pictures, rows)
 
@@ -84,7 +90,7 @@ def _picture(
 
 
 def _cylinder(canvas: Canvas, box: PageRectangle, task: SearchTask, c: Upright, *, meant: bool) -> None:
-    """Draw the outline of a cylinder, and its rims where it is meant."""
+    """Draw the outline of a cylinder, and its rims if the keyframe means it."""
     eye, camera = task.camera.eye, task.camera.view
     x, y, z = c.middle
     outline = shape_outline(camera, (x - eye[0], y - eye[1], z - eye[2]), CylinderShape(c.radius, c.height))

@@ -1,4 +1,4 @@
-"""What is to be identified in a mission, and the faults of what cannot be."""
+"""The keyframes whose targets are identified, and the diagnostics of those without a result."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.framing.placing import explicit_aim
 
 DOUBTFUL = 0.6
-"""Share of what a box holds, below which a target is doubtful."""
+"""Share of a box's content, below which a target is doubtful."""
 
 
 class SearchTask(NamedTuple):
-    """A keyframe whose target is looked for.
+    """A keyframe whose target is sought.
 
-    number : of the keyframe in its shot; guessed : whether the box is a guess
+    number : of the keyframe in its shot
+    guessed : whether the box is a guess
     """
 
     shot: str
@@ -34,18 +35,21 @@ class SearchTask(NamedTuple):
 
     @property
     def glance(self) -> Glance:
-        """Its camera and its box, which it has by now."""
+        """Its camera and its box, which it must have."""
         assert self.box is not None
         return Glance(self.camera, self.box)
 
     @property
     def label(self) -> str:
-        """How the summary and the sheet call it."""
+        """Its name in the summary and on the sheet."""
         return f"{self.shot}, keyframe {self.number + 1}"
 
 
 def tasks(mission: MissionIR, *, guess: bool) -> tuple[SearchTask, ...]:
-    """Return the keyframes whose target is looked for; guess : those without a box, too."""
+    """Return the keyframes whose target is sought.
+
+    guess : whether to include keyframes without a box
+    """
     found = []
     for shot in mission.shots:
         for number, keyframe in enumerate(shot.keyframes):
@@ -65,7 +69,7 @@ def _camera(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> CameraPose:
 
 
 def nothing_to_do(mission: MissionIR, found: Sequence[SearchTask]) -> Diagnostic | None:
-    """Return why no target can be looked for, or None."""
+    """Return the reason why no target can be sought, or None."""
     if not found:
         boxed = any(k.box is not None for shot in mission.shots for k in shot.keyframes)
         lacks = "every box has its target" if boxed else "no keyframe has a `box`"
@@ -86,7 +90,7 @@ def nothing_to_do(mission: MissionIR, found: Sequence[SearchTask]) -> Diagnostic
 
 
 def unguessed(mission: MissionIR, task: SearchTask) -> Diagnostic:
-    """Return the fault of a keyframe whose picture gives no guess."""
+    """Return the fault that a keyframe's picture gives no guess."""
     label = mission.origins.value((*task.keyframe.path, "at"))
     return Diagnostic(
         "N018",
@@ -97,7 +101,7 @@ def unguessed(mission: MissionIR, task: SearchTask) -> Diagnostic:
 
 
 def empty(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask]) -> list[Diagnostic]:
-    """Return the faults of boxes that hold nothing that can be a target."""
+    """Return the faults on boxes without a possible target."""
     return [
         _empty(mission, found, number, task)
         for number, task in enumerate(asked)
@@ -125,7 +129,7 @@ def _box_label(mission: MissionIR, task: SearchTask) -> Label:
 
 
 def swallowed(mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask]) -> list[Diagnostic]:
-    """Return the faults of cameras that stand inside of the cylinder about their own target."""
+    """Return the faults on cameras inside the cylinder around their own target."""
     faults = []
     for target in found.targets:
         for number in target.glances:
@@ -154,7 +158,10 @@ def _holds(c: Upright, camera: CameraPose) -> bool:
 def doubts(
     mission: MissionIR, found: SearchResult, asked: Sequence[SearchTask], names: Sequence[str]
 ) -> Iterator[Diagnostic]:
-    """Yield warnings of targets that have too little of their box; names : of the targets."""
+    """Yield warnings on targets with a small share of their box.
+
+    names : of the targets
+    """
     called = {target.cluster: name for target, name in zip(found.targets, names, strict=True)}
     for number, task in enumerate(asked):
         choice = found.choices[number]

@@ -1,4 +1,4 @@
-"""What cameras see of the world's triangles through boxes on their screens, ray by ray."""
+"""Casts rays from cameras through boxes on their screens onto the world's triangles."""
 
 from __future__ import annotations
 
@@ -22,18 +22,23 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.terrain import ground_heights
 
 TILE_RAYS = 8
-"""Rays along either side of a tile: so many share a search in the tree."""
+"""Rays along each side of a tile, all of which share one search in the tree."""
 SKY, GROUND = -1, -2
-"""Instead of the number of a mesh: nothing is met, or the ground is."""
+"""Values in place of a mesh number: a ray that hits nothing, or the ground."""
 ON_GROUND_M = 0.5
-"""Height above ground up to which what is met counts as ground."""
+"""Height above ground, up to which a hit counts as ground."""
 _Kind = TypeVar("_Kind", bound=np.generic)
 FRAME = ScreenBox(-1.0, 1.0, -1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class CameraPose:
-    """A camera pose: eye in metres of W, angles in rad, aspect = width / height."""
+    """A camera pose.
+
+    eye : W, metres
+    yaw, pitch, hfov : rad
+    aspect : width / height
+    """
 
     eye: Vec3
     yaw: float
@@ -43,21 +48,21 @@ class CameraPose:
 
     @property
     def view(self) -> View:
-        """Its direction cosines, and half its screen."""
+        """Its direction cosines and half its screen."""
         return view(self.yaw, self.pitch, self.hfov, self.aspect)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RayHits:
-    """What rays through the middles of the cells of a box on screen meet first.
+    """First hits of the rays through the middles of the cells of a box on screen.
 
-    All of shape (rows, columns), the lowest row and the left column first.
+    All arrays have shape (rows, columns), the lowest row and the left column first.
 
-    point     : metres of W, shape (rows, columns, 3); NaN where nothing is met
-    mesh      : the number of the mesh, SKY or GROUND; what is met within ON_GROUND_M of the ground is GROUND
-    triangle  : of those that the mesh was made of; -1 where no mesh is met
-    footprint : how wide a cell is where it is met, metres
-    shade     : cosine of the angle between the ray and what it meets, 0 to 1
+    point : W, metres, shape (rows, columns, 3); NaN where nothing is hit
+    mesh : number of the mesh, SKY or GROUND; a hit within ON_GROUND_M of the ground is GROUND
+    triangle : index among the triangles from which the mesh was made; -1 where no mesh is hit
+    footprint : width of a cell at its hit, metres
+    shade : cosine of the angle between the ray and the surface normal, 0 to 1
     """
 
     point: Array
@@ -68,14 +73,14 @@ class RayHits:
 
     @property
     def solid(self) -> Mask:
-        """Where a mesh is met above the ground."""
+        """Where a mesh is hit above the ground."""
         return np.asarray(self.mesh >= 0)
 
 
 def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | tuple[int, int]) -> RayHits:
     """Return what a camera sees of a mission's meshes and ground through a box on its screen.
 
-    tiles : of TILE_RAYS x TILE_RAYS rays, across and up
+    tiles : number of tiles of TILE_RAYS x TILE_RAYS rays, across and up
     """
     across, up = int(tiles[0]), int(tiles[1])
     boards = _boards(camera, box, (across, up))
@@ -96,14 +101,14 @@ def look(mission: MissionIR, camera: CameraPose, box: ScreenBox, tiles: Vec2 | t
 
 
 def _cell(camera: CameraPose, box: ScreenBox, cells: tuple[int, int]) -> float:
-    """Return how wide a cell of a box is at a depth of one metre: the larger of its sides."""
+    """Return the width of a cell of a box at a depth of one metre: the larger of its sides."""
     half = tan(camera.hfov / 2)
     width = half * (box.u_max - box.u_min) / cells[0]
     return float(max(width, half / camera.aspect * (box.v_max - box.v_min) / cells[1]))
 
 
 def _boards(camera: CameraPose, box: ScreenBox, tiles: tuple[int, int]) -> Billboards:
-    """Return the tiles of a box at a depth of one metre, row by row, so that shares of the way are depths."""
+    """Return the tiles of a box at a depth of one metre, row by row; shares of a ray are then depths."""
     eyes = camera.view
     right = np.array([eyes.sin_yaw, -eyes.cos_yaw, 0.0])
     ahead = np.array([eyes.cos_pitch * eyes.cos_yaw, eyes.cos_pitch * eyes.sin_yaw, eyes.sin_pitch])
@@ -119,7 +124,7 @@ def _boards(camera: CameraPose, box: ScreenBox, tiles: tuple[int, int]) -> Billb
 
 
 def _ways(boards: Billboards) -> Array:
-    """Return the way to the middle of each cell of tiles, shape (F, TILE_RAYS, TILE_RAYS, 3)."""
+    """Return the vector to the middle of each cell of tiles, shape (F, TILE_RAYS, TILE_RAYS, 3)."""
     middle = (np.arange(TILE_RAYS) + 0.5) / TILE_RAYS
     a, b = np.meshgrid(middle, middle, indexing="ij")
     at = (boards.corner - boards.eye)[:, None, None]
@@ -137,7 +142,7 @@ def _laid(values: NDArray[_Kind], tiles: tuple[int, int]) -> NDArray[_Kind]:
 
 
 class _Met(NamedTuple):
-    """What rays meet first: its depth, mesh and triangle, (rows, columns), and normal, (rows, columns, 3)."""
+    """First hits: depth, mesh and triangle, (rows, columns), and normal, (rows, columns, 3)."""
 
     depth: Array
     mesh: IntArray
@@ -146,7 +151,7 @@ class _Met(NamedTuple):
 
 
 def _nearest(mission: MissionIR, boards: Billboards, tiles: tuple[int, int], ways: Array) -> _Met:
-    """Return what is met first through each cell."""
+    """Return the first hit of each cell."""
     share, normal = _ground(mission, boards, tiles, ways)
     mesh = np.where(np.isfinite(share), GROUND, SKY)
     triangle = np.full(share.shape, -1, dtype=np.intp)
@@ -180,7 +185,7 @@ def _ground(
 
 
 def _normals(surface: Surface, triangle: IntArray, ways: Array) -> Array:
-    """Return normals (K, 3) of triangles, of any length; a point faces the ray."""
+    """Return normals (K, 3) of triangles, not normalised; a point's normal is parallel to the ray."""
     corners = surface.triangles[triangle]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat = np.linalg.norm(normal, axis=1) == 0.0
