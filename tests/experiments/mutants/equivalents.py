@@ -65,4 +65,16 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "1.0  ->  2.0",
         "it multiplies all terms of equations whose other side is zero",
     ),
+    Equivalent(
+        "shotc/geom/turning.py",
+        "return np.concatenate([t[(s > 0) & (s < 1)] for t, s in zip(at, shares, strict=True)])",
+        "1  ->  2",
+        "a time too many only cuts a stretch in two, on which the course changes one way: what both turn sums to it",
+    ),
+    Equivalent(
+        "shotc/passes/verify/meeting.py",
+        "at = [track.curve(min(claim.time, track.curve.end))[:3] for track in pair]",
+        "3  ->  4",
+        "x, y and z alone are written",
+    ),
 )

@@ -77,7 +77,7 @@ def patch_constants(path: str, old: str, new: str) -> None:
 def _constants(name: str, code: CodeType) -> dict[str, Any]:
     held: dict[str, Any] = {"__name__": name}
     exec(code, held)
-    return {key: value for key, value in held.items() if isinstance(value, int | float | tuple)}
+    return {key: value for key, value in held.items() if isinstance(value, int | float | tuple | slice)}
 
 
 def _place(code: CodeType) -> tuple[str, int]:

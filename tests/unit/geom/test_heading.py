@@ -7,9 +7,9 @@ from math import inf
 import numpy as np
 import pytest
 
-from shotc.geom.bernstein import Array, Piecewise
-from shotc.geom.heading import sup_off_course
-from shotc.geom.pieces import pieces
+from shotc.geom.bernstein import Array, Piecewise, bernstein_basis
+from shotc.geom.heading import _bounds, _Motion, sup_off_course
+from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.vec import wrapped
 
 SLOW = 0.3
@@ -60,3 +60,22 @@ def test_who_flies_backwards_is_half_a_turn_off() -> None:
 def test_who_turns_on_the_spot_has_no_course() -> None:
     spot = Piecewise(np.array([0.0, 3.0]), np.column_stack([np.zeros((6, 2)), np.linspace(0, 9, 6)])[None])
     assert sup_off_course(pieces(spot), SLOW, lambda _: GAP).proven == -inf
+
+
+@pytest.mark.parametrize("spread", [0.1, 0.5, 2.0])
+def test_the_bound_on_each_piece_holds(spread: float) -> None:
+    """Of 400 pieces, most of which speed up by far, with a heading near the course."""
+    rng = np.random.default_rng(11)
+    steps = rng.normal(0.0, spread, (400, 5, 3)) + np.array([1.0, 0.0, 0.0]) * rng.uniform(
+        0.2, 3.0, (400, 5, 1)
+    )
+    ctrl = np.concatenate([np.zeros((400, 1, 3)), np.cumsum(steps, axis=1)], axis=1)
+    flown = Pieces(np.zeros(400), rng.uniform(0.2, 2.0, 400), ctrl)
+    basis = bernstein_basis(5, np.linspace(0.0, 1.0, 65))
+    velocity, heading = flown.channels(0, 1).derivative(), flown.channels(2)
+    v = np.einsum("tk,mkd->mtd", bernstein_basis(4, np.linspace(0.0, 1.0, 65)), velocity.ctrl)
+    turned = np.einsum("tk,mk->mt", basis, heading.ctrl[:, :, 0])
+    off = np.abs(wrapped(turned - np.arctan2(v[..., 1], v[..., 0])))
+    upper, middle = _bounds(_Motion(velocity, velocity.derivative(), heading, heading.derivative()))
+    assert (upper >= off.max(axis=1) - 1e-9).all()
+    assert middle == pytest.approx(off[:, 32], abs=1e-9)

@@ -159,3 +159,16 @@ def test_what_is_no_grid_of_heights_is_told(heights: np.ndarray, x: np.ndarray, 
     found = posts_of(heights, x, np.arange(float(len(heights))), None)
     assert isinstance(found, TerrainFault)
     assert found.kind == kind
+
+
+@pytest.mark.parametrize(("low", "high"), [(7.2, 9.7), (8.0, 9.0), (8.4, 8.6)])
+def test_as_many_posts_are_taken_beyond_a_box_on_one_side_as_on_the_other(low: float, high: float) -> None:
+    values = np.arange(20.0)
+    found = relief._about(values, np.array([low, high, 0.5 * (low + high)]))
+    assert found is not None
+    taken = values[found]
+    assert (taken <= low).sum() == (taken >= high).sum() == 1 + relief._SPARE
+    at_ends = relief._about(values, np.array([-3.0, 30.0]))
+    assert values[at_ends].tolist() == values.tolist()
+    assert relief._about(values, np.array([-3.0, -1.0])) is None
+    assert relief._about(values, np.array([20.0, 21.0])) is None

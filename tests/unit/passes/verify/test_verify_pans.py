@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from shotc.api import Compilation, PlanOptions, compile_source
-from shotc.ir.path import CAM_YAW
+from shotc.geom.bernstein import quintic_hermite
+from shotc.geom.pan import slowest
+from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
+from shotc.ir.phases import Phase
+from shotc.ir.trajectory import DroneTrajectory
+from shotc.passes.verify.pans import PEAK_RATIO, RESHAPED_RATIO, _enough, fastest
 
 SWEEP = """\
 shotc: 1
@@ -83,3 +88,55 @@ def test_a_subject_that_is_followed_holds_the_eye(look: str, found: list[str]) -
     text = text.replace("[0, -50, 15], heading: 320 deg, pitch: 0 deg", f"[-16, -42, 9], {look}")
     codes = told(planned("{duration: 14}", text))
     assert codes == found
+
+
+def turning(channel: int, by_deg: float, seconds: float, pitch_deg: float = 0.0) -> DroneTrajectory:
+    """A camera with a field of view of 70 deg that turns evenly about one axis."""
+    value = np.zeros((2, 7))
+    value[:, HFOV], value[:, CAM_PITCH] = np.radians(70), np.radians(pitch_deg)
+    value[1, channel] += np.radians(by_deg)
+    rate = np.tile((value[1] - value[0]) / seconds, (2, 1))
+    curve = quintic_hermite(np.array([0.0, seconds]), value, rate, np.zeros((2, 7)))
+    return DroneTrajectory("cam", curve, (Phase("shot", "sweep", 0.0, seconds),), (), ())
+
+
+@pytest.mark.parametrize(
+    ("channel", "pitch", "angle"),
+    [
+        (CAM_YAW, 0.0, 12.0),
+        (CAM_PITCH, 0.0, 12.0),
+        (CAM_PITCH, -40.0, 12.0),
+        (CAM_YAW, -60.0, 2 * np.degrees(np.arcsin(0.5 * np.sin(np.radians(6.0))))),  # cos 60 deg of the chord
+    ],
+)
+def test_a_pan_is_as_fast_as_the_axis_turns(channel: int, pitch: float, angle: float) -> None:
+    track = turning(channel, 120.0, 10.0, pitch)
+    if channel == CAM_PITCH:
+        track = turning(channel, 24.0, 2.0, pitch)
+    found = fastest(track, track.phases[0])
+    assert found is not None
+    # Of a second of it: 12 deg of yaw or pitch, and the frame is 2 tan(35 deg) wide.
+    assert found.width == pytest.approx(2 * np.tan(np.radians(35)) / np.radians(angle), rel=1e-4)
+
+
+def test_a_shot_that_does_not_turn_has_no_pan() -> None:
+    track = turning(CAM_YAW, 0.0, 5.0)
+    assert fastest(track, track.phases[0]) is None
+    assert fastest(track, Phase("shot", "sweep", 3.0, 3.0)) is None
+
+
+def test_a_shot_is_long_enough_for_its_fastest_turn_and_for_all_of_it() -> None:
+    width = 2 * np.tan(np.radians(35))
+    even = turning(CAM_YAW, 60.0, 3.0)
+    (phase,) = even.phases
+    pan = fastest(even, phase)
+    assert pan is not None
+    turned = np.radians(60.0) / width
+    for free in (False, True):
+        whole = PEAK_RATIO * turned * slowest(None)
+        assert _enough(even, phase, pan, free) == pytest.approx(
+            max(3.0 * pan.pace * (1.05 if free else 1), whole), rel=1e-3
+        )
+    hasty = pan._replace(width=pan.width / 9)
+    assert _enough(even, phase, hasty, False) == pytest.approx(3.0 * hasty.pace)
+    assert _enough(even, phase, hasty, True) == pytest.approx(3.0 * hasty.pace * RESHAPED_RATIO)

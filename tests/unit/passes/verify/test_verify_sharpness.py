@@ -3,17 +3,34 @@
 from __future__ import annotations
 
 from math import floor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from shotc.passes.verify.sharpness import STOPS, _time
+from shotc.ir.drone import Optics
+from shotc.passes.verify.sharpness import _stop_down, _time
+from shotc.spec.exposure import MOST_F
 
 
-def test_stops_let_in_half_the_light_each_as_they_are_engraved() -> None:
-    exact = [2.0 ** (k / 2) for k in range(1, len(STOPS) + 1)]
-    # Two digits, the rest left out; whole from f/10 on.
-    assert pytest.approx([floor(10 * f + 1e-9) / 10 if f < 10 else floor(f + 1e-9) for f in exact]) == STOPS
+def stop_down(needed: float) -> str:
+    """Return the help for discs that an aperture of this f-number would make small enough."""
+    soft = SimpleNamespace(worst=needed / 1.4, limit=1.0)
+    return _stop_down(soft, Optics(0.036, 1.4, 3e-5, None, 3840), "cam")  # type: ignore[arg-type]
+
+
+def test_the_next_stop_is_proposed_as_it_is_engraved_on_lenses() -> None:
+    # Each lets in half the light: powers of the root of two, with two digits, whole from f/10 on.
+    for k in range(1, 13):
+        exact = 2.0 ** (k / 2)
+        engraved = floor(10 * exact + 1e-9) / 10 if exact < 10 else floor(exact + 1e-9)
+        assert f"aperture: f/{engraved:g}}}`" in stop_down(0.97 * engraved)
+        assert f"aperture: f/{engraved:g}}}`" in stop_down(0.999 * engraved)
+        assert f"aperture: f/{engraved:g}}}`" not in stop_down(1.001 * engraved)
+
+
+def test_where_no_stop_is_enough_the_camera_goes_away() -> None:
+    assert "from farther away" in stop_down(2.0 * MOST_F)
 
 
 @pytest.mark.parametrize(

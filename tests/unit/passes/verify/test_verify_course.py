@@ -1,0 +1,96 @@
+"""How a shot is flown as its kind asks: where nothing explains that a keyframe is missed, and the course."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from shotc.geom.bernstein import quintic_hermite
+from shotc.geom.solids import Cylinder
+from shotc.ir.mission import MissionIR, Zone
+from shotc.ir.path import CAM_YAW, X, Y
+from shotc.passes.verify.claims import JudgedFlight
+from shotc.passes.verify.course import BESIDE_S, _is_free, _off_course
+from shotc.passes.verify.explained import NEAR_M
+from tests.support.records import replace
+from tests.support.tampered_plans import MISSION, PLAN
+
+KEYFRAME = PLAN.keyframes.shots[0].keyframes[0]
+BODY = MISSION.drones[0].radius + NEAR_M
+
+
+def free(at: tuple[float, float, float], mission: MissionIR) -> bool:
+    flight = JudgedFlight(mission, mission.drones[0], PLAN.drones[0])
+    return _is_free(flight, replace(KEYFRAME, at=at))
+
+
+def with_zone(keep: str) -> MissionIR:
+    mast = Zone("mast", keep, Cylinder((0.0, 0.0), 10.0, 0.0, 90.0), ("world", "zones", "mast"))  # type: ignore[arg-type]
+    return replace(MISSION, zones=(mast,), targets=())
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_keyframe_near_what_it_keeps_clear_of_is_not_free(side: float) -> None:
+    aside = side * 0.01
+    assert free((10.0 + BODY + aside, 0.0, 30.0), with_zone("out")) is (side > 0)
+    assert free((10.0 - BODY - aside, 0.0, 30.0), with_zone("in")) is (side > 0)
+    bare = replace(MISSION, zones=(), targets=())
+    assert free((0.0, 0.0, bare.rules.ground_clearance + BODY + aside), bare) is (side > 0)
+    (tower,) = MISSION.targets
+    beside = replace(MISSION, zones=())
+    away = tower.kept_clear.radius + MISSION.rules.target_clearance + BODY + aside
+    assert free((away, 0.0, 12.0), beside) is (side > 0)
+
+
+def flown(t: np.ndarray, rate: np.ndarray, look: float) -> JudgedFlight:
+    """A flight with these velocities, (M, 2), at times, whose camera looks one way, rad."""
+    value, first = np.zeros((len(t), 7)), np.zeros((len(t), 7))
+    first[:, [X, Y]] = rate
+    value[1:, [X, Y]] = np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(t)[:, None], axis=0)
+    value[:, CAM_YAW] = look
+    curve = quintic_hermite(t, value, first, np.zeros_like(first))
+    return JudgedFlight(MISSION, MISSION.drones[0], replace(PLAN.drones[0], curve=curve))
+
+
+T = np.arange(0.0, 11.0)
+EAST = np.tile([2.0, 0.0], (11, 1))
+
+
+@pytest.mark.parametrize(
+    ("off", "look", "beyond"),
+    [
+        (0.9, 0.5, 0.2),  # 0.5 rad off the course, 0.3 allowed
+        (0.9, -0.5, 0.2),
+        (-0.4, 0.5, 0.1),  # nearer to the heading of its keyframe
+        (0.9, 0.2, 0.0),
+        (0.1, 2.0, 0.0),
+        (2.0, 2 * pi + 0.5, 0.2),  # by whole turns
+    ],
+)
+def test_a_camera_along_its_path_is_off_by_the_nearer_of_heading_and_course(off, look, beyond) -> None:
+    at = np.array([0.0, 5.0, 10.0])
+    found = _off_course(flown(T, EAST, look), (np.full(3, off), at), 0.3, (0.0, 10.0))
+    assert found == pytest.approx([beyond] * 3)
+
+
+def test_where_it_rests_the_course_is_from_a_little_before_to_a_little_after() -> None:
+    # East until t = 5, where it rests, then north: the course there is north-east.
+    rate = np.where((T < 5)[:, None], [2.0, 0.0], [0.0, 2.0])
+    rate[5] = 0.0
+    found = _off_course(
+        flown(T, rate, pi / 4), (np.full(3, 2.0), np.array([2.0, 5.0, 8.0])), 0.1, (0.0, 10.0)
+    )
+    assert found == pytest.approx([pi / 4 - 0.1, 0.0, pi / 4 - 0.1], abs=1e-6)
+
+
+def test_only_the_shot_itself_has_a_course() -> None:
+    # It turns north at t = 5, where the shot ends: the course at its end is that of before.
+    rate = np.where((T <= 5)[:, None], [2.0, 0.0], [0.0, 2.0])
+    one = flown(T, rate, 0.0)
+    within = _off_course(one, (np.full(1, 2.0), np.array([5.0])), 0.0, (0.0, 5.0))
+    beyond = _off_course(one, (np.full(1, 2.0), np.array([5.0])), 0.0, (0.0, 10.0))
+    assert within == pytest.approx([0.0], abs=1e-6)
+    assert beyond[0] > 0.05
+    assert BESIDE_S < 1.0
