@@ -21,12 +21,12 @@ there. If there is no free space there either, it flies back through all that it
 of standing obstacles, and the drones land where they took off. A fleet that has already begun its planned
 return continues it.
 
-If several fleets, or groups of one, would meet on their returns, they choose one after another. Each takes the
-first way home that is clear of those before it. If there is none, it waits for a while at its rest. Cameras
-that film the show continue as planned, and the fleets keep clear of them in the same way.
+If several fleets, or groups of one, would meet on their returns, they choose one after another. Each takes
+the first way home that is clear of those before it. If there is none, it waits for a while at its rest.
+Cameras that film the show continue as planned, and the fleets keep clear of them in the same way.
 
-Verification does not rely on these theorems. Every return is a trajectory of its own, of cubic B-splines as in
-a plan, and is verified as a plan is, at every instant: limits, zones, ground, targets, the nearest of all
+Verification does not rely on these theorems. Every return is a trajectory of its own, of cubic B-splines as
+in a plan, and is verified as a plan is, at every instant: limits, zones, ground, targets, the nearest of all
 pairs (``geom.separation``), the pads, and the endurance. Several fleets are verified pair by pair. While a
 fleet stands, its return is the same from every time; it is verified once if nothing around it moves or burns.
 """
