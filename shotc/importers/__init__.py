@@ -1,1 +1,1 @@
-"""Missions of other tools made into missions of ours: text in, text out, and what had to be assumed."""
+"""Convert missions of other tools to missions of shotc, with a note for every assumption."""

@@ -1,4 +1,4 @@
-"""Members of a ZIP archive: any bytes in, theirs or one fault out, and never more than is read."""
+"""Read members of a ZIP archive, up to a size limit. Any bytes give a member or one fault."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from shotc.importers.notes import plain
 
 MAGIC = b"PK"
 BROKEN = (BadZipFile, OSError, EOFError, ValueError, RuntimeError, zlib.error, struct.error)
-"""What the reader of archives raises for bytes that are none."""
+"""Exceptions that `zipfile` raises for bytes that are not an archive."""
 OTHER_PACKING = "is packed in a way that these files are not"
 
 
 def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> bytes | str:
-    """Return the first member whose name is wanted, or why there is none.
+    """Return the first member whose name is ``wanted``, or a text that says why there is none.
 
-    what : the member, in words; most : bytes of the archive, and of the member, beyond which nothing is read
+    what : description of the member for that text
+    most : largest size of the archive, and of the member, bytes
     """
     if len(data) > most:
         return f"the file is larger than {most / 1e6:.0f} MB"
@@ -29,7 +30,7 @@ def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> 
             found = next((i for i in archive.infolist() if wanted(i.filename)), None)
             if found is None:
                 return f"it is an archive without {what}"
-            # Others may ask for any amount of memory; and no more is unpacked than is read.
+            # Other methods may need any amount of memory. These unpack no more than is read.
             if found.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
                 return f"its document {OTHER_PACKING}"
             with archive.open(found) as stream:
@@ -40,9 +41,10 @@ def member(data: bytes, wanted: Callable[[str], bool], what: str, most: int) -> 
 
 
 class Archive:
-    """An archive of which many members are read by their names, and which is opened once.
+    """An archive that is opened once, and whose members are read by their names.
 
-    most : bytes of the archive, and of a member; all : of all that is read, each time that it is
+    most : largest size of the archive, and of a member, bytes
+    all  : largest size of all reads together, bytes; a member counts each time that it is read
     """
 
     def __init__(self, data: bytes, most: int, all: int) -> None:
@@ -59,7 +61,7 @@ class Archive:
             self.fault = f"it is a broken archive: {plain(str(fault), 80)}"
 
     def member(self, name: str) -> bytes | str:
-        """Return the member of a name, or why there is none."""
+        """Return the member with this name, or a text that says why there is none."""
         if self.fault or self._zip is None:
             return self.fault
         found = self._members.get(normpath(name))
@@ -79,9 +81,9 @@ class Archive:
 
 
 def members(data: bytes, wanted: Callable[[str], bool], most: int) -> Iterator[tuple[str, bytes] | str]:
-    """Yield the name and the bytes of every member whose name is wanted, or last why there are no more.
+    """Yield (name, bytes) of each member whose name is ``wanted``; after a fault, a text as the last item.
 
-    most : bytes of the archive, and of all members together, beyond which nothing is read
+    most : largest size of the archive, and of all members together, bytes
     """
     if len(data) > most:
         yield f"the file is larger than {most / 1e6:.0f} MB"

@@ -1,4 +1,4 @@
-"""What is imported, by the names of the command line."""
+"""The names of the importable formats on the command line."""
 
 WHAT = {
     "kml": "a tour of Google Earth",
@@ -6,7 +6,7 @@ WHAT = {
     "qgc": "a plan of QGroundControl",
     "litchi": "a mission of Litchi",
 }
-"""Files of cameras."""
+"""Formats of files of cameras."""
 SHOWS = "show"
-"""Shows of drones, flown as recorded."""
+"""Format of drone shows, flown as recorded."""
 FORMATS = ("multidrone", *WHAT, SHOWS)

@@ -1,4 +1,4 @@
-"""The way in for every importer: bytes of another tool's mission to the text of one of ours, or faults."""
+"""Entry point of all importers: bytes of another tool's mission to the text of a shotc mission."""
 
 from __future__ import annotations
 
@@ -19,19 +19,21 @@ from shotc.importers.xml_tree import LARGEST, Node, XmlFault, parse_xml, shown
 from shotc.source.file import SourceFile, Span
 
 MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
-"""How many of an element are read: more is no mission, and would take minutes."""
+"""Most elements of each kind. More are not a mission, and would take minutes."""
 
 START = Node("", 1, 1, wide=1)
 USUAL = ImportOptions()
 
 
 class Imported(NamedTuple):
-    """What an importer makes.
+    """The result of an importer.
 
-    text : the mission, or None where a diagnostic is an error
-    sources : the text that the diagnostics point into
-    drones, shots : how many
-    keyframes, cameras : how many keyframes were made of how many cameras, where cameras are imported
+    text      : the mission, or None if a diagnostic is an error
+    sources   : the texts that the diagnostics point into
+    drones    : number of drones
+    shots     : number of shots
+    keyframes : number of keyframes, for a file of cameras
+    cameras   : number of cameras that they were made from
     """
 
     text: str | None
@@ -44,9 +46,11 @@ class Imported(NamedTuple):
 
 
 def imported(format: str, data: bytes, name: str, *, strict: bool, asked: ImportOptions = USUAL) -> Imported:
-    """Make a mission of a file of one of ``formats.FORMATS``.
+    """Make a mission from a file of one of ``formats.FORMATS``.
 
-    data : any bytes; name : how to show the file; strict : refuse instead of assuming anything
+    data   : any bytes
+    name   : name of the file for messages
+    strict : report an error instead of making an assumption
     """
     if format == "multidrone":
         return import_multidrone(data, name, strict=strict)
@@ -77,7 +81,7 @@ def _import_cameras(format: str, data: bytes, name: str, asked: ImportOptions, *
 def _footage(
     format: str, data: bytes, name: str, asked: ImportOptions, notes: Notes
 ) -> tuple[str, ImportedTakes | Refused]:
-    """Return the text of a file of cameras, to show its lines, and what it holds."""
+    """Return the text of a file of cameras, for messages, and its content."""
     if format == "qgc":
         return shown(data), qgc.footage(data, name, asked, notes)
     if format in ("blender-camera", "litchi"):
@@ -92,9 +96,11 @@ def _footage(
 
 
 def import_multidrone(data: bytes, name: str, *, strict: bool) -> Imported:
-    """Make a mission of a MultiDrone mission file.
+    """Make a mission from a MultiDrone mission file.
 
-    data : any bytes; name : how to show the file; strict : refuse instead of assuming anything
+    data   : any bytes
+    name   : name of the file for messages
+    strict : report an error instead of making an assumption
     """
     source = SourceFile(name, shown(data))
     sources = {name: source}

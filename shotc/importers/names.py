@@ -1,4 +1,4 @@
-"""Names of other tools as names of the language."""
+"""Convert names of other tools to names of the language."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ LONGEST = 40
 
 
 def safe(name: str, otherwise: str = "mission") -> str:
-    """Return a name of letters, digits and `-`, or another where none of these is left."""
+    """Return a name of letters, digits and `-`, or ``otherwise`` if none of these is left."""
     kept = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:LONGEST].strip("-")
     return kept or otherwise

@@ -1,4 +1,4 @@
-"""What an importer had to assume: each with the element that it is about, and the words for a comment."""
+"""Assumptions of an importer, each with the element that it is about and a text for a comment."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from shotc.source.file import Span
 class Note(NamedTuple):
     """One assumption.
 
-    message : what is wrong or missing there; taken : what is taken instead, which is the comment, too
+    message : what is wrong or missing
+    taken   : what the importer assumes instead; also part of the comment
     """
 
     node: Node
@@ -21,34 +22,34 @@ class Note(NamedTuple):
 
     @property
     def comment(self) -> str:
-        """The words for a comment."""
+        """The text for a comment."""
         return f"assumed: {self.taken} (line {self.node.line}: {self.message})"
 
 
 class Notes:
-    """Assumptions in the order in which they are made, each once."""
+    """Assumptions in the order in which they are made, without repeats."""
 
     def __init__(self) -> None:
         self._found: dict[tuple[int, str], Note] = {}
 
     @property
     def found(self) -> tuple[Note, ...]:
-        """All of them."""
+        """All assumptions so far."""
         return tuple(self._found.values())
 
     def assume(self, node: Node, message: str, taken: str) -> str:
-        """Note an assumption, and return the comment that goes with it."""
+        """Record an assumption and return its comment."""
         note = Note(node, plain(message), plain(taken))
         return self._found.setdefault((id(node), note.message), note).comment
 
     def below(self, node: Node) -> list[str]:
-        """Return the comments that are about an element or what is in it."""
+        """Return the comments about an element and its descendants."""
         inside = {id(n) for n in node.everything()}
         return [note.comment for note in self.found if id(note.node) in inside]
 
 
 def plain(text: str, most: int | None = None) -> str:
-    """Return a text on one line, with nothing in it that would end a comment; at most so many characters."""
+    """Return at most ``most`` characters of a text, on one line, with nothing that would end a comment."""
     return "".join(c if c.isprintable() else " " for c in text[:most])
 
 
@@ -59,7 +60,7 @@ def label(file: str, node: Node) -> Label:
 
 
 def told(file: str, notes: Notes, *, strict: bool) -> tuple[Diagnostic, ...]:
-    """Return a warning for every assumption, or an error where nothing may be assumed."""
+    """Return a warning for every assumption, or an error if ``strict``."""
     code = "I005" if strict else "I004"
     return tuple(
         Diagnostic(code, note.message, (label(file, note.node),), (), f"taken: {note.taken}")

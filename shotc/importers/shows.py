@@ -1,7 +1,8 @@
-"""Missions of shows that other tools made: zipped CSV and `.skyc`, flown as recorded.
+"""Make missions from drone shows of other tools: zipped CSV and `.skyc`, flown as recorded.
 
-The fleet has as many drones as the file has tracks, on pads where these begin. The flight itself stays in the
-file, which the mission names: planning reads it, brings it within the limits and proves it.
+The fleet has one drone for each track of the file, on a pad where the track begins. The flight itself stays
+in the file, which the mission names. Planning reads the file, brings the flight within the limits and proves
+it.
 """
 
 from __future__ import annotations
@@ -32,11 +33,11 @@ from shotc.spec.presets import PRESETS
 
 MODEL = "show-drone"
 SEPARATION_M = 3.0
-"""Metres that a fleet keeps where nobody says otherwise (``rules.separation``)."""
+"""Default separation of a fleet, metres (``rules.separation``)."""
 ON_GROUND_M = 1.0
-"""Metres over z = 0 up to which a track begins on a pad."""
+"""Largest height above z = 0 at which a track begins on a pad, metres."""
 WIDE_M = 1.0
-"""Metres beyond the separation between pads that the file does not have."""
+"""Distance between assumed pads beyond the separation, metres."""
 WHOLE = Node("", 1, 1, wide=1)
 FOREIGN = Refused(
     "I002", "a show is zipped CSV (.zip) or a `.skyc`", WHOLE, "export it again as one of these"
@@ -45,7 +46,7 @@ FOREIGN = Refused(
 
 @dataclass(frozen=True, slots=True)
 class ImportedShow:
-    """A mission and the table of its pads, (name, bytes), None where it has a grid."""
+    """A mission and the table of its pads, (name, bytes), None if the pads are a grid."""
 
     made: Imported
     pads: tuple[str, bytes] | None
@@ -53,17 +54,22 @@ class ImportedShow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Show:
-    """Where the tracks of a file begin, (n, 3), East, North and Up in its own frame; where that stands."""
+    """The first positions of the tracks of a file, shape (n, 3), East, North, Up in its frame, metres.
+
+    origin : latitude, longitude (degrees) and altitude (metres) of that frame, or None
+    """
 
     starts: Array
     origin: tuple[float, float, float | None] | None
 
 
 def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> ImportedShow:
-    """Make a mission that flies a show as it is recorded.
+    """Make a mission that flies a show as recorded.
 
-    data : any bytes; name : how to show the file; file : how the mission names it, in its folder
-    strict : refuse instead of assuming anything
+    data   : any bytes
+    name   : name of the file for messages
+    file   : name of the file in the mission, relative to its folder
+    strict : report an error instead of making an assumption
     """
     found = read(data, name) if suffix_of(name) in (SHOW, TABLES) else Read(name, FOREIGN, "")
     sources = {found.file: SourceFile(found.file, found.text)}
@@ -90,7 +96,7 @@ def _show_of(found: Found | Refused) -> _Show | Refused:
 
 
 def _pads(starts: Array, name: str, notes: Notes) -> tuple[str, bytes] | None:
-    """Return the table of the pads that tracks begin on, or None where they begin in the air."""
+    """Return the table of the pads on which the tracks begin, or None if they begin in the air."""
     high = float(starts[:, 2].max())
     if high > ON_GROUND_M:
         notes.assume(
@@ -102,7 +108,7 @@ def _pads(starts: Array, name: str, notes: Notes) -> tuple[str, bytes] | None:
 
 
 def _separation(starts: Array, notes: Notes) -> float:
-    """Return what separation to ask for: no more than the tracks have on their pads."""
+    """Return the separation for the mission, m: that of the pads, but within bounds."""
     if len(starts) < 2 or float(starts[:, 2].max()) > ON_GROUND_M:
         return SEPARATION_M
     near = down(float(cKDTree(starts).query(starts, k=2)[0][:, 1].min()), 2)

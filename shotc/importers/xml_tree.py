@@ -1,4 +1,4 @@
-"""XML as a tree that knows its lines: any bytes in, a tree or one fault out."""
+"""Parse XML to a tree with line numbers. Any bytes give a tree or one fault."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ DEEPEST = 60
 
 @dataclass(slots=True)
 class Node:
-    """An element: its name, its text without that of its children, and where it begins, from 1.
+    """An element: its name, its text without that of its children, and its line and column from 1.
 
-    wide : characters that it takes where it is no element of XML but a value of another format, else 0
+    wide : number of characters if it is a value of another format, 0 for an XML element
     """
 
     tag: str
@@ -30,27 +30,27 @@ class Node:
     wide: int = 0
 
     def first(self, tag: str) -> Node | None:
-        """Return the first child of that name, or None."""
+        """Return the first child with that name, or None."""
         return next((child for child in self.children if child.tag == tag), None)
 
     def all(self, tag: str) -> list[Node]:
-        """Return the children of that name."""
+        """Return the children with that name."""
         return [child for child in self.children if child.tag == tag]
 
     def everything(self) -> Iterator[Node]:
-        """Yield this element and all in it."""
+        """Yield this element and all its descendants."""
         yield self
         for child in self.children:
             yield from child.everything()
 
     def value(self, tag: str) -> str:
-        """Return the text of the first child of that name, without space round it; empty if there is none."""
+        """Return the stripped text of the first child with that name; empty if there is none."""
         found = self.first(tag)
         return "" if found is None else found.text.strip()
 
 
 class XmlFault(NamedTuple):
-    """Why bytes are no tree; line and column from 1."""
+    """Why bytes are not XML; line and column from 1."""
 
     message: str
     line: int = 1
@@ -58,17 +58,17 @@ class XmlFault(NamedTuple):
 
 
 def shown(data: bytes) -> str:
-    """Return the text of a file to show its lines, whatever it is."""
+    """Return the text of any file, to show its lines in messages."""
     wide = data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
     return data.decode("utf-16" if wide else "utf-8-sig", "replace")
 
 
 def parse_xml(data: bytes) -> Node | XmlFault:
-    """Return the root element. A document type is refused, for entities could grow without bound."""
+    """Return the root element. A document type is refused, because its entities could grow without bound."""
     if len(data) > LARGEST:
         return XmlFault(f"the file is larger than {LARGEST / 1e6:.0f} MB")
     reader = _Reader()
-    wrong = feed(data.removeprefix(BOM_UTF8), reader)  # which would count as a column
+    wrong = feed(data.removeprefix(BOM_UTF8), reader)  # expat would count the mark as a column
     if wrong is not None:
         return XmlFault(f"it is no XML: {wrong.reason}", wrong.line, wrong.column)
     if reader.fault is not None:

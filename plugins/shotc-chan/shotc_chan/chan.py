@@ -1,7 +1,7 @@
-"""NAME.chan: the camera for Nuke, one line a frame: ``frame tx ty tz rx ry rz vfov``.
+"""Write NAME.chan: the camera for Nuke, one line per frame: ``frame tx ty tz rx ry rz vfov``.
 
-Y is up, so W's East, North, Up are x, -z, y; rotations are degrees, applied in the order Z, X, Y, and vfov is
-the vertical field of view, degrees. A frame is a tick of the output clock; the first is number 1.
+Y is up, so W's East, North, Up are x, -z, y. Rotations are degrees, applied in the order Z, X, Y. vfov is the
+vertical field of view, degrees. A frame is a tick of the output clock; the first has number 1.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ LINE = "%d" + " %.6f" * 3 + " %.7f" * 4 + "\n"
 
 @dataclass(frozen=True, slots=True)
 class NukeCamera:
-    """Writes one camera a drone."""
+    """Writes one camera per drone."""
 
     name: ClassVar[str] = "chan"
     summary: ClassVar[str] = "NAME.chan: the camera for Nuke"
@@ -43,7 +43,7 @@ EMITTER = NukeCamera()
 
 
 def camera(drone: DroneTrajectory, rate: float, aspect: float) -> bytes:
-    """Return the camera of one drone; rate : frames a second; aspect : width over height."""
+    """Return the bytes of one drone's camera. ``rate``: frames per second; ``aspect``: width over height."""
     frames = np.arange(round(drone.curve.end * rate) + 1)
     state = drone.curve(frames / rate)
     east, north, up = state[:, :3].T

@@ -1,9 +1,9 @@
-"""Blender: a camera's animation as a table, one row a frame. There is no standard, so its first line counts.
+"""Read a camera's animation from Blender as a table, one row per frame. The first line names the columns.
 
-Columns: ``frame``, or ``time`` in seconds; ``x``, ``y``, ``z``; Euler angles ``rx``, ``ry``, ``rz`` of order
-XYZ, or a quaternion ``qw``, ``qx``, ``qy``, ``qz``; the lens as ``hfov``, degrees, or as ``lens`` and
-``sensor``, millimetres, or not at all. A camera of Blender looks along its own -Z with Y up, in a world whose
-Z is up: x, y, z are East, North and Up.
+There is no standard for such tables. Columns: ``frame``, or ``time`` in seconds; ``x``, ``y``, ``z``; Euler
+angles ``rx``, ``ry``, ``rz`` of order XYZ, or a quaternion ``qw``, ``qx``, ``qy``, ``qz``. The lens is
+optional: ``hfov`` in degrees, or ``lens`` and ``sensor`` in millimetres. A camera of Blender looks along its
+own -Z with Y up, in a world whose Z is up: x, y, z are East, North and Up.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from shotc.importers.cameras.takes import (
 from shotc.importers.notes import Notes
 
 USUAL_FPS = 24.0
-USUAL_LENS, USUAL_SENSOR = 50.0, 36.0  # millimetres; those of a new camera in Blender
+USUAL_LENS, USUAL_SENSOR = 50.0, 36.0  # millimetres; the values of a new camera in Blender
 EXAMPLE = "frame,x,y,z,rx,ry,rz,lens"
 NAMES = {
     "frame": ("frame", "frames"),
@@ -40,13 +40,13 @@ NAMES = {
     "hfov": ("hfov", "fov_x", "angle_x"),
     "sensor": ("sensor", "sensor_width", "sensor_mm"),
 }
-"""What columns may be called; angles may end in ``_deg`` or ``_rad``."""
+"""Accepted names of the columns. Names of angles may end in ``_deg`` or ``_rad``."""
 LEVEL_AXIS = 1e-6
-"""How much of the view is level at least, for its heading to be that of the view itself."""
+"""Least horizontal part of the view direction. Below it, the camera's up axis gives the heading."""
 
 
 def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
-    """Return the one take of a table of frames."""
+    """Return the single take of a table of frames."""
     table = table_of(text, [NAMES[k] for k in "xyz"], EXAMPLE)
     if isinstance(table, Refused):
         return table
@@ -66,7 +66,7 @@ def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Re
 
 
 def _column(table: CameraTable, names: tuple[str, ...]) -> str:
-    """Return what a column is called in a table, empty where it is not there."""
+    """Return the name of a column in a table, empty if the table does not have it."""
     endings = ("", "_deg", "_rad")
     return next((n + end for n in names for end in endings if n + end in table.heads), "")
 
@@ -104,7 +104,7 @@ def _rate(table: CameraTable, columns: dict[str, str], asked: ImportOptions, not
 
 
 def _unit(table: CameraTable, columns: dict[str, str], notes: Notes) -> float:
-    """Return how many radians one of the table's angles is: some write degrees, as the panel shows them."""
+    """Return the unit of the table's angles in radians. Some tables have degrees, as Blender shows."""
     name = columns.get("rx", "")
     if not name or "qw" in columns:
         return 1.0
@@ -143,7 +143,7 @@ def _camera(
 
 
 def _hfov(values: dict[str, float | None]) -> float:
-    """Return the horizontal field of view of a frame that is wider than high, degrees."""
+    """Return the horizontal field of view of a landscape frame, degrees."""
     told = values.get("hfov")
     if told is None:
         lens, sensor = values.get("lens") or USUAL_LENS, values.get("sensor") or USUAL_SENSOR
@@ -152,7 +152,7 @@ def _hfov(values: dict[str, float | None]) -> float:
 
 
 def _axes(values: dict[str, float | None], unit: float) -> tuple[Vec3, Vec3, Vec3] | None:
-    """Return forward, up and right of a camera; None where its rotation is not there."""
+    """Return the unit vectors forward, up and right of a camera; None without a rotation."""
     w, x, y, z = (values.get(f"q{k}") for k in "wxyz")
     if w is None or x is None or y is None or z is None:
         angles = [values.get(f"r{k}") for k in "xyz"]

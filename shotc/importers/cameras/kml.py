@@ -1,7 +1,7 @@
-"""Google Earth: tours (``gx:Tour``) of cameras, or the cameras of placemarks in their order; KML or KMZ.
+"""Read KML or KMZ of Google Earth: tours (``gx:Tour``) of cameras, or the cameras of placemarks.
 
 Format: developers.google.com/kml/documentation/touring and .../cameras. Names are compared without their
-prefixes. A ``LookAt`` is the camera ``range`` behind the place that it looks at.
+prefixes. A ``LookAt`` is a camera that looks at a place from the distance ``range``.
 """
 
 from __future__ import annotations
@@ -36,18 +36,20 @@ from shotc.importers.xml_tree import LARGEST, Node, XmlFault
 from shotc.ir.mission import GeoOrigin
 
 OVER_GROUND_M = 10.0
-"""Metres over the ground of the lowest camera, where nobody says how high the ground is."""
+"""Assumed height of the lowest camera above the ground if the ground's altitude is unknown, metres."""
 USUAL_HFOV_DEG = 60.0
-"""Google Earth's field of view where a camera has none."""
+"""Google Earth's field of view for a camera without one, degrees."""
 GROUND_MODES = ("relativeToGround", "clampToGround", "relativeToSeaFloor", "clampToSeaFloor")
 SILENT = {"TourControl": "a pause", "SoundCue": "a sound", "AnimatedUpdate": "an update of the map"}
 
 
 class KmlView(NamedTuple):
-    """A camera as a file has it.
+    """A camera as the file describes it.
 
-    place : latitude, longitude, altitude of the camera or of what it looks at; absolute : from sea level
-    tilt : deg, 0 is straight down; range : metres to what it looks at, 0 of a Camera
+    place    : latitude, longitude (degrees) and altitude (metres) of the camera, or of the place it looks at
+    absolute : whether the altitude is above sea level, not above ground
+    tilt     : degrees, 0 is straight down
+    range    : distance to the place it looks at, metres; 0 for a Camera
     """
 
     node: Node
@@ -62,7 +64,7 @@ class KmlView(NamedTuple):
 
 
 def unpacked(data: bytes) -> bytes | XmlFault:
-    """Return the KML in a file: of a KMZ its first document, of anything else the bytes themselves."""
+    """Return the KML in a file: the first document of a KMZ, or the bytes themselves."""
     if not data.startswith(MAGIC):
         return data
     found = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST)
@@ -126,7 +128,7 @@ def _marked(root: Node) -> Iterator[Node]:
 
 
 def _tour(tour: Node, notes: Notes) -> Iterator[KmlView]:
-    """Yield the cameras of a tour with their times from its first one."""
+    """Yield the cameras of a tour with their times since the first one, seconds."""
     last: KmlView | None = None
     time = 0.0
     steps = [
@@ -168,7 +170,7 @@ def _seconds(step: Node, notes: Notes) -> float:
 
 
 def _view(node: Node, notes: Notes) -> KmlView | None:
-    """Return a Camera or a LookAt, None where it does not say where it is."""
+    """Return a Camera or a LookAt, None if it has no position."""
     lat, lon = _number(node, "latitude", None, notes), _number(node, "longitude", None, notes)
     if lat is None or lon is None or not is_place(lat, lon):
         notes.assume(node, "a camera without a latitude and a longitude", "it is left out")
@@ -220,7 +222,7 @@ def _lens(views: list[KmlView], notes: Notes) -> None:
 
 
 def _ground(views: list[KmlView], asked: ImportOptions, notes: Notes) -> float | Refused:
-    """Return the altitude of the ground, which is the plane z = 0, above sea level."""
+    """Return the altitude of the ground (the plane z = 0) above sea level, metres."""
     absolute = [view for view in views if view.absolute]
     if asked.ground is not None:
         return asked.ground

@@ -1,7 +1,7 @@
-"""Litchi: a mission as the table that its Hub exports. Heights count from the take-off.
+"""Read a mission of Litchi from the table that its Hub exports. Heights are relative to the take-off.
 
-Columns: litchiutilities.com/docs/litchiCsv.php. Between waypoints Litchi turns the camera evenly, so each one
-is a keyframe; curve sizes are not read, for a plan passes through its keyframes.
+Columns: litchiutilities.com/docs/litchiCsv.php. Litchi turns the camera evenly between waypoints, so each
+waypoint becomes a keyframe. Curve sizes are not read, because a plan passes through its keyframes.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ FOOT_M = 0.3048
 ACTIONS = range(1, 16)
 STAY, START, STOP, TILT = 0, 2, 3, 5
 FOCUS = 1
-"""Gimbal mode in which the camera keeps to the point of interest."""
+"""Gimbal mode in which the camera follows the point of interest."""
 
 
 def footage(text: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
-    """Return the takes of a Litchi mission: what is recorded, or all of it where nothing is."""
+    """Return the takes of a Litchi mission: the recorded parts, or all of it if nothing is recorded."""
     height = ("altitude(m)", "altitude(ft)")
     table = table_of(text, [("latitude",), ("longitude",), height, ("heading(deg)",)], EXAMPLE)
     if isinstance(table, Refused):
@@ -107,7 +107,7 @@ def _cameras(
 def _focus(
     row: TableRow, origin: GeoOrigin, notes: Notes, *, feet: bool
 ) -> tuple[float, float, float] | None:
-    """Return a waypoint's point of interest, None where it has none (0, 0)."""
+    """Return a waypoint's point of interest, None if it has none, written (0, 0)."""
     lat, lon = row.number("poi_latitude", notes), row.number("poi_longitude", notes)
     if not is_place(lat, lon) or lat is None or lon is None or (lat == 0.0 and lon == 0.0):
         return None
@@ -116,7 +116,7 @@ def _focus(
 
 
 def actions_of(row: TableRow, notes: Notes) -> Iterator[tuple[int, float]]:
-    """Yield what is done at a waypoint: the numbers of actions and their parameters."""
+    """Yield the actions at a waypoint: their numbers and parameters."""
     for i in ACTIONS:
         kind = row.number(f"actiontype{i}", notes)
         if kind is not None and kind >= 0:

@@ -1,4 +1,4 @@
-"""Whether a drone is fast enough for a take's own time, with room for its curves."""
+"""Check whether a drone can fly a take in the take's own time, with a margin for its curves."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from shotc.ir.limits import Limits
 from shotc.spec.presets import ZOOM_RATE
 
 SHARE = 0.75
-"""Of what the drone can do that a take may ask for."""
+"""Largest share of the available time that the fastest flight of a take may need."""
 
 
 def too_fast(cameras: Sequence[ImportedCamera], limits: Limits) -> ImportedCamera | None:
-    """Return the first camera from which a drone comes too late to what is next, None where it is in time."""
+    """Return the first camera from which a drone is late at the next one, None if it is always in time."""
     for camera, lasts, least in (*_turns(unwound(cameras), limits), *_stretches(cameras, limits)):
         if least > SHARE * lasts:
             return camera
@@ -26,7 +26,7 @@ def too_fast(cameras: Sequence[ImportedCamera], limits: Limits) -> ImportedCamer
 def _turns(
     cameras: Sequence[ImportedCamera], limits: Limits
 ) -> Iterator[tuple[ImportedCamera, float, float]]:
-    """Yield every camera with the seconds to the next, and the least for the turn, way and zoom to it."""
+    """Yield each camera with the time to the next one, and the least time for turn, way and zoom, seconds."""
     for a, b in pairwise(cameras):
         up = b.at[2] - a.at[2]
         across = dist(a.at[:2], b.at[:2]) / limits.speed
@@ -39,7 +39,7 @@ def _turns(
 def _stretches(
     cameras: Sequence[ImportedCamera], limits: Limits
 ) -> Iterator[tuple[ImportedCamera, float, float]]:
-    """Yield where each flight from rest to rest begins, how long it lasts, and the least that it takes."""
+    """Yield the first camera of each flight from rest to rest, its duration and least duration, s."""
     inner = [i for i in range(1, len(cameras) - 1) if cameras[i].hold > 0.0]
     for i, j in pairwise([0, *inner, len(cameras) - 1]):
         some = cameras[i : j + 1]
@@ -52,5 +52,5 @@ def _stretches(
 
 
 def _least(way: float, speed: float, push: float) -> float:
-    """Return the least seconds from rest to rest."""
+    """Return the least duration from rest to rest, s. way : m; speed : m/s; push : m/s^2."""
     return way / speed + speed / push if way * push > speed * speed else 2.0 * sqrt(way / push)

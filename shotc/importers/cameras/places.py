@@ -1,4 +1,4 @@
-"""Places on the globe as places of W, and heights that count from one level."""
+"""Convert geodetic places to W, and bring values into the range of the language."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from shotc.importers.xml_tree import Node
 from shotc.ir.mission import GeoOrigin
 
 FAR_M = 20_000.0
-"""Metres from the middle of all cameras beyond which one belongs to no flight."""
-LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees; of the gimbal of the drone that is written
+"""Distance from the median of all cameras beyond which a camera belongs to no flight, metres."""
+LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees, of the gimbal of the drone in the mission
 NARROWEST_DEG, WIDEST_DEG = 1.01, 169.9
-"""Fields of view just inside those of the language, for focal lengths are rounded."""
+"""Fields of view just inside the range of the language, because focal lengths are rounded."""
 LARGEST_NUMBER = 1e9
 ROLLED_DEG = 0.5
-"""Degrees by which a picture is tilted before anybody sees it."""
+"""Largest roll that is not visible, degrees."""
 
 
 def origin_at(lat: float, lon: float, alt: float) -> GeoOrigin:
-    """Return the origin of W at a place, rounded as it is written."""
+    """Return the origin of W at a place, rounded as in the text of the mission."""
     return GeoOrigin(round(lat, 7), round(lon, 7), round(alt, 3))
 
 
 def world(origin: GeoOrigin, lat: float, lon: float, height: float, *, absolute: bool) -> Vec3:
-    """Return a place of the globe in W; height : metres above sea level, or over the ground, z = 0."""
+    """Return a geodetic place in W, metres. ``height``: metres above sea level, or above the ground z = 0."""
     return to_world((lat, lon, height), origin) if absolute else above_ground((lat, lon, height), origin)
 
 
@@ -39,13 +39,13 @@ def is_place(lat: float | None, lon: float | None) -> bool:
 
 
 def aim(at: Vec3, to: Vec3) -> tuple[float, float]:
-    """Return heading and pitch of the way from one place of W to another, degrees."""
+    """Return heading and pitch of the direction from one place in W to another, degrees."""
     x, y, z = (b - a for a, b in zip(at, to, strict=True))
     return degrees(atan2(x, y)) % 360.0, degrees(atan2(z, hypot(x, y)))
 
 
 def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
-    """Return takes without cameras that are far from most others: a tour often begins above the continent."""
+    """Return the takes without cameras far from most others: a tour often begins high above the continent."""
     cameras = [camera for take in takes for camera in take.cameras]
     if not cameras:
         return ()
@@ -66,7 +66,7 @@ def without_far(takes: Sequence[Take], notes: Notes) -> tuple[Take, ...]:
 
 
 def reached(node: Node, pitch: float, notes: Notes) -> float:
-    """Return a pitch that the drone's gimbal reaches, degrees."""
+    """Return the pitch clamped to the range of the drone's gimbal, degrees, with a note if it changes."""
     nearest = max(LOWEST_PITCH, min(HIGHEST_PITCH, pitch))
     if abs(nearest - pitch) > 1e-6:
         notes.assume(node, f"a pitch of {pitch:.1f} deg is out of a gimbal's range", f"{nearest:g} deg")
@@ -74,18 +74,18 @@ def reached(node: Node, pitch: float, notes: Notes) -> float:
 
 
 def shown(hfov: float) -> float:
-    """Return a field of view that the language has, degrees."""
+    """Return the field of view clamped to the range of the language, degrees."""
     return max(NARROWEST_DEG, min(WIDEST_DEG, hfov))
 
 
 def level(node: Node, roll: float, notes: Notes) -> None:
-    """Note that a camera is tilted sideways."""
+    """Note an assumption if a camera is rolled."""
     if abs(roll) > ROLLED_DEG:
         notes.assume(node, f"the camera is rolled by {roll:.1f} deg", "a level horizon")
 
 
 def number(text: str) -> float | None:
-    """Return a number that may be a place, a time or an angle, None for any other text."""
+    """Return a number that can be a place, a time or an angle, None for any other text."""
     try:
         value = float(text)
     except ValueError:

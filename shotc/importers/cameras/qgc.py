@@ -1,7 +1,8 @@
-"""QGroundControl: a ``.plan`` of waypoints. Heights count from its home unless their frame says otherwise.
+"""Read a ``.plan`` of QGroundControl: waypoints and camera commands.
 
-Format: docs.qgroundcontrol.com, file_formats/plan; commands: mavlink.io, common.xml. What is told between two
-waypoints holds from the first of them: a gimbal's angles against the body, or a place to look at.
+Format: docs.qgroundcontrol.com, file_formats/plan; commands: mavlink.io, common.xml. Heights are relative to
+the plan's home unless their frame is another. Commands between two waypoints apply from the first of them on:
+angles of the gimbal relative to the body, or a place to look at.
 """
 
 from __future__ import annotations
@@ -44,20 +45,20 @@ PHOTOS_BY_WAY, MODE, ZOOM, FOCUS, PHOTOS, NO_PHOTOS = 206, 530, 531, 532, 2000, 
 _AIMING = (SPEED, LOOK, LOOK_NO_MORE, LOOK_OLD, GIMBAL, MOUNT)
 _TAKING = (START, STOP, PHOTOS_BY_WAY, MODE, ZOOM, FOCUS, PHOTOS, NO_PHOTOS)
 QUIET = frozenset((20, 21, 22, 1001, 115, *_AIMING, *_TAKING))
-"""Commands that are read, or that a plan has of its own: take-off, landing, return, who moves the gimbal, its
-camera's mode and focus."""
+"""Commands that need no note: they are read, or every plan has them (take-off, landing, return, control of
+the gimbal, mode and focus of the camera)."""
 FOCAL_LENGTH = 3
-"""Type of a zoom that is a focal length in mm."""
+"""Zoom type of command 531 that means a focal length in mm."""
 SEA_LEVEL, HOME_LEVEL, TERRAIN = (0, 5), (3, 6), (10, 11)
-"""Frames that heights count in."""
+"""MAVLink frames by the reference of their heights."""
 YAW_LOCK = 16
-"""Flag of command 1000: yaw counts from North, not from the body."""
+"""Flag of command 1000: yaw is relative to North, not to the body."""
 PARAMETERS = 7
 LARGEST_FOCAL_MM = 2000.0
 
 
 class CameraCommand(NamedTuple):
-    """One command. params : seven numbers, None where there is none."""
+    """One command. params : seven numbers, each None if absent."""
 
     node: Node
     command: int
@@ -67,9 +68,10 @@ class CameraCommand(NamedTuple):
 
 @dataclass(slots=True)
 class _Aim:
-    """Where the camera looks: a place of W, or angles against the body, or as they are told from North.
+    """The aim of the camera: a place in W, or gimbal angles in degrees.
 
-    hfov : deg, None where no zoom says it
+    yaw  : relative to North if ``locked``, else to the body
+    hfov : degrees, None if no zoom command gives it
     """
 
     place: Vec3 | None = None
@@ -80,7 +82,7 @@ class _Aim:
 
 
 class Opened(NamedTuple):
-    """A plan: its document, the part `mission`, the items in that, and where the whole stands."""
+    """A plan: its document, the part `mission`, the items in that, and the place of the whole."""
 
     document: Document
     mission: dict[str, Any]
@@ -89,8 +91,8 @@ class Opened(NamedTuple):
 
 
 def opened(data: bytes, name: str) -> Opened | Refused:
-    """Return the parts of a plan; codes I001 where it is no JSON, I002 where it is no plan."""
-    document = parse(data.replace(b"\t", b" "), name)  # tabs between values are JSON, and no YAML
+    """Return the parts of a plan. It is refused with code I001 if it is no JSON, I002 if it is no plan."""
+    document = parse(data.replace(b"\t", b" "), name)  # JSON allows tabs between values, YAML does not
     if document.faults:
         fault = document.faults[0]
         return Refused("I001", f"it is no JSON: {fault.message}", _node(fault.span))
@@ -103,7 +105,7 @@ def opened(data: bytes, name: str) -> Opened | Refused:
 
 
 def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> ImportedTakes | Refused:
-    """Return the takes of a plan: what is recorded, or all waypoints where nothing is."""
+    """Return the takes of a plan: the recorded parts, or all waypoints if nothing is recorded."""
     plan = opened(data, name)
     if isinstance(plan, Refused):
         return plan
@@ -141,7 +143,7 @@ def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Impor
 
 
 def _assumed(items: Sequence[CameraCommand], notes: Notes) -> None:
-    """Note what is taken of a camera's commands, once each."""
+    """Note the assumptions about camera commands, once each."""
     zooms = [item for item in items if item.command == ZOOM]
     for item in [item for item in zooms if item.params[0] == FOCAL_LENGTH][:1]:
         notes.assume(item.node, "a focal length without the sensor's width", "a frame 36 mm wide")
@@ -199,7 +201,7 @@ def _origin(
 
 
 def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes: Notes) -> list[Take]:
-    """Return the waypoints as cameras; the commands after one belong to it."""
+    """Return the waypoints as cameras. The commands after a waypoint belong to it."""
     cameras: list[ImportedCamera] = []
     starts: list[bool] = []
     stops: list[bool] = []
@@ -225,7 +227,7 @@ def _takes(whole: Node, items: Sequence[CameraCommand], origin: GeoOrigin, notes
 
 
 def _begins(item: CameraCommand) -> bool:
-    """Return whether a film or photos begin with a command."""
+    """Return whether a command starts a recording or photos."""
     return item.command in (START, PHOTOS) or (item.command == PHOTOS_BY_WAY and bool(item.params[0]))
 
 
@@ -242,7 +244,7 @@ def _place(item: CameraCommand, origin: GeoOrigin, notes: Notes) -> Vec3:
 
 
 def _ahead(items: Sequence[CameraCommand], i: int, at: Vec3, origin: GeoOrigin, otherwise: float) -> float:
-    """Return the way to the next waypoint: where a vehicle faces that is told nothing."""
+    """Return the compass bearing to the next waypoint, degrees: the default heading of a vehicle."""
     for item in items[i:]:
         if item.command in (WAYPOINT, SPLINE):
             to = _place(item, origin, Notes())
@@ -251,7 +253,7 @@ def _ahead(items: Sequence[CameraCommand], i: int, at: Vec3, origin: GeoOrigin, 
 
 
 def _told(item: CameraCommand, looks: _Aim, origin: GeoOrigin) -> None:
-    """Take what a command says of where the camera looks."""
+    """Apply a command to the aim of the camera."""
     p = item.params
     if item.command in (LOOK, LOOK_OLD) and is_place(p[4], p[5]) and (p[4], p[5]) != (0.0, 0.0):
         looks.place = _place(item, origin, Notes())
@@ -279,7 +281,7 @@ def _camera(item: CameraCommand, at: Vec3, heading: float, looks: _Aim, notes: N
 
 
 def number_of(value: Any) -> float | None:
-    """Return a number of JSON, None for anything else."""
+    """Return a JSON number, None for any other value."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     return float(value) if abs(value) < LARGEST_NUMBER else None

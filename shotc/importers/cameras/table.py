@@ -1,4 +1,4 @@
-"""Tables as text: rows of cells that know their line and column."""
+"""Read tables from text: rows of cells with their line and column."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ SEPARATORS = (",", ";", "\t")
 
 
 class TableRow(NamedTuple):
-    """One row: its first cell, which stands for it, and its cells by the names of their columns."""
+    """One row: its first cell, used as the place of the row, and its cells by the names of their columns."""
 
     node: Node
     cells: dict[str, Node]
 
     def text(self, column: str) -> str:
-        """Return a cell's text, empty where there is none."""
+        """Return a cell's text, empty if there is no cell."""
         cell = self.cells.get(column)
         return "" if cell is None else cell.text
 
     def number(self, column: str, notes: Notes) -> float | None:
-        """Return a cell's number, None where there is none, with a note where it is something else."""
+        """Return a cell's number, or None; a text that is no number gives a note."""
         cell = self.cells.get(column)
         if cell is None or not cell.text:
             return None
@@ -36,7 +36,7 @@ class TableRow(NamedTuple):
 
 
 class CameraTable(NamedTuple):
-    """A table. node : its first line; heads : its columns' cells, by their names in small letters."""
+    """A table. ``node``: its first line; ``heads``: the cells of that line by column name in lower case."""
 
     node: Node
     heads: dict[str, Node]
@@ -44,9 +44,10 @@ class CameraTable(NamedTuple):
 
 
 def table_of(text: str, needed: Sequence[Sequence[str]], example: str) -> CameraTable | Refused:
-    """Return a table whose first line names its columns.
+    """Return a table whose first line names its columns, or why the text is none.
 
-    needed : for each column that there has to be, the names that it may have; example : such a first line
+    needed  : for each required column, its accepted names
+    example : a valid first line, for the message
     """
     lines = text.splitlines()
     first = next((i for i, line in enumerate(lines) if line.strip()), None)

@@ -1,4 +1,4 @@
-"""What a file of cameras holds: takes, each a row of cameras, in W (East, North, Up, metres), degrees."""
+"""The content of a file of cameras: takes of cameras in W (East, North, Up, metres), degrees."""
 
 from __future__ import annotations
 
@@ -10,15 +10,20 @@ from shotc.importers.xml_tree import Node
 from shotc.ir.mission import GeoOrigin
 
 MOST_CAMERAS = 10_000
-"""How many cameras of a file are read: more is no shot, and would take minutes."""
+"""Most cameras of a file. More are not a shot, and would take minutes."""
 
 
 class ImportedCamera(NamedTuple):
     """One camera.
 
-    node : where it stands in the file; heading : compass bearing, pitch : over the horizon, deg
-    hfov : deg, None where the file has no lens; time : seconds from the take's first, None without a clock
-    hold : seconds at rest; look_at : a place of W that it looks at, which heading and pitch are of, if any
+    node    : its place in the file
+    at      : its position in W, metres
+    heading : compass bearing, degrees
+    pitch   : angle above the horizon, degrees
+    hfov    : degrees, None if the file has no lens
+    time    : seconds since the take's first camera, None without a clock
+    hold    : time at rest, seconds
+    look_at : the place in W that heading and pitch point at, or None
     """
 
     node: Node
@@ -32,7 +37,7 @@ class ImportedCamera(NamedTuple):
 
 
 class Take(NamedTuple):
-    """Cameras that are flown through in one go. name : as the file has it, maybe empty."""
+    """Cameras that are flown through without a break. ``name``: as in the file, may be empty."""
 
     name: str
     node: Node
@@ -42,9 +47,11 @@ class Take(NamedTuple):
 def recorded(
     node: Node, cameras: Sequence[ImportedCamera], starts: Sequence[bool], stops: Sequence[bool]
 ) -> list[Take]:
-    """Return what is recorded, take by take; all in one where recording is never started.
+    """Return one take for each recorded part; one take of all cameras if recording is never started.
 
-    node : of the whole file; starts, stops : whether it is started and stopped at each camera
+    node   : the whole file
+    starts : whether recording starts at each camera
+    stops  : whether recording stops at each camera
     """
     if not any(starts):
         return [Take("", node, tuple(cameras))]
@@ -61,10 +68,11 @@ def recorded(
 
 
 class ImportedTakes(NamedTuple):
-    """All that is imported of a file.
+    """The takes of a file, with its place on earth.
 
-    node : of the whole file; origin : None where the file is in metres already
-    home : where the drone stands, None where the file does not say
+    node   : the whole file
+    origin : origin of W, None if the file is in metres
+    home   : position of the drone before the flight, None if the file does not give it
     """
 
     node: Node
@@ -74,10 +82,12 @@ class ImportedTakes(NamedTuple):
 
 
 class ImportOptions(NamedTuple):
-    """What the user says about a file.
+    """Options of the user for a file.
 
-    every : keep cameras that the others imply; times : keep when each camera is reached
-    fps : frames a second; ground : its altitude, metres above sea level; None where they say nothing
+    every  : keep all cameras, also those that interpolation replaces
+    times  : keep the time of each camera
+    fps    : frames per second, None if not given
+    ground : altitude of the ground, metres above sea level, None if not given
     """
 
     every: bool = False
@@ -87,7 +97,7 @@ class ImportOptions(NamedTuple):
 
 
 class Refused(NamedTuple):
-    """Why a file is not imported: a code, what is wrong, where, and what to do."""
+    """Why a file is not imported: a code, the fault, its place, and a remedy."""
 
     code: str
     message: str

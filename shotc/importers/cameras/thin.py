@@ -1,8 +1,8 @@
-"""Cameras that the others imply, left out: the picture between those that stay hardly changes.
+"""Remove cameras whose picture hardly differs from the one interpolated between their neighbours.
 
-A camera may go where the one that is interpolated in its place, evenly between its neighbours, shows every
-corner and the middle of its frame within ``PICTURE`` half frames of where it does itself. What is filmed is
-taken to be as far away as the camera is high over the ground, and no nearer than ``NEAREST_M``.
+A camera is removed if the camera interpolated linearly between its neighbours shows the corners and the
+centre of its frame within ``PICTURE`` half frames of the original. The filmed objects are assumed at a
+distance equal to the camera's height above ground, but at least ``NEAREST_M``.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from shotc.geom.vec import Vec3
 from shotc.importers.cameras.takes import ImportedCamera
 
 PICTURE = 0.01
-"""Half frames by which a picture may be off."""
+"""Largest error of the picture, half frames."""
 NEAREST_M = 5.0
 ASPECT = 16 / 9
 """Width over height of the frame."""
 WIDEST_TURN_DEG = 120.0
-"""Between neighbours that stay: a turn of half a circle could be flown either way."""
+"""Largest turn between remaining neighbours. The direction of a half turn would be ambiguous."""
 MOST_APART = 200
-"""Cameras from one that stays to the next at most: a file may be made to take long."""
+"""Most cameras from one that remains to the next. It bounds the run time for any file."""
 CORNERS = ((0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
 
 
 class _View(NamedTuple):
-    """A camera for projections: its place, axes, and the tangents of half its frame."""
+    """A camera for projections: its position, axes, and the tangents of its half fields of view."""
 
     at: Vec3
     right: Vec3
@@ -43,9 +43,9 @@ def thinned(
 ) -> tuple[ImportedCamera, ...]:
     """Return the cameras that are needed, by the method of Ramer, Douglas and Peucker.
 
-    The first, the last and every 200th stay, those that rest, and those that look at a place.
+    The first, the last and every 200th camera remain, and those that rest or look at a place.
 
-    on_clock : whether a camera is to be where it is at its time, or only where it is on its way
+    on_clock : whether the picture must match at each camera's time, or only along the path
     """
     lens = [camera._replace(hfov=camera.hfov or usual_hfov) for camera in unwound(cameras)]
     way = _way(lens, on_clock=on_clock)
@@ -62,7 +62,7 @@ def thinned(
 
 
 def unwound(cameras: Sequence[ImportedCamera]) -> list[ImportedCamera]:
-    """Return the cameras with headings that do not jump by whole turns."""
+    """Return the cameras with continuous headings, without jumps by whole turns."""
     out: list[ImportedCamera] = []
     for camera in cameras:
         turns = round((out[-1].heading - camera.heading) / 360.0) if out else 0
@@ -71,7 +71,10 @@ def unwound(cameras: Sequence[ImportedCamera]) -> list[ImportedCamera]:
 
 
 def picture_change(a: ImportedCamera, b: ImportedCamera) -> float:
-    """Return how far apart two cameras show what a sees, half frames; infinite where it is behind b."""
+    """Return the largest shift of the frame of ``a`` in the picture of ``b``, half frames.
+
+    It is infinite if a corner is behind ``b``.
+    """
     one, other = _view(a), _view(b)
     depth = max(NEAREST_M, a.at[2])
     worst = 0.0
@@ -88,7 +91,7 @@ def picture_change(a: ImportedCamera, b: ImportedCamera) -> float:
 
 
 def _way(cameras: Sequence[ImportedCamera], *, on_clock: bool) -> list[float]:
-    """Return how far along each camera is: its time, or how much the picture has changed."""
+    """Return the path parameter of each camera: its time, or the accumulated change of the picture."""
     if on_clock:
         return [camera.time or 0.0 for camera in cameras]
     steps = (min(picture_change(a, b), 1.0) for a, b in pairwise(cameras))
@@ -98,7 +101,7 @@ def _way(cameras: Sequence[ImportedCamera], *, on_clock: bool) -> list[float]:
 def _worst(
     cameras: Sequence[ImportedCamera], way: Sequence[float], first: int, last: int
 ) -> tuple[float, int]:
-    """Return how far the picture is off at worst between two cameras that stay, and at which."""
+    """Return the largest error of the picture between two remaining cameras, and the camera that has it."""
     a, b = cameras[first], cameras[last]
     if last - first < 2:
         return 0.0, first

@@ -1,4 +1,4 @@
-"""Takes as a mission of ``keyframes``, with every assumption as a comment."""
+"""Write takes as a mission with shots of kind ``keyframes``, and every assumption as a comment."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from shotc.spec.presets import PRESETS
 
 MODEL = "pro"
 BEHIND_M = 10.0
-"""Metres behind the first camera at which a drone stands of whose home nothing is known."""
+"""Distance of the drone's home behind the first camera if the file gives no home, metres."""
 SAME_M, SAME_DEG = 1e-3, 1e-3
-"""Within which two cameras are one."""
+"""Largest differences, metres and degrees, at which two cameras count as equal."""
 SAME_LENS_DEG = 1e-3
-"""Within which all cameras have one field of view."""
+"""Largest difference, degrees, at which two fields of view count as equal."""
 
 
 class Written(NamedTuple):
-    """A mission as text, and how many shots and keyframes it has of how many cameras."""
+    """A mission as text, with its numbers of shots and keyframes, and the number of cameras in the file."""
 
     text: str
     shots: int
@@ -35,7 +35,11 @@ class Written(NamedTuple):
 def written(
     name: str, what: str, footage: ImportedTakes, asked: ImportOptions, notes: Notes
 ) -> Written | None:
-    """Return a mission, None where no take has two cameras; name : of it, what : it comes from."""
+    """Return a mission, None if no take has two cameras.
+
+    name : name of the mission
+    what : description of the source
+    """
     takes = [take for take in map(_rested, footage.takes) if len(take.cameras) > 1]
     for take in footage.takes:
         if len(take.cameras) == 1 and len(footage.takes) > 1:
@@ -63,7 +67,7 @@ def written(
 
 
 def _rested(take: Take) -> Take:
-    """Return a take without cameras that are the one before once more: the camera rests there."""
+    """Return a take without repeated cameras: they become a rest at the first of them."""
     out: list[ImportedCamera] = []
     for camera in take.cameras:
         if not out or not _same(out[-1], camera):
@@ -80,7 +84,7 @@ def _same(a: ImportedCamera, b: ImportedCamera) -> bool:
 
 
 def _lenses(takes: list[Take]) -> tuple[float, float]:
-    """Return the widest and the narrowest field of view, degrees; the drone's own where none is told."""
+    """Return the widest and the narrowest field of view, degrees; the drone's own if the file has none."""
     found = [camera.hfov for take in takes for camera in take.cameras if camera.hfov is not None]
     own = degrees(PRESETS[MODEL].hfov)
     return max(found, default=own), min(found, default=own)
@@ -95,7 +99,10 @@ def _world(footage: ImportedTakes) -> Iterator[str]:
 def _drone(
     footage: ImportedTakes, first: ImportedCamera, notes: Notes, *, zoom: tuple[float, float] | None
 ) -> list[str]:
-    """Return the line of the drone; zoom : its widest and narrowest field of view, where it has several."""
+    """Return the line of the drone.
+
+    zoom : its widest and narrowest field of view, degrees, if it has several
+    """
     home = footage.home
     if home is None:
         x, y, _ = first.at
@@ -120,7 +127,7 @@ def _focal(hfov: float, rounded: Callable[[float], int]) -> str:
 
 
 def _id(takes: list[Take], i: int) -> str:
-    """Return a shot's id: its take's name, with a number where another one has it, too."""
+    """Return a shot's id: its take's name, with a number if another take has the same name."""
     names = [safe(take.name, "take") for take in takes]
     return names[i] if names.count(names[i]) == 1 else f"{names[i]}-{names[: i + 1].count(names[i])}"
 
@@ -150,13 +157,13 @@ def _shot(name: str, take: Take, asked: ImportOptions, notes: Notes, *, lenses: 
 
 
 def _compass(heading: float) -> str:
-    """Return a heading below 360 deg, which is a direction and counts no turns."""
+    """Return a heading as a direction below 360 deg, without turns."""
     text = f"{heading % 360.0:.4f}"
     return "0.0000" if text == "360.0000" else text
 
 
 def _timed(take: Take, notes: Notes) -> bool:
-    """Return whether a take is flown in its own time: one that is too fast is flown in the drone's."""
+    """Return whether a take is flown in its own time. A take that is too fast gets the time of the drone."""
     if any(camera.time is None for camera in take.cameras):
         return False
     fast = too_fast(take.cameras, PRESETS[MODEL].limits)

@@ -1,5 +1,6 @@
-"""Flights of other tools as they stand in their files, to be judged: what is wrong or open is refused.
+"""Read flights of other tools for verification. A file with faults or open questions is refused.
 
-``read.py`` tells what a file is; ``wpml.py``, ``litchi.py`` and ``items.py`` read waypoints (``points.py``),
-``rows.py`` tables of trajectories and ``skyc.py`` shows. How they are flown is no matter of these.
+``read.py`` finds the format of a file. ``wpml.py``, ``litchi.py`` and ``items.py`` read waypoints
+(``points.py``), ``rows.py`` and ``zipped.py`` tables of trajectories, and ``skyc.py`` shows. These modules do
+not model how a machine flies them.
 """

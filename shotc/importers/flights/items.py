@@ -1,7 +1,7 @@
-"""Mission items of MAVLink: ``.plan`` of QGroundControl, and ``.waypoints`` (QGC WPL 110).
+"""Read mission items of MAVLink: ``.plan`` of QGroundControl, and ``.waypoints`` (QGC WPL 110).
 
-Commands: mavlink.io, common.xml. What moves the machine in a way that is not known here is refused; what does
-not move it is passed over.
+Commands: mavlink.io, common.xml. A command that moves the drone in an unknown way is refused. A command that
+does not move it is skipped.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from shotc.importers.xml_tree import Node
 WAYPOINT, RETURN, LAND, TAKEOFF, LOITER_TIME, SPLINE, DELAY = 16, 20, 21, 22, 19, 82, 93
 SPEED, GIMBAL, MOUNT = 178, 1000, 205
 LAST_NAV = 95
-"""Commands up to here move the machine."""
+"""Commands up to this number move the drone."""
 ASTRAY = {
     17: "circles without end",
     18: "turns round a place",
@@ -48,7 +48,7 @@ CLIMB, DESCENT = 2, 3
 
 
 class FlightCommand(NamedTuple):
-    """One command. params : seven numbers, None where there is none."""
+    """One command. params : seven numbers, each None if absent."""
 
     node: Node
     name: str
@@ -59,7 +59,7 @@ class FlightCommand(NamedTuple):
 
 @dataclass(slots=True)
 class _Run:
-    """What has been read so far, and what is in force."""
+    """The points read so far, and the values in force."""
 
     pace: Pace = field(default_factory=Pace)
     points: list[FlightPoint] = field(default_factory=list)
@@ -83,7 +83,7 @@ def plan(data: bytes, name: str) -> Waypoints:
 
 
 def table(text: str) -> Waypoints:
-    """Return the points of a ``.waypoints``; its first row is the home, which a vehicle sets anew."""
+    """Return the points of a ``.waypoints``. Its first row is the home, which the autopilot sets again."""
     lines = text.splitlines()
     start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
     if not lines or lines[0].strip() != HEADER:
@@ -110,7 +110,7 @@ def _of_plan(found: Opened) -> Iterator[FlightCommand]:
         node = node_at(found.document, "mission", "items", i)
         inner = item.get("TransectStyleComplexItem") if isinstance(item, dict) else None
         listed = inner.get("Items") if isinstance(inner, dict) else None
-        if isinstance(listed, list):  # a survey holds the items that it stands for
+        if isinstance(listed, list):  # a survey contains the items that it generates
             for k, part in enumerate(listed):
                 yield _simple(part, f"item {i + 1}.{k + 1}", node)
         else:
@@ -140,13 +140,13 @@ def _flown(whole: Node, items: Sequence[FlightCommand], autopilot: Literal["px4"
         run.ending = "it stays in the air there"
     words = {"px4": "PX4", "ardupilot": "ArduPilot"}[autopilot]
     points = tuple(run.points)
-    if points:  # what was told behind the last point
+    if points:  # commands after the last point
         points = (*points[:-1], _stayed(points[-1], run))
     return checked(Waypoints(whole, "mavlink", points, words, autopilot, run.climb, run.landing, run.ending))
 
 
 def _take(run: _Run, item: FlightCommand) -> None:
-    """Take one item into account."""
+    """Apply one item."""
     command, p = item.command, item.params
     if command in (WAYPOINT, SPLINE, LOITER_TIME):
         _pass(run, _point(item, straight=command != SPLINE))
@@ -165,7 +165,7 @@ def _take(run: _Run, item: FlightCommand) -> None:
 
 
 def _do(run: _Run, item: FlightCommand) -> None:
-    """Take an item that is no place to fly to."""
+    """Apply an item that is not a place to fly to."""
     command, p = item.command, item.params
     if command in ASTRAY or command <= LAST_NAV:
         what = ASTRAY.get(command, "a way that no model here has")
@@ -177,7 +177,7 @@ def _do(run: _Run, item: FlightCommand) -> None:
 
 
 def _landing(run: _Run, item: FlightCommand) -> FlightPoint | None:
-    """Return where it lands: at a place of its own, or where it is."""
+    """Return the landing point: the item's place, or the last point if it has none."""
     p = item.params
     if p[4] is None or p[5] is None or (p[4], p[5]) == (0.0, 0.0):
         return run.points[-1] if run.points else None
@@ -185,7 +185,7 @@ def _landing(run: _Run, item: FlightCommand) -> FlightPoint | None:
 
 
 def _pass(run: _Run, point: FlightPoint) -> None:
-    """Go to a point at the speeds in force, which belong to the one before it."""
+    """Add a point. The speeds in force become the pace of the point before it."""
     if run.points:
         told = run.pace if run.pace != Pace() else None
         run.points[-1] = _stayed(run.points[-1], run)._replace(pace=told)

@@ -1,8 +1,8 @@
-"""Lights of a Skybrush show: programs of bytes that set and fade colours, as times and colours.
+"""Convert the lights of a Skybrush show, programs of bytes that set and fade colours, to times and colours.
 
-Orders are those that `libskybrush` plays; a time is a variable-length number of steps of 20 ms, seven bits a
-byte, the low ones first. Orders that change the clock, jump, or take
-colours from a remote control have no times that a file tells.
+The orders are those of `libskybrush`. A duration is a variable-length number of steps of 20 ms, seven bits
+per byte, the low bits first. Orders that change the clock, jump, or take colours from a remote control are
+refused: their times are not in the file.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from shotc.importers.xml_tree import Node
 
 STEP_S = 0.02
 JUMP_S = 0.001
-"""Seconds within which a colour that is set takes the place of the one before."""
+"""Duration of the change when an order sets a colour, seconds."""
 MOST_ORDERS = 100_000
-"""Orders of one program, those of loops as often as they are done."""
+"""Most executed orders of one program. Each pass of a loop counts."""
 WHOLE = Node("", 1, 1, wide=1)
 
 END, NOTHING, SLEEP = 0x00, 0x01, 0x02
@@ -30,22 +30,23 @@ BLACK: Color = (0, 0, 0)
 
 
 class KeyedLight(NamedTuple):
-    """A light: colours at times, s, that rise; it changes evenly between them, and is constant beyond."""
+    """A light: colours at rising times, s. It is linear between them, and constant before and after."""
 
     times: tuple[float, ...]
     colors: tuple[Color, ...]
 
 
 def keyed(program: bytes, where: str, end: float) -> KeyedLight:
-    """Return the light of a program; refuse what is none.
+    """Return the light of a program. A faulty program is refused.
 
-    where : the program, in words; end : of the flight, s, beyond which nothing is read
+    where : description of the program for messages
+    end   : end of the flight, s; later orders are not read
     """
     return _Player(program, where, end).played()
 
 
 class _Player:
-    """Does the orders of a program."""
+    """Executes the orders of a program."""
 
     def __init__(self, program: bytes, where: str, end: float) -> None:
         self._code, self._where, self._end = program, where, end
@@ -62,7 +63,7 @@ class _Player:
         raise AssertionError
 
     def _order(self) -> bool:
-        """Do the next order; tell whether there may be more."""
+        """Execute the next order. Return whether there may be more."""
         start, order = self._at, self._byte()
         if order == END:
             return False

@@ -1,4 +1,4 @@
-"""Litchi: the table of its Hub, as it is flown."""
+"""Read the table of Litchi's Hub as a flight."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which names files of flights have, and how large they may be."""
+"""File name extensions of flights, and the largest sizes of their files."""
 
 from pathlib import PurePath
 
@@ -7,21 +7,22 @@ from shotc.importers.xml_tree import LARGEST
 WAYPOINTS = (".plan", ".waypoints", ".kmz", ".wpml", ".kml")
 TABLE, SHOW, TABLES = ".csv", ".skyc", ".zip"
 SUFFIXES = (*WAYPOINTS, TABLE, SHOW, TABLES)
-"""Endings of names of flights, in small letters."""
+"""File name extensions of flights, in lower case."""
 LARGEST_CLOCKED = 200_000_000
-"""Bytes of the largest table or show, and of an archive of tables; of waypoints that of other importers."""
+"""Largest size of a table, a show or an archive of tables, bytes. Waypoints have the size of other
+importers."""
 
 
 def suffix_of(name: str) -> str:
-    """Return the ending of a name, in small letters."""
+    """Return the extension of a file name, in lower case."""
     return PurePath(name).suffix.lower()
 
 
 def is_flight(name: str) -> bool:
-    """Return whether a file of this name is one of a flight, and no plan.json."""
+    """Return whether a file name is that of a flight, not of a plan.json."""
     return suffix_of(name) in SUFFIXES
 
 
 def largest(name: str) -> int:
-    """Return how many bytes of a file are read."""
+    """Return the largest size of a file with this name, bytes."""
     return LARGEST if suffix_of(name) in WAYPOINTS else LARGEST_CLOCKED

@@ -1,4 +1,4 @@
-"""What a file of waypoints says: places in their order, and what is done on the way."""
+"""The content of a file of waypoints: places in order, and the actions on the way."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from shotc.importers.notes import plain
 from shotc.importers.xml_tree import Node
 
 Level = Literal["home", "sea", "ground"]
-"""What a height counts from: the take-off, mean sea level, or the ground below."""
+"""The reference of a height: the take-off, mean sea level, or the ground below."""
 LEVELS: dict[Level, str] = {"home": "the take-off", "sea": "sea level", "ground": "the ground"}
 Family = Literal["mavlink", "dji", "litchi"]
 MOST_POINTS = 2_000
-"""How many waypoints of a file are read."""
+"""Most waypoints of a file."""
 UNREADABLE, FOREIGN, BROKEN, HEIGHTS, FAR, NOBODY, NOWHERE = (f"I{n:03}" for n in range(8, 15))
-"""Codes of what is wrong with a file of a flight."""
+"""Codes of the faults of a flight's file."""
 
 
 class Pace(NamedTuple):
-    """Speeds in force on a leg, m/s: over ground, climbing, descending; along : of all of these together.
+    """Speeds in force on a leg, m/s: over ground, climbing, descending; ``along``: along the path in 3-D.
 
-    Those of which the file says nothing are infinite.
+    A speed that the file does not give is infinite.
     """
 
     ground: float = inf
@@ -35,12 +35,16 @@ class Pace(NamedTuple):
 class FlightPoint(NamedTuple):
     """One waypoint.
 
-    node : where it stands in its file; name : what it is there, as "waypoint 3"
-    lat, lon : degrees; height : metres over ``level``
-    pace : on the leg that begins here, None where the file does not say
-    stops : whether the machine stands still here; stay : for so many seconds
-    curve : metres from here to where a corner is rounded; straight : whether the leg to here is straight
-    pitches : gimbal angles that are asked for here, degrees
+    node     : its place in the file
+    name     : its name for messages, such as "waypoint 3"
+    lat, lon : degrees
+    height   : metres above ``level``
+    pace     : speeds on the leg that begins here, None if the file does not give them
+    stops    : whether the drone stops here
+    stay     : duration of the stop, seconds
+    curve    : distance from here at which the drone begins to round the corner, metres
+    straight : whether the leg to this point is straight
+    pitches  : gimbal pitch angles commanded here, degrees
     """
 
     node: Node
@@ -60,11 +64,13 @@ class FlightPoint(NamedTuple):
 class Waypoints(NamedTuple):
     """A file of waypoints.
 
-    node : of the whole file; family : of the machines that fly it; autopilot : of MAVLink's
-    climb : metres over the take-off to which it climbs first at least
-    landing : where it lands, None where it stays in the air or flies on by what the file does not say
-    ending : what it does after its last point, in words, where that is not known
-    pilot : in words, who flies it
+    node      : the whole file
+    family    : family of the drones that fly it
+    autopilot : the autopilot of a MAVLink file
+    climb     : least height of the first climb, metres above the take-off
+    landing   : the landing point, None if it stays in the air or the file does not give its end
+    ending    : description of the flight after the last point, if the file does not give it
+    pilot     : description of the pilot or autopilot that flies it
     """
 
     node: Node
@@ -78,7 +84,7 @@ class Waypoints(NamedTuple):
 
 
 class Unread(Exception):
-    """Why a reader leaves its file."""
+    """Raised by a reader that refuses its file."""
 
     def __init__(self, refused: Refused) -> None:
         super().__init__(refused.message)
@@ -86,12 +92,12 @@ class Unread(Exception):
 
 
 def refuse(code: str, message: str, node: Node, help: str = "") -> NoReturn:
-    """Leave a file."""
+    """Refuse a file: raise Unread."""
     raise Unread(Refused(code, message, node, help))
 
 
 def finite(text: str, what: str, node: Node) -> float:
-    """Return a number of a file; what : it is, in words."""
+    """Return a finite number of a file; refuse any other text. ``what``: its description for messages."""
     value = number(text)
     if value is None:
         refuse(BROKEN, f"{what} is `{plain(text, 20)}`, which is no number", node)
@@ -99,13 +105,13 @@ def finite(text: str, what: str, node: Node) -> float:
 
 
 def placed(lat: float, lon: float, what: str, node: Node) -> None:
-    """Refuse what is no latitude and longitude."""
+    """Refuse numbers that are not a latitude and a longitude."""
     if not is_place(lat, lon) or (lat == 0.0 and lon == 0.0):
         refuse(BROKEN, f"{what} is at {lat:g}, {lon:g} deg, which is no latitude and longitude", node)
 
 
 def checked(file: Waypoints) -> Waypoints:
-    """Return a file of points that count their heights from one level; refuse any other."""
+    """Refuse a file without points, with too many, or with different references of height."""
     points = file.points
     if not points:
         refuse(BROKEN, "it holds no waypoint", file.node)

@@ -1,4 +1,4 @@
-"""What a file of a flight is, by its name and its first line, and what it holds."""
+"""Read the file of a flight. Its name and its first line give the format."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Found = Waypoints | tuple[DroneRows, ...] | skyc.SkycShow
 
 
 class Read(NamedTuple):
-    """A file that was read: what it holds or why not, and the text that its lines are of."""
+    """A file that was read: its content or why it is refused, and the text for line numbers in messages."""
 
     file: str
     found: Found | Refused
@@ -23,10 +23,10 @@ class Read(NamedTuple):
 
 
 def read(data: bytes, name: str) -> Read:
-    """Read any bytes as the file of a flight that their name says.
+    """Read any bytes as the file of a flight, in the format that the name gives.
 
-    The lines of a ``.kmz`` are those of its waylines, and its name is shown with theirs; so is that of a
-    ``.zip`` with the table that is refused. A table is Litchi's where its first line has a latitude.
+    Messages about a ``.kmz`` refer to the lines and the name of its waylines; those about a ``.zip`` to the
+    refused table. A table is Litchi's if its first line has a latitude.
     """
     suffix = suffix_of(name)
     text = ""

@@ -1,6 +1,6 @@
-"""Tables of trajectories: a row for each drone and time, in the columns of our own ``trajectory.csv``.
+"""Read tables of trajectories: a row for each drone and time, with the columns of shotc's ``trajectory.csv``.
 
-Places are metres East, North and Up of the mission's origin; what the columns are called says their units.
+Positions are metres East, North and Up of the mission's origin. The names of the columns give their units.
 """
 
 from __future__ import annotations
@@ -30,20 +30,24 @@ WANTED = (TIME, DRONE, *PLACE, *VELOCITY)
 EXAMPLE = ",".join(WANTED)
 MOST_ROWS = 5_000_000
 LONGEST_S = 86_400.0
-"""Seconds of the longest flight."""
+"""Longest flight, seconds."""
 SHORTEST_S = 1e-4
-"""Seconds between two rows of a drone, at least."""
+"""Least time between two rows of a drone, seconds."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DroneRows:
     """The rows of one drone, in order of time.
 
-    drone : its name, empty where the table has no such column; numbers : the lines of its rows, from 1
-    time : (N,), s; place : (N, 3), m; velocity : (N, 3), m/s, or None
-    columns : places of all columns in a line; lines : the rows as they are
-    member : the file of an archive that they stand in, empty where they stand in a file of their own
-    colors : (N, 3), red, green and blue of its light from 0 to 255, or None
+    drone    : its name, empty if the table has no such column
+    numbers  : the line numbers of its rows, from 1
+    time     : seconds, shape (N,)
+    place    : metres, shape (N, 3)
+    velocity : m/s, shape (N, 3), or None
+    columns  : index of each column in a line
+    lines    : the rows as text
+    member   : the archive's file that contains them, empty for a file without an archive
+    colors   : red, green and blue of its light from 0 to 255, shape (N, 3), or None
     """
 
     drone: str
@@ -58,23 +62,23 @@ class DroneRows:
 
     @property
     def text(self) -> str:
-        """Return the text that the rows stand in, without what is beside them."""
+        """Return the rows at their line numbers in the file; lines of other drones are empty."""
         whole = [""] * self.numbers[-1]
         for place, line in zip(self.numbers, self.lines, strict=True):
             whole[place - 1] = line
         return "\n".join(whole)
 
     def node(self, index: int) -> Node:
-        """Return the line of a row."""
+        """Return the place of a row in the file."""
         return Node("", self.numbers[index], 1, wide=max(1, len(self.lines[index])))
 
     def texts(self, column: str) -> list[str] | None:
-        """Return the cells of a column, None where there is none."""
+        """Return the cells of a column, None if there is no such column."""
         k = self.columns.get(column)
         return None if k is None else [_cell(line, k) for line in self.lines]
 
     def values(self, *names: str) -> Array | None:
-        """Return columns as numbers (N, k); None where one is absent, or empty in all rows."""
+        """Return columns as numbers, shape (N, k); None if one is absent, or empty in all rows."""
         found = [self.texts(name) for name in names]
         if any(column is None or not any(column) for column in found):
             return None
@@ -94,7 +98,7 @@ def _cell(line: str, k: int) -> str:
 
 
 def rows(text: str) -> tuple[DroneRows, ...]:
-    """Return the rows of every drone, drones in the order in which they first stand."""
+    """Return the rows of each drone, drones in the order of their first rows."""
     lines = text.splitlines()
     start = Node("", 1, 1, wide=max(1, len(lines[0]) if lines else 1))
     if not lines or "\0" in text[:1000]:
@@ -140,7 +144,7 @@ def _of_drones(names: Sequence[str]) -> dict[str, list[int]]:
 
 
 def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]) -> Array:
-    """Return the numbers of some columns, (N, k); refuse the first cell that is none."""
+    """Return the numbers of some columns, shape (N, k). Refuse the first cell that is no number."""
     if not body:
         return np.zeros((0, len(columns)))
     try:
@@ -159,7 +163,7 @@ def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]
 
 
 def check_order(found: DroneRows) -> None:
-    """Refuse rows that are no flight: too few of them, or times that do not rise."""
+    """Refuse rows that are no flight: too few rows, or times that do not rise."""
     if len(found.time) < 2:
         refuse(BROKEN, "a drone has one row, and a flight takes two", found.node(0))
     if found.time[0] < 0.0:

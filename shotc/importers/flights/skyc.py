@@ -1,6 +1,6 @@
-"""Shows of Skybrush (``.skyc``): a ZIP with ``show.json``, curves of every drone between key points.
+"""Read shows of Skybrush (``.skyc``): a ZIP with ``show.json`` and curves of each drone between key points.
 
-Places are metres in a frame of the show, X to the bearing that its location says, Y to the left of it, Z up.
+Positions are metres in the show's frame: X points to the bearing that the show gives, Y to its left, Z up.
 """
 
 from __future__ import annotations
@@ -33,22 +33,24 @@ SHOW = "show.json"
 WHOLE = Node("", 1, 1, wide=1)
 MOST_DRONES, MOST_POINTS = 20_000, 20_000
 MOST_UNPACKED = 5 * LARGEST_CLOCKED
-"""Bytes of all parts of a show that are read."""
+"""Largest size of all parts of a show together, bytes."""
 SHORTEST_S = 1e-3
 DEGREE = 3
 
 
 Key = tuple[float, list[float], list[list[float]]]
-"""A time, s, a place, m, and the control points of the curve that ends there."""
+"""A time, s, a position, m, and the control points of the curve that ends there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShowFlight:
-    """The flight of one drone, in the show's frame turned to East, North and Up.
+    """The flight of one drone, in the show's frame rotated to East, North and Up.
 
-    element : where it stands in the file, in words; home : (3,), where it stands before
-    breaks : (P + 1,), s; ctrl : Bernstein control points of cubics, (P, 4, 3), m
-    light : of the drone, None where it has none or none was asked for
+    element : its place in the file, as text
+    home    : position before the flight, metres, shape (3,)
+    breaks  : times between the cubics, seconds, shape (P + 1,)
+    ctrl    : Bernstein control points of the cubics, metres, shape (P, 4, 3)
+    light   : light of the drone, None if it has none or lights are not read
     """
 
     name: str
@@ -61,16 +63,19 @@ class ShowFlight:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SkycShow:
-    """A show; origin : latitude and longitude of its frame, deg, and altitude, m, None where it says none."""
+    """A show. ``origin``: latitude, longitude (deg), altitude (m) of its frame; None if not given."""
 
     flights: tuple[ShowFlight, ...]
     origin: tuple[float, float, float | None] | None
 
 
 def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | None) -> Array:
-    """Return where the frame of a show stands in the mission's, (3,), metres: at its origin if none is told.
+    """Return the position of the show's frame in the mission's frame, metres, shape (3,).
 
-    origin : of the show; world : of the mission
+    It is zero if one of the origins is missing.
+
+    origin : origin of the show's frame
+    world  : origin of the mission's frame
     """
     if origin is None or world is None:
         return np.zeros(3)
@@ -80,7 +85,7 @@ def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | N
 
 
 def show(data: bytes, *, lit: bool = False) -> SkycShow:
-    """Return the flights of a show; lit : with their lights."""
+    """Return the flights of a show, with their lights if ``lit``."""
     archive = Archive(data, LARGEST_CLOCKED, MOST_UNPACKED)
     content = _part(archive, SHOW)
     if not isinstance(content, dict) or content.get("version") != 1:
@@ -109,7 +114,7 @@ def _origin(told: Any) -> tuple[float, float, float | None] | None:
 
 
 def _part(archive: Archive, name: str) -> Any:
-    """Return a part of the archive as JSON."""
+    """Return the JSON value of a part of the archive."""
     found = archive.member(name)
     if isinstance(found, str):
         refuse(UNREADABLE, found, WHOLE)
@@ -125,7 +130,7 @@ def _inside(parent: dict[str, Any], key: str) -> dict[str, Any]:
 
 
 def _resolved(archive: Archive, value: Any) -> Any:
-    """Return what a reference inside the archive stands for, and anything else as it is."""
+    """Return the value behind a reference inside the archive; any other value unchanged."""
     if isinstance(value, dict) and isinstance(value.get("$ref"), str):
         return _part(archive, normpath(value["$ref"].partition("#")[0]))
     return value
@@ -148,7 +153,7 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
     home = told if _is_place(told) else keys[0][1]
     times = np.array([key[0] for key in keys]) + begin
     curves = [[a[1], *b[2], b[1]] for a, b in pairwise(keys)]
-    if times[0] > 0.0:  # it stands until it begins
+    if times[0] > 0.0:  # the drone stands until its first key
         times = np.append(0.0, times)
         curves.insert(0, [keys[0][1], keys[0][1]])
     elif len(keys) == 1:
@@ -160,7 +165,7 @@ def _flight(archive: Archive, drone: Any, index: int, how: tuple[float, bool]) -
 
 
 def _light(archive: Archive, settings: dict[str, Any], element: str, end: float) -> KeyedLight | None:
-    """Return the light of a drone, None where it has none; end : of its flight, s."""
+    """Return the light of a drone, None if it has none. ``end``: end of its flight, s."""
     lights, where = _resolved(archive, settings.get("lights")), f"{element}.settings.lights"
     if lights is None:
         return None
@@ -175,7 +180,7 @@ def _light(archive: Archive, settings: dict[str, Any], element: str, end: float)
 
 
 def _keys(path: dict[str, Any], where: str) -> tuple[list[Key], float]:
-    """Return the key points of a trajectory, and when it begins."""
+    """Return the key points of a trajectory and its start time, s."""
     points, begin = path.get("points"), path.get("takeoffTime", 0.0)
     if not isinstance(points, list) or not 0 < len(points) <= MOST_POINTS:
         refuse(BROKEN, f"`{where}.points` is no list of 1 to {MOST_POINTS} key points", WHOLE)
@@ -203,7 +208,7 @@ def _key(point: Any, where: str) -> Key:
 
 
 def _cubics(curves: list[list[list[float]]]) -> Array:
-    """Return the control points (P, 4, 3) of curves of the first to the third degree."""
+    """Return the control points (P, 4, 3) of curves of degree one to three."""
     found = np.empty((len(curves), DEGREE + 1, 3))
     counts = np.array([len(points) for points in curves])
     for count in np.unique(counts):
@@ -213,7 +218,7 @@ def _cubics(curves: list[list[list[float]]]) -> Array:
 
 
 def _raised(ctrl: Array) -> Array:
-    """Return curves (k, n, 3) as cubics (Farin, *Curves and Surfaces for CAGD*, sec. 6.1)."""
+    """Return Bezier curves (k, n, 3), raised to cubics (Farin, *Curves and Surfaces for CAGD*, sec. 6.1)."""
     while ctrl.shape[1] <= DEGREE:
         n = ctrl.shape[1]
         share = (np.arange(1, n) / n)[:, None]
@@ -223,7 +228,7 @@ def _raised(ctrl: Array) -> Array:
 
 
 def _turned(points: Array, turn: float) -> Array:
-    """Return places in the show's frame as East, North and Up; turn : bearing of its X, rad."""
+    """Return points of the show's frame as East, North and Up. ``turn``: bearing of its X axis, rad."""
     x, y, z = points[..., 0], points[..., 1], points[..., 2]
     return np.stack([x * sin(turn) - y * cos(turn), x * cos(turn) + y * sin(turn), z], axis=-1)
 

@@ -1,4 +1,4 @@
-"""DJI WPML: the ``waylines.wpml`` of a ``.kmz``, which is what the machine flies.
+"""Read DJI WPML: the ``waylines.wpml`` of a ``.kmz``, which the drone flies.
 
 Elements: developer.dji.com, Cloud API, "DJI WPML". Names are compared without their prefixes.
 """
@@ -29,7 +29,7 @@ from shotc.importers.xml_tree import LARGEST, Node, XmlFault, parse_xml
 
 WAYLINES = "wpmz/waylines.wpml"
 NAMESPACE = re.compile(r"http://www\.(uav|dji)\.com/wpmz/1\.0\.[0-6]")
-"""Versions that differ in nothing that is read here."""
+"""Accepted versions. They do not differ in the elements that this module reads."""
 STOPS = "toPointAndStop"
 STRAIGHT = ("toPointAndStopWithDiscontinuityCurvature", "coordinateTurn")
 LEVELS: dict[str, Level] = {"relativeToStartPoint": "home"}
@@ -42,7 +42,7 @@ ENDINGS = {
 
 
 def text_of(data: bytes) -> bytes:
-    """Return the XML of a file: of a ``.kmz`` that of its waylines."""
+    """Return the XML of a file; for a ``.kmz``, that of its waylines."""
     if not data.startswith(MAGIC):
         return data
     found = member(data, lambda name: name.lower().endswith(".wpml"), f"`{WAYLINES}`", LARGEST)
@@ -52,7 +52,7 @@ def text_of(data: bytes) -> bytes:
 
 
 def waypoints(data: bytes) -> Waypoints:
-    """Return the points of a wayline; data : of ``text_of``."""
+    """Return the points of a wayline from the XML that ``text_of`` returns."""
     root = parse_xml(data)
     if isinstance(root, XmlFault):
         refuse(UNREADABLE, root.message, Node("", root.line, root.column, wide=1))
@@ -88,7 +88,7 @@ def waypoints(data: bytes) -> Waypoints:
 
 
 def _version(root: Node) -> None:
-    """Refuse what is no WPML, or one of another version than is known."""
+    """Refuse a document that is no WPML, or has an unknown version."""
     spaces = [
         value
         for node in root.everything()

@@ -1,7 +1,7 @@
-"""Zipped CSV: a table a drone in one archive, as Skybrush writes it and reads it.
+"""Read zipped CSV: an archive with one table per drone, in the format of Skybrush.
 
-A row is `Time [msec],x [m],y [m],z [m]`, with `Red,Green,Blue` or without; a line of that kind may stand
-above. x, y and z are taken as East, North and Up of the mission's origin, as our own files have them.
+A row is `Time [msec],x [m],y [m],z [m]`, optionally with `Red,Green,Blue`. A header line is optional. x, y
+and z are read as East, North and Up of the mission's origin, as in the files that shotc writes.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from shotc.importers.notes import plain
 from shotc.importers.xml_tree import Node, shown
 
 HEADS = ("time_msec", "time [msec]")
-"""How the line above the rows begins, in small letters, where there is one."""
+"""Start of the optional header line, in lower case."""
 EXAMPLE = "Time [msec],x [m],y [m],z [m],Red,Green,Blue"
 COLORS = ("red", "green", "blue")
 BRIGHTEST = 255
 EARLY_S, LANDED_M = 1.0, 0.5
-"""Seconds by which a table may end before the longest, and metres over its beginning up to which a drone that
-ends earlier has landed."""
+"""A table that ends more than EARLY_S seconds before the longest one must end on the ground: at most LANDED_M
+metres above its start."""
 MOST_DRONES = 20_000
 SPLIT = "cut the show in two, each with a fleet of its own"
 WHOLE = Node("", 1, 1, wide=1)
 
 
 class UnreadMember(Unread):
-    """Why a reader leaves one table of an archive; text : of the table."""
+    """Raised by a reader that refuses one table of an archive. ``text``: the text of the table."""
 
     def __init__(self, refused: Refused, member: str, text: str) -> None:
         super().__init__(refused)
@@ -48,7 +48,7 @@ class _Table(NamedTuple):
 
 
 def tables(data: bytes) -> tuple[DroneRows, ...]:
-    """Return the rows of every drone, in the order in which their tables stand in the archive."""
+    """Return the rows of each drone, in the order of the tables in the archive."""
     found: dict[str, DroneRows] = {}
     left = MOST_ROWS
     for member in members(data, _is_table, LARGEST_CLOCKED):
@@ -71,12 +71,16 @@ def tables(data: bytes) -> tuple[DroneRows, ...]:
 
 
 def _is_table(name: str) -> bool:
-    # Archives made on a Mac have a hidden twin of every file.
+    # Archives from macOS have a hidden copy of each file.
     return name.lower().endswith(".csv") and not name.startswith("__MACOSX/")
 
 
 def _rows(table: _Table, left: int, others: dict[str, DroneRows]) -> DroneRows:
-    """Return the rows of one table; left : how many may still be read; others : by the names of drones."""
+    """Return the rows of one table.
+
+    left   : number of rows that may still be read
+    others : the tables read before, by the names of drones
+    """
     drone = PurePosixPath(table.name).stem
     lines = table.text.splitlines()
     if drone in others:
@@ -119,7 +123,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
-    """Refuse lights that are no whole numbers from 0 to 255."""
+    """Refuse colours that are not integers from 0 to 255."""
     wrong = (colors < 0) | (colors > BRIGHTEST) | (colors != np.round(colors))
     if wrong.any():
         i, k = (int(index[0]) for index in np.nonzero(wrong))
@@ -128,7 +132,7 @@ def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
 
 
 def _all_land(found: tuple[DroneRows, ...]) -> None:
-    """Refuse a show in which the table of one drone ends in the air, before the others do."""
+    """Refuse a show in which the table of a drone ends in the air before the others end."""
     longest = max(found, key=lambda rows: float(rows.time[-1]))
     end = float(longest.time[-1])
     for rows in found:

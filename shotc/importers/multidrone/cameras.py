@@ -1,4 +1,4 @@
-"""Cameras that go with nobody: they stand, rise, or fly through, and some pan and tilt by themselves."""
+"""Cameras that do not move with a target: they stand, rise, or fly through. Some pan and tilt."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from shotc.importers.multidrone.frames import Place, written
 from shotc.importers.multidrone.read import Role
 from shotc.importers.multidrone.task import NEAREST, Made, RoleTask, Said
 
-BESIDE = 8.0  # metres to the East of a target on whose place a camera would stand
-LEAST = 0.1  # metres that an elevator goes
-LEVEL = 90.0  # degrees; the tilt of a camera that looks at the horizon
+BESIDE = 8.0  # metres to the East of its target, for a camera that would stand at the target's place
+LEAST = 0.1  # least travel of an elevator, metres
+LEVEL = 90.0  # degrees, tilt of a camera that looks at the horizon
 MOST_PAN = 720.0  # degrees
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
 
 
 def elevator(task: RoleTask) -> Made:
-    """Return a camera that rises or sinks in its place and watches its target."""
+    """Return a camera that moves up or down at its place and films its target."""
     low, one = task.altitude("z_s")
     high, two = task.altitude("z_e")
     place, (lower, upper), said = _stand(task, low, high)
@@ -32,7 +32,7 @@ def elevator(task: RoleTask) -> Made:
 
 
 def static(task: RoleTask) -> Made:
-    """Return a camera that stands, and watches its target or turns by itself."""
+    """Return a camera that stands and films its target, or pans and tilts by the file's angles."""
     z, low = task.altitude()
     place, (at,), said = _stand(task, z)
     path = ((*place, z),) * 3
@@ -48,7 +48,7 @@ def static(task: RoleTask) -> Made:
 
 
 def fly_through(task: RoleTask) -> Made:
-    """Return a camera that flies along the trajectory itself, and turns by itself or looks where it goes."""
+    """Return a camera that flies along the trajectory, and pans by the file's angles or looks ahead."""
     z, low = task.altitude()
     points, frame = task.action.points, task.frame
     way = [frame.place(point) for point in points]
@@ -68,14 +68,14 @@ def fly_through(task: RoleTask) -> Made:
 
 
 def _turned(role: Role) -> bool:
-    """Return whether a role turns its camera by itself, and watches nothing."""
+    """Return whether a role turns its camera by angles and films no target."""
     return "pan_s" in role.params or "tilt_s" in role.params
 
 
 def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
-    """Return keyframes whose camera pans and tilts from start to end, and comments.
+    """Return keyframes in which the camera pans and tilts from start to end, and comments.
 
-    poses : places with the way there, rad, from which a pan counts
+    poses : places with the course there, rad; pan angles are relative to the course
     """
     params = task.role.params
     pans, tilts = (_ends(params, "pan", 0.0), _ends(params, "tilt", LEVEL))
@@ -107,7 +107,7 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
 
 
 def _ends(params: dict[str, float], name: str, otherwise: float) -> tuple[float, float]:
-    """Return an angle at the start and at the end; one alone is kept."""
+    """Return an angle at the start and at the end. If only one is given, it holds for both."""
     start, end = params.get(f"{name}_s"), params.get(f"{name}_e")
     first = start if start is not None else end if end is not None else otherwise
     return first, end if end is not None else first
@@ -118,7 +118,7 @@ def _sweeps(pans: tuple[float, float]) -> bool:
 
 
 def _course(way: list[Place], i: int) -> float:
-    """Return the way at a point, rad counter-clockwise from East: to the next, at the end as before."""
+    """Return the course from a point to the next, rad, counter-clockwise from East."""
     k = min(i, len(way) - 2)
     legs = [(q[0] - p[0], q[1] - p[1]) for p, q in pairwise(way)]
     x, y = next((leg for leg in (*legs[k:], *legs[k::-1]) if hypot(*leg) > 1e-3), (0.0, 1.0))
@@ -126,7 +126,7 @@ def _course(way: list[Place], i: int) -> float:
 
 
 class _Stand(NamedTuple):
-    """A place as East and North, as positions of our language at some altitudes, and what is assumed."""
+    """A place as East and North in metres, as text at some heights, and comments."""
 
     place: Place
     written: list[str]
@@ -134,7 +134,7 @@ class _Stand(NamedTuple):
 
 
 def _stand(task: RoleTask, *altitudes: float) -> _Stand:
-    """Return where a camera that goes with nobody stands: the formation's origin, but beside the target."""
+    """Return the place of a standing camera: the formation's origin, or beside a target too near to it."""
     x, y = task.course.at(task.start)
     origin = task.action.origin
     if origin is not None:

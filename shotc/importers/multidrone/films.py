@@ -1,4 +1,4 @@
-"""Which action is filmed when, of which target, by which drones."""
+"""Assign a time, a target and drones to each action."""
 
 from __future__ import annotations
 
@@ -14,11 +14,13 @@ from shotc.rounding import at_least
 
 
 class FilmedAction(NamedTuple):
-    """An action with its target, as it is filmed.
+    """An action with its target, its time and its drones.
 
-    target : its name, empty where the cameras fly through, and the course is their own
-    start, duration : mission time and length, seconds; first : number of the first of its drones
-    main : whether its drones are planned before those of a secondary sequence
+    target   : its name, empty if the cameras fly through; then ``course`` is the course of the cameras
+    start    : mission time, seconds
+    duration : seconds
+    first    : number of the first of its drones
+    main     : whether its drones are planned before those of a secondary sequence
     """
 
     id: str
@@ -33,7 +35,7 @@ class FilmedAction(NamedTuple):
 
 
 class _Target(NamedTuple):
-    """A target that has been seen; identity : the number that the file gives it, or None."""
+    """A target of an earlier action. ``identity``: its number in the file, or None."""
 
     name: str
     course: GroundTrack
@@ -41,7 +43,7 @@ class _Target(NamedTuple):
 
 
 def films_of(sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes) -> Iterator[FilmedAction]:
-    """Return all that is filmed, sequence by sequence; a sequence has drones of its own."""
+    """Yield all filmed actions, sequence by sequence. Each sequence has its own drones."""
     targets: list[_Target] = []
     first = 1
     for number, sequence in enumerate(sequences, 1):
@@ -65,7 +67,7 @@ def films_of(sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes) ->
 def _name(
     action: ShootingAction, course: GroundTrack, targets: list[_Target], notes: Notes
 ) -> tuple[str, tuple[str, ...]]:
-    """Return the name of the target with this course, which may be a new one, and comments."""
+    """Return the name of the known or new target with this course, and comments."""
     identity = next((role.params["ID"] for role in action.roles if "ID" in role.params), None)
     node = action.node.first("RTTrajectory") or action.node
     for known in targets:

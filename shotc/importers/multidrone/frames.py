@@ -1,4 +1,4 @@
-"""Where a mission's points are: metres, latitude and longitude, or both in one file."""
+"""The coordinate frame of a mission's points: metres, latitude and longitude, or both in one file."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from shotc.rounding import plain
 
 Place = tuple[float, float]
 
-AGREES = 15.0  # metres within which a map shows what the points say
-FARTHEST = 10_000.0  # metres from most points to one that can be meant
-AWAY = 30.0  # metres beyond which it does not
+AGREES = 15.0  # metres, largest distance at which a map and the points agree
+FARTHEST = 10_000.0  # metres, largest plausible distance of a point from most others
+AWAY = 30.0  # metres, a larger distance between a map and the points is noted
 DEGREE = 111_320.0  # metres of a degree of latitude, roughly
 
 
 class CoordinateFrame(NamedTuple):
-    """How places are written, and where they are.
+    """How places are written, and where the origin is.
 
-    origin : latitude and longitude of W's origin in degrees, or None where everything is local
-    geodetic : whether all places are on the earth, and are written so
-    comments : what had to be assumed
+    origin   : latitude and longitude of W's origin in degrees, or None if all points are local
+    geodetic : whether all points are geodetic, and are written so
+    comments : the assumptions about them
     """
 
     origin: Place | None
@@ -40,14 +40,14 @@ class CoordinateFrame(NamedTuple):
         return _world(point.at, self.origin)
 
     def written(self, point: MissionPoint, z: float) -> str:
-        """Return a point as a position of our language; z : metres over the ground."""
+        """Return a point as text for a mission. ``z``: metres above ground."""
         if self.geodetic and point.on_earth:
             return f"{{lat: {_degrees(point.at[0])}, lon: {_degrees(point.at[1])}, height: {z:g}}}"
         return written(self.place(point), z)
 
 
 def without_far(sequences: Rows[Sequence], notes: Notes) -> list[Sequence]:
-    """Return sequences without the points that lie too far from most others to be flown to."""
+    """Return the sequences without points too far from most others."""
     points = [p for s in sequences for a in s.actions for p in a.places]
     far: set[int] = set()
     for group in ([p for p in points if p.on_earth], [p for p in points if not p.on_earth]):
@@ -69,12 +69,12 @@ def _kept(action: ShootingAction, far: set[int]) -> ShootingAction:
 
 
 def written(place: Place, z: float) -> str:
-    """Return a place in metres as a position of our language."""
+    """Return a place in metres as text for a mission."""
     return f"[{place[0]:.2f}, {place[1]:.2f}, {z:g}]".replace("-0.00,", "0.00,")
 
 
 def frame_of(sequences: Rows[Sequence], notes: Notes) -> CoordinateFrame:
-    """Choose the origin, and say what does not fit."""
+    """Choose the origin, and note contradictions."""
     actions = [action for sequence in sequences for action in sequence.actions]
     points = [p for a in actions for p in a.places]
     earthly, local = [p for p in points if p.on_earth], [p for p in points if not p.on_earth]
@@ -92,7 +92,7 @@ def frame_of(sequences: Rows[Sequence], notes: Notes) -> CoordinateFrame:
 
 
 def _unplaced(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
-    """Say that a map stands beside points in metres, whose origin is not in the file."""
+    """Return a comment if the file has a map but its points are in metres without an origin."""
     found = next((d for d in map(drawn, actions) if d is not None), None)
     if found is None:
         return ()
@@ -102,7 +102,7 @@ def _unplaced(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
 
 
 def _elsewhere(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
-    """Say where a map shows another place than the points do."""
+    """Return a comment for each map that shows another place than the points."""
     said = []
     for action in actions:
         found = drawn(action)
@@ -117,7 +117,7 @@ def _elsewhere(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
 
 
 def _anchor(action: ShootingAction) -> Place | None:
-    """Return where W's origin is, if the map of an action of both frames says it."""
+    """Return the latitude and longitude of W's origin from the map of an action with both kinds of points."""
     found = drawn(action)
     if found is None or len(found.points) != len(action.points):
         return None
@@ -128,7 +128,7 @@ def _anchor(action: ShootingAction) -> Place | None:
         return None
     at, place = local[0]
     lat, lon = place
-    for _ in range(4):  # Newton on a plane that is nearly flat
+    for _ in range(4):  # Newton iterations; the map is nearly linear
         x, y = _world(place, (lat, lon))
         lat += (y - at[1]) / DEGREE
         lon += (x - at[0]) / (DEGREE * max(cos(radians(lat)), 0.01))

@@ -1,4 +1,4 @@
-"""What a role says of the picture: which third the target stands in, and how large it is."""
+"""Convert a role's framing: the third of the picture for the target, and its size."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from shotc.importers.notes import Notes, plain
 
 THIRDS = "RULE_OF_THIRDS"
 CENTRED = frozenset(("", "CENTRAL", "CENTER", "CENTERED", "CENTRED"))
-ASIDE = 0.25  # sine of the angle between a view and a motion from which the motion goes to a side
+ASIDE = 0.25  # least sine of the angle between view and motion at which the motion counts as sideways
 
-# The dashboard's names of framings, and the nearest name of ours; None where it says no size.
+# The dashboard's names of framings, and the nearest size of shotc; None if the name implies no size.
 SIZES: dict[str, str | None] = {
     "FRAMING_TYPE_ELS": "establishing",
     "FRAMING_TYPE_VLS": "long",
@@ -26,16 +26,17 @@ SIZES: dict[str, str | None] = {
     "FRAMING_TYPE_CU": "close-up",
     "FRAMING_TYPE_BCU": "extreme-close-up",
     "FRAMING_TYPE_ECU": "extreme-close-up",
-    "FRAMING_TYPE_OTS": None,  # over the shoulder: what is in the picture, not how large
+    "FRAMING_TYPE_OTS": None,  # over the shoulder: it gives the content of the picture, not a size
     "FRAMING_TYPE_2S": None,
     "FRAMING_TYPE_NONE": None,
 }
 
 
 def size_of(role: Role, films: bool, fixed: bool, notes: Notes) -> tuple[str | None, list[str]]:
-    """Return the size that a role asks for, and comments.
+    """Return the size that a role requires, or None, and comments.
 
-    films : whether it films a target; fixed : whether it also gives its distance, which then holds
+    films : whether it films a target
+    fixed : whether it also gives its distance, which has priority
     """
     if not role.framing:
         return None, []
@@ -56,9 +57,9 @@ def size_of(role: Role, films: bool, fixed: bool, notes: Notes) -> tuple[str | N
 def composition_of(
     role: Role, course: GroundTrack, camera: Place, t: float, notes: Notes
 ) -> tuple[str, list[str]]:
-    """Return the point on the screen where a role puts its target, and comments.
+    """Return the composition of a role, the place of its target on screen, and comments.
 
-    camera : where it is at mission time t, in the middle of the shot
+    camera : its position at mission time ``t``, in the middle of the shot
     """
     if role.composition in CENTRED:
         return "center", []
@@ -71,7 +72,7 @@ def composition_of(
 
 
 def _third(course: GroundTrack, camera: Place, t: float) -> tuple[str, str]:
-    """Return the third in which the target leaves room on the side to which it moves, and why."""
+    """Return the third that leaves room on the side to which the target moves, and the reason."""
     if not course.moves(t):
         return "left-third", "for the target stands, and either side will do"
     x, y = course.at(t)

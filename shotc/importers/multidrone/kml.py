@@ -1,4 +1,4 @@
-"""The map of an action, on which its trajectory was drawn: KML in JSON in the text of an element."""
+"""Read the map of an action, which shows its trajectory: KML in JSON in the text of an element."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from typing import NamedTuple
 from shotc.importers.multidrone.read import ShootingAction, below
 from shotc.importers.xml_tree import Node, XmlFault, parse_xml
 
-MOST = 1000  # coordinates of a line that are read
+MOST = 1000  # most coordinates of a line
 
 
 class MapLine(NamedTuple):
-    """The line of a map; node : that holds it; points : (lat, lon) in degrees."""
+    """The line of a map. ``node``: the element that holds it; ``points``: (lat, lon) in degrees."""
 
     node: Node
     points: tuple[tuple[float, float], ...]
 
 
 def drawn(action: ShootingAction) -> MapLine | None:
-    """Return the first line of an action's maps, None where there is none that can be read."""
+    """Return the first readable line of an action's maps, or None."""
     for holder in below(action.node, "Map"):
         node = holder.first("description")
         points = () if node is None else _line(node.text)
@@ -48,7 +48,7 @@ def _line(text: str) -> tuple[tuple[float, float], ...]:
 
 
 def _place(word: str) -> tuple[float, float] | None:
-    """Return (lat, lon) of ``lon,lat`` or ``lon,lat,altitude``."""
+    """Return (lat, lon) from ``lon,lat`` or ``lon,lat,altitude``, or None."""
     parts = word.split(",")
     try:
         lon, lat = float(parts[0]), float(parts[1])

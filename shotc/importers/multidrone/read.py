@@ -1,4 +1,4 @@
-"""The elements of a MultiDrone mission as numbers and names: decimal commas and gaps mended, and noted."""
+"""Read the elements of a MultiDrone mission. Decimal commas and gaps are repaired and noted."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
-LARGEST = 5e4  # metres or seconds; what is beyond is damage
-SHORTEST = 1.0  # seconds; the project's own planner cuts durations to whole ones, and 0 is none
+LARGEST = 5e4  # metres or seconds, larger values are damage
+SHORTEST = 1.0  # seconds, the MultiDrone planner rounds durations down to whole seconds, and 0 is no duration
 KMH = 3.6  # the dashboard writes `formationSpeed` in km/h
 PARAMS = frozenset(("x_s", "x_e", "y_0", "z_0", "z_s", "z_e", "r_0", "azimuth_s", "azimuth_speed"))
 PARAMS |= frozenset(("pan_s", "pan_e", "tilt_s", "tilt_e", "ID"))
@@ -20,7 +20,7 @@ _COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
 
 
 class MissionPoint(NamedTuple):
-    """A place: (x, y) in metres, or (lat, lon) where ``on_earth``; altitude and time, None if missing."""
+    """A place: (x, y) in m, or (lat, lon) in deg if ``on_earth``; altitude and time, None if missing."""
 
     node: Node
     at: tuple[float, float]
@@ -30,9 +30,9 @@ class MissionPoint(NamedTuple):
 
 
 class Role(NamedTuple):
-    """What one drone does in an action: the kind of shot, and its parameters.
+    """The role of one drone in an action: the kind of shot, and its parameters.
 
-    given : the element of the parameters, or the role's where it has none
+    given : the element of the parameters, or the element of the role if it has none
     """
 
     node: Node
@@ -44,9 +44,9 @@ class Role(NamedTuple):
 
 
 class ShootingAction(NamedTuple):
-    """One shooting action: its target's way, where the formation starts, and who films how.
+    """One shooting action: its target's trajectory, the formation's origin, and the roles of the drones.
 
-    speed : of the formation, m/s, or None
+    speed : speed of the formation, m/s, or None
     """
 
     node: Node
@@ -58,17 +58,17 @@ class ShootingAction(NamedTuple):
 
     @property
     def places(self) -> tuple[MissionPoint, ...]:
-        """Its points, and where the formation begins."""
+        """Its points and the origin of the formation."""
         return self.points if self.origin is None else (*self.points, self.origin)
 
     @property
     def flies(self) -> bool:
-        """Whether its trajectory is that of its cameras: it flies through, and follows no target."""
+        """Whether it is a fly-through: its trajectory is that of its cameras, and it follows no target."""
         return all(role.kind in FLIES for role in self.roles)
 
 
 class Sequence(NamedTuple):
-    """Actions that one formation films one after the other; main : whether it goes before a secondary one."""
+    """Actions that one formation films in order. ``main``: whether it has priority over others."""
 
     node: Node
     name: str
@@ -77,7 +77,7 @@ class Sequence(NamedTuple):
 
 
 def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
-    """Return all shooting action sequences that hold something to film."""
+    """Return all shooting action sequences that have something to film."""
     sequences = []
     for node in below(root, "shootingActionSequence"):
         actions = [_action(child, notes) for child in below(node, "shootingAction")]
@@ -92,7 +92,7 @@ def sequences_of(root: Node, notes: Notes) -> tuple[Sequence, ...]:
 
 
 def below(node: Node, tag: str) -> list[Node]:
-    """Return the elements of that name at any depth, in order; the tree is no deeper than it may be."""
+    """Return the elements with that name at any depth, in order. The reader has limited the tree's depth."""
     nodes = []
     for child in node.children:
         nodes += [child] if child.tag == tag else below(child, tag)
@@ -100,14 +100,14 @@ def below(node: Node, tag: str) -> list[Node]:
 
 
 def number(node: Node | None, notes: Notes) -> float | None:
-    """Return the number in an element, None where there is none; a decimal comma is read, and noted."""
+    """Return the number in an element, None if it has none. A decimal comma is accepted and noted."""
     if node is None or not node.text.strip():
         return None
     return _number(node.text.strip(), "", node, notes)
 
 
 def _number(text: str, name: str, node: Node, notes: Notes) -> float | None:
-    """Return a number as written in an element; name : of the parameter there, or empty."""
+    """Return the number in a text of an element, or None. ``name``: name of the parameter, or empty."""
     shown = f"{name} = `{text[:30]}`" if name else f"`{text[:30]}`"
     if _COMMA.fullmatch(text):
         mended = text.replace(",", ".")

@@ -1,4 +1,4 @@
-"""The head of a mission as text: its world, its targets and its drones."""
+"""Write the head of a mission: its world, its targets and its drones."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ SIZES = {
     "TARGET_RUNNER": (0.4, 1.8),
     "TARGET_MONUMENT": (3.0, 10.0),
 }
-USUAL = (1.0, 1.8)  # radius and height of a target of no known sort, metres
-APART = 6.0  # metres between two homes
-AWAY = 20.0  # metres from the first target's start to the homes
+USUAL = (1.0, 1.8)  # radius and height of a target of unknown type, metres
+APART = 6.0  # distance between two homes, metres
+AWAY = 20.0  # distance from the first target's start to the homes, metres
 
 
 def world(frame: CoordinateFrame) -> Iterator[str]:
-    """Return the lines of the origin, if there is one."""
+    """Yield the lines of the origin, if there is one."""
     yield from (f"# {comment}" for comment in frame.comments)
     if frame.origin is not None:
         yield f"world: {{origin: {{lat: {frame.origin[0]:.7f}, lon: {frame.origin[1]:.7f}, alt: 0}}}}"
 
 
 def targets(films: Rows[FilmedAction], root: Node, frame: CoordinateFrame, notes: Notes) -> Iterator[str]:
-    """Return the lines of all targets, each once; none where nothing but ways is filmed."""
+    """Yield the lines of all targets, each once; nothing if no shot has a target."""
     courses: dict[str, GroundTrack] = {}
     for film in films:
         if film.target:
@@ -69,7 +69,7 @@ def _target(name: str, course: GroundTrack, places: list[str], body: str) -> Ite
 
 
 def _ground(films: Rows[FilmedAction], notes: Notes) -> Iterator[str]:
-    """Say that altitudes of points are not flown: the project's own planner does not read them, either."""
+    """Yield a comment if points have altitudes: they are not flown, as in the MultiDrone planner."""
     points = [p for film in films for p in film.action.points]
     odd = [p for p in points if p.z != 0]
     if not odd:
@@ -82,7 +82,7 @@ def _ground(films: Rows[FilmedAction], notes: Notes) -> Iterator[str]:
 
 
 def drones(films: Rows[FilmedAction], number: int, root: Node, notes: Notes) -> Iterator[str]:
-    """Return the lines of so many drones, beside where the first film begins, and of their rules."""
+    """Yield the lines of ``number`` drones beside the start of the first film, and of their rules."""
     team = [node for node in below(root, "drone") if node.value("name")][:number]
     message = "the file does not say what its drones are, nor where they stand"
     if len(team) < number:

@@ -1,8 +1,8 @@
-"""Shooting roles as shots of ours: what the parameters x_s, x_e, y_0, z_0, r_0 mean beside a target.
+"""Convert shooting roles to shots of shotc, with their parameters x_s, x_e, y_0, z_0, r_0.
 
-Alcantara et al. Table of shots: x ahead of the target along its way, y to its left, z above the ground it
-stands on; an index s is the start of the shot, e its end, 0 all along. Angles count counter-clockwise
-from the way it goes.
+Alcantara et al. Table of shots: x is ahead of the target along its course, y to its left, z above the ground
+under it. Index s is the start of the shot, e its end, 0 the whole shot. Angles are counter-clockwise from the
+target's course.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from shotc.importers.multidrone.cameras import elevator, fly_through, static
 from shotc.importers.multidrone.task import NEAREST, Made, RoleTask, Said
 from shotc.importers.notes import plain
 
-TURNS = 19 * pi  # rad; the most that an orbit turns
+TURNS = 19 * pi  # rad, largest turn of an orbit
 NEARER = 1.0  # metres
 LEAST_TURN = radians(5.0)
 FOLLOWING = frozenset(("CHASE", "LEAD", "LATERAL", "FLYBY", "FLY_BY", "FLYOVER"))
 
 
 def shot_of(task: RoleTask) -> Made:
-    """Return one role as a shot; a kind that is not known becomes a still camera, which is noted."""
+    """Return one role as a shot. An unknown kind becomes a static camera, with a note."""
     kind = task.role.kind.replace(" ", "_")
     make = KINDS.get(kind)
     if make is None:
@@ -90,7 +90,7 @@ def _orbit(task: RoleTask) -> Made:
     if abs(sweep) < LEAST_TURN:
         two = (*two, task.assume("an orbit that does not turn", f"{degrees(LEAST_TURN):.0f} deg"))
         sweep = LEAST_TURN
-    # From the way the target goes, counter-clockwise; ours is a compass bearing.
+    # Counter-clockwise from the target's course; shotc uses a compass bearing.
     bearing = degrees(pi / 2 - task.course.heading(task.start) - begin) % 360
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
     begins, halfway, ends = (

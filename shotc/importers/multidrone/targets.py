@@ -1,4 +1,4 @@
-"""The targets of a sequence: the ways of its actions, one after the other, on the mission's clock."""
+"""The courses of a sequence's targets: the trajectories of its actions, in order, in mission time."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ from shotc.importers.multidrone.read import KMH, MissionPoint, Sequence, Shootin
 from shotc.importers.notes import Notes
 
 LEAD = 40.0  # seconds from take-off to the first frame
-SAME = 0.05  # metres within which two points are one
-FASTEST = 40.0  # m/s; what is faster between two points is a slip of the times
-NEAR = 1.5  # metres within which two courses are those of one target
-OVERLAP = 0.5  # seconds by which a trajectory may last longer than its action
-SLOWEST = 0.05  # m/s; what is slower stands
-DIFFERS = 1.5  # by which factor two speeds may differ and count as one
+SAME = 0.05  # metres, largest distance at which two points count as equal
+FASTEST = 40.0  # m/s, a larger speed between two points means wrong times
+NEAR = 1.5  # metres, largest distance of two courses of the same target
+OVERLAP = 0.5  # seconds, largest difference between the durations of an action and its trajectory
+SLOWEST = 0.05  # m/s, a slower target counts as standing
+DIFFERS = 1.5  # largest ratio of two speeds that count as equal
 
 
 class GroundTrack(NamedTuple):
-    """Where a target is, on the ground: mission times in seconds, East and North in metres.
+    """The course of a target on the ground: mission times in seconds, East and North in metres.
 
-    points : the same places as the file has them; comments : what had to be assumed
+    points   : the same places as in the file
+    comments : the assumptions about them
     """
 
     times: tuple[float, ...]
@@ -32,15 +33,15 @@ class GroundTrack(NamedTuple):
 
     @property
     def stands(self) -> bool:
-        """Whether it does not move."""
+        """Whether the target never moves."""
         return all(dist(self.places[0], place) < SAME for place in self.places)
 
     def moves(self, t: float) -> bool:
-        """Return whether it moves at a time."""
+        """Return whether the target moves at a time."""
         return dist(self.at(t - 0.5), self.at(t + 0.5)) >= SLOWEST
 
     def heading(self, t: float) -> float:
-        """Return the way it goes, rad counter-clockwise from East; while it stands, the way it will go."""
+        """Return the direction of motion, rad, counter-clockwise from East; the next one while it stands."""
         legs = [
             (b, atan2(q[1] - p[1], q[0] - p[0]))
             for (_, b), (p, q) in zip(pairwise(self.times), pairwise(self.places), strict=True)
@@ -49,7 +50,7 @@ class GroundTrack(NamedTuple):
         return next((way for end, way in legs if t < end), legs[-1][1] if legs else pi / 2)
 
     def at(self, t: float) -> Place:
-        """Return where it is at a time; before and after its course it stands."""
+        """Return the position at a time. The target stands before and after its course."""
         for (a, b), (p, q) in zip(pairwise(self.times), pairwise(self.places), strict=True):
             if t < b:
                 share = min(1.0, max(0.0, (t - a) / (b - a)))
@@ -58,9 +59,9 @@ class GroundTrack(NamedTuple):
 
 
 def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tuple[GroundTrack | None, ...]:
-    """Return the course of every action's target: one for actions that take up where the last one ended.
+    """Return the course of each action's target. Actions that continue the one before share a course.
 
-    None for an action that films no target, or says nowhere where it is.
+    The course is None if an action films no target, or gives no position for it.
     """
     runs: list[_Run] = []
     found: list[int | None] = []
@@ -91,7 +92,7 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
 
 
 class _Run(NamedTuple):
-    """A course while it grows."""
+    """A course under construction."""
 
     times: list[float]
     places: list[Place]
@@ -99,13 +100,13 @@ class _Run(NamedTuple):
     comments: list[str]
 
     def takes_up(self, t: float, place: Place) -> bool:
-        """Return whether a target can be at a place at a time after what it did so far."""
+        """Return whether the target can reach a place at a time from the end of its course."""
         return dist(self.places[-1], place) <= max(SAME, FASTEST * (t - self.times[-1]))
 
     def add(
         self, clock: list[float], places: list[Place], points: list[MissionPoint], comments: list[str]
     ) -> None:
-        """Add places with their times; what repeats the one before, place and time, is dropped."""
+        """Add places with their times, without points that repeat the place and time of the one before."""
         self.comments.extend(comments)
         for t, place, point in zip(clock, places, points, strict=True):
             if self.places and dist(self.places[-1], place) < SAME and t < self.times[-1] + 0.1:
@@ -116,7 +117,7 @@ class _Run(NamedTuple):
 
 
 def route_of(action: ShootingAction, frame: CoordinateFrame, begins: float) -> GroundTrack:
-    """Return the way of a fly-through, which is its camera's own, evenly over the action's time."""
+    """Return the course of a fly-through's camera, with points evenly spaced over the action's time."""
     points = action.points or ((action.origin,) if action.origin else ())
     share = action.duration / max(len(points) - 1, 1)
     times = tuple(begins + i * share for i in range(len(points)))
@@ -124,7 +125,7 @@ def route_of(action: ShootingAction, frame: CoordinateFrame, begins: float) -> G
 
 
 def gap(one: GroundTrack, other: GroundTrack) -> float:
-    """Return how far two courses are apart, at most, in metres."""
+    """Return the largest distance of two courses, metres."""
     return max(dist(one.at(t), other.at(t)) for t in {*one.times, *other.times})
 
 
@@ -136,7 +137,7 @@ def _clock(
     said: list[str],
     notes: Notes,
 ) -> list[float]:
-    """Return the mission time of every point: as written where that can be meant, else by the speed."""
+    """Return the mission time of each point: from the file if plausible, else from the speed."""
     ways = [dist(p, q) for p, q in pairwise(places)]
     if sum(ways) < SAME:
         return [begins] * len(points)
@@ -160,7 +161,7 @@ def _clock(
 def _wrong(
     points: list[MissionPoint], given: list[float], ways: list[float]
 ) -> tuple[MissionPoint, str] | None:
-    """Return the first point whose time cannot be meant, and why."""
+    """Return the first point whose time is not plausible, and the reason."""
     missing = next((p for p in points if p.time is None), None)
     if missing is not None:
         return missing, "a point of the trajectory has no time"
@@ -175,7 +176,7 @@ def _wrong(
 
 
 def _compare(action: ShootingAction, pace: float, said: list[str], notes: Notes) -> None:
-    """Say where the times and the formation's speed contradict each other."""
+    """Add a comment if the times and the formation's speed contradict each other."""
     node = action.node.first("formationSpeed")
     if node is None or action.speed is None:
         return

@@ -1,4 +1,4 @@
-"""What a shot is made of, and what comes out: an action's role with its target and its time."""
+"""Input and output of the conversion of a role: its action, target and time, and the shot made from it."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ from shotc.importers.multidrone.read import Role, ShootingAction
 from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
 
-NEAREST = 3.0  # metres beside a target that a shot keeps where nothing is said
-LOWEST = 2.0  # metres over the ground
+NEAREST = 3.0  # least distance of a camera from its target, metres
+LOWEST = 2.0  # lowest height above the ground, metres
 
 Said = tuple[str, ...]
 Path = tuple[Vec3, Vec3, Vec3]
 
 
 class Made(NamedTuple):
-    """A shot as written: its kind and parameters as YAML, and the comments above it.
+    """A shot as text: its kind and parameters as YAML, and the comments above it.
 
-    path : where the camera is at the beginning, in the middle and at the end: East, North, Up in metres
-    fixed : whether the file gives its distance; watches : whether it films a target
+    path    : camera positions at the start, in the middle and at the end: East, North, Up in metres
+    fixed   : whether the file gives its distance
+    watches : whether it films a target
     """
 
     kind: str
@@ -34,7 +35,7 @@ class Made(NamedTuple):
 
 
 class RoleTask(NamedTuple):
-    """One role to be made a shot, from mission time ``start`` on, for ``duration`` seconds."""
+    """One role to convert to a shot that begins at mission time ``start`` and lasts ``duration``, seconds."""
 
     action: ShootingAction
     role: Role
@@ -51,18 +52,18 @@ class RoleTask(NamedTuple):
         return self.start + self.duration / 2
 
     def assume(self, message: str, taken: str) -> str:
-        """Note an assumption about the parameters of the role, and return the comment that goes with it."""
+        """Record an assumption about the parameters of the role, and return its comment."""
         return self.notes.assume(self.role.given, message, taken)
 
     def param(self, name: str, otherwise: float) -> tuple[float, Said]:
-        """Return a parameter, or what is taken where it is missing, with the comment for that."""
+        """Return a parameter and no comment, or the default for a missing one and a comment."""
         if name in self.role.params:
             return self.role.params[name], ()
         kind = plain(self.role.kind, 30)
         return otherwise, (self.assume(f"{kind} without `{name}`", f"{name} = {otherwise:g}"),)
 
     def altitude(self, name: str = "z_0") -> tuple[float, Said]:
-        """Return an altitude over the ground, on which the target stands."""
+        """Return a height above the ground under the target, metres, and comments."""
         z, said = self.param(name, 5.0)
         if z >= LOWEST:
             return z, said
@@ -70,7 +71,10 @@ class RoleTask(NamedTuple):
         return LOWEST, (*said, more)
 
     def along(self, begin: Vec3, end: Vec3) -> Path:
-        """Return the path of a camera that is carried along; begin, end : ahead, left, z."""
+        """Return the path of a camera that moves with the target.
+
+        begin, end : position relative to the target: ahead, left, height above ground, metres
+        """
         half = (begin[0] + end[0]) / 2, (begin[1] + end[1]) / 2, (begin[2] + end[2]) / 2
         return (
             self.beside(begin, self.start),
@@ -79,6 +83,6 @@ class RoleTask(NamedTuple):
         )
 
     def beside(self, spot: Vec3, t: float) -> Vec3:
-        """Return the place that lies ahead of the target, to its left, and z over the ground."""
+        """Return the position in W at ``spot``: ahead of the target, to its left, height above ground."""
         (x, y), way, (ahead, left, z) = self.course.at(t), self.course.heading(t), spot
         return (x + ahead * cos(way) - left * sin(way), y + ahead * sin(way) + left * cos(way), z)

@@ -1,4 +1,4 @@
-"""When each action is filmed: after its drones have come from where their last shot ended."""
+"""Find the time of each action: its drones first fly there from the end of their last shot."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from shotc.importers.multidrone.task import RoleTask
 from shotc.importers.notes import Notes
 
 SETTLE, PACE = 9.0, 3.0  # seconds to leave one shot and enter the next, and m/s between them
-SHARE = 0.6  # of an action that its drones may need to change places
+SHARE = 0.6  # largest share of an action's duration for the flight of its drones to their places
 SHORTEST = 2.0  # seconds
 WATCHING = frozenset(("STATIC", "ELEVATOR", "FLY_THROUGH", "FLYTHROUGH"))
 
 
 def timed(films: Iterable[FilmedAction], frame: CoordinateFrame, notes: Notes) -> Iterator[FilmedAction]:
-    """Return films with the times at which they can be filmed."""
+    """Yield the films with the times at which the drones can film them."""
     ended: dict[int, Vec3] = {}
     for film in films:
         unheard = Notes()
@@ -35,14 +35,14 @@ def timed(films: Iterable[FilmedAction], frame: CoordinateFrame, notes: Notes) -
 
 
 def task_of(film: FilmedAction, role: Role, frame: CoordinateFrame, notes: Notes) -> RoleTask:
-    """Return what has to be known to make a shot of one role of a film."""
+    """Return the data to make a shot from one role of a film."""
     return RoleTask(film.action, role, film.course, frame, film.start, film.duration, film.target, notes)
 
 
 def _cut(film: FilmedAction, change: float, notes: Notes) -> FilmedAction:
-    """Return a film with its time, once the drones have had so many seconds to change places.
+    """Return a film with its time, after ``change`` seconds for the drones to change places.
 
-    It ends where nothing more is known of its target, if its camera goes with that.
+    If a camera moves with the target, the film ends where the target's course ends.
     """
     action, said = film.action, list(film.comments)
     start, duration = film.start, film.duration

@@ -1,4 +1,4 @@
-"""The mission as text: YAML of ours, with every assumption as a comment above what it is about."""
+"""Write the mission as YAML of shotc, with each assumption as a comment above the lines that it is about."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HEAD = "# Imported from a mission of the MultiDrone project."
 
 
 class Written(NamedTuple):
-    """A mission as text, and how many drones film how many shots in it."""
+    """A mission as text, and its numbers of drones and shots."""
 
     text: str
     drones: int
@@ -32,7 +32,7 @@ class Written(NamedTuple):
 def written_mission(
     name: str, root: Node, sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes
 ) -> Written | None:
-    """Return a mission, None where nothing is left to film; name : of the mission."""
+    """Return a mission with this name, None if nothing is left to film."""
     films = list(timed(films_of(sequences, frame, notes), frame, notes))
     if not films:
         return None
@@ -57,7 +57,7 @@ def written_mission(
 
 
 def _unsaid(comments: Iterable[str], said: set[str]) -> Iterator[str]:
-    """Return the lines of comments that no line says yet, whatever its indent."""
+    """Yield the lines of comments that are not in ``said`` yet, with or without indent."""
     for comment in comments:
         if not {f"# {comment}", f"  # {comment}"} & said:
             yield f"  # {comment}"
