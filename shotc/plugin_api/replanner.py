@@ -24,6 +24,7 @@ from shotc.planning.clearances import Clearance
 __all__ = [
     "NEAR_WEIGHT",
     "NO_TRAFFIC",
+    "NO_WALLS",
     "USUAL",
     "USUAL_FRAMING",
     "Appearance",
@@ -51,6 +52,7 @@ __all__ = [
     "Solid",
     "Status",
     "Traffic",
+    "Walls",
     "convex_parts",
     "edges",
     "hull_and_pockets",
@@ -80,7 +82,7 @@ class Keeping:
     limits : of the drone; the vehicle's controller is responsible for jerk and yaw
     pitch : (lowest, highest) angle of the line of sight to the target from the horizon, rad
     zones : standing solids that the drone stays outside or inside of, with distances from its centre
-    floor : least z of the drone's centre
+    floor, ceiling : least and greatest z of the drone's centre
     separation : least distance between the centres of two drones
     half_angle : half-angle of the cone about the camera's axis without other drones, rad; None for no cone
     margin : added to all these distances for the vehicle's tracking error, metres
@@ -92,6 +94,7 @@ class Keeping:
     pitch: Vec2 = (-np.pi / 2, np.pi / 2)
     zones: tuple[Clearance, ...] = ()
     floor: float = -np.inf
+    ceiling: float = np.inf
     separation: float = 0.0
     half_angle: float | None = None
     margin: float = 0.15
@@ -154,6 +157,28 @@ NO_TRAFFIC = Traffic(np.zeros((0, 1, 3)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Walls:
+    """Half-spaces n . p >= d that keep the drone's centre clear of terrain, scenes and buildings.
+
+    They are put between these and the plan that is flown, so they hold for one replan. Every stage has as
+    many; those that nothing is behind hold everywhere. Row k is of stage k + 1, the last one of where
+    the drone stands after it has braked from the end of the horizon.
+    normals : units, shape (N + 1, M, 3); offsets : d, clearances included, (N + 1, M), metres
+    """
+
+    normals: Array
+    offsets: Array
+
+    @property
+    def count(self) -> int:
+        """Return M."""
+        return int(self.offsets.shape[1])
+
+
+NO_WALLS = Walls(np.zeros((1, 0, 3)), np.zeros((1, 0)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class ChaseSituation:
     """The situation at the time of a replan of a shot of one target.
 
@@ -161,6 +186,7 @@ class ChaseSituation:
     target, target_velocity : of the target, predicted, shape (N + 1, 3)
     wanted, wanted_velocity : references of the drone at the end of the horizon, shape (3,)
     height : reference z of the shot; None if it is free
+    walls : half-spaces that hold besides the zones of the problem
     """
 
     time: float
@@ -172,6 +198,7 @@ class ChaseSituation:
     wanted_velocity: Array
     height: float | None
     traffic: Traffic = NO_TRAFFIC
+    walls: Walls = NO_WALLS
 
 
 class FramingWeights(NamedTuple):
@@ -260,7 +287,7 @@ class FramingSituation:
 
     time : mission time of the replan; place, velocity : of the drone, measured, shape (3,)
     aim : yaw and pitch of the camera, W, rad; subjects : the same ones in the same order at every replan
-    near : the preferred pose, or None
+    near : the preferred pose, or None; walls : as in ``ChaseSituation``
     """
 
     time: float
@@ -270,6 +297,7 @@ class FramingSituation:
     subjects: tuple[FilmedSubject, ...]
     traffic: Traffic = NO_TRAFFIC
     near: DrawnPose | None = None
+    walls: Walls = NO_WALLS
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.vec import wrapped
+
+
+class Shown(NamedTuple):
+    """Where on screen a point is to be, and through which lens; (R, 2) each.
+
+    uv : half frames; half : tan of half the fields of view
+    """
+
+    uv: Array
+    half: Array
 
 
 def aimed(offset: Array, uv: Array, half: Array) -> tuple[Array, Array]:
@@ -25,14 +38,12 @@ def aimed(offset: Array, uv: Array, half: Array) -> tuple[Array, Array]:
     return yaw, pitch
 
 
-def sight_rates(offset: Array, velocity: Array) -> tuple[Array, Array]:
-    """Return how fast a line of sight yaws and pitches, (R,) each, rad/s.
+def aim_rates(offset: Array, velocity: Array, now: Shown, later: Shown, step: float) -> tuple[Array, Array]:
+    """Return how fast the angles of ``aimed`` turn over the next ``step`` seconds, (R,) each, rad/s.
 
-    offset : (R, 3), from the eye to the point, metres; velocity : of the point less the eye's, m/s
+    offset : (R, 3), from the eye to the point, W, metres; velocity : of the point less the eye's, m/s
+    now, later : the place on screen may wander in that time, and the lens may zoom
     """
-    level = np.maximum(np.sum(offset[:, :2] ** 2, axis=1), 1e-6)
-    yaw = (offset[:, 0] * velocity[:, 1] - offset[:, 1] * velocity[:, 0]) / level
-    distance = np.maximum(np.sum(offset**2, axis=1), 1e-6)
-    closing = np.sum(offset * velocity, axis=1) / distance
-    pitch = (velocity[:, 2] - offset[:, 2] * closing) / np.sqrt(level)
-    return yaw, pitch
+    yaw, pitch = aimed(offset, *now)
+    then_yaw, then_pitch = aimed(offset + step * velocity, *later)
+    return wrapped(then_yaw - yaw) / step, (then_pitch - pitch) / step

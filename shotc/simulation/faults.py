@@ -42,22 +42,8 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
                 (mission.origins.value(path),),
                 help=f"rehearse with less than {most:g} m/s of wind, or take a faster drone",
             )
-    if conditions.loop == "replan":
-        yield from _unknown_to_replanners(mission)
     for name, track in conditions.truth.tracks:
         yield from _untrue(mission, name, track, end)
-
-
-def _unknown_to_replanners(mission: MissionIR) -> Iterator[Diagnostic]:
-    paths = [mesh.path for mesh in mission.meshes]
-    paths += [] if mission.terrain is None else [mission.terrain.path]
-    if paths:
-        yield Diagnostic(
-            "W005",
-            "what plans anew in flight knows no terrain, scene or building",
-            tuple(mission.origins.value(path) for path in paths),
-            help="rehearse with `loop: track`, where the drone flies what was planned past them",
-        )
 
 
 def not_kept(done: Rehearsed) -> Iterator[Diagnostic]:

@@ -57,6 +57,10 @@ class PlanSamples:
         """Return the step at a time, or the first after it."""
         return min(int(np.ceil(time / STEP_S - 1e-6)), len(self.times) - 1)
 
+    def places(self, times: Array) -> Array:
+        """Return where the drone is planned to be at times (M,), (M, 3), metres."""
+        return np.asarray(self.position[[self.step(time) for time in times.tolist()]])
+
     def setpoint(self, k: int) -> VehicleSetpoint:
         """Return what the drone is asked for at a step."""
         return VehicleSetpoint(self.position[k, None], self.velocity[k, None], self.acceleration[k, None])

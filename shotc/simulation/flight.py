@@ -13,7 +13,7 @@ from shotc.geom.vec import wrapped
 from shotc.ir.limits import Limits
 from shotc.ir.rehearsal import VehicleName
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.simulation.aim import aimed, sight_rates
+from shotc.simulation.aim import Shown, aim_rates, aimed
 from shotc.simulation.film import PlanSamples, film_of
 from shotc.simulation.gimbal import Attitude, GimbalModel, angles_of, axes_of, turn_rate, turned
 from shotc.simulation.guidance import PERIOD_S, Guidance, Replans
@@ -180,9 +180,12 @@ def _aim(
 ) -> Array:
     """Return yaw, pitch and their rates, (R, 4), that keep a target where it is to be on screen."""
     offset, velocity = target[0] - drone[0], target[1] - drone[1]
-    n = len(offset)
-    yaw, pitch = aimed(offset, np.tile(wanted[k], (n, 1)), np.tile(film.half[k], (n, 1)))
-    return np.column_stack([yaw, pitch, *sight_rates(offset, velocity)])
+    # After its last frame a target has no place on screen.
+    soon = min(k + EVERY, len(wanted) - 1)
+    n, next_ = len(offset), soon if np.isfinite(wanted[soon, 0]) else k
+    now, later = (Shown(np.tile(wanted[i], (n, 1)), np.tile(film.half[i], (n, 1))) for i in (k, next_))
+    rates = aim_rates(offset, velocity, now, later, EVERY * STEP_S)
+    return np.column_stack([*aimed(offset, *now), *rates])
 
 
 @dataclass(slots=True)

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import exp
+from math import exp, inf
 from typing import Any
 
 import numpy as np
 
 from shotc import plugins
 from shotc.geom.bernstein import Array
+from shotc.geom.pieces import Mask
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
+from shotc.ir.phases import UPRIGHT, Phase
 from shotc.planning.clearances import clearances_of, from_parked
 from shotc.plugin_api.replanner import Cone, Keeping, Plan, Traffic
 from shotc.simulation.film import PlanSamples
 from shotc.simulation.seen import TrackedTarget
 from shotc.simulation.sent import Fading, Sent, SentPlans
-from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, ReplanInstant
+from shotc.simulation.situations import STAGE_S, Anew, Chased, Known, Rejoined, ReplanInstant
 from shotc.simulation.time_limit import CallTimeout, time_limit
 from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
+from shotc.simulation.walls import Standing
 from shotc.simulation.world import World
 
 PERIOD_S = 0.5
@@ -36,13 +39,20 @@ STILL_M_S = 0.3
 """Speed below which the course of a target is not known."""
 
 COURSE_S = 3.0
-"""Time over which the course of a target is taken, seconds: one that weaves does not turn.
+"""Time over which the course of a target and its height are taken, seconds: one that weaves does not turn.
 
-The place of a shot turns with it, so that a step aside would send a camera 15 m away on a way of metres.
+The place of a shot turns with the course: a step aside would send a camera 15 m away on a way of metres.
+A height that is known to 2 cm would have the camera climb and sink twice a second, with 0.2 m/s^2.
 """
 
-BACK_S = 4.0
-"""Least time in which a drone comes back to its plan after a shot, seconds."""
+_SHARE = 1.0 - exp(-PERIOD_S / COURSE_S)
+
+BACK_S, MOST_BACK_S = 4.0, 20.0
+"""Least time in which a drone comes back to its plan after a shot, and for how long it plans its way at most,
+where something stands in the straight one; seconds."""
+
+NEARER_M = 0.01
+"""Metres by which a way back may be nearer to something than it has to be, or than the plan is."""
 
 
 @dataclass(slots=True)
@@ -75,8 +85,11 @@ class Guidance:
     _planner: Any = None
     _held: SentPlans | None = None
     _back: Fading | None = None
-    _active: Anew | None = None
+    _active: Anew | Rejoined | None = None
+    _standing: Standing | None = None
+    _away: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
     _course: Array | None = None
+    _rise: Array | None = None
 
     def setpoint(self, k: int, drone: tuple[Array, Array]) -> VehicleSetpoint:
         """Return what the drone is asked for at a step.
@@ -85,34 +98,61 @@ class Guidance:
         """
         time = float(self.film.times[k])
         shot = next((s for s in self.shots if s.phase.start <= time < s.phase.end), None)
-        if shot is not None:
-            if shot is not self._active:
-                self._begin(shot, time)
-            if (k - self.film.step(shot.phase.start)) % round(PERIOD_S / STEP_S) == 0:
-                self._replan(shot, time, drone)
-        elif self._active is not None:
+        if shot is not None and shot is not self._active:
+            self._begin(shot, time)
+        elif shot is None and self._active is not None and not isinstance(self._active, Rejoined):
             self._leave(time)
-        if self._active is not None and self._held is not None:
-            return self._held.setpoint(time)
-        return self.film.setpoint(k) if self._back is None else self._back.setpoint(time)
+        if self._active is None or self._held is None:
+            return self.film.setpoint(k) if self._back is None else self._back.setpoint(time)
+        if self._due(time):
+            self._replan(self._active, time, drone)
+        return self._mixed(time)
+
+    def _mixed(self, time: float) -> VehicleSetpoint:
+        """Return what runs are asked for: those that are back on their plan by it, others by their own."""
+        assert self._held is not None
+        held = self._held.setpoint(time)
+        if self._away.all() or self._back is None:
+            return held
+        back, away = self._back.setpoint(time), self._away[:, None]
+        return VehicleSetpoint(
+            np.where(away, held.position, back.position),
+            np.where(away, held.velocity, back.velocity),
+            np.where(away, held.acceleration, back.acceleration),
+        )
+
+    def _due(self, time: float) -> bool:
+        """Tell whether plans are made at a step."""
+        assert self._active is not None
+        since = self.film.step(time) - self.film.step(self._active.phase.start)
+        return since % round(PERIOD_S / STEP_S) == 0
 
     def _begin(self, shot: Anew, time: float) -> None:
+        self._take(shot)
+        first = self._planned(time, shot.stages)
+        n = len(self.world.runs)
+        self._held = SentPlans((first,) * n, self.film.drone.limits.usable_acceleration)
+        self.counts = self.counts or [Replans() for _ in range(n)]
+        self._course, self._rise = np.zeros(n), np.zeros(n)
+        self._away = np.ones(n, dtype=bool)
+
+    def _take(self, shot: Anew | Rejoined) -> None:
+        """Plan this anew from now on."""
         mission, drone = self.world.mission, self.film.drone
+        rules, terrain = mission.rules, mission.terrain
         keeping = Keeping(
             limits=drone.limits,
             pitch=drone.gimbal.pitch,
             zones=(*clearances_of(mission, drone), *from_parked(mission, drone)),
-            floor=mission.rules.over_ground(drone.radius),
-            separation=mission.rules.separation,
+            floor=rules.over_ground(drone.radius) if terrain is None else -inf,
+            ceiling=rules.max_height or inf if terrain is None else inf,
+            separation=rules.separation,
             half_angle=_cone_of(mission, drone) if self.sent else None,
         )
         by = plugins.one("replanners", self.world.conditions.replanner).plugin
         self._planner = shot.planner(by, self.film, keeping)
-        first = self._planned(time, shot.stages)
-        n = len(self.world.runs)
-        self._active, self._held = shot, SentPlans((first,) * n, drone.limits.usable_acceleration)
-        self.counts = self.counts or [Replans() for _ in range(n)]
-        self._course = np.zeros(n)
+        self._standing = Standing.of(mission, drone, keeping)
+        self._active = shot
 
     def _planned(self, time: float, count: int) -> Plan:
         """Return the next seconds of the plan, from which the first replan goes on."""
@@ -122,23 +162,53 @@ class Guidance:
         return Plan(stages, curve(stages)[:, :3], velocities, np.diff(velocities, axis=0) / STAGE_S)
 
     def _leave(self, time: float) -> None:
-        """Let the drone come back to its plan."""
-        assert self._held is not None
-        self._active = None
-        film, speed = self.film, self.film.drone.limits.slowest
-        now, k = self._held.setpoint(time), film.step(time)
-        off = now.position - film.position[k], now.velocity - film.velocity[k]
-        lasts = max(BACK_S, 4.0 * float(np.abs(off[0]).max()) / speed)
-        self._back = Fading.of(film, time, lasts, *off)
+        """Let drones come back to their plan after a shot."""
+        following = [p.start for p in self.film.track.phases if p.start >= time and _exact(p)]
+        until = min(time + MOST_BACK_S, *following, float(self.film.times[-1]))
+        self._take(Rejoined(Phase("transit", None, time, until)))
+        self._back = Fading.none(self.film, len(self.world.runs))
 
-    def _replan(self, shot: Anew, time: float, drone: tuple[Array, Array]) -> None:
+    def _come_back(self, shot: Rejoined, time: float) -> None:
+        """Let those runs go straight back to their plan in whose way nothing stands, or whose time is up.
+
+        Over its pad a drone is near to what it need not be clear of.
+        """
         assert self._held is not None
+        assert self._back is not None
+        assert self._standing is not None
+        now, plan = self._held.setpoint(time), self.film.setpoint(self.film.step(time))
+        off, rate = now.position - plan.position, now.velocity - plan.velocity
+        for r in np.flatnonzero(self._away).tolist():
+            lasts = max(BACK_S, 4.0 * float(np.abs(off[r]).max()) / self.film.drone.limits.slowest)
+            back = self._back.begun(r, time, lasts, (off[r], rate[r]))
+            times = np.arange(time, min(time + lasts, shot.phase.end), STAGE_S)
+            lack = self._standing.lack(back.places(r, times))
+            if (lack <= np.maximum(self._standing.lack(self.film.places(times)), 0.0) + NEARER_M).all():
+                self._back, self._away[r] = back, False
+        if not self._away.any():
+            self._active = None
+
+    def _replan(self, shot: Anew | Rejoined, time: float, drone: tuple[Array, Array]) -> None:
+        assert self._held is not None
+        back = isinstance(shot, Rejoined)
+        if isinstance(shot, Rejoined):
+            self._come_back(shot, time)
+            if self._active is None:
+                return
         stages = time + STAGE_S * np.arange(shot.stages + 1, dtype=np.float64)
-        known = {each.name: each.tracker.now(time) for each in self.targets}
-        turn = self._turn(shot, time, known)
+        known = {} if back else {each.name: each.foreseen(stages) for each in self.targets}
+        turn, rise = self._turn(shot, time, known), self._risen(shot, time, known)
         plans: list[Plan | None] = []
         for r, count in enumerate(self.counts):
-            of = ReplanInstant(known, self._held.plans[r], r, float(turn[r]), self._traffic(r, stages))
+            last = self._held.plans[r]
+            if not self._away[r]:
+                plans.append(None)
+                continue
+            assert self._standing is not None
+            walls = self._standing.beside(last, stages)
+            of = ReplanInstant(
+                known, last, r, float(turn[r]), float(rise[r]), self._traffic(r, stages), walls
+            )
             mine = (drone[0][r], drone[1][r])
             lost = _lost(known, r)
             if lost:
@@ -147,7 +217,7 @@ class Guidance:
                 plans.append(None)
                 continue
             situation = shot.situation(self.world.mission, self.film, stages, mine, of)
-            plans.append(self._asked(situation, self._held.plans[r], count))
+            plans.append(self._asked(situation, last, count))
         self._held = self._held.replaced(plans)
         if self.own is not None:
             self.own.add(time, self._held.plans)
@@ -185,7 +255,7 @@ class Guidance:
         plan: Plan = done.plan
         return plan
 
-    def _turn(self, shot: Anew, time: float, known: Known) -> Array:
+    def _turn(self, shot: Anew | Rejoined, time: float, known: Known) -> Array:
         """Return by how much the target's course is off the plan's, (R,), rad.
 
         It comes nearer to what is estimated by what COURSE_S makes of a period; it is kept while the target
@@ -193,14 +263,27 @@ class Guidance:
         """
         assert self._course is not None
         if isinstance(shot, Chased) and shot.turns:
-            track, now = self.world.mission.target(shot.target).track, known[shot.target]
+            track, way = self.world.mission.target(shot.target).track, known[shot.target].now.way
             assert track is not None
-            moves = np.hypot(now.velocity[:, 0], now.velocity[:, 1]) > STILL_M_S
-            course = np.arctan2(now.velocity[:, 1], now.velocity[:, 0])
+            moves = np.hypot(way[:, 0], way[:, 1]) > STILL_M_S
+            course = np.arctan2(way[:, 1], way[:, 0])
             turned = wrapped(course - track.heading(time) - self._course)
-            share = 1.0 - exp(-PERIOD_S / COURSE_S)
-            self._course = np.where(moves, self._course + share * turned, self._course)
+            self._course = np.where(moves, self._course + _SHARE * turned, self._course)
         return self._course
+
+    def _risen(self, shot: Anew | Rejoined, time: float, known: Known) -> Array:
+        """Return by how much the target is higher than planned, (R,), metres: taken as the course is."""
+        assert self._rise is not None
+        if isinstance(shot, Chased):
+            planned = self.world.mission.target(shot.target).at(time)[2]
+            found = known[shot.target].now.position[:, 2] - planned
+            self._rise = self._rise + _SHARE * (found - self._rise)
+        return self._rise
+
+
+def _exact(phase: Phase) -> bool:
+    """Tell whether a phase is flown as planned from its start on: shots, and what is upright over the pad."""
+    return phase.shot is not None or phase.name in UPRIGHT
 
 
 def _cone_of(mission: MissionIR, drone: Drone) -> float | None:
@@ -216,8 +299,8 @@ def _cone_of(mission: MissionIR, drone: Drone) -> float | None:
 
 def _lost(known: Known, run: int) -> str:
     """Say which target is not known well enough to be flown beside; empty where all are."""
-    for name, now in known.items():
-        deviation = float(np.sqrt(np.trace(now.covariance[run, :3, :3]) / 3.0))
+    for name, each in known.items():
+        deviation = float(np.sqrt(np.trace(each.now.covariance[run, :3, :3]) / 3.0))
         if deviation > LOST_M:
             return f"`{name}` is known to {LOST_M:g} m at best: the drone brakes and holds"
     return ""

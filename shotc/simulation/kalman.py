@@ -1,7 +1,10 @@
 """Where a target is and how it moves, of what sensors say: one step of a Kalman filter for many runs at once.
 
-State x = [p, v, b] in W (m, m/s, m): place, velocity, and what satellite positions are off for long.
-White noise on acceleration gives p and v F = [I dt I; 0 I] and Q = q [dt^3/3 I, dt^2/2 I; dt^2/2 I, dt I].
+State x = [p, v, w, b] in W (m, m/s, m/s, m): place, velocity, the velocity of the way that the target keeps
+to, and what satellite positions are off for long. p' = v, v' = (w - v) / tau + noise q, w' = noise q_w: who
+weaves steps aside for about a second and comes back (the acceleration of Singer, IEEE TAES 6(4), 1970, has a
+memory of the same form). Seconds ahead a place then follows w, of which more is known than of v. Without a
+memory w plays no part, and p and v have F = [I dt I; 0 I] and Q = q [dt^3/3 I, dt^2/2 I; dt^2/2 I, dt I].
 b is an Ornstein-Uhlenbeck process: without it the filter takes a bias that lasts for noise that averages out,
 becomes sure of a wrong place, and turns detections away that show the right one.
 """
@@ -10,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import exp
+from math import exp, inf
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -22,7 +25,12 @@ from shotc.simulation.sensors import BIAS_MEMORY_S
 GATE = 9.21
 """Squared distance from what is expected beyond which a detection is of something else: chi-square, 99 %."""
 
-STATES = 9
+STATES = 12
+WAY, BIAS = slice(6, 9), slice(9, 12)
+"""Where the velocity of the way and the bias stand in a state."""
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
+"""Of the integral for Q over one step: to 1e-10 of it for steps of up to five memories."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,15 +38,25 @@ class MotionModel:
     """What is believed of a target: q of the noise on its acceleration, m^2/s^3, and the receiver's bias.
 
     bias : standard deviation of what positions are off for long, m, the drone's own place included
+    memory : seconds after which a velocity has gone back to that of the way; infinite: it never does
+    drift : q_w of the noise on the velocity of the way, m^2/s^3
     """
 
     agility: float
     bias: float = 0.0
+    memory: float = inf
+    drift: float = 0.0
+
+    def span(self, seconds: Array | float) -> Array:
+        """Return the seconds of way that a velocity beside that of the way leads to, in so many seconds."""
+        if self.memory == inf:
+            return np.asarray(seconds)
+        return np.asarray(-self.memory * np.expm1(-np.asarray(seconds) / self.memory))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Estimate:
-    """The state at a time, seconds: mean (R, 9) and covariance (R, 9, 9)."""
+    """The state at a time, seconds: mean (R, 12) and covariance (R, 12, 12)."""
 
     time: float
     mean: Array
@@ -53,6 +71,11 @@ class Estimate:
     def velocity(self) -> Array:
         """How it moves, (R, 3), m/s."""
         return self.mean[:, 3:6]
+
+    @property
+    def way(self) -> Array:
+        """The velocity of the way that it keeps to, (R, 3), m/s."""
+        return self.mean[:, WAY]
 
 
 class Taken(NamedTuple):
@@ -88,9 +111,9 @@ class PositionFix:
     def taken(self, estimate: Estimate) -> Taken:
         """Take the position in."""
         jacobian = np.zeros((len(self.place), 3, STATES))
-        jacobian[:, :, :3] = jacobian[:, :, 6:] = np.eye(3)
+        jacobian[:, :, :3] = jacobian[:, :, BIAS] = np.eye(3)
         noise = self.deviation**2 * np.eye(3)
-        miss = self.place - estimate.position - estimate.mean[:, 6:]
+        miss = self.place - estimate.position - estimate.mean[:, BIAS]
         return _updated(estimate, (miss, jacobian, noise), self.used)
 
 
@@ -150,18 +173,38 @@ def predicted(estimate: Estimate, time: float, model: MotionModel) -> Estimate:
     return Estimate(time, estimate.mean @ forward.T, spread)
 
 
+def ahead(estimate: Estimate, seconds: Array, model: MotionModel) -> Array:
+    """Return place and velocity after so many seconds (M,) each, shape (M, R, 6), metres and m/s."""
+    span, left = model.span(seconds)[:, None, None], np.asarray(seconds)[:, None, None]
+    way, beside = estimate.way, estimate.velocity - estimate.way
+    kept = 1.0 - span / model.memory
+    place = estimate.position + left * way + span * beside
+    return np.concatenate([place, way + kept * beside], axis=2)
+
+
 @lru_cache(maxsize=1024)
 def _transition(dt: float, model: MotionModel) -> tuple[Array, Array]:
-    """Return F and Q over dt seconds, (9, 9) each."""
+    """Return F and Q over dt seconds, (12, 12) each."""
     kept = exp(-dt / BIAS_MEMORY_S)
-    forward = np.array([[1.0, dt, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, kept]])
-    q, fresh = model.agility, model.bias**2 * (1.0 - kept * kept)
-    noise = np.array([[q * dt**3 / 3, q * dt**2 / 2, 0.0], [q * dt**2 / 2, q * dt, 0.0], [0.0, 0.0, fresh]])
-    return np.kron(forward, np.eye(3)), np.kron(noise, np.eye(3))
+    forward, noise = np.eye(4), np.zeros((4, 4))
+    forward[:3, :3], forward[3, 3] = _forward(dt, model), kept
+    fresh = np.diag([0.0, model.agility, model.drift])
+    for node, weight in zip(NODES, WEIGHTS, strict=True):
+        since = _forward(0.5 * dt * (1.0 + node), model)
+        noise[:3, :3] += 0.5 * dt * weight * since @ fresh @ since.T
+    noise[3, 3] = model.bias**2 * (1.0 - kept * kept)
+    return np.asarray(np.kron(forward, np.eye(3))), np.asarray(np.kron(noise, np.eye(3)))
+
+
+def _forward(dt: float, model: MotionModel) -> Array:
+    """Return F of place, velocity and that of the way along one axis, (3, 3)."""
+    span = float(model.span(dt))
+    share = span / model.memory
+    return np.array([[1.0, span, dt - span], [0.0, 1.0 - share, share], [0.0, 0.0, 1.0]])
 
 
 def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) -> Taken:
-    """Return an estimate with innovation (R, m), Jacobian (R, m, 9) and noise (m, m) taken in where used."""
+    """Return an estimate with innovation (R, m), Jacobian (R, m, 12) and noise (m, m) taken in where used."""
     miss, jacobian, noise = row
     across = np.swapaxes(jacobian, 1, 2)
     spread = jacobian @ estimate.covariance @ across + noise

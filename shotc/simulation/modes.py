@@ -15,9 +15,9 @@ from math import exp
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.simulation.kalman import Estimate, Measurement, MotionModel, predicted
+from shotc.simulation.kalman import Estimate, Measurement, MotionModel, ahead, predicted
 
-LASTS_S = 5.0
+LASTS_S = 10.0
 """Seconds for which a model holds in the mean before another one does."""
 
 LEAST = 1e-6
@@ -71,6 +71,14 @@ def taken(modes: Modes, measurement: Measurement) -> Modes:
     fit = np.stack([each.fit for each in found], axis=1)
     share = np.maximum(modes.share * np.exp(fit - fit.max(axis=1, keepdims=True)), LEAST)
     return Modes(tuple(each.estimate for each in found), share / share.sum(axis=1, keepdims=True))
+
+
+def expected(modes: Modes, times: Array, models: tuple[MotionModel, ...]) -> Array:
+    """Return place and velocity at times (M,), each model by itself as far as it is believed; (M, R, 6)."""
+    found = [
+        ahead(each, times - modes.time, model) for each, model in zip(modes.estimates, models, strict=True)
+    ]
+    return np.asarray(np.einsum("kmrd,rk->mrd", np.array(found), modes.share))
 
 
 def _joined(estimates: tuple[Estimate, ...], share: Array) -> Estimate:

@@ -8,38 +8,63 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from shotc.geom.bernstein import Array, Piecewise, quintic_hermite
+from shotc.geom.bernstein import Array
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.plugin_api.replanner import Plan
 from shotc.simulation.film import PlanSamples
 from shotc.simulation.vehicle import VehicleSetpoint
 
+PLACE = np.polynomial.Polynomial([1.0, 0.0, 0.0, -10.0, 15.0, -6.0])
+RATE = np.polynomial.Polynomial([0.0, 1.0, 0.0, -6.0, 8.0, -3.0])
+"""From 1, or a slope of 1, to rest at 0 over a time of 1, without acceleration at both ends."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fading:
-    """How drones of R runs come back to their plan.
+    """How drones of R runs come back to their plan: a quintic in time that ends at rest beside it.
 
-    off : where they are beside it: a curve of 3 R components, run by run, that ends at rest; metres, seconds
+    start, lasts : (R,), s; off, rate : beside the plan at the start, (R, 3), metres, m/s
     """
 
     film: PlanSamples
-    off: Piecewise
+    start: Array
+    lasts: Array
+    off: Array
+    rate: Array
 
     @staticmethod
-    def of(film: PlanSamples, start: float, lasts: float, off: Array, rate: Array) -> Fading:
-        """Return the way back from ``off`` metres beside the plan, and its rate there, (R, 3) each."""
-        ends = np.zeros((2, off.size))
-        places, rates = ends.copy(), ends.copy()
-        places[0], rates[0] = off.ravel(), rate.ravel()
-        return Fading(film, quintic_hermite(np.array([start, start + lasts]), places, rates, ends))
+    def none(film: PlanSamples, runs: int) -> Fading:
+        """Return drones that are where they are to be."""
+        return Fading(film, np.zeros(runs), np.ones(runs), np.zeros((runs, 3)), np.zeros((runs, 3)))
+
+    def begun(self, run: int, time: float, lasts: float, off: tuple[Array, Array]) -> Fading:
+        """Return the same with a run that begins to come back now; off : place and velocity, (3,) each."""
+        start, seconds, place, rate = (part.copy() for part in (self.start, self.lasts, self.off, self.rate))
+        start[run], seconds[run], place[run], rate[run] = time, lasts, *off
+        return Fading(self.film, start, seconds, place, rate)
 
     def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the plan's setpoint with what is left of the way back."""
         plan = self.film.setpoint(self.film.step(time))
-        if time >= self.off.end:
+        x = np.clip((time - self.start) / self.lasts, 0.0, 1.0)
+        if (x == 1.0).all():
             return plan
-        off, rate, bend = (self.off.derivative(n)(time).reshape(-1, 3) for n in range(3))
-        return VehicleSetpoint(plan.position + off, plan.velocity + rate, plan.acceleration + bend)
+        moved = [self._beside(x, n) for n in range(3)]
+        return VehicleSetpoint(
+            plan.position + moved[0], plan.velocity + moved[1], plan.acceleration + moved[2]
+        )
+
+    def places(self, run: int, times: Array) -> Array:
+        """Return where a run is to be at times (M,), (M, 3), metres."""
+        x = np.clip((times - self.start[run]) / self.lasts[run], 0.0, 1.0)[:, None]
+        beside = PLACE(x) * self.off[run] + RATE(x) * self.lasts[run] * self.rate[run]
+        return np.asarray(self.film.places(times) + beside)
+
+    def _beside(self, x: Array, order: int) -> Array:
+        """Return the way beside the plan or its derivative, (R, 3); x : share of the time, (R,)."""
+        along, seconds = x[:, None], self.lasts[:, None]
+        place, rate = PLACE.deriv(order)(along), RATE.deriv(order)(along)
+        return np.asarray((place * self.off + rate * seconds * self.rate) / seconds**order)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from math import cos, sin
+from dataclasses import dataclass, replace
+from math import cos, pi, sin
 from typing import ClassVar
 
 import numpy as np
@@ -20,6 +20,7 @@ from shotc.ir.setpoints import Asked
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.plugin_api.replanner import (
+    NO_WALLS,
     USUAL_FRAMING,
     Appearance,
     ChasePlanner,
@@ -36,9 +37,10 @@ from shotc.plugin_api.replanner import (
     Plan,
     Replanner,
     Traffic,
+    Walls,
 )
 from shotc.simulation.film import PlanSamples
-from shotc.simulation.kalman import Estimate
+from shotc.simulation.seen import Foreseen
 
 STAGE_S = 0.1
 CHASE_STAGES, FRAMING_STAGES = 30, 25
@@ -48,11 +50,14 @@ WEIGHTS = ChaseWeights(end=20.0)
 """With the paper's 1 a drone stays a metre and more behind a target that leaves its track; with 20 half,
 and its acceleration grows by a twentieth (measured: a chase and a lateral at 1.2 m/s, horizon 4 s)."""
 
+NOWHERE_M = 1e4
+"""Metres below a drone at which it looks at nothing."""
+
 LEVEL_M = 0.1
 """Metres by which the height of a shot may change over a horizon and count as one height."""
 
-Known = Mapping[str, Estimate]
-"""What is known of the targets that move, by name, in R runs."""
+Known = Mapping[str, Foreseen]
+"""What is known of the targets that move, by name, in R runs, at the stages of a replan."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,24 +93,26 @@ class Chased:
         """
         target, moves = predicted(mission.target(self.target), stages, of)
         goal = min(float(stages[-1]), self.phase.end)
-        beside = np.asarray(film.track.curve(goal))[:3] - np.array(mission.target(self.target).at(goal))
+        there = np.asarray(film.track.curve(goal))[:3]
+        beside = there - np.array(mission.target(self.target).at(goal))
         level = film.track.curve(stages[stages <= goal])[:, 2]
         c, s = cos(of.turn), sin(of.turn)
         wanted = target[-1] + np.array(
             [c * beside[0] - s * beside[1], s * beside[0] + c * beside[1], beside[2]]
         )
         # A target that is taken to be in the ground leads no drone there: the floor is only a price.
-        wanted[2] = max(wanted[2], mission.rules.over_ground(film.drone.radius))
+        wanted[2] = max(there[2] + of.rise, mission.lowest((wanted[0], wanted[1], 0.0), film.drone.radius))
         return ChaseSituation(
             time=float(stages[0]),
             place=drone[0],
             velocity=drone[1],
             target=target,
-            target_velocity=np.tile(moves, (len(stages), 1)),
+            target_velocity=moves,
             wanted=wanted,
-            wanted_velocity=moves,
+            wanted_velocity=moves[-1],
             height=float(wanted[2]) if np.ptp(level) <= LEVEL_M else None,
             traffic=of.traffic,
+            walls=of.walls,
         )
 
 
@@ -152,6 +159,7 @@ class ComposedShot:
                 for target in bodies
             ),
             traffic=of.traffic,
+            walls=of.walls,
             near=None if self.near is None else _drawn(mission, self.near, stages, of),
         )
 
@@ -163,20 +171,64 @@ class ComposedShot:
 Anew = Chased | ComposedShot
 
 
+@dataclass(frozen=True, slots=True)
+class Rejoined:
+    """The way back to the plan where something stands in it.
+
+    phase : from the end of a shot until the plan has to be flown again, at the latest
+    """
+
+    stages: ClassVar = CHASE_STAGES
+    phase: Phase
+
+    def planner(self, by: Replanner, _film: PlanSamples, keeping: Keeping) -> ChasePlanner:
+        """Return who plans it: a chase whose camera has nothing to look at."""
+        free = replace(keeping, pitch=(-pi / 2, pi / 2), half_angle=None)
+        weights = WEIGHTS._replace(pitch=0.0, yaw=0.0, height=0.0)
+        return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), free, weights))
+
+    def situation(
+        self,
+        _mission: MissionIR,
+        film: PlanSamples,
+        stages: Array,
+        drone: tuple[Array, Array],
+        of: ReplanInstant,
+    ) -> ChaseSituation:
+        """Return what is known of one run; arguments as of ``Chased``."""
+        k = film.step(min(float(stages[-1]), self.phase.end))
+        below = np.tile(drone[0] - [0.0, 0.0, NOWHERE_M], (len(stages), 1))
+        return ChaseSituation(
+            time=float(stages[0]),
+            place=drone[0],
+            velocity=drone[1],
+            target=below,
+            target_velocity=np.zeros_like(below),
+            wanted=film.position[k],
+            wanted_velocity=film.velocity[k],
+            height=None,
+            traffic=of.traffic,
+            walls=of.walls,
+        )
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ReplanInstant:
     """What is known of one run at the moment of a replan.
 
     known : of the targets, in R runs; last : the plan that the drone flies; run : which of the runs
-    turn : by how much the way that the target of a ``Chased`` goes is off the plan's, rad
-    traffic : the plans that others have sent
+    turn, rise : by how much the way that the target of a ``Chased`` goes is off the plan's, rad, and the
+        target higher, metres
+    traffic : the plans that others have sent; walls : what keeps it clear of terrain and meshes
     """
 
     known: Known
     last: Plan
     run: int
     turn: float
+    rise: float
     traffic: Traffic
+    walls: Walls = NO_WALLS
 
 
 def replanned(mission: MissionIR, track: DroneTrajectory) -> tuple[Anew, ...]:
@@ -204,16 +256,16 @@ def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
 
 
 def predicted(target: Target, stages: Array, of: ReplanInstant) -> tuple[Array, Array]:
-    """Return where a target will be at the stages, (N + 1, 3), and its velocity over ground, (3,).
+    """Return where a target will be at the stages, and its velocity over ground, (N + 1, 3) each.
 
     Up and down it goes as planned: a velocity that is known to 0.3 m/s is no climb.
     """
+    course = np.array([target.at(t) for t in stages.tolist()])
     if target.name not in of.known:
-        return np.array([target.at(t) for t in stages.tolist()]), np.zeros(3)
-    now = of.known[target.name]
-    moves = now.velocity[of.run] * np.array([1.0, 1.0, 0.0])
-    out = now.position[of.run] + (stages - stages[0])[:, None] * moves
-    out[:, 2] += np.array([target.at(t)[2] for t in stages.tolist()]) - target.at(float(stages[0]))[2]
+        return course, np.zeros_like(course)
+    known = of.known[target.name]
+    out, moves = known.places[:, of.run].copy(), known.velocities[:, of.run] * [1.0, 1.0, 0.0]
+    out[:, 2] = known.now.position[of.run, 2] + course[:, 2] - course[0, 2]
     return out, moves
 
 

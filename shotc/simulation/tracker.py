@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.simulation.kalman import Estimate, Measurement, MotionModel
-from shotc.simulation.modes import Modes, begun, stepped, taken
+from shotc.simulation.modes import Modes, begun, expected, stepped, taken
 
 FIRST_VARIANCE = 0.5
 """Of each component of the first state, m^2 and m^2/s^2."""
@@ -34,10 +34,13 @@ class Tracker:
     @staticmethod
     def beginning(time: float, place: Array, velocity: Array, *models: MotionModel) -> Tracker:
         """Return a tracker that knows a first satellite position and a velocity, (R, 3) each, roughly."""
-        mean = np.concatenate([place, velocity, np.zeros_like(place)], axis=1)
+        mean = np.concatenate([place, velocity, velocity, np.zeros_like(place)], axis=1)
         off = models[0].bias ** 2
-        # A place that a receiver tells is off by as much as the receiver, the other way.
-        spread = np.array([[FIRST_VARIANCE + off, 0.0, -off], [0.0, FIRST_VARIANCE, 0.0], [-off, 0.0, off]])
+        # A place that a receiver tells is off by as much as the receiver, the other way. The first velocity
+        # is that of the way.
+        spread = np.zeros((4, 4))
+        spread[1:3, 1:3] = FIRST_VARIANCE
+        spread[0, 0], spread[3, 3], spread[0, 3], spread[3, 0] = FIRST_VARIANCE + off, off, -off, -off
         covariance = np.tile(np.kron(spread, np.eye(3)), (len(place), 1, 1))
         return Tracker(models, [(begun(Estimate(time, mean, covariance), models), None)])
 
@@ -57,6 +60,10 @@ class Tracker:
     def now(self, time: float) -> Estimate:
         """Return what is known of the target at a time at or after all that was taken in."""
         return stepped(self._past[-1][0], time, self.models).whole
+
+    def ahead(self, times: Array) -> Array:
+        """Return place and velocity at times (M,) from ``now`` on, as taken then; (M, R, 6), metres, m/s."""
+        return expected(stepped(self._past[-1][0], float(times[0]), self.models), times, self.models)
 
     def _forget(self) -> None:
         oldest = self._past[-1][0].time - KEPT_S

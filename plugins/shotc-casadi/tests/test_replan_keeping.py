@@ -11,7 +11,7 @@ import pytest
 from shotc_casadi.replan.keeping import StaticObstacles, common, each, ends, kept, pitched, rows
 
 from shotc.geom.solids import Cylinder, box
-from shotc.plugin_api.replanner import NO_TRAFFIC, Cone, Keeping, Traffic
+from shotc.plugin_api.replanner import NO_TRAFFIC, NO_WALLS, Cone, Keeping, Traffic, Walls
 from tests.support.replans import DT, LIMITS, TREE, zone
 
 N = 6
@@ -34,12 +34,16 @@ class Found(NamedTuple):
 
 
 def found(
-    keeping: Keeping, traffic: Traffic = NO_TRAFFIC, states: np.ndarray = STATES, step: float = DT
+    keeping: Keeping,
+    traffic: Traffic = NO_TRAFFIC,
+    states: np.ndarray = STATES,
+    step: float = DT,
+    walls: Walls = NO_WALLS,
 ) -> Found:
     near = StaticObstacles(keeping).near(np.zeros(3), 1e3)
-    of = kept(keeping, near, traffic)
-    shared = [*common(keeping, near, step), *(cone.half_angle for cone in traffic.cones)]
-    own = each(traffic) if of.each else np.zeros((len(states), 0))
+    of = kept(keeping, near, traffic, walls)
+    shared = common(keeping, near, step, traffic, walls)
+    own = each(traffic, walls, keeping.margin) if of.each else np.zeros((len(states), 0))
     x, t, p, g = ca.SX.sym("x", 6), ca.SX.sym("t", 3), ca.SX.sym("p", of.each), ca.SX.sym("g", len(shared))
     q = x[:3] - t
     a = ca.vertcat(pitched(of, q, g), rows(of, (x[:3], x[3:], q / ca.norm_2(q)), p, g))
@@ -65,11 +69,29 @@ CASES = {
         NO_TRAFFIC,
     ),
     "a floor": (Keeping(LIMITS, floor=3.0), NO_TRAFFIC),
+    "a ceiling": (Keeping(LIMITS, ceiling=9.0), NO_TRAFFIC),
     "pitch": (Keeping(LIMITS, pitch=(-1.2, -0.2)), NO_TRAFFIC),
     "another drone": (Keeping(LIMITS, separation=3.0), BESIDE_ONE),
     "another drone in the frame": (Keeping(LIMITS, half_angle=pi / 6), BESIDE_ONE),
     "the picture of another drone": (Keeping(LIMITS), Traffic(OTHER[None][:0], (CONE,))),
 }
+
+
+WALLS = Walls(RNG.normal(size=(N + 1, 3, 3)), RNG.normal(size=(N + 1, 3)))
+
+
+def test_a_place_keeps_the_half_spaces_of_its_stage_and_stops_before_those_of_the_end():
+    """Beside the parameters of traffic and of a camera: each finds its own."""
+    traffic = Traffic(OTHER[None], (CONE,))
+    keeping = Keeping(LIMITS, margin=0.2, reaction=0.3, separation=3.0)
+    here, without = found(keeping, traffic, walls=WALLS), found(keeping, traffic)
+    asked = np.einsum("kmd,kd->km", WALLS.normals[:-1], STATES[:, :3]) - WALLS.offsets[:-1] - 0.2
+    assert here.value[:, -4:-1] == pytest.approx(asked, abs=1e-9)
+    assert np.delete(here.value, [-4, -3, -2], axis=1) == pytest.approx(without.value, abs=1e-9)
+    speed = np.sqrt((STATES[:, 3:] ** 2).sum(axis=1) + 1e-6)
+    seconds = 0.3 + speed / (2 * LIMITS.usable_acceleration)
+    stands = STATES[:, :3] + seconds[:, None] * STATES[:, 3:]
+    assert here.ends == pytest.approx(stands @ WALLS.normals[-1].T - WALLS.offsets[-1] - 0.2, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -81,6 +103,11 @@ def test_slopes_are_those_of_the_values(name):
         after, before = found(*CASES[name], STATES + d), found(*CASES[name], STATES - d)
         assert here.slope[:, :, j] == pytest.approx((after.value - before.value) / 2e-6, abs=1e-5)
         assert here.end_slope[:, :, j] == pytest.approx((after.ends - before.ends) / 2e-6, abs=1e-5)
+
+
+def test_a_ceiling_is_kept():
+    here = found(Keeping(LIMITS, ceiling=9.0)).value[:, 0]
+    assert here == pytest.approx(9.0 - STATES[:, 2], abs=1e-9)
 
 
 def test_another_drone_is_out_of_the_cone_about_the_line_of_sight():

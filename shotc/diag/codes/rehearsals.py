@@ -54,19 +54,6 @@ CODES: tuple[CodeInfo, ...] = (
         "other",
     ),
     CodeInfo(
-        "W005",
-        "replanned-past-terrain",
-        Severity.ERROR,
-        "a rehearsal plans anew in a world with terrain, a scene or buildings, which replanning does not "
-        "know",
-        "With `loop: replan` a drone plans its next seconds anew while it flies. It keeps clear of zones, of targets that "
-        "stand, of other drones and of level ground; terrain, scenes and buildings it does not know, and it would "
-        "fly into them. `loop: track` flies what was planned and lets the camera follow.",
-        "",
-        "",
-        "other",
-    ),
-    CodeInfo(
         "W006",
         "no-cluster",
         Severity.ERROR,

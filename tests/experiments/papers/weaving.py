@@ -43,7 +43,7 @@ NOTES = (
     f"{WEAVES.wander:g} m off the straight way (standard deviation along East and along North), seeded",
     "way, acceleration and error are means over the runs; the rest is the worst of them. Accelerations are "
     f"differences of the flown velocity over {STEP_S:g} s; the rows of `replay` tell what gusts alone cost, "
-    "and those of places known exactly that the rest is the estimate of the walker's velocity, led 3 s ahead",
+    "and those of places known exactly that the rest is the estimate of where the walker is in 3 s",
     "to be reached were 0.2 m/s^2, the whole walker in every frame, and the paper's least distance",
     "the paper planned 10 s ahead every 2 s, with a walk that is not published",
 )

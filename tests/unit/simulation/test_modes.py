@@ -8,11 +8,11 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.simulation.kalman import MotionModel, PositionFix, predicted
 from shotc.simulation.modes import LASTS_S, begun, stepped, taken
-from shotc.simulation.seen import AGILITIES
+from shotc.simulation.seen import WALKS
 from shotc.simulation.tracker import Tracker
 
 RUNS, EVERY, NOISE, CORNER_S, END_S = 40, 0.2, 0.3, 12.0, 20.0
-CALM, AGILE = MotionModel(AGILITIES[0]), MotionModel(AGILITIES[1])
+CALM, AGILE = WALKS
 
 
 def truth(time: float) -> tuple[Array, Array]:

@@ -7,7 +7,8 @@ import pytest
 
 from shotc.plugin_api.replanner import Plan, Traffic
 from shotc.simulation.film import film_of
-from shotc.simulation.kalman import Estimate
+from shotc.simulation.kalman import STATES, Estimate
+from shotc.simulation.seen import Foreseen
 from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from tests.support.compiled import compiled_text
 
@@ -41,12 +42,19 @@ def test_a_pose_beside_a_target_goes_with_the_estimate_and_a_place_of_the_world_
         drone = (film.position[film.step(at)], film.velocity[film.step(at)])
         places, moves = (np.tile(each, (len(stages), 1)) for each in drone)
         # The runner is 3 m to the North of his way, and faster.
-        mean = np.array([[16.0, 3.0, 0.9, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0]])
+        mean = np.array([[16.0, 3.0, 0.9, 2.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0]])
+        velocity = np.tile(mean[:, 3:6], (len(stages), 1, 1))
+        runner = Foreseen(
+            Estimate(at, mean, np.eye(STATES)[None]),
+            mean[:, :3] + (stages - at)[:, None, None] * velocity,
+            velocity,
+        )
         of = ReplanInstant(
-            known={"runner": Estimate(at, mean, np.eye(9)[None])},
+            known={"runner": runner},
             last=Plan(stages, places, moves, np.zeros((shot.stages, 3))),
             run=0,
             turn=0.0,
+            rise=0.0,
             traffic=Traffic(np.empty((0, len(stages), 3))),
         )
         found.append(shot.situation(ir.keyframes.mission, film, stages, drone, of).near)

@@ -16,7 +16,8 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
-from shotc.simulation.kalman import Estimate
+from shotc.simulation.kalman import STATES, Estimate
+from shotc.simulation.seen import Foreseen
 from shotc.simulation.sensors import Gps
 from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from shotc.simulation.truth import Truth
@@ -135,13 +136,15 @@ def test_a_target_that_is_taken_to_be_in_the_ground_leads_no_drone_there():
     (shot,) = replanned(mission, film.track)
     at = shot.phase.start + 2.0
     stages = at + STAGE_S * np.arange(shot.stages + 1)
-    sunk = np.array([[24.0, 0.0, -50.0, 1.2, 0.0, 0.0, 0.0, 0.0, 0.0]])
-    known = {"walker": Estimate(at, sunk, np.eye(9)[None])}
+    sunk = np.zeros((1, STATES))
+    sunk[0, :3] = 24.0, 0.0, -50.0
+    there = np.tile(sunk[:, :3], (len(stages), 1, 1))
+    known = {"walker": Foreseen(Estimate(at, sunk, np.eye(STATES)[None]), there, 0.0 * there)}
     drone = (film.position[film.step(at)], film.velocity[film.step(at)])
     free = Traffic(np.empty((0, len(stages), 3)))
     places, moves = (np.tile(each, (len(stages), 1)) for each in drone)
     last = Plan(stages, places, moves, np.zeros((shot.stages, 3)))
-    of = ReplanInstant(known=known, last=last, run=0, turn=0.0, traffic=free)
+    of = ReplanInstant(known=known, last=last, run=0, turn=0.0, rise=-50.9, traffic=free)
     wanted = shot.situation(mission, film, stages, drone, of).wanted
     assert wanted[2] == mission.rules.over_ground(mission.drone("one").radius)
 

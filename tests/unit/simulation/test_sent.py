@@ -61,7 +61,8 @@ def test_where_a_plan_fails_the_last_one_is_kept():
 
 def test_the_way_back_to_the_plan_leads_smoothly_from_one_to_the_other():
     off, rate = np.array([[3.0, -2.0, 1.0]]), np.array([[0.5, 0.0, -0.2]])
-    back, film = Fading.of(_Film(), 2.0, 4.0, off, rate), _Film()
+    film = _Film()
+    back = Fading.none(film, 1).begun(0, 2.0, 4.0, (off[0], rate[0]))
     begins, ends = back.setpoint(2.0), back.setpoint(6.0)
     assert begins.position - film.setpoint(200).position == pytest.approx(off)
     assert begins.velocity - film.setpoint(200).velocity == pytest.approx(rate)

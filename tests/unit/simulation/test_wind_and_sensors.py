@@ -6,7 +6,7 @@ import pytest
 from shotc.geom.shapes import CylinderShape
 from shotc.geom.track import Track
 from shotc.ir.target import Target
-from shotc.simulation.aim import aimed, sight_rates
+from shotc.simulation.aim import Shown, aim_rates, aimed
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.gimbal import axes_of
 from shotc.simulation.kalman import MotionModel, PositionFix, projection
@@ -132,10 +132,18 @@ def test_aimed_cameras_show_the_point_where_it_is_wanted():
     assert shown[level] == pytest.approx(uv[level], abs=1e-9)
 
 
-def test_rates_of_a_line_of_sight_are_its_slopes():
+def test_rates_of_a_camera_are_the_slopes_of_its_angles():
+    """A target that moves, a place on screen that wanders, a lens that zooms; one by one and at once."""
     rng = np.random.default_rng(6)
     offset, velocity, h = rng.uniform(2, 9, (50, 3)), rng.uniform(-2, 2, (50, 3)), 1e-6
-    centre, half = np.zeros((50, 2)), np.full((50, 2), 0.5)
-    now, later = (aimed(offset + velocity * t, centre, half) for t in (0.0, h))
-    for rate, a, b in zip(sight_rates(offset, velocity), now, later, strict=True):
-        assert rate == pytest.approx((b - a) / h, abs=1e-4)
+    now = Shown(rng.uniform(-0.5, 0.5, (50, 2)), np.full((50, 2), 0.5))
+    drift, zoom = rng.uniform(-0.3, 0.3, (50, 2)), rng.uniform(-0.2, 0.2, (50, 2))
+    for moves, wanders, zooms in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)):
+        later = Shown(now.uv + 0.02 * wanders * drift, now.half + 0.02 * zooms * zoom)
+        soon = Shown(now.uv + h * wanders * drift, now.half + h * zooms * zoom)
+        a, b = aimed(offset, *now), aimed(offset + moves * velocity * h, *soon)
+        for rate, first, then in zip(
+            aim_rates(offset, moves * velocity, now, later, 0.02), a, b, strict=True
+        ):
+            assert rate == pytest.approx((then - first) / h, abs=0.01)
+            assert np.abs(rate).max() > 0.02

@@ -17,7 +17,7 @@ import numpy as np
 from shotc.plugin_api.replanner import Array, ChaseProblem, ChaseSituation, Plan, Replan
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
-from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
+from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, Until
 
@@ -41,7 +41,7 @@ class ShotChase:
         """Plan from the measured state: one step from the last plan, or up to 30 without one."""
         s, flight = situation, self._flight
         with np.errstate(all="ignore"):
-            solver, widened = flight.solver(s.place, s.velocity, s.traffic)
+            solver, widened = flight.solver(s.place, s.velocity, s.traffic, s.walls)
             into = solver.evaluation
             into.given[:, 6:9], into.given[:, 9:12] = s.target[1:], s.target_velocity[1:]
             into.common[5:8], into.common[8:11] = s.wanted, s.wanted_velocity
@@ -115,6 +115,7 @@ def _given(s: ChaseSituation, last: Plan | None) -> dict[str, list[Array]]:
         "the target's predicted motion": [s.target, s.target_velocity],
         "the wanted state": [s.wanted, s.wanted_velocity],
         "a plan that was sent": sent(s.traffic),
+        "a wall": beside(s.walls),
         "the last plan": [] if last is None else [last.times, last.accelerations],
         "the time or the height": [np.array([s.time, s.height or 0.0])],
     }

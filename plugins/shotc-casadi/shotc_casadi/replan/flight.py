@@ -9,12 +9,14 @@ import numpy as np
 
 from shotc.plugin_api.replanner import (
     NO_TRAFFIC,
+    NO_WALLS,
     Array,
     Keeping,
     Plan,
     Replan,
     Status,
     Traffic,
+    Walls,
 )
 from shotc.plugin_api.replanner import Horizon as Ahead
 from shotc_casadi.replan.evaluation import Horizon
@@ -57,23 +59,23 @@ class ShotSolvers:
         east, north = limits.wind
         self._lowest = np.array([east - limits.speed, north - limits.speed, -limits.descent])
         self._highest = np.array([east + limits.speed, north + limits.speed, limits.climb])
-        self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC))
+        self._solver(kept(keeping, self._standing.near(np.zeros(3), 0.0), NO_TRAFFIC, NO_WALLS))
 
-    def solver(self, place: Array, v: Array, traffic: Traffic) -> tuple[Solver, bool]:
+    def solver(self, place: Array, v: Array, traffic: Traffic, walls: Walls) -> tuple[Solver, bool]:
         """Return the solver with all constraints written, and whether the velocity widens its bounds.
 
         place, v : of the drone, shape (3,); they are written as the first entries of the measured state
         """
         fastest = max(self._keeping.limits.fastest, float(np.linalg.norm(v)))
         near = self._standing.near(place, fastest * self._way)
-        of = kept(self._keeping, near, traffic)
+        of = kept(self._keeping, near, traffic, walls)
         solver = self._solver(of)
         into = solver.evaluation
         into.start[:3], into.start[3:6] = place, v
         if of.each:
-            into.given[:, -of.each :] = each(traffic)
-        angles = [cone.half_angle for cone in traffic.cones]
-        into.common[len(into.common) - of.common :] = common(self._keeping, near, self._step) + angles
+            into.given[:, -of.each :] = each(traffic, walls, self._keeping.margin)
+        shared = common(self._keeping, near, self._step, traffic, walls)
+        into.common[len(into.common) - of.common :] = shared
         return solver, self._bound(into.given, v)
 
     def index(self, time: float, last: Plan) -> Array:
@@ -124,3 +126,8 @@ def fault(given: Mapping[str, Sequence[Array]]) -> Replan:
 def sent(traffic: Traffic) -> list[Array]:
     """Return all arrays that other drones have sent."""
     return [traffic.others, *(a for cone in traffic.cones for a in (cone.apex, cone.axis))]
+
+
+def beside(walls: Walls) -> list[Array]:
+    """Return all arrays of half-spaces."""
+    return [walls.normals, walls.offsets]

@@ -26,7 +26,7 @@ from shotc.plugin_api.replanner import (
     Replan,
 )
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
-from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, fault, sent
+from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, rows, within
 from shotc_casadi.replan.pictures import (
     COMMON,
@@ -71,7 +71,7 @@ class Framing:
         s = situation
         with np.errstate(all="ignore"):
             flight = self._flight(tuple(body.wanted is not None for body in s.subjects))
-            solver, widened = flight.solver(s.place, s.velocity, s.traffic)
+            solver, widened = flight.solver(s.place, s.velocity, s.traffic, s.walls)
             into = solver.evaluation
             into.start[6:] = s.aim
             _fill(s, into.given, into.common)
@@ -235,6 +235,7 @@ def _given(s: FramingSituation, last: Plan | None) -> dict[str, list[Array]]:
         "a wanted view": views,
         "the pose to stay near": [] if s.near is None else _numbers(s.near),
         "a plan that was sent": sent(s.traffic),
+        "a wall": beside(s.walls),
         "the last plan": flown,
         "the time": [np.array([s.time])],
     }

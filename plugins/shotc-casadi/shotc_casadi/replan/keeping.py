@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from shotc.plugin_api.replanner import Array, Keeping, Traffic
+from shotc.plugin_api.replanner import Array, Keeping, Traffic, Walls
 from shotc_casadi.replan.solids import SHARP_M, TINY_M, SolidConstraint, count, free_at, half_space, rooms
 
 STANDING_MS = 1e-3
@@ -21,6 +21,8 @@ REACH_M = 1.0
 FEW = 3
 """Up to this number of solids, none is left out, so that no new programme is built in flight."""
 LIMITS = 10
+WALL = 4
+"""Parameters of a half-space: its normal, and its offset with the margin."""
 
 
 class RowCounts(NamedTuple):
@@ -30,6 +32,7 @@ class RowCounts(NamedTuple):
     others, cones : their numbers
     low, high : whether the pitch has this bound
     framed : whether no other drone may be in a cone about the camera's axis
+    walls : the number of half-spaces of a stage
     """
 
     shapes: tuple[int, ...]
@@ -38,16 +41,17 @@ class RowCounts(NamedTuple):
     low: bool
     high: bool
     framed: bool
+    walls: int = 0
 
     @property
     def common(self) -> int:
         """Number of parameters that all stages share."""
-        return LIMITS + sum(map(count, self.shapes)) + self.cones
+        return LIMITS + sum(map(count, self.shapes)) + WALL * self.walls + self.cones
 
     @property
     def each(self) -> int:
         """Number of parameters of one stage."""
-        return 6 * (self.others + self.cones)
+        return 6 * (self.others + self.cones) + WALL * self.walls
 
 
 class StaticObstacles:
@@ -58,6 +62,8 @@ class StaticObstacles:
         found = [room for zone in keeping.zones for room in rooms(zone, keeping.margin)]
         if np.isfinite(keeping.floor):
             found.append(half_space((0.0, 0.0, 1.0), keeping.floor))
+        if np.isfinite(keeping.ceiling):
+            found.append(half_space((0.0, 0.0, -1.0), -keeping.ceiling))
         self._rooms = found
         self._discs = np.array([room.disc for room in found]).reshape(-1, 3)
 
@@ -70,7 +76,7 @@ class StaticObstacles:
         return tuple(self._rooms[i] for i in np.flatnonzero(away < way + REACH_M))
 
 
-def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) -> RowCounts:
+def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic, walls: Walls) -> RowCounts:
     """Return which rows there are in one replan."""
     low, high = keeping.pitch
     return RowCounts(
@@ -80,11 +86,14 @@ def kept(keeping: Keeping, near: tuple[SolidConstraint, ...], traffic: Traffic) 
         low > -0.5 * np.pi,
         high < 0.5 * np.pi,
         keeping.half_angle is not None and len(traffic.others) > 0,
+        walls.count,
     )
 
 
-def common(keeping: Keeping, near: tuple[SolidConstraint, ...], step: float) -> list[float]:
-    """Return the common parameters without the half-angles of cones, which come after them."""
+def common(
+    keeping: Keeping, near: tuple[SolidConstraint, ...], step: float, traffic: Traffic, walls: Walls
+) -> list[float]:
+    """Return the parameters that all stages share."""
     limits, given = keeping.limits, keeping
     numbers = [
         step,
@@ -94,14 +103,25 @@ def common(keeping: Keeping, near: tuple[SolidConstraint, ...], step: float) -> 
         given.separation + given.margin,
     ]
     numbers += [given.half_angle or 0.0, *given.pitch, *limits.wind]
-    return [*numbers, *(number for room in near for number in room.parameters)]
+    numbers += [number for room in near for number in room.parameters]
+    if walls.count:
+        numbers += _numbers(walls, given.margin)[-1].tolist()
+    return [*numbers, *(cone.half_angle for cone in traffic.cones)]
 
 
-def each(traffic: Traffic) -> Array:
-    """Return the parameters of each stage, shape (N, 6 (D + C))."""
+def each(traffic: Traffic, walls: Walls, margin: float) -> Array:
+    """Return the parameters of each stage, shape (N, 6 (D + C) + 4 M)."""
     sent = [np.hstack([other[1:], np.diff(other, axis=0)]) for other in traffic.others]
     sent += [np.hstack([cone.apex[1:], cone.axis[1:]]) for cone in traffic.cones]
+    if walls.count:
+        sent.append(_numbers(walls, margin)[:-1])
     return np.hstack(sent)
+
+
+def _numbers(walls: Walls, margin: float) -> Array:
+    """Return the parameters of half-spaces, shape (N + 1, 4 M)."""
+    rows = np.concatenate([walls.normals, (walls.offsets + margin)[..., None]], axis=2)
+    return rows.reshape(len(rows), -1)
 
 
 def rows(of: RowCounts, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
@@ -126,6 +146,7 @@ def rows(of: RowCounts, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
         at = 6 * (of.others + i)
         angle = g[of.common - of.cones + i]
         found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
+    found += [ca.dot(wall[:3], place) - wall[3] for wall in _walls(of, p, of.each)]
     found.append(speed - ca.sqrt(ca.sumsqr(v[:2] - g[LIMITS - 2 : LIMITS]) + STANDING_MS**2))
     return ca.vertcat(*found)
 
@@ -149,6 +170,8 @@ def ends(of: RowCounts, place: Any, v: Any, g: Any) -> Any:
     for shape, sizes in _rooms(of, g):
         room = free_at(shape, place, sizes)
         found.append(room + seconds * ca.jtimes(room, place, v))
+    stands = place + seconds * v
+    found += [ca.dot(wall[:3], stands) - wall[3] for wall in _walls(of, g, of.common - of.cones)]
     return ca.vertcat(*found) if found else ca.SX(0, 1)
 
 
@@ -169,6 +192,13 @@ def _rooms(of: RowCounts, g: Any) -> Iterator[tuple[int, Any]]:
     for shape in of.shapes:
         yield shape, g[at : at + count(shape)]
         at += count(shape)
+
+
+def _walls(of: RowCounts, numbers: Any, end: int) -> Iterator[Any]:
+    """Yield the parameters of half-spaces, the last of which ends at an index."""
+    for i in range(of.walls):
+        at = end - WALL * (of.walls - i)
+        yield numbers[at : at + WALL]
 
 
 def pitched(of: RowCounts, q: Any, g: Any) -> Any:

@@ -1,0 +1,90 @@
+"""Half-spaces beside the plan that a drone flies, which keep its next one clear of terrain and meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shotc.geom.bernstein import Array
+from shotc.geom.solid_arrays.points import signed_distance
+from shotc.ir.drone import Drone
+from shotc.ir.mission import MissionIR
+from shotc.planning.beside_mesh import BesideMesh
+from shotc.planning.obstacles import flight_space
+from shotc.planning.over_ground import OverGround
+from shotc.plugin_api.replanner import NO_WALLS, Keeping, Plan, Walls
+
+MOST = 8
+"""Half-spaces of a stage: the nearest ones. A plan that is made twice a second meets no more."""
+
+REACH_M = 8.0
+"""What is farther from the plan than this and the clearance is left out, metres.
+
+A drone at 3 m/s^2 leaves its plan by so much in 2.3 s, and plans anew four times meanwhile.
+"""
+
+UP = np.array([0.0, 0.0, 1.0])
+FAR_M = 1e6
+"""Metres below all that is flown."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standing:
+    """What stands and a drone keeps clear of.
+
+    surfaces : what is of triangles: terrain, scenes, buildings
+    keeping : zones, and the limits with which it stops
+    """
+
+    surfaces: tuple[OverGround | BesideMesh, ...]
+    keeping: Keeping
+
+    @staticmethod
+    def of(mission: MissionIR, drone: Drone, keeping: Keeping) -> Standing:
+        """Return all that a mission has."""
+        if mission.terrain is None and not mission.meshes:
+            return Standing((), keeping)
+        return Standing(flight_space(mission, drone).surfaces, keeping)
+
+    def lack(self, places: Array) -> Array:
+        """Return how far a drone's centre at places (M, 3) is too near to anything, (M,), metres.
+
+        0 and less is clear.
+        """
+        lacks = [np.full(len(places), -np.inf), *(-each.slack(places) for each in self.surfaces)]
+        for zone in self.keeping.zones:
+            gap = signed_distance(zone.solid, places)
+            lacks.append(zone.metres + (gap if zone.inside else -gap))
+        return np.asarray(np.max(lacks, axis=0))
+
+    def beside(self, last: Plan, stages: Array) -> Walls:
+        """Return half-spaces beside a plan at stages (N + 1,), mission times, past its end where it stops."""
+        if not self.surfaces:
+            return NO_WALLS
+        hulls = _hulls(last, stages, self.keeping)
+        planes = [surface.planes(hulls, REACH_M, np.zeros_like) for surface in self.surfaces]
+        piece = np.concatenate([each.piece for each in planes])
+        normal = np.concatenate([each.normal for each in planes])
+        offset = np.concatenate([each.offset for each in planes])
+        slack = np.einsum("rmd,rd->rm", hulls[piece], normal).min(axis=1) - offset
+        normals, offsets = np.tile(UP, (len(hulls), MOST, 1)), np.full((len(hulls), MOST), -FAR_M)
+        order = np.lexsort((slack, piece))
+        rank = np.arange(len(order)) - np.searchsorted(piece[order], piece[order])
+        chosen = rank < MOST
+        normals[piece[order][chosen], rank[chosen]] = normal[order][chosen]
+        offsets[piece[order][chosen], rank[chosen]] = offset[order][chosen]
+        return Walls(normals, offsets)
+
+
+def _hulls(last: Plan, stages: Array, keeping: Keeping) -> Array:
+    """Return each stage with those beside it, and the way on which the drone stops, (N + 1, 3, 3), metres."""
+    at = np.column_stack([np.interp(stages, last.times, column) for column in last.places.T])
+    v = last.velocities[-1]
+    seconds = keeping.reaction + float(np.linalg.norm(v)) / (2.0 * keeping.limits.usable_acceleration)
+    past = np.clip(stages - last.times[-1], 0.0, seconds)[:, None]
+    at = at + past * v
+    stands = last.places[-1] + seconds * v
+    after = np.concatenate([at[2:], at[-1:]])
+    around = np.stack([at[:-1], at[1:], after], axis=1)
+    return np.concatenate([around, np.stack([at[-1], 0.5 * (at[-1] + stands), stands])[None]])
