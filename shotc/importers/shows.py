@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from math import ceil, sqrt
+from math import ceil, inf, sqrt
 from pathlib import PurePath
 
 import numpy as np
@@ -17,7 +17,7 @@ from scipy.spatial import cKDTree
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.geom.bernstein import Array
+from shotc.geom.bernstein import Array, Piecewise
 from shotc.importers.cameras.takes import Refused
 from shotc.importers.flights import skyc
 from shotc.importers.flights.names import SHOW, TABLES, suffix_of
@@ -36,6 +36,8 @@ SEPARATION_M = 3.0
 """Default separation of a fleet, metres (``rules.separation``)."""
 ON_GROUND_M = 1.0
 """Largest height above z = 0 at which a track begins on a pad, metres."""
+LOOK_S, MOST_PLACES = 0.5, 2_000_000
+"""Tracks are looked at so often, seconds, and at so many places of all of them together at most."""
 WIDE_M = 1.0
 """Distance between assumed pads beyond the separation, metres."""
 WHOLE = Node("", 1, 1, wide=1)
@@ -54,13 +56,15 @@ class ImportedShow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Show:
-    """The first positions of the tracks of a file, shape (n, 3), East, North, Up in its frame, metres.
+    """The tracks of a file, East, North and Up in its own frame, and where that stands.
 
-    origin : latitude, longitude (degrees) and altitude (metres) of that frame, or None
+    starts : where they begin, (n, 3); times : (T,), s; places : all drones at these, (T, n, 3), metres
     """
 
     starts: Array
     origin: tuple[float, float, float | None] | None
+    times: Array
+    places: Array
 
 
 def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> ImportedShow:
@@ -81,7 +85,7 @@ def imported_show(data: bytes, name: str, file: str, *, strict: bool) -> Importe
     notes = Notes()
     stem = safe(PurePath(file).stem, "show")
     pads = _pads(show.starts, f"{stem}-pads.csv", notes)
-    text = _written(stem, file, show, (pads, _separation(show.starts, notes)), notes)
+    text = _written(stem, file, show, (pads, _separation(show, notes)), notes)
     said = told(name, notes, strict=strict)
     made = Imported(None if has_errors(said) else text, said, sources, len(show.starts), 1)
     return ImportedShow(made, pads)
@@ -91,8 +95,23 @@ def _show_of(found: Found | Refused) -> _Show | Refused:
     if isinstance(found, Refused):
         return found
     if isinstance(found, skyc.SkycShow):
-        return _Show(np.stack([flight.ctrl[0, 0] for flight in found.flights]), found.origin)
-    return FOREIGN if isinstance(found, Waypoints) else _Show(np.stack([r.place[0] for r in found]), None)
+        starts = np.stack([flight.ctrl[0, 0] for flight in found.flights])
+        times = _times(len(starts), max(float(flight.breaks[-1]) for flight in found.flights))
+        curves = (Piecewise(flight.breaks, flight.ctrl) for flight in found.flights)
+        places = np.stack([curve(np.clip(times, curve.start, curve.end)) for curve in curves], axis=1)
+        return _Show(starts, found.origin, times, places)
+    if isinstance(found, Waypoints):
+        return FOREIGN
+    times = _times(len(found), max(float(rows.time[-1]) for rows in found))
+    tracks = [[np.interp(times, rows.time, rows.place[:, k]) for k in range(3)] for rows in found]
+    return _Show(
+        np.stack([rows.place[0] for rows in found]), None, times, np.array(tracks).transpose(2, 0, 1)
+    )
+
+
+def _times(drones: int, end: float) -> Array:
+    """Return times at which tracks are looked at, s."""
+    return np.linspace(0.0, end, max(2, min(ceil(end / LOOK_S) + 1, MOST_PLACES // drones)))
 
 
 def _pads(starts: Array, name: str, notes: Notes) -> tuple[str, bytes] | None:
@@ -107,17 +126,29 @@ def _pads(starts: Array, name: str, notes: Notes) -> tuple[str, bytes] | None:
     return name, f"x,y,z\n{rows}".encode()
 
 
-def _separation(starts: Array, notes: Notes) -> float:
-    """Return the separation for the mission, m: that of the pads, but within bounds."""
-    if len(starts) < 2 or float(starts[:, 2].max()) > ON_GROUND_M:
+def _separation(show: _Show, notes: Notes) -> float:
+    """Return what separation to ask for: no more than the tracks have on their pads and, as sampled, in the
+    air.
+    """
+    if len(show.starts) < 2:
         return SEPARATION_M
-    near = down(float(cKDTree(starts).query(starts, k=2)[0][:, 1].min()), 2)
+    apart = np.array([float(cKDTree(at).query(at, k=2)[0][:, 1].min()) for at in show.places])
+    first = int(apart.argmin())
+    on_pads = inf
+    if float(show.starts[:, 2].max()) <= ON_GROUND_M:
+        on_pads = float(cKDTree(show.starts).query(show.starts, k=2)[0][:, 1].min())
+    near = down(min(on_pads, float(apart[first])), 2)
     if near >= SEPARATION_M:
         return SEPARATION_M
-    least = 2.0 * PRESETS[MODEL].radius
-    message = f"tracks begin {near:.2f} m apart, and {SEPARATION_M:.1f} m are usual"
-    taken = max(near, least)
-    notes.assume(WHOLE, message, f"the separation is {taken:.2f} m, for the whole show")
+    message = f"tracks begin {near:.2f} m apart"
+    if on_pads > apart[first]:
+        message = f"two drones come within {near:.2f} m of each other at {show.times[first]:.1f} s"
+    taken = max(near, 2.0 * PRESETS[MODEL].radius)
+    notes.assume(
+        WHOLE,
+        f"{message}, and {SEPARATION_M:.1f} m are usual",
+        f"the separation is {taken:.2f} m, for the whole show",
+    )
     return taken
 
 

@@ -84,6 +84,23 @@ def test_pads_nearer_than_usual_are_told_and_strict_writes_nothing(run: Run, tmp
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a-pads.csv", "a.yaml", "a.zip"]
 
 
+def test_drones_that_come_nearer_in_the_air_than_on_their_pads_are_told(run: Run, tmp_path: Path) -> None:
+    rows = [
+        [
+            f"{time},{step * i},0,{up},0,0,0\n"
+            for time, step, up in ((0, 4, 0), (9000, 2.25, 9), (18000, 4, 0))
+        ]
+        for i in range(3)
+    ]
+    near = {f"{i}.csv": (f"{HEAD}\n" + "".join(rows[i])).encode() for i in range(3)}
+    (tmp_path / "a.zip").write_bytes(zipped(near))
+    mission = tmp_path / "a.yaml"
+    made = run("import", "show", str(tmp_path / "a.zip"), "-o", str(mission))
+    assert made.code == 0
+    assert "two drones come within 2.25 m of each other at 9.0 s, and 3.0 m are usual" in made.err
+    assert "separation: 2.25 m" in mission.read_text()
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
