@@ -25,7 +25,7 @@ from shotc.parallel import cores, pool_of, uninterrupted
 if TYPE_CHECKING:  # the base install has no numpy
     from shotc.ir.trajectory import VerifiedIR
 
-MOST = 4
+MOST_PROCESSES = 4
 """Default number of processes; our own emitters have no work for more."""
 
 _PLAIN = re.compile(r"\w(?:[\w .-]{0,126}[\w-])?").fullmatch
@@ -38,7 +38,7 @@ Outcome = Emission | Exception | str
 
 def usual_jobs() -> int:
     """Return the default number of processes: that of usable cores, at most MOST."""
-    return min(MOST, cores()) if sys.platform == "linux" else 1
+    return min(MOST_PROCESSES, cores()) if sys.platform == "linux" else 1
 
 
 class EmitterPool:

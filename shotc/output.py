@@ -53,7 +53,7 @@ SHOWN = (
 TELL_BYTES = 10_000_000
 """Bytes between two progress messages for a large file."""
 
-HEAD = 65536
+HEAD_BYTES = 65536
 """Bytes at the start of a plan.json that are searched for its mission's name."""
 
 
@@ -74,7 +74,7 @@ def _mission_of(plan: Path) -> str | None:
     """Return the mission's name from the first bytes of a plan.json, which for a show has many megabytes."""
     try:
         with plan.open("rb") as stream:
-            head = stream.read(HEAD).decode(errors="replace")
+            head = stream.read(HEAD_BYTES).decode(errors="replace")
     except OSError:
         return None
     found = re.search(r'^  "mission": \{\s*"name": ("(?:[^"\\\n]|\\.)*")', head, re.MULTILINE)

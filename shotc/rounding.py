@@ -2,7 +2,7 @@
 
 from math import ceil, floor, log10
 
-EXACT = 2e-8
+EXACT_SHARE = 2e-8
 """Share of the last digit that counts as rounding error: a number above a decimal by less is that decimal.
 
 It is below the tolerance of checks, a micrometre or microsecond, so the number in a message still passes
@@ -12,12 +12,12 @@ them.
 
 def up(value: float, digits: int = 2) -> float:
     """Return the least number with so many decimals that is not below a value."""
-    return _decimal(ceil(_steps(value, digits) - EXACT), digits)
+    return _decimal(ceil(_steps(value, digits) - EXACT_SHARE), digits)
 
 
 def down(value: float, digits: int = 2) -> float:
     """Return the greatest number with so many decimals that is not above a value."""
-    return _decimal(floor(_steps(value, digits) + EXACT), digits)
+    return _decimal(floor(_steps(value, digits) + EXACT_SHARE), digits)
 
 
 def at_least(value: float, digits: int = 2) -> str:

@@ -115,7 +115,7 @@ ANGULAR: frozenset[Dimension] = frozenset({"angle", "angular rate", "angular acc
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 # Longer text is no quantity; the bound keeps messages and the search for a similar unit short.
-_LONGEST_TEXT = 60
+_LONGEST_TEXT_CHARACTERS = 60
 # A unit starts with a letter or with % ° ': `1,5` and `9**9` are no numbers with units.
 _QUANTITY = re.compile(rf"\s*({NUMBER})\s*((?:[^\W\d_]|[°%'])\S*)?\s*")
 
@@ -223,7 +223,7 @@ def clip(text: str, width: int = 40) -> str:
 
 
 def _parse_text(text: str, dimension: Dimension) -> float:
-    match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
+    match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT_CHARACTERS else None
     if match is None:
         message = f"expected {a(dimension)}, got {describe(text)}"
         raise QuantityError("not-a-quantity", message, _meant_by(text, dimension))
@@ -250,7 +250,7 @@ def _meant_by(text: str, dimension: Dimension) -> str:
     if bearing is not None:
         return f"write `{bearing} deg`"
     point = text.strip().replace(",", ".")
-    if text.count(",") == 1 and len(point) <= _LONGEST_TEXT and _QUANTITY.fullmatch(point):
+    if text.count(",") == 1 and len(point) <= _LONGEST_TEXT_CHARACTERS and _QUANTITY.fullmatch(point):
         return f"decimals have a point: `{point}`"
     return _such_as(dimension)
 

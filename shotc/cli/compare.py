@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from shotc.ir.comparison import Comparison
 
 
-WIDTH = 100
+WIDTH_CHARACTERS = 100
 
 
 class TableFormat(StrEnum):
@@ -166,7 +166,7 @@ def _text(comparison: Comparison, paths: Sequence[Path]) -> Iterator[str]:
     yield from (f"  {line}" for line in table(rows(comparison, seconds=True)))
     yield ""
     for line in (*remarks(comparison), *LEGEND):
-        first, *more = wrap(line, WIDTH - 4, break_long_words=False, break_on_hyphens=False)
+        first, *more = wrap(line, WIDTH_CHARACTERS - 4, break_long_words=False, break_on_hyphens=False)
         yield f"  {first}"
         yield from (f"    {rest}" for rest in more)
     if paths:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # the base install has no numpy
 Old = Annotated[Path, typer.Argument(metavar="OLD", help="A plan.json, or the folder that holds it.")]
 New = Annotated[Path, typer.Argument(metavar="NEW", help="The plan to compare it with.")]
 
-CENTIMETRE = 0.01
+SAME_FLIGHT_M = 0.01
 """Two flights that are nearer than this count as equal; metres."""
 
 
@@ -52,7 +52,7 @@ def _lines(comparison: PlanComparison) -> Iterator[str]:
 def _shot(change: ShotChange) -> tuple[str, ...]:
     apart = "-"
     if change.distance is not None and change.share is not None:
-        same = change.distance < CENTIMETRE
+        same = change.distance < SAME_FLIGHT_M
         apart = "same path" if same else f"{change.distance:.2f} m at {100 * change.share:.0f} %"
     return (change.shot, _seconds(change.start), _seconds(change.duration), apart)
 

@@ -15,10 +15,10 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.emit.base import Artifact
 from shotc.importers.cameras.takes import ImportOptions
-from shotc.importers.flights.names import LARGEST_CLOCKED, suffix_of
+from shotc.importers.flights.names import LARGEST_CLOCKED_BYTES, suffix_of
 from shotc.importers.formats import FORMATS, SHOWS, WHAT
 from shotc.importers.names import safe
-from shotc.importers.xml_tree import LARGEST
+from shotc.importers.xml_tree import LARGEST_BYTES
 from shotc.ir.source import KeptFiles
 from shotc.output import write
 from shotc.source.file import WHOLE_FILE
@@ -105,7 +105,7 @@ def import_(
         return
     asked = ImportOptions(every=every, times=times, fps=fps, ground=ground)
     name = STDIN_NAME if file == STDIN else file
-    made = imported(format, _read(file, LARGEST), name, strict=strict, asked=asked)
+    made = imported(format, _read(file, LARGEST_BYTES), name, strict=strict, asked=asked)
     text = _accepted(made, file, None)
     _save(text, output)
     counts = f"{_counted(made.drones, 'drone')}, {_counted(made.shots, 'shot')}"
@@ -120,7 +120,7 @@ def _import_show(file: str, output: Path | None, *, strict: bool) -> None:
 
     if output is None or output == Path("-") or file == STDIN:
         raise typer.BadParameter("a show takes files beside it: name FILE, and the mission", param_hint="-o")
-    data = _read(file, LARGEST_CLOCKED)
+    data = _read(file, LARGEST_CLOCKED_BYTES)
     there = _inside(Path(file), output.parent)
     named = there or f"{safe(Path(file).stem, 'show')}{suffix_of(file)}"
     show = imported_show(data, file, named, strict=strict)

@@ -23,7 +23,7 @@ from shotc.diag.model import Diagnostic
 from shotc.filenames import file_name
 from shotc.output import write
 from shotc.parallel import cores
-from shotc.spec.presets import RUNS
+from shotc.spec.presets import RUN_COUNT
 
 if TYPE_CHECKING:
     from shotc.ir.trajectory import VerifiedIR
@@ -48,7 +48,11 @@ ReplannerName = Annotated[str, typer.Option("--replanner", metavar="NAME", help=
 Seeds = Annotated[
     int | None,
     typer.Option(
-        "--runs", "--seeds", min=1, metavar="N", help=f"How many runs, each with a seed of its own [{RUNS}]."
+        "--runs",
+        "--seeds",
+        min=1,
+        metavar="N",
+        help=f"How many runs, each with a seed of its own [{RUN_COUNT}].",
     ),
 ]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of the first run; all others follow from it.")]

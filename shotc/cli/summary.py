@@ -21,17 +21,17 @@ from shotc.ir.trajectory import Claim, VerifiedIR
 from shotc.passes.refine_path.account import DONE
 from shotc.passes.verify.ahead import CONSTRAINT as LOOK_AHEAD
 from shotc.passes.verify.ahead import unjudged
-from shotc.passes.verify.energy import ENERGY, J_WH
+from shotc.passes.verify.energy import ENERGY, J_PER_WH
 from shotc.passes.verify.sight import OUT_OF_PICTURE
 from shotc.passes.verify.transits import ENDING as ON_TRANSITS
 from shotc.planning.path.unwrapping import TURNS
 from shotc.rounding import as_minutes, at_least, at_most, away
 
-WIDTH = 100
+WIDTH_CHARACTERS = 100
 GLUE = "\N{NO-BREAK SPACE}"
 APART = "separation from "
 REFINED = ".refined"
-NOTHING = 1e-6
+NO_MOTION_SHARE = 1e-6
 """In the unit of a limit: a smaller value is rounding, and is shown as 0."""
 WHOLE = percent(1.0)
 LIMITS = (
@@ -140,7 +140,7 @@ def _energy(plan: VerifiedIR) -> Iterator[str]:
     for whole in (claim for claim in claims if claim.shot is None):
         power = plan.trajectory.keyframes.mission.drone(whole.subject).power
         assert power is not None
-        full = power.battery / J_WH
+        full = power.battery / J_PER_WH
         shots = (c for c in claims if c.subject == whole.subject and c.shot is not None)
         parts = [f"{c.shot} {at_least(c.worst)} Wh" for c in shots]
         left = f"{at_most(100 * (1 - whole.worst / full), 0)} % left at landing"
@@ -195,7 +195,7 @@ def _used(certificate: Iterable[Claim]) -> list[str]:
 
 def _used_up(value: float) -> str:
     """Return the used part of a limit with three digits, rounded up."""
-    return f"{away(value, upper=True, digits=3):.3g}" if value > NOTHING else "0"
+    return f"{away(value, upper=True, digits=3):.3g}" if value > NO_MOTION_SHARE else "0"
 
 
 def _closest(claims: Sequence[Claim]) -> list[str]:
@@ -228,7 +228,7 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
     near = min(passed, key=lambda c: c.worst - c.limit)
     drone = f" of {near.subject}" if len({c.subject for c in claims}) > 1 else ""
     name = near.constraint.removesuffix(ON_TRANSITS) + drone
-    if abs(near.worst - near.limit) < NOTHING:
+    if abs(near.worst - near.limit) < NO_MOTION_SHARE:
         return [f"as near as a shot begins or ends to {name}, then {near.limit:.2f} m"]
     when = "" if near.time is None else f" at {as_minutes(near.time)}"
     return [f"{at_most(near.worst)} m from {name}{when}, {near.limit:.2f} m asked"]
@@ -305,7 +305,7 @@ def _files(paths: Sequence[Path]) -> list[str]:
 
 def _paragraph(name: str, text: str) -> list[str]:
     """Wrap the text of a fact after its name. Words joined by GLUE stay on one line."""
-    lines = wrap(text, WIDTH - 12, break_long_words=False, break_on_hyphens=False)
+    lines = wrap(text, WIDTH_CHARACTERS - 12, break_long_words=False, break_on_hyphens=False)
     return [f"{name if i == 0 else '':<9} {line.replace(GLUE, ' ')}" for i, line in enumerate(lines)]
 
 

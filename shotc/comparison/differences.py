@@ -17,7 +17,7 @@ from shotc.ir.comparison import ComparedShot, Condition, ShotDifference
 from shotc.ir.path import CAM_PITCH, CAM_YAW
 from shotc.ir.trajectory import VerifiedIR
 
-STAGES = 500
+STAGE_COUNT = 500
 """Intervals of a shot, at whose ends two conditions are compared."""
 
 
@@ -42,7 +42,7 @@ def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) 
         metres = np.linalg.norm(here[:, :3] - then[:, :3], axis=1)
         degrees = np.degrees(turned(here[:, 3:], then[:, 3:]))
         k = int(np.argmax(metres + degrees))
-        share = k / STAGES
+        share = k / STAGE_COUNT
         yield ShotDifference(
             shot=shot.id,
             condition=one[0].name,
@@ -58,7 +58,7 @@ def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) 
 def _poses(plan: VerifiedIR, shot: ComparedShot) -> Array:
     """Return x, y, z, yaw and pitch of a camera at uniform times of a shot, shape (STAGES + 1, 5)."""
     (track,) = (track for track in plan.trajectory.drones if track.drone == shot.drone)
-    pose = track.curve(np.linspace(shot.start, shot.end, STAGES + 1))
+    pose = track.curve(np.linspace(shot.start, shot.end, STAGE_COUNT + 1))
     return np.asarray(pose[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])
 
 

@@ -27,7 +27,7 @@ from shotc.passes.verify.claims import JudgedFlight
 from shotc.passes.verify.framing import view_of
 from shotc.planning.clock.ideals import ideal_places
 
-MOST = 0.95
+PERCENTILE_SHARE = 0.95
 PLACES_HZ = 10.0  # Hz of the camera positions that are compared with the ideal
 STILL = MotionMeasures(0.0, 0.0, 0.0, 0.0, 0.0)
 ROUNDS = "refine_rounds"
@@ -69,7 +69,7 @@ def score(traces: Sequence[Trace], motion: MotionMeasures) -> Score:
     return Score(
         frames=len(margin),
         error_mean=float(error.mean()) if count else None,
-        error_p95=float(error[int(np.ceil(MOST * count)) - 1]) if count else None,
+        error_p95=float(error[int(np.ceil(PERCENTILE_SHARE * count)) - 1]) if count else None,
         error_worst=float(error[-1]) if count else None,
         in_frame=float((margin >= -ROUNDING_M).mean()) if len(margin) else None,
         in_frame_four_points=float(points.mean()) if len(points) else None,

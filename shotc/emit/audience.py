@@ -19,16 +19,16 @@ from shotc.ir.trajectory import VerifiedIR
 ASPECT = 16 / 9
 """Width over height of the audience's view."""
 
-EYE = 1.7
+EYE_HEIGHT_M = 1.7
 """Metres above the ground of an audience without a viewpoint in the mission."""
 
-AWAY = 2.2
+DISTANCE_RATIO = 2.2
 """Distance of such an audience from the middle of the show, in radii of the show."""
 
-BORDER = 1.2
+BORDER_RATIO = 1.2
 """Width of the view over the width of the show."""
 
-MOMENTS = 40
+SAMPLED_TIMES = 40
 """Samples over a display's time, from which its extent is measured."""
 
 NARROWEST, WIDEST = np.radians(12.0), np.radians(120.0)
@@ -71,7 +71,7 @@ def audience(plan: VerifiedIR, display: Display, aspect: float, before: tuple[fl
     eye = display.viewpoint
     if eye is None:
         reach = float(np.linalg.norm(high - low)) / 2.0
-        eye = (float(middle[0]), float(middle[1]) - AWAY * max(reach, 5.0), ground + EYE)
+        eye = (float(middle[0]), float(middle[1]) - DISTANCE_RATIO * max(reach, 5.0), ground + EYE_HEIGHT_M)
     placed = display.viewpoint is not None
     flight = flight_of(plan, display.fleet)
     there = places(flight.breaks, flight.coef, np.array(before)).reshape(-1, 3)
@@ -91,7 +91,7 @@ def _looking(eye: Vec3, cloud: Array, aspect: float, *, placed: bool) -> Audienc
         across, up = right / ahead, -down / ahead
         yaw -= atan((across.max() + across.min()) / 2.0)
         pitch += atan((up.max() + up.min()) / 2.0)
-    half = BORDER * max(float(np.abs(across).max()), aspect * float(np.abs(up).max()))
+    half = BORDER_RATIO * max(float(np.abs(across).max()), aspect * float(np.abs(up).max()))
     hfov = float(np.clip(2.0 * atan(half), NARROWEST, WIDEST))
     return Audience(eye, yaw, pitch, hfov, placed)
 
@@ -101,7 +101,7 @@ def _cloud(plan: VerifiedIR, display: Display) -> Array:
     flight = flight_of(plan, display.fleet)
     span = [(p.start, p.end) for p in flight.phases if p.shot == display.id]
     start, end = (span[0][0], span[-1][1]) if span else (flight.breaks[0], flight.breaks[-1])
-    return places(flight.breaks, flight.coef, np.linspace(start, end, MOMENTS)).reshape(-1, 3)
+    return places(flight.breaks, flight.coef, np.linspace(start, end, SAMPLED_TIMES)).reshape(-1, 3)
 
 
 def flight_of(plan: VerifiedIR, fleet: str) -> FleetTrajectory:

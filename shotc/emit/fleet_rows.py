@@ -19,12 +19,12 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.mission import MissionIR
 from shotc.ir.sampling import clock, phase_index
 from shotc.ir.show import drone_names
-from shotc.spec.presets import SHOW_RATE
+from shotc.spec.presets import SHOW_RATE_HZ
 
-NORTH = pi / 2
+NORTH_RAD = pi / 2
 """Yaw of every body, rad counter-clockwise from East."""
 
-BATCH = 250
+BATCH_DRONES = 250
 """Drones that are evaluated in one batch."""
 
 _NAME = "\0"
@@ -35,8 +35,8 @@ def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str
     t = clock(fleet_rate(mission), float(track.breaks[-1]))
     names = drone_names(mission.fleet(track.fleet))
     form = _form(mission, track, t)
-    for first in range(0, len(names), BATCH):
-        some = slice(first, first + BATCH)
+    for first in range(0, len(names), BATCH_DRONES):
+        some = slice(first, first + BATCH_DRONES)
         numbers = _numbers(mission, track, (track.coef[some], t))
         values = np.concatenate([numbers + 0.0, light_colors(track, t, some)], axis=2)  # no negative zeros
         for name, rows in zip(names[some], values, strict=True):
@@ -46,7 +46,7 @@ def fleet_rows(mission: MissionIR, track: FleetTrajectory) -> Iterator[tuple[str
 def fleet_rate(mission: MissionIR) -> float:
     """Return the rows a second for a drone of a fleet."""
     # A mission with cameras asks for one row a frame; with many drones the file would be too large to open.
-    return min(mission.rate, SHOW_RATE) if mission.shots else mission.rate
+    return min(mission.rate, SHOW_RATE_HZ) if mission.shots else mission.rate
 
 
 def _form(mission: MissionIR, track: FleetTrajectory, t: Array) -> str:
@@ -54,7 +54,7 @@ def _form(mission: MissionIR, track: FleetTrajectory, t: Array) -> str:
     earth = [DEGREES, DEGREES, NUMBER] if mission.origin is not None else []
     camera = [""] * 5
     unknown = [""] * 4 if mission.drones else []  # columns that only filming drones have
-    numbers = ",".join([*[NUMBER] * 9, NUMBER % NORTH, *camera, *earth, "%d", "%d", "%d", *unknown])
+    numbers = ",".join([*[NUMBER] * 9, NUMBER % NORTH_RAD, *camera, *earth, "%d", "%d", "%d", *unknown])
     whats = [_plain(f"{phase.name},{phase.shot or ''}") for phase in track.phases]
     return "\n".join(
         f"{NUMBER % time},{_NAME},{whats[k]},{numbers}"

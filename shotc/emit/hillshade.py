@@ -12,7 +12,7 @@ from shotc.geom.surface.sight import lines_hidden
 LIGHT = np.array([-0.5, 0.5, np.sqrt(0.5)])
 """Direction to the light of a hillshade in W: from the north-west at 45 degrees, as on maps."""
 
-CONTRAST = 0.9
+CONTRAST_SHARE = 0.9
 """Change of lightness of a slope that turns towards the light or away from it."""
 
 ROOM_M = 0.05
@@ -28,7 +28,7 @@ def hillshade(normals: Array) -> Array:
     """
     size = np.linalg.norm(normals, axis=-1)
     facing = normals @ LIGHT / np.where(size > 0.0, size, 1.0)
-    return np.asarray(np.clip(1.0 + CONTRAST * (facing - LIGHT[2]), 0.45, 1.3))
+    return np.asarray(np.clip(1.0 + CONTRAST_SHARE * (facing - LIGHT[2]), 0.45, 1.3))
 
 
 def shades(color: Array, light: Array) -> Array:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid, triangles
 
-SIDES = 48
-LIGHT = np.radians(215.0)
+POLYGON_SIDES = 48
+LIGHT_RAD = np.radians(215.0)
 """Direction to the light, an angle in W, rad."""
 
 
@@ -29,10 +29,10 @@ def solid_mesh(solid: Solid) -> ShadedMesh:
     Faces share no vertices, so that each face has its own lightness.
     """
     if isinstance(solid, Cylinder):
-        turn = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)
+        turn = np.linspace(0, 2 * np.pi, POLYGON_SIDES, endpoint=False)
         ring = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
         corner = np.array(solid.centre) + solid.radius * ring
-        lids = [(corner[0], corner[i], corner[i + 1]) for i in range(1, SIDES - 1)]
+        lids = [(corner[0], corner[i], corner[i + 1]) for i in range(1, POLYGON_SIDES - 1)]
     else:
         corner = np.array(solid.points)
         lids = [(np.array(a), np.array(b), np.array(c)) for a, b, c in triangles(solid.points)]
@@ -43,7 +43,7 @@ def solid_mesh(solid: Solid) -> ShadedMesh:
         quad = [np.concatenate(v) for v in ((a, low), (b, low), (b, high), (a, high))]
         points += [quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]]
         outward = np.arctan2(a[0] - b[0], b[1] - a[1])
-        light += [0.95 + 0.3 * float(np.cos(outward - LIGHT))] * 6
+        light += [0.95 + 0.3 * float(np.cos(outward - LIGHT_RAD))] * 6
     for a, b, c in lids:
         points += [np.concatenate((v, high)) for v in (a, b, c)]
         light += [1.4] * 3

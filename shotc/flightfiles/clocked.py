@@ -32,7 +32,7 @@ from shotc.ir.mission import GeoOrigin
 
 UPRIGHT_M = 0.1
 """Metres from the vertical over its pad, within which a drone counts as taking off or landing."""
-PARTS = 64
+PIECE_PARTS = 64
 """Parts of the piece on which a drone leaves the vertical, one of which ends its take-off."""
 SAMPLED_ROWS = 500
 """Most rows whose digits are counted."""
@@ -164,7 +164,7 @@ def _first_beyond(breaks: Array, ctrl: Array, pad: Array) -> float:
     if not beyond.any():
         return float(breaks[-1])
     k = int(np.argmax(beyond))
-    share = np.linspace(0.0, 1.0, PARTS + 1)
+    share = np.linspace(0.0, 1.0, PIECE_PARTS + 1)
     inside = norm(bernstein_basis(ctrl.shape[1] - 1, share) @ ctrl[k][:, :2] - pad[:2]) <= UPRIGHT_M
-    count = max(int(np.argmin(inside)) - 1, 0) if not inside.all() else PARTS
-    return float(breaks[k] + (breaks[k + 1] - breaks[k]) * count / PARTS)
+    count = max(int(np.argmin(inside)) - 1, 0) if not inside.all() else PIECE_PARTS
+    return float(breaks[k] + (breaks[k + 1] - breaks[k]) * count / PIECE_PARTS)

@@ -28,7 +28,7 @@ from shotc.passes.verify.sight import sights
 from shotc.passes.verify.space import space
 from shotc.passes.verify.transits import transits
 
-MOST_PAIRWISE = 10
+MOST_PAIRWISE_DRONES = 10
 """Most drones for which every pair has a claim of its own; with more only the nearest pair has one."""
 
 
@@ -55,10 +55,10 @@ def judged(
         for own in claims:
             yield placed(flown, own)
     found = [each.track for each in tracks]
-    if 1 < len(found) <= MOST_PAIRWISE:
+    if 1 < len(found) <= MOST_PAIRWISE_DRONES:
         for own in separation(present[: len(found)], []):
             yield placed(named[own.subject], own)
-    elif len(found) > MOST_PAIRWISE:
+    elif len(found) > MOST_PAIRWISE_DRONES:
         yield _nearest(mission.rules.separation, flights)
     looking = {each.track.drone for each in tracks if each.looks}
     for own in sights(present):

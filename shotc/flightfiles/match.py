@@ -20,7 +20,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet, drone_names
 from shotc.source.file import WHOLE_FILE
 
-MOST_NAMED = 5
+MOST_NAMED_DRONES = 5
 """Most drones that are named in a message."""
 ON_PAD_M = 1.0
 """Metres from a pad, within which a drone of a show stands on it."""
@@ -121,7 +121,7 @@ def named(
         if flight.name not in pads:
             label = flight.at(0.0)._replace(text="")
             faults.append(
-                _nobody(flight.file, flight.name, list(pads)[:MOST_NAMED])._replace(labels=(label,))
+                _nobody(flight.file, flight.name, list(pads)[:MOST_NAMED_DRONES])._replace(labels=(label,))
             )
         elif (away := _away(flight, pads[flight.name])) is not None:
             faults.append(away)
@@ -132,7 +132,7 @@ def named(
             found[flight.name] = flight
     if not faults:
         faults += [fault for fleet in mission.fleets if (fault := _incomplete(fleet, found)) is not None]
-    return found, tuple(faults[:MOST_NAMED])
+    return found, tuple(faults[:MOST_NAMED_DRONES])
 
 
 def _away(flight: ClockedFlight, pad: Vec3) -> Diagnostic | None:
@@ -167,8 +167,8 @@ def _incomplete(fleet: Fleet, found: dict[str, ClockedFlight]) -> Diagnostic | N
     if not missing or len(missing) == len(fleet.pads):
         return None
     count = len(fleet.pads) - len(missing)
-    some = ", ".join(f"`{name}`" for name in missing[:MOST_NAMED])
-    more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
+    some = ", ".join(f"`{name}`" for name in missing[:MOST_NAMED_DRONES])
+    more = f" and {len(missing) - MOST_NAMED_DRONES} more" if len(missing) > MOST_NAMED_DRONES else ""
     file = next(flight.file for name, flight in found.items() if name in drone_names(fleet))
     return Diagnostic(
         NOBODY,

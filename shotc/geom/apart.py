@@ -10,7 +10,7 @@ as near as the separation.
 from math import sqrt
 from typing import Protocol
 
-ROOMIER = 1.001
+ROUNDING_RATIO = 1.001
 """Factor of the goals' spacing over the separation, as a reserve for rounding in moves."""
 
 SLACK_SHARE = 1e-6
@@ -51,7 +51,7 @@ def ball(apart: Distances) -> float:
 
 def spacing(apart: Distances) -> float:
     """Return the least distance of two goals of one formation, in the fleet's metric, metres."""
-    return ROOMIER * apart.across
+    return ROUNDING_RATIO * apart.across
 
 
 def straight_spacing(apart: Distances) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 if TYPE_CHECKING:
     from shotc.geom.bernstein import Array
 
-PEAK = 15.0 / 8.0
+PEAK_SPEED_RATIO = 15.0 / 8.0
 """Peak speed of the minimum-jerk step over its mean speed."""
 
 MOST_PARTS = 40
@@ -32,7 +32,7 @@ def parts_of(room: float) -> int | None:
     The speed rises in the first part, falls in the last, and is constant between: n / (n - 1) of the mean.
     One part means the minimum-jerk step.
     """
-    if room >= PEAK:
+    if room >= PEAK_SPEED_RATIO:
         return 1
     parts = ceil(room / (room - 1.0)) if room > 1.0 else inf
     return int(parts) if parts <= MOST_PARTS else None

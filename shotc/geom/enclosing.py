@@ -15,16 +15,16 @@ from shotc.geom.shapes import BodyShape, BoxShape, CylinderShape
 from shotc.geom.solids import convex_hull, edges, signed_area
 from shotc.geom.vec import Vec2, Vec3
 
-FILLED = 0.8
+FILLED_SHARE = 0.8
 """Least share of its body's base that a ring fills; a ring with less is cut."""
-GAIN = 0.12
+GAIN_SHARE = 0.12
 """Least share of a base that a cut removes."""
 ON_M = 1e-6
 """Distance from a cut up to which a corner is on it, metres."""
 MOST_CUTS = 40  # cuts that are tried along one axis of a ring
 MOST_TURNS = 90  # directions of sides that are tried for rectangles
 MOST_PIECES = 6  # of one ring
-SAME = 1.02
+SAME_VOLUME_RATIO = 1.02
 """Largest volume of a box around two bodies, over theirs, at which they are joined."""
 
 Ring = tuple[Vec2, ...]
@@ -115,11 +115,11 @@ def _reach(points: Sequence[Vec2], axis: Vec2) -> Vec2:
 def _cut(ring: Ring, most: int) -> list[Ring]:
     """Return pieces of a ring that fill their bases, or that no cut improves."""
     base = _base(ring)
-    if most < 2 or abs(signed_area(ring)) >= FILLED * base.area:
+    if most < 2 or abs(signed_area(ring)) >= FILLED_SHARE * base.area:
         return [ring]
     axes = (base.ahead, (-base.ahead[1], base.ahead[0]))
     halves = min(_halved(ring, axes), key=lambda two: sum(_extent(half, axes) for half in two), default=None)
-    if halves is None or sum(_extent(half, axes) for half in halves) > (1.0 - GAIN) * base.area:
+    if halves is None or sum(_extent(half, axes) for half in halves) > (1.0 - GAIN_SHARE) * base.area:
         return [ring]
     a, b = halves
     first = _cut(a, most - 1)
@@ -187,7 +187,7 @@ def _one_box(found: list[_Aligned]) -> Iterator[tuple[int, int]]:
     for j in range(len(found)):
         for i in range(j):
             both = found[i].volume + found[j].volume - _common(found[i], found[j])
-            if _joined(found[i], found[j]).volume <= SAME * both:
+            if _joined(found[i], found[j]).volume <= SAME_VOLUME_RATIO * both:
                 yield i, j
 
 

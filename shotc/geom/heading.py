@@ -16,10 +16,10 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask, Pieces
-from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, ProvedExtreme, norm
+from shotc.geom.proof import MOST_HALVINGS, OPEN_PIECES_LIMIT, ProvedExtreme, norm
 from shotc.geom.vec import wrapped
 
-_NONE = 1e-12
+_NO_LENGTH = 1e-12
 
 
 class _Motion(NamedTuple):
@@ -47,7 +47,7 @@ def sup_off_course(pieces: Pieces, slow: float, gap: Callable[[float], float]) -
     velocity, heading = pieces.channels(0, 1).derivative(), pieces.channels(2)
     motion = _Motion(velocity, velocity.derivative(), heading, heading.derivative())
     best, at, closed, rest = -np.inf, 0.0, -np.inf, -np.inf
-    for _ in range(ROUNDS):
+    for _ in range(MOST_HALVINGS):
         motion = motion.pick(norm(motion.velocity.ctrl).max(axis=1) > slow)
         if not len(motion.velocity):
             rest = -np.inf
@@ -83,7 +83,7 @@ def _bounds(motion: _Motion) -> tuple[Array, Array]:
     cross = v[:, :, None, 0] * a[:, None, :, 1] - v[:, :, None, 1] * a[:, None, :, 0]
     least, most = along.min(axis=1) ** 2, (norm(v) ** 2).max(axis=1)
     quotients = np.stack([cross.min(axis=(1, 2)), cross.max(axis=(1, 2))])[:, None] / np.maximum(
-        np.stack([least, most]), _NONE
+        np.stack([least, most]), _NO_LENGTH
     )
     rate = motion.rate.ctrl[:, :, 0]
     fastest = np.maximum(

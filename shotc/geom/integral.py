@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.pieces import Pieces
 from shotc.geom.proof import Value
 
-ROUNDS = 12
+MOST_HALVINGS = 12
 """Most halvings; each divides the gap by four."""
 
 
@@ -30,7 +30,7 @@ def integral_convex(pieces: Pieces, value: Value, share: float) -> Between:
     value at their mean.
     """
     low, high = 0.0, 0.0
-    for left in range(ROUNDS, -1, -1):
+    for left in range(MOST_HALVINGS, -1, -1):
         if not len(pieces):
             break
         widths = pieces.high - pieces.low

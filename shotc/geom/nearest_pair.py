@@ -21,7 +21,7 @@ Index = NDArray[np.intp]
 GAP_M = 5e-7
 """Admissible difference of the proved bound and an attained value; relative above one metre."""
 
-ROUNDS = 60
+MOST_HALVINGS = 60
 """Most halvings of an interval, as in ``geom.proof``."""
 
 OPEN_INTERVALS_LIMIT = 200_000
@@ -72,7 +72,7 @@ class NearestPair:
 
     def close(self, bag: PairMotions) -> None:
         """Halve intervals until none can contain a smaller distance than the least one found."""
-        for _ in range(ROUNDS):
+        for _ in range(MOST_HALVINGS):
             if not len(bag.ends):
                 return
             sizes = self.size(midway(bag.ctrl))

@@ -26,9 +26,9 @@ from shotc.geom.surface.tree import Pairs, Surface
 from shotc.geom.surface.triangles import cross
 from shotc.geom.vec import Vec3
 
-CELLS = 12
+CELLS_PER_SIDE = 12
 """Cells on a side; the mean error of a partly covered share is 0.01."""
-RIM = 12
+RIM_POINTS = 12
 """Points on each rim of a cylinder for the rectangle around its outline."""
 LEAST_DEPTH_SHARE = 0.05
 """Least depth in the projection of an outline, as a share of the distance to the target's centre."""
@@ -84,7 +84,8 @@ def outline_boards(shape: TargetShape, centre: Vec3, eyes: Array) -> OutlineBoar
     """Return the rectangles around the outlines, from eyes (F, 3), of a shape at a centre, metres."""
     bodies, middle = bodies_of(shape), np.array(centre)
     contour = np.concatenate(
-        [shape_contour(middle + np.array(body.offset) - eyes, body.shape, RIM) for body in bodies], axis=1
+        [shape_contour(middle + np.array(body.offset) - eyes, body.shape, RIM_POINTS) for body in bodies],
+        axis=1,
     )
     # Cells lie in the plane of the centre. This distance is certainly beyond the target.
     size = np.linalg.norm(contour - (middle - eyes)[:, None], axis=2).max(axis=1)
@@ -92,7 +93,7 @@ def outline_boards(shape: TargetShape, centre: Vec3, eyes: Array) -> OutlineBoar
     return OutlineBoards(_holding(eyes, middle, contour), through)
 
 
-def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards, n: int = CELLS) -> OutlineRays:
+def outline_rays(shape: TargetShape, centre: Vec3, on: OutlineBoards, n: int = CELLS_PER_SIDE) -> OutlineRays:
     """Return the rays to the outline of a shape at a centre, metres; on : the rectangles around it."""
     boards = on.boards
     eyes = np.repeat(boards.eye, n * n, axis=0)

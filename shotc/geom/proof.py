@@ -24,7 +24,7 @@ from shotc.geom.solid_arrays.points import FAR_M, heights, separation, signed_di
 from shotc.geom.solids import Cylinder, Prism, Solid, convex_parts, hull_and_pockets
 from shotc.geom.taper import Taper
 
-ROUNDS = 60
+MOST_HALVINGS = 60
 """Most halvings of a piece; an interval of an hour is then shorter than a nanosecond."""
 
 OPEN_PIECES_LIMIT = 200_000
@@ -56,7 +56,7 @@ def sup_convex(pieces: Pieces, value: Value, gap: Callable[[float], float]) -> P
     """
     best, at, closed = -np.inf, 0.0, -np.inf
     rest = -np.inf
-    for _ in range(ROUNDS):
+    for _ in range(MOST_HALVINGS):
         if not len(pieces):
             break
         values = value(pieces.ctrl)
@@ -132,7 +132,7 @@ def _from_all(solid: Solid, of: Callable[[Pieces, Solid], tuple[Array, Array]]) 
 def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> ProvedExtreme:
     best, at, closed = np.inf, 0.0, np.inf
     rest = np.inf
-    for _ in range(ROUNDS):
+    for _ in range(MOST_HALVINGS):
         if not len(pieces):
             break
         lower, distance = near(pieces)

@@ -12,7 +12,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 
-SLOPE = 0.5
+TAPER_SLOPE = 0.5
 """Growth of the clearance per metre from an end of a way.
 
 The distance from a solid grows by 1 per metre straight away from it and by 0 to the side. So a drone departs

@@ -25,12 +25,12 @@ def minus(a: Vec3, b: Vec3) -> Vec3:
 
 A = TypeVar("A", float, "Array")
 
-TURN = 2 * pi
+TURN_RAD = 2 * pi
 
 
 def wrapped(angle: A) -> A:
     """Return the equivalent angle in [-pi, pi), rad; half a turn becomes -pi."""
-    return (angle + pi) % TURN - pi
+    return (angle + pi) % TURN_RAD - pi
 
 
 def direction(angle: float) -> float:

@@ -18,7 +18,7 @@ from shotc.geom.shapes import TargetShape
 from shotc.geom.vec import Vec2, Vec3, minus
 
 FAR_M = 1e5  # metres, the largest distance of a camera
-HALVINGS = 60
+MOST_HALVINGS = 60
 HARD_WEIGHT = 10.0  # weight of hard requirements
 NEAR_WEIGHT = 0.3  # weight of the preferred pose: an error of a tenth of the distance costs 0.03 half frames
 FAINT_WEIGHT = 0.01  # weight of free values, which stay as they are, and of a level view
@@ -126,7 +126,7 @@ def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
     ``near``.
     """
     low, high = 0.0, wanted.shape.radius + wanted.shape.height + near + 1.0
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
         closer = wanted.shape.gap(_times(toward, middle)) < near
         low, high = (middle, high) if closer else (low, middle)
@@ -136,7 +136,7 @@ def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
 def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float:
     """Return the distance along a unit vector from which a subject has a size; 0 if it is always smaller."""
     low, high = 1e-3, FAR_M
-    for _ in range(HALVINGS + 20):
+    for _ in range(MOST_HALVINGS + 20):
         middle = sqrt(low * high)
         if size_from(wanted, lens, _times(toward, middle)) > size:
             low = middle
@@ -153,7 +153,7 @@ def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | N
     sized = [size_from(wanted, lens._replace(hfov=h), offset) for h in (low, high)]
     if not sized[1] <= size <= sized[0]:
         return None
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
         if size_from(wanted, lens._replace(hfov=middle), offset) > size:
             low = middle

@@ -12,9 +12,9 @@ from shotc.geom.bernstein import Array, bernstein_basis
 from shotc.geom.pieces import Pieces
 from shotc.geom.proof import norm
 
-SAMPLES = 9
+SAMPLES_PER_PIECE = 9
 """Samples of a piece for the first search of the nearest points."""
-ROUNDS = 40
+MOST_HALVINGS = 40
 OPEN_PAIRS_LIMIT = 100_000
 """Most pairs of pieces that are halved together; beyond it the bound stays proven but does not get
 tighter."""
@@ -41,7 +41,7 @@ def nearest(one: Pieces, other: Pieces, gap: Callable[[float], float]) -> CurveD
     best, at = _sampled(one, other)
     pairs = _near(one, other, best)
     closed, rest = np.inf, np.inf
-    for _ in range(ROUNDS):
+    for _ in range(MOST_HALVINGS):
         if not len(pairs[0]):
             break
         first, second = one.ctrl[pairs[0]], other.ctrl[pairs[1]]
@@ -67,7 +67,7 @@ _Pairs = tuple[np.ndarray, np.ndarray]
 
 
 def _sampled(one: Pieces, other: Pieces) -> tuple[float, tuple[float, float]]:
-    share = np.linspace(0.0, 1.0, SAMPLES)
+    share = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE)
     places = [
         np.einsum("tk,mkd->mtd", bernstein_basis(bag.ctrl.shape[1] - 1, share), bag.ctrl).reshape(-1, 3)
         for bag in (one, other)

@@ -12,7 +12,7 @@ from shotc.identify.clusters import LOOSE, Points
 from shotc.identify.cylinders import Upright
 from shotc.identify.views import CameraPose
 
-MIDDLE = 0.5
+MIDDLE_DEVIATION_SHARE = 0.5
 """Standard deviation of the rays' weights about the middle of their box, in its half sides."""
 LEAST_LINES = 3
 """Least columns and rows of rays that hit the chosen cluster; fewer hit only the edge of a neighbour."""
@@ -46,7 +46,7 @@ def by_own_rays(points: Points, cluster: IntArray, keyframe: int) -> Choice | No
     count = int(cluster.max()) + 1
     square = (points.place[within] ** 2).sum(axis=1)
     # The least square is subtracted, so that not all weights underflow far from the middle.
-    weight = np.exp(-(square - square.min()) / (2.0 * MIDDLE**2))
+    weight = np.exp(-(square - square.min()) / (2.0 * MIDDLE_DEVIATION_SHARE**2))
     weights = np.bincount(cluster[within], weight, count)
     inside, all_of_it = (np.bincount(cluster[which], minlength=count) for which in (within, mine))
     total = weights * inside / np.maximum(all_of_it, 1)

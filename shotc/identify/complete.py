@@ -12,7 +12,7 @@ from shotc.geom.camera import ScreenBox
 from shotc.identify.views import CameraPose
 from shotc.ir.mission import MissionIR
 
-MARGIN = 1.5
+MARGIN_HALF_SIDES = 1.5
 """Size of a box, in its half sides, inside which a body lies if the box is drawn around it."""
 LEAST_SHARE = 0.02
 """Least share of a target's points on a body that belongs to it."""
@@ -53,4 +53,4 @@ def _within(corners: Array, camera: CameraPose, box: ScreenBox) -> bool:
     off = np.maximum(
         np.abs(u - 0.5 * (box.u_min + box.u_max)) / across, np.abs(v - 0.5 * (box.v_min + box.v_max)) / up
     )
-    return bool((off <= MARGIN).all())
+    return bool((off <= MARGIN_HALF_SIDES).all())

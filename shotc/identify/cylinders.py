@@ -12,7 +12,7 @@ from shotc.geom.vec import Vec2
 
 TO_GROUND_M = 3.0
 """Height above ground, metres, below which visible points are taken to reach the ground."""
-ROUNDING = 1.0 + 1e-9
+ROUNDING_RATIO = 1.0 + 1e-9
 
 
 class Circle(NamedTuple):
@@ -23,7 +23,7 @@ class Circle(NamedTuple):
 
     def holds(self, point: Array) -> bool:
         """Return whether a point (2,) is inside, up to rounding."""
-        return bool(np.hypot(*(point - self.centre)) <= self.radius * ROUNDING + 1e-12)
+        return bool(np.hypot(*(point - self.centre)) <= self.radius * ROUNDING_RATIO + 1e-12)
 
 
 class Upright(NamedTuple):
@@ -76,7 +76,7 @@ def printed(points: Array, ground: float) -> Upright:
 def outside(circle: Upright, points: Array) -> float:
     """Return the share of points (P, 3) that are farther from a cylinder's axis than its radius."""
     away = np.hypot(points[:, 0] - circle.centre[0], points[:, 1] - circle.centre[1])
-    return float(np.mean(away > circle.radius * ROUNDING + 1e-9))
+    return float(np.mean(away > circle.radius * ROUNDING_RATIO + 1e-9))
 
 
 def _upright(circle: Circle, points: Array, ground: float) -> Upright:

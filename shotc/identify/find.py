@@ -28,8 +28,8 @@ BOX_RAYS, RAYS = 32, 56
 """Rays along each side of a box, and of the larger box that is examined. The surroundings of a box show how
 much of an object is inside it.
 """
-GROWN = RAYS / BOX_RAYS
-SLACK = 1.3
+GROWN_RATIO = RAYS / BOX_RAYS
+SLACK_HALF_SIDES = 1.3
 """Size of a box, in its half sides, inside which points shape the cylinder; it is above 1 because users draw
 boxes by hand.
 """
@@ -110,7 +110,7 @@ def _target(
     choices, cluster = meant
     numbers = tuple(i for i, choice in enumerate(choices) if choice is not None and choice.cluster == cluster)
     mine = (made.cluster == cluster) & np.isin(made.points.keyframe, numbers)
-    shaping = mine & made.points.within(SLACK)
+    shaping = mine & made.points.within(SLACK_HALF_SIDES)
     hit = (made.hit[0][mine], made.hit[1][mine])
     behind = hidden_corners(mission, hit, [glances[i] for i in numbers])
     cylinder = cylinder_about(mission, np.concatenate([made.points.point[shaping], behind]))
@@ -135,13 +135,13 @@ def cluster_glances(mission: MissionIR, glances: Sequence[Glance]) -> Clustered:
 def _grown(box: ScreenBox) -> ScreenBox:
     """Return a box enlarged to the extent of the rays."""
     u, v = 0.5 * (box.u_min + box.u_max), 0.5 * (box.v_min + box.v_max)
-    du, dv = 0.5 * GROWN * (box.u_max - box.u_min), 0.5 * GROWN * (box.v_max - box.v_min)
+    du, dv = 0.5 * GROWN_RATIO * (box.u_max - box.u_min), 0.5 * GROWN_RATIO * (box.v_max - box.v_min)
     return ScreenBox(u - du, u + du, v - dv, v + dv)
 
 
 def _points(mission: MissionIR, seen: Sequence[RayHits]) -> Points:
     owner, foot = _owned(mission, seen)
-    middle = ((np.arange(RAYS) + 0.5) / RAYS * 2.0 - 1.0) * GROWN
+    middle = ((np.arange(RAYS) + 0.5) / RAYS * 2.0 - 1.0) * GROWN_RATIO
     v, u = np.meshgrid(middle, middle, indexing="ij")
     place = np.stack([u, v], axis=-1)
     return Points(

@@ -36,7 +36,7 @@ from shotc.source.file import SourceFile
 from shotc.spec.load import load
 
 UNFIT = re.compile(r"[^A-Za-z0-9_-]+")
-LONGEST = 60
+LONGEST_NAME_CHARACTERS = 60
 """Characters of a target's name, which leave room for a number behind it."""
 
 
@@ -171,7 +171,7 @@ def _names(mission: MissionIR, found: SearchResult) -> list[str]:
     taken = {target.name for target in (*mission.targets, *mission.groups)}
     names: list[str] = []
     for target in found.targets:
-        own = UNFIT.sub("-", target.name or "").strip("-_")[:LONGEST].strip("-_")
+        own = UNFIT.sub("-", target.name or "").strip("-_")[:LONGEST_NAME_CHARACTERS].strip("-_")
         numbered = (f"{own or 'target'}-{n}" for n in range(2 if own else 1, 10_000))
         name = next(n for n in chain([own] if own else [], numbered) if n not in taken)
         taken.add(name)

@@ -10,7 +10,7 @@ from shotc.identify.views import FRAME, TILE_RAYS, CameraPose, look
 from shotc.identify.views import GROUND as ON_GROUND
 from shotc.ir.mission import MissionIR
 
-COLUMNS = 320
+PICTURE_WIDTH_PX = 320
 """Width, pixels."""
 LIT, DARK = (0.86, 0.84, 0.80), (0.36, 0.37, 0.40)
 """Colours of faces towards the camera, and of faces seen edge-on."""
@@ -23,7 +23,7 @@ def picture(mission: MissionIR, camera: CameraPose) -> Array:
 
     Red, green and blue range from 0 to 1.
     """
-    across = COLUMNS // TILE_RAYS
+    across = PICTURE_WIDTH_PX // TILE_RAYS
     up = max(1, round(across / camera.aspect))
     seen = look(mission, camera, FRAME, (across, up))
     rows = np.linspace(0.0, 1.0, len(seen.mesh))[:, None, None]

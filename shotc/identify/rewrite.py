@@ -16,7 +16,7 @@ from shotc.source.yaml_tree import Document, parse
 TARGETS: KeyPath = ("targets",)
 _PROPERTIES = re.compile(r"(?:[&!]\S*\s+)+")
 _BEFORE_DRONES = ("drones", "fleets", "rules", "shots", "output")
-CM = 100.0
+CM_PER_M = 100.0
 
 
 class Named(NamedTuple):
@@ -64,10 +64,10 @@ def rewritten(data: bytes, name: str, targets: Mapping[str, Upright], named: Seq
 
 
 def _entry(upright: Upright) -> str:
-    bottom, top = floor(upright.bottom * CM) / CM, ceil(upright.top * CM) / CM
+    bottom, top = floor(upright.bottom * CM_PER_M) / CM_PER_M, ceil(upright.top * CM_PER_M) / CM_PER_M
     x, y = (round(c, 2) for c in upright.centre)
     # Rounding up keeps the points inside the cylinder.
-    radius = ceil(upright.radius * CM + 1.0) / CM
+    radius = ceil(upright.radius * CM_PER_M + 1.0) / CM_PER_M
     at = ", ".join(_number(c) for c in (x, y, 0.5 * (bottom + top)))
     return f"{{at: [{at}], radius: {_number(radius)}, height: {_number(top - bottom)}}}"
 

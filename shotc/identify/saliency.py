@@ -17,10 +17,10 @@ from shotc.geom.bernstein import Array
 from shotc.geom.camera import ScreenBox
 from shotc.plugins import OURS
 
-WIDTH = 80
+WIDTH_PX = 80
 """Columns of the examined picture; smaller details are no subject."""
 BLUR_PX = 2.0
-TIMES_MEAN = 2.0
+SALIENT_RATIO = 2.0
 """Saliency over its mean, above which a pixel is salient."""
 
 
@@ -89,7 +89,7 @@ class SpectralResidual:
         salient = _salient(_smaller(picture.mean(axis=2)))
         if not np.isfinite(salient).all() or salient.max() <= 0.0:
             return None
-        parts, count = label(salient > TIMES_MEAN * salient.mean())
+        parts, count = label(salient > SALIENT_RATIO * salient.mean())
         if not count:
             return None
         weight = np.bincount(parts.ravel(), salient.ravel())
@@ -105,7 +105,7 @@ class SpectralResidual:
 
 def _smaller(grey: Array) -> Array:
     """Return a picture averaged over square blocks, with at least WIDTH columns; shape (rows, columns)."""
-    by = max(1, grey.shape[1] // WIDTH)
+    by = max(1, grey.shape[1] // WIDTH_PX)
     rows, columns = (length // by for length in grey.shape)
     return np.asarray(grey[: rows * by, : columns * by].reshape(rows, by, columns, by).mean(axis=(1, 3)))
 

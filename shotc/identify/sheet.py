@@ -16,7 +16,7 @@ from shotc.geom.shapes import CylinderShape
 from shotc.geom.silhouette import shape_outline, solid_edges
 from shotc.geom.solids import Cylinder
 from shotc.identify.cylinders import Upright
-from shotc.identify.tasks import DOUBTFUL, SearchTask
+from shotc.identify.tasks import DOUBTFUL_SHARE, SearchTask
 
 DPI = 120.0
 WIDTH, MARGIN, GAP, COLUMNS = 14.0, 0.5, 0.3, 3
@@ -79,7 +79,7 @@ def _picture(
         _cylinder(canvas, box, task, row.cylinder, meant=meant)
         if meant:
             share = row.shares[number]
-            face: Rgb = SUBJECT if share >= DOUBTFUL else KEEP_OUT
+            face: Rgb = SUBJECT if share >= DOUBTFUL_SHARE else KEEP_OUT
             chip(canvas, (box.right - 0.06, box.top - 0.06), f"{row.name}  {100 * share:.0f} %", face, 9.0)
     if task.box is not None:
         corners = _placed(_corners(task.box), box)

@@ -15,7 +15,7 @@ from shotc.identify.views import CameraPose
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.framing.placing import explicit_aim
 
-DOUBTFUL = 0.6
+DOUBTFUL_SHARE = 0.6
 """Share of a box's content, below which a target is doubtful."""
 
 
@@ -165,7 +165,7 @@ def doubts(
     called = {target.cluster: name for target, name in zip(found.targets, names, strict=True)}
     for number, task in enumerate(asked):
         choice = found.choices[number]
-        if choice is None or choice.share >= DOUBTFUL:
+        if choice is None or choice.share >= DOUBTFUL_SHARE:
             continue
         yield Diagnostic(
             "N019",

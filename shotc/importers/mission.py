@@ -15,7 +15,7 @@ from shotc.importers.multidrone.frames import frame_of, without_far
 from shotc.importers.multidrone.read import below, sequences_of
 from shotc.importers.multidrone.write import written_mission
 from shotc.importers.notes import Notes, label, told
-from shotc.importers.xml_tree import LARGEST, Node, XmlFault, parse_xml, shown
+from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml, shown
 from shotc.source.file import SourceFile, Span
 
 MOST = {"shootingAction": 100, "shootingRole": 200, "RTTrajectoryPoint": 2000}
@@ -59,8 +59,10 @@ def imported(format: str, data: bytes, name: str, *, strict: bool, asked: Import
 
 def _import_cameras(format: str, data: bytes, name: str, asked: ImportOptions, *, strict: bool) -> Imported:
     notes = Notes()
-    if len(data) > LARGEST:
-        found: ImportedTakes | Refused = Refused("I001", f"it is larger than {LARGEST / 1e6:.0f} MB", START)
+    if len(data) > LARGEST_BYTES:
+        found: ImportedTakes | Refused = Refused(
+            "I001", f"it is larger than {LARGEST_BYTES / 1e6:.0f} MB", START
+        )
         text = ""
     else:
         text, found = _footage(format, data, name, asked, notes)

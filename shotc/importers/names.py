@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-LONGEST = 40
+LONGEST_NAME_CHARACTERS = 40
 
 
 def safe(name: str, otherwise: str = "mission") -> str:
     """Return a name of letters, digits and `-`, or ``otherwise`` if none of these is left."""
-    kept = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:LONGEST].strip("-")
+    kept = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:LONGEST_NAME_CHARACTERS].strip("-")
     return kept or otherwise

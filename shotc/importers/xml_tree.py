@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 from shotc.source.xml import StopParsing, feed
 
-LARGEST = 4_000_000  # bytes
+LARGEST_BYTES = 4_000_000  # bytes
 MOST_NODES = 100_000
-DEEPEST = 60
+DEEPEST_LEVEL = 60
 
 
 @dataclass(slots=True)
@@ -65,8 +65,8 @@ def shown(data: bytes) -> str:
 
 def parse_xml(data: bytes) -> Node | XmlFault:
     """Return the root element. A document type is refused, because its entities could grow without bound."""
-    if len(data) > LARGEST:
-        return XmlFault(f"the file is larger than {LARGEST / 1e6:.0f} MB")
+    if len(data) > LARGEST_BYTES:
+        return XmlFault(f"the file is larger than {LARGEST_BYTES / 1e6:.0f} MB")
     reader = _Reader()
     wrong = feed(data.removeprefix(BOM_UTF8), reader)  # expat would count the mark as a column
     if wrong is not None:
@@ -93,7 +93,7 @@ class _Reader:
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         node = Node(tag, self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, attributes)
         self._count += 1
-        if self._count > MOST_NODES or len(self._open) >= DEEPEST:
+        if self._count > MOST_NODES or len(self._open) >= DEEPEST_LEVEL:
             self._stop("it has too many elements, or too deep ones")
         if self._open:
             self._open[-1].children.append(node)

@@ -16,7 +16,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.outline import (
-    CELLS,
+    CELLS_PER_SIDE,
     OutlineRays,
     covered_by_ball,
     covered_by_solid,
@@ -85,7 +85,7 @@ def covered_by_parts(mission: MissionIR, before: NamedParts, target: str, eyes: 
     filmed = mission.target(target)
     own = outline_boards(filmed.shape, filmed.centre, beside_body(filmed, eyes, t))
     rays = outline_rays(filmed.shape, filmed.centre, own).mapped(partial(from_body, filmed, t=t))
-    pairs = in_the_way(before.surface, rays.boards, CELLS)
+    pairs = in_the_way(before.surface, rays.boards, CELLS_PER_SIDE)
     covered, by = np.zeros_like(rays.own), []
     number = before.part[pairs.triangle]
     names = {part: before.mesh.names[part] for part in np.unique(number).tolist()}
@@ -170,7 +170,7 @@ def _by_ball(ball: Array, radius: float, rays: OutlineRays, some: Mask) -> Mask:
 
 def _beside(name: str, surface: Surface, boards: Billboards) -> _Thing:
     """Return a surface as a possible occluder."""
-    pairs = in_the_way(surface, boards, CELLS)
+    pairs = in_the_way(surface, boards, CELLS_PER_SIDE)
     may = np.zeros(len(boards), dtype=bool)
     may[pairs.item] = True
 

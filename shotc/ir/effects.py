@@ -11,13 +11,13 @@ from shotc.ir.origin import KeyPath
 
 Color = tuple[int, int, int]
 
-LIGHT_RATE = 25.0
+LIGHT_RATE_HZ = 25.0
 """Rate at which effects are evaluated, Hz; lights are linear between two samples."""
 
-LEAST_PERIOD = 5.0 / LIGHT_RATE
+SHORTEST_PERIOD_S = 5.0 / LIGHT_RATE_HZ
 """Shortest cycle of an effect, seconds; a shorter one has too few samples."""
 
-LEAST_PASS = 2.0 / LIGHT_RATE
+SHORTEST_PASS_S = 2.0 / LIGHT_RATE_HZ
 """Least time for which a band of light covers a drone, seconds; with less, samples can miss it."""
 
 Way = Literal[

@@ -38,14 +38,16 @@ from shotc.ir.keyed import is_keyed, settled
 from shotc.ir.mission import Composition, MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
-TURN = pi / 36  # rad between the bearings that are tried for one subject
-WIDE = pi / 6  # rad between those for several subjects
-NEARLY = 0.02  # cost difference of equally good bearings; relative fall of the cost that ends polishing
-BRISK = 0.8  # share of the drone's speed that a course may use, unless the subjects are faster
-BEST = 4  # equally good bearings whose course is computed before the first clear one is taken
-RAISED = 4  # iterations of the camera's height over terrain
-AGAIN = 5  # most restarts of the first pose
-SAME = 1e-6  # seconds
+BEARING_STEP_RAD = pi / 36  # rad between the bearings that are tried for one subject
+WIDE_BEARING_STEP_RAD = pi / 6  # rad between those for several subjects
+NEARLY_AS_GOOD_COST = (
+    0.02  # cost difference of equally good bearings; relative fall of the cost that ends polishing
+)
+BRISK_SHARE = 0.8  # share of the drone's speed that a course may use, unless the subjects are faster
+BEST_BEARINGS = 4  # equally good bearings whose course is computed before the first clear one is taken
+MOST_RAISES = 4  # iterations of the camera's height over terrain
+MOST_RESTARTS = 5  # most restarts of the first pose
+SAME_TIME_S = 1e-6  # seconds
 SMALLER = tuple(WHOLE_SIZE * 0.95**k for k in range(60))
 """Sizes that are tried for one subject without a required size; the first at which it is whole is taken."""
 
@@ -68,7 +70,7 @@ def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
     """Return a shot resolved for its first frame at ``start``, seconds: framings and keyframes depend on
     it.
     """
-    if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME:
+    if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME_TIME_S:
         return shot
     if is_keyed(shot):
         return settled(mission, shot, start)
@@ -164,7 +166,7 @@ def _stood(scene: FramedScene, wanted: Wanted, bearing: float) -> Vec3:
     if scene.mission.terrain is None:
         return offset
     target = scene.mission.target(scene.shot.subjects[0].target)
-    for _ in range(RAISED):  # a higher camera is nearer in the plan, over other ground
+    for _ in range(MOST_RAISES):  # a higher camera is nearer in the plan, over other ground
         room = scene.room_beside(target, wanted.centre, offset)
         offset = stand(wanted, scene.lens, room, azimuth, size)
     return offset
@@ -174,8 +176,8 @@ def _clear_bearing(scene: FramedScene, target: Target, beside: _Beside) -> Offse
     """Return the offsets at the clear bearing nearest to the drone's."""
     first, north = scene.comes_from(target.at(scene.start)), beside.points(0.0)
     best, least = beside.turned(north, 0.0), (2.0, 2.0)
-    for k in range(round(2 * pi / TURN)):
-        turned = beside.turned(north, first + TURN * ((k + 1) // 2) * (1 if k % 2 else -1))
+    for k in range(round(2 * pi / BEARING_STEP_RAD)):
+        turned = beside.turned(north, first + BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1))
         found = scene.shares([(t, plus(target.at(t), scene.along(turned, t))) for t in scene.looks])
         if found < least:
             best, least = turned, found
@@ -206,7 +208,10 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
     subjects = scene.shot.subjects
     wanted, room = scene.wanted(subjects, scene.start), scene.room_at(scene.start)
     come = scene.comes_from(middle_of(wanted))
-    turns = [WIDE * ((k + 1) // 2) * (1 if k % 2 else -1) for k in range(round(2 * pi / WIDE))]
+    turns = [
+        WIDE_BEARING_STEP_RAD * ((k + 1) // 2) * (1 if k % 2 else -1)
+        for k in range(round(2 * pi / WIDE_BEARING_STEP_RAD))
+    ]
     asked = [w.azimuth for w in wanted if w.azimuth is not None]
     if room.drawn is not None:
         x, y, _ = minus(room.drawn.at, middle_of(wanted))
@@ -220,13 +225,13 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
             pose, cost = viewpoint(scene.wanted(settled, scene.start), scene.lens, room, pose)
         found.append((cost, pose, settled))
     least = min(cost for cost, _, _ in found)
-    good = [f for f in found if f[0] <= least + NEARLY]
+    good = [f for f in found if f[0] <= least + NEARLY_AS_GOOD_COST]
     if len(good) == 1:
         return _polished(scene, good[0])
     scores: list[tuple[float, float, int]] = []
     for i, (_, pose, settled) in enumerate(good):
         scores.append((*_score(scene, pose, settled), i))
-        if i + 1 >= BEST and min(scores)[:2] == (0.0, 0.0):
+        if i + 1 >= BEST_BEARINGS and min(scores)[:2] == (0.0, 0.0):
             break
     *least_hidden, i = min(scores)
     opening = _polished(scene, good[i])
@@ -249,9 +254,9 @@ def _polished(
     """Return an opening, solved again from its result until the cost hardly falls."""
     cost, pose, subjects = found
     wanted = scene.wanted(subjects, scene.start)
-    for _ in range(AGAIN):
+    for _ in range(MOST_RESTARTS):
         pose, later = viewpoint(wanted, scene.lens, scene.room_at(scene.start), pose)
-        if later > (1 - NEARLY) * cost:
+        if later > (1 - NEARLY_AS_GOOD_COST) * cost:
             break
         cost = later
     return pose, subjects
@@ -269,7 +274,7 @@ def _follow(
         wanted, room = scene.wanted(subjects, t), scene.room_at(t)
         later, last = middle_of(wanted), poses[-1]
         eye, along = (last[0], last[1], last[2]), minus(later, middle)
-        way = max(BRISK * scene.drone.limits.speed * (t - before), hypot(*along))
+        way = max(BRISK_SHARE * scene.drone.limits.speed * (t - before), hypot(*along))
         since = Since(eye, plus(eye, along), way)
         pose, cost = viewpoint(wanted, scene.lens, room, (*since.kept, last[3], last[4]), since)
         if cost == inf:

@@ -13,11 +13,11 @@ from shotc.ir.keyed import near_at
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot, Subject
 from shotc.ir.target import Target
 
-KNOT = 0.5  # seconds between the knots of a course
-CHANGING_KNOT = 0.25  # the same where setpoints change the requirements
+KNOT_S = 0.5  # seconds between the knots of a course
+CHANGING_KNOT_S = 0.25  # the same where setpoints change the requirements
 FEWEST, MOST = 8, 240  # pieces of a course
-LOOKS = 24  # pieces at whose ends a bearing is judged
-LIFT = 0.1  # metres above the ground clearance, for a free elevation
+BEARING_SAMPLES = 24  # pieces at whose ends a bearing is judged
+LIFT_M = 0.1  # metres above the ground clearance, for a free elevation
 
 
 def wanted_at(mission: MissionIR, subject: Subject, start: float, t: float) -> Wanted:
@@ -35,7 +35,7 @@ def lens_of(drone: Drone) -> Lens:
 def room_of(mission: MissionIR, drone: Drone, ground: float = 0.0) -> PlaceBounds:
     """Return the bounds on a drone's camera; ground : z of the ground there, metres."""
     rules = mission.rules
-    return PlaceBounds(ground + rules.over_ground(drone.radius) + LIFT, rules.beside_target(drone.radius))
+    return PlaceBounds(ground + rules.over_ground(drone.radius) + LIFT_M, rules.beside_target(drone.radius))
 
 
 class FramedScene:
@@ -43,12 +43,12 @@ class FramedScene:
 
     def __init__(self, mission: MissionIR, shot: Shot, start: float) -> None:
         duration = shot.timing.duration or 0.0
-        knot = CHANGING_KNOT if any(s.setpoints for s in shot.subjects) else KNOT
+        knot = CHANGING_KNOT_S if any(s.setpoints for s in shot.subjects) else KNOT_S
         pieces = int(min(MOST, max(FEWEST, ceil(duration / knot))))
         self.mission, self.shot, self.start = mission, shot, start
         self.drone = mission.drone(shot.drone)
         self.times = tuple(start + duration * i / pieces for i in range(pieces + 1))
-        self.looks = tuple(start + duration * i / LOOKS for i in range(LOOKS + 1))
+        self.looks = tuple(start + duration * i / BEARING_SAMPLES for i in range(BEARING_SAMPLES + 1))
         self.lens, self.room = lens_of(self.drone), room_of(mission, self.drone, self._ground())
         self.near = None if shot.ideal is None else shot.ideal.near
 

@@ -38,7 +38,7 @@ DISC_SPACINGS = 4.0
 MOST_DISCS = 200_000
 """Most discs of a cloud; beyond it they get larger and fewer."""
 
-RAYS = 3
+RAYS_PER_SIDE = 3
 """Rays along each side of the rectangle that stands in for a target in the choice of viewpoints."""
 
 
@@ -88,15 +88,15 @@ def share_hidden(surface: Surface, eyes: Array, centres: Array, radius: float, h
     radius, height : of the cylinders, metres
     """
     boards = upright(eyes, centres, radius, height)
-    return np.asarray(hidden(surface, boards, RAYS).mean(axis=(1, 2)))
+    return np.asarray(hidden(surface, boards, RAYS_PER_SIDE).mean(axis=(1, 2)))
 
 
 def share_behind(solids: Sequence[Solid], eyes: Array, centres: Array, radius: float, height: float) -> Array:
     """Return the share that solids hide of such cylinders, by the same rays, shape (N,); as
     ``share_hidden``.
     """
-    cells = cells_of(upright(eyes, centres, radius, height), RAYS)
-    behind = behind_any(np.repeat(eyes, RAYS * RAYS, axis=0), cells, solids)
+    cells = cells_of(upright(eyes, centres, radius, height), RAYS_PER_SIDE)
+    behind = behind_any(np.repeat(eyes, RAYS_PER_SIDE * RAYS_PER_SIDE, axis=0), cells, solids)
     return np.asarray(behind.reshape(len(eyes), -1).mean(axis=1))
 
 

@@ -7,7 +7,7 @@ from shotc.ir.keyed import way_at
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot
 
-TO_CATCH_UP = 1.25
+CATCH_UP_RATIO = 1.25
 """Factor on the speed of a moving place; with this speed a drone that is behind catches up in acceptable
 time."""
 

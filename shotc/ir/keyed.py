@@ -18,11 +18,13 @@ from shotc.geom.vec import Vec3
 from shotc.ir.drone import LensRange
 from shotc.ir.mission import Beside, Ideal, Keyframe, MissionIR, Near, Shot
 
-ROUNDS = 5  # iterations of times and of the lengths that depend on them
-LEAST = 0.1  # share of the mean length between keyframes that a shorter one counts as (turns on the spot)
+TIMING_ROUNDS = 5  # iterations of times and of the lengths that depend on them
+SHORTEST_WAY_SHARE = (
+    0.1  # share of the mean length between keyframes that a shorter one counts as (turns on the spot)
+)
 SAME_PLACE_M = 1e-3
-NEVER = 1e-9  # seconds, for an interval without time
-NEARLY = 1.0 - 1e-6  # share of a rate, for rounding
+NO_TIME_S = 1e-9  # seconds, for an interval without time
+NEARLY_SHARE = 1.0 - 1e-6  # share of a rate, for rounding
 
 
 class Weight(NamedTuple):
@@ -91,7 +93,7 @@ def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
     assert ideal is not None
     assert duration is not None
     arrive = _even(shot.keyframes, duration)
-    for _ in range(ROUNDS):
+    for _ in range(TIMING_ROUNDS):
         ways = [
             _way(mission, shot.keyframes, i, (start + arrive[i], start + arrive[i + 1])) for i in _gaps(shot)
         ]
@@ -99,7 +101,7 @@ def settled(mission: MissionIR, shot: Shot, start: float) -> Shot:
     placed = tuple(
         k._replace(at=place_of(mission, k, start + t)) for k, t in zip(shot.keyframes, arrive, strict=True)
     )
-    points = tuple((t / max(duration, NEVER), k.at) for t, k in zip(arrive, placed, strict=True))
+    points = tuple((t / max(duration, NO_TIME_S), k.at) for t, k in zip(arrive, placed, strict=True))
     return shot._replace(keyframes=placed, ideal=ideal._replace(points=points))
 
 
@@ -118,9 +120,9 @@ def zoom_parts(shot: Shot, lens: LensRange | None) -> tuple[int | None, ...]:
     arrive, parts = arrivals(shot), list[int | None]()
     for i, (a, b) in enumerate(pairwise(shot.keyframes)):
         way = abs(b.hfov - a.hfov)
-        seconds = max(arrive[i + 1] - arrive[i] - a.hold, NEVER)
+        seconds = max(arrive[i + 1] - arrive[i] - a.hold, NO_TIME_S)
         free = lens is None or not lens.zooms or way == 0.0
-        parts.append(1 if free or lens is None else parts_of(NEARLY * lens.rate * seconds / way))
+        parts.append(1 if free or lens is None else parts_of(NEARLY_SHARE * lens.rate * seconds / way))
     return tuple(parts)
 
 
@@ -155,7 +157,7 @@ def _bends(mission: Same[MissionIR], shot: Same[Shot], start: float) -> _Bends:
     speeds: list[tuple[float, float]] = []
     for i in _gaps(shot.it):
         # K001 and K003 refuse keyframes without time between them. Planning may still evaluate the ideal.
-        seconds = max(arrive[i + 1] - leave[i], NEVER)
+        seconds = max(arrive[i + 1] - leave[i], NO_TIME_S)
         way = _way(mission.it, keyframes, i, (start + leave[i], start + arrive[i + 1]))
         speeds.append((way / seconds, seconds))
     rests = [k.hold > 0 for k in keyframes]
@@ -227,7 +229,7 @@ def _by_length(keyframes: tuple[Keyframe, ...], duration: float, ways: list[floa
     known = {i: k.time for i, k in enumerate(keyframes) if k.time is not None}
     known.setdefault(0, 0.0)
     known.setdefault(last, duration - keyframes[last].hold)
-    least = LEAST * sum(ways) / len(ways) or 1.0
+    least = SHORTEST_WAY_SHARE * sum(ways) / len(ways) or 1.0
     times = [0.0] * len(keyframes)
     for i, j in pairwise(sorted(known)):
         lengths = [max(least, way) for way in ways[i:j]]
@@ -244,7 +246,7 @@ def in_order(shot: Shot) -> bool:
     """Return whether every keyframe is left before the next one is reached."""
     arrive = arrivals(shot)
     pairs = zip(shot.keyframes, pairwise(arrive), strict=False)
-    return all(reach - leave - k.hold > NEVER for k, (leave, reach) in pairs)
+    return all(reach - leave - k.hold > NO_TIME_S for k, (leave, reach) in pairs)
 
 
 KEYED = Ideal("keyframes", None, (), placed=True)

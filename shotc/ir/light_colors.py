@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Array
-from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.effects import LIGHT_RATE_HZ
 from shotc.ir.fleet import Colors, FleetTrajectory, Lights
 from shotc.ir.light_layers import Layer
 from shotc.ir.light_paints import Levels, Spots, blended, painted
 
-BLOCK = 400_000
+BLOCK_COLORS = 400_000
 """Product of lights and samples that are evaluated at once: about 40 MB."""
 
 
@@ -37,7 +37,7 @@ def light_colors(flight: FleetTrajectory, t: Array, some: slice = slice(None)) -
     """
     if not flight.lights.looks:
         return faded_colors(flight.lights, t, some)
-    at = np.maximum(np.asarray(t, dtype=np.float64), 0.0) * LIGHT_RATE
+    at = np.maximum(np.asarray(t, dtype=np.float64), 0.0) * LIGHT_RATE_HZ
     # A time that is a sample but for rounding becomes one.
     at = np.where(np.abs(at - np.rint(at)) < 1e-6, np.rint(at), at)
     first = np.floor(at).astype(np.intp)
@@ -52,12 +52,12 @@ def light_colors(flight: FleetTrajectory, t: Array, some: slice = slice(None)) -
 
 
 def tick_colors(flight: FleetTrajectory, ticks: NDArray[np.intp], some: slice = slice(None)) -> Colors:
-    """Return the colours of lights with effects at ticks (T,) of ``LIGHT_RATE``, shape (n, T, 3)."""
+    """Return the colours of lights with effects at ticks (T,) of ``LIGHT_RATE_HZ``, shape (n, T, 3)."""
     numbers = np.arange(len(flight.coef))[some]
     found = np.empty((len(numbers), len(ticks), 3), dtype=np.uint8)
-    step = max(1, BLOCK // max(len(ticks), 1))
+    step = max(1, BLOCK_COLORS // max(len(ticks), 1))
     for i in range(0, len(numbers), step):
-        spots = Spots(numbers[i : i + step], ticks / LIGHT_RATE, flight.breaks, flight.coef)
+        spots = Spots(numbers[i : i + step], ticks / LIGHT_RATE_HZ, flight.breaks, flight.coef)
         found[i : i + step] = np.rint(np.clip(_stacked(flight.lights, spots), 0.0, 255.0))
     return found
 

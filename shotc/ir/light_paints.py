@@ -17,7 +17,7 @@ from shotc.ir.light_layers import Along, Axis, Band, Footage, Glints, Gradient, 
 Levels = NDArray[np.float32]
 RISE_SHARE = 0.25
 """Share of a band's length over which its light rises; it falls over the rest."""
-FULL = 255.0
+FULL_LEVEL = 255.0
 ALL: Levels = np.ones((1, 1), dtype=np.float32)
 
 
@@ -65,11 +65,11 @@ def blended(blend: Blend, below: Levels, above: Levels) -> Levels:
     if blend == "mix":
         return above
     if blend == "add":
-        return np.asarray(np.minimum(below + above, FULL), dtype=np.float32)
+        return np.asarray(np.minimum(below + above, FULL_LEVEL), dtype=np.float32)
     if blend == "multiply":
-        return below * above / np.float32(FULL)
+        return below * above / np.float32(FULL_LEVEL)
     if blend == "screen":
-        return below + above - below * above / np.float32(FULL)
+        return below + above - below * above / np.float32(FULL_LEVEL)
     return np.maximum(below, above) if blend == "lighten" else np.minimum(below, above)
 
 
@@ -170,7 +170,7 @@ def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
     top = _mix(frames[frame, row, column], frames[frame, row, right], across)
     bottom = _mix(frames[frame, below, column], frames[frame, below, right], across)
     found = _mix(top, bottom, down)
-    return found[..., :3], found[..., 3] / np.float32(FULL) * inside
+    return found[..., :3], found[..., 3] / np.float32(FULL_LEVEL) * inside
 
 
 def _between(share: Array, count: int) -> tuple[NDArray[np.intp], Levels]:

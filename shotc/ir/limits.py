@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 from shotc.geom.vec import Vec2, Vec3
 
-__all__ = ["G_M_S2", "TILT", "Limits", "Range", "Timing", "Vec2", "Vec3", "reaches"]
+__all__ = ["G_M_S2", "PITCH_ROUNDING_RAD", "Limits", "Range", "Timing", "Vec2", "Vec3", "reaches"]
 
 Range = tuple[float, float]
 
-TILT = 1e-6
+PITCH_ROUNDING_RAD = 1e-6
 """Tolerance at a gimbal's stop for rounding, rad."""
 
 
@@ -98,7 +98,7 @@ class Limits(NamedTuple):
 
 def reaches(pitch: Range, angle: float) -> bool:
     """Return whether an angle, rad, is within a pitch range."""
-    return pitch[0] - TILT <= angle <= pitch[1] + TILT
+    return pitch[0] - PITCH_ROUNDING_RAD <= angle <= pitch[1] + PITCH_ROUNDING_RAD
 
 
 class Timing(NamedTuple):

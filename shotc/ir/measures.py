@@ -7,7 +7,7 @@ from math import degrees, isfinite
 from shotc.ir.trajectory import Claim
 from shotc.rounding import away
 
-DIGITS = 4
+USUAL_DIGITS = 4
 """Default number of digits."""
 
 SHARES = frozenset({"of samples", "of its outline"})
@@ -17,7 +17,7 @@ MOST_DIGITS = 12
 """Number of digits at which two values that still look alike count as the same."""
 
 
-def measure(value: float, unit: str, digits: int = DIGITS) -> str:
+def measure(value: float, unit: str, digits: int = USUAL_DIGITS) -> str:
     """Return a value with its unit as text; lengths to the millimetre."""
     if not isfinite(value):
         return "unlimited"
@@ -29,7 +29,7 @@ def measure(value: float, unit: str, digits: int = DIGITS) -> str:
 
 def told_apart(first: float, second: float, unit: str) -> tuple[str, str]:
     """Return two values as text by ``measure``, with enough digits to differ."""
-    for digits in range(DIGITS, MOST_DIGITS):
+    for digits in range(USUAL_DIGITS, MOST_DIGITS):
         shown = measure(first, unit, digits), measure(second, unit, digits)
         if shown[0] != shown[1]:
             return shown
@@ -39,7 +39,7 @@ def told_apart(first: float, second: float, unit: str) -> tuple[str, str]:
 def enough(claim: Claim) -> str:
     """Return a limit that the claim's worst value keeps, as text: the value rounded away to four digits."""
     number, unit = _as_read(claim.worst, claim.unit)
-    return f"{away(number, upper=claim.upper, digits=DIGITS):.{DIGITS}g} {unit}".strip()
+    return f"{away(number, upper=claim.upper, digits=USUAL_DIGITS):.{USUAL_DIGITS}g} {unit}".strip()
 
 
 def _as_read(value: float, unit: str) -> tuple[float, str]:

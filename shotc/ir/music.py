@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from shotc.ir.origin import KeyPath
 
-SAME_BEAT = 1e-6
+SAME_BEAT_SHARE = 1e-6
 """Tolerance at a beat, as a share of a beat."""
 
 
@@ -54,9 +54,9 @@ class Music(NamedTuple):
     def next_beat(self, time: float) -> int | None:
         """Return the number of the first beat at or after a mission time, s; None if there is none."""
         if self.period is not None:
-            passed = ceil((time - self.start - self.first) / self.period - SAME_BEAT)
+            passed = ceil((time - self.start - self.first) / self.period - SAME_BEAT_SHARE)
             return max(1, 1 + passed)
-        later = (k for k, at in enumerate(self.listed, 1) if self.start + at >= time - SAME_BEAT)
+        later = (k for k, at in enumerate(self.listed, 1) if self.start + at >= time - SAME_BEAT_SHARE)
         return next(later, None)
 
 

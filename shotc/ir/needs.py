@@ -11,7 +11,7 @@ from dataclasses import replace
 from shotc.ir.path import PathIR
 
 NEEDS = ".needs"  # suffix of the statistic's name, after the shot's id
-MORE = 1.02  # factor on the needed duration, because the new path differs again
+MORE_RATIO = 1.02  # factor on the needed duration, because the new path differs again
 
 
 def with_need(path: PathIR, shot: str, seconds: float) -> PathIR:
@@ -25,5 +25,5 @@ def needed(path: PathIR) -> dict[str, float]:
     for name, value in path.stats:
         shot = name.removesuffix(NEEDS)
         if name != shot and isinstance(value, float) and mission.shot(shot).timing.duration is None:
-            needs[shot] = MORE * value
+            needs[shot] = MORE_RATIO * value
     return needs

@@ -10,7 +10,7 @@ from shotc.ir.path import CHANNELS, HFOV
 from shotc.ir.show import Fleet
 from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 
-ON_PAD = 1.0
+ON_PAD_S = 1.0
 """Duration of a parked drone's curve, seconds; like every drone it stands before and after."""
 
 
@@ -35,4 +35,4 @@ def _standing(drone: Drone) -> DroneTrajectory:
     pose = np.zeros(len(CHANNELS))
     pose[:3], pose[HFOV] = drone.home, drone.hfov
     ctrl = np.tile(pose, (1, 6, 1))
-    return DroneTrajectory(drone.name, Piecewise(np.array([0.0, ON_PAD]), ctrl), (), (), ())
+    return DroneTrajectory(drone.name, Piecewise(np.array([0.0, ON_PAD_S]), ctrl), (), (), ())

@@ -24,19 +24,19 @@ from shotc.ir.phases import Phase
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory
 
-SAME_TIME = 1e-9
+SAME_TIME_S = 1e-9
 """Tolerance within which a tick is on a boundary, seconds."""
 
 
 def clock(rate: float, end: float) -> Array:
     """Return the ticks k / rate from 0 to the first one at or after ``end``, seconds; rate : Hz."""
-    return np.arange(ceil((end - SAME_TIME) * rate) + 1) / rate
+    return np.arange(ceil((end - SAME_TIME_S) * rate) + 1) / rate
 
 
 def ticks(rate: float, start: float, end: float) -> Array:
     """Return two times, seconds, and the ticks k / rate between them."""
     times = clock(rate, end)
-    inside = times[(times > start + SAME_TIME) & (times < end - SAME_TIME)]
+    inside = times[(times > start + SAME_TIME_S) & (times < end - SAME_TIME_S)]
     return np.concatenate([[start], inside, [end]])
 
 
@@ -45,7 +45,7 @@ def phase_index(phases: tuple[Phase, ...], t: Array) -> NDArray[np.intp]:
     there.
     """
     starts = np.array([phase.start for phase in phases[1:]])
-    return np.asarray(np.searchsorted(starts, t + SAME_TIME, side="right"))
+    return np.asarray(np.searchsorted(starts, t + SAME_TIME_S, side="right"))
 
 
 def subjects(mission: MissionIR, drone: DroneTrajectory, shot: str) -> tuple[str, ...]:
@@ -59,7 +59,7 @@ def framed(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Mask:
     inside = np.zeros(len(t), dtype=bool)
     for span in drone.framing:
         if span.shot == shot and span.target == target:
-            inside |= (t >= span.start - SAME_TIME) & (t <= span.end + SAME_TIME)
+            inside |= (t >= span.start - SAME_TIME_S) & (t <= span.end + SAME_TIME_S)
     return inside
 
 
@@ -68,7 +68,7 @@ def references(drone: DroneTrajectory, shot: str, target: str, t: Array) -> Arra
     wanted = np.full((len(t), 2), np.nan)
     for span in drone.framing:
         if span.shot == shot and span.target == target and span.reference is not None:
-            inside = (t >= span.start - SAME_TIME) & (t <= span.end + SAME_TIME)
+            inside = (t >= span.start - SAME_TIME_S) & (t <= span.end + SAME_TIME_S)
             wanted[inside] = span.reference(t[inside])
     return wanted
 

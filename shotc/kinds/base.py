@@ -57,7 +57,7 @@ if TYPE_CHECKING:  # missions of cameras do not load these
 API_VERSION = 1
 OURS = "shotc"
 OWN = "target"  # reference of a place that is relative to the target of its shot
-STILL = 5.0  # default duration of a still camera's shot, seconds
+STILL_S = 5.0  # default duration of a still camera's shot, seconds
 
 Place = Spot | Geodetic
 

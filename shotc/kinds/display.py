@@ -24,7 +24,7 @@ from shotc.spec.shot import NO_DRONE, ShotBase
 from shotc.spec.words import nearest
 from shotc.units import clip, describe
 
-BALANCED = 0.5  # between the best picture from the viewpoint and the best volume
+BALANCED_WEIGHT = 0.5  # between the best picture from the viewpoint and the best volume
 OF_CAMERAS = ("target", "composition", "size", "require", "refine", "allow")
 
 
@@ -90,7 +90,7 @@ def expand(shot: DisplayShot, scene: Scene) -> Expansion:
 
 
 def _display(shot: DisplayShot, scene: Scene, pictures: tuple[Picture, ...]) -> Display:
-    weight = BALANCED if shot.viewpoint_weight is None else shot.viewpoint_weight
+    weight = BALANCED_WEIGHT if shot.viewpoint_weight is None else shot.viewpoint_weight
     return Display(
         id=shot.id,
         fleet=group_name(shot.fleet, shot.group),

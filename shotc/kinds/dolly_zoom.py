@@ -19,7 +19,7 @@ from shotc.kinds.rounds import axis_of, line
 from shotc.spec.fields import Angle, CameraAltitude, FieldOfView, Name, PositiveLengthSpan
 from shotc.spec.shot import ShotBase
 
-PIECES = 24
+LEAST_PIECES = 24
 """Least number of pieces of the path; for a threefold change of distance the size error is below 0.1 %."""
 LEAST_WAY_M = 1e-3
 
@@ -51,7 +51,7 @@ def expand(shot: DollyZoomShot, scene: Scene) -> Expansion:
         return Expansion.of([scene.fault("K010", "nothing moves in this dolly-zoom", help_, "distance")])
     above, span = shot.altitude.above, shot.altitude.span
     looked_at = scene.height_of(target, above)
-    points = line(axis_of(target), shot.azimuth, shot.distance, span, looked_at, PIECES)
+    points = line(axis_of(target), shot.azimuth, shot.distance, span, looked_at, LEAST_PIECES)
     eyes = [scene.raised(point, target, above) for point in points]
     lenses = _lenses(shot, scene, target, eyes)
     if isinstance(lenses, Diagnostic):

@@ -5,8 +5,8 @@ from itertools import pairwise
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.effects import (
-    LEAST_PASS,
-    LIGHT_RATE,
+    LIGHT_RATE_HZ,
+    SHORTEST_PASS_S,
     Chase,
     DisplayTime,
     Effect,
@@ -108,10 +108,10 @@ def _of_ramp(spec: RampSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic
 
 def _of_chase(spec: ChaseSpec, scene: Scene, path: KeyPath) -> Iterator[Diagnostic]:
     lasts = spec.period * spec.length
-    if lasts >= LEAST_PASS - 1e-9:
+    if lasts >= SHORTEST_PASS_S - 1e-9:
         return
-    slower, longer = at_least(LEAST_PASS / spec.length), at_least(LEAST_PASS / spec.period)
-    note = f"lights change {LIGHT_RATE:g} times a second, so {1e3 * LEAST_PASS:.0f} ms is the least"
+    slower, longer = at_least(SHORTEST_PASS_S / spec.length), at_least(SHORTEST_PASS_S / spec.period)
+    note = f"lights change {LIGHT_RATE_HZ:g} times a second, so {1e3 * SHORTEST_PASS_S:.0f} ms is the least"
     help_ = f"write `period: {slower} s`"
     if float(longer) <= 1.0:
         help_ += f", or `length: {longer}`"

@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from shotc.ir.effects import LEAST_PERIOD, Blend, Fit, RampWay, Way
+from shotc.ir.effects import SHORTEST_PERIOD_S, Blend, Fit, RampWay, Way
 from shotc.spec.colors import LightColor
 from shotc.spec.fields import Duration, NonNegativeDuration, Position, PositiveShare, RelativePath, Share
 from shotc.spec.fieldtypes import Integer
@@ -17,7 +17,7 @@ MOST_COLORS = 32
 MOST_EFFECTS = 32
 """Most effects of one stack."""
 
-Period = Annotated[float, Quantity("LightPeriod", "duration", LEAST_PERIOD, noun="period of lights")]
+Period = Annotated[float, Quantity("LightPeriod", "duration", SHORTEST_PERIOD_S, noun="period of lights")]
 FrameNumber = Annotated[int, Integer("FrameNumber", 1, 500)]
 
 

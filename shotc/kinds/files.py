@@ -8,7 +8,7 @@ if TYPE_CHECKING:  # few missions name XML
     from shotc.source.xml import NotXml
 
 MOST_ROWS = 50_000
-FARTHEST = 1e7  # metres or seconds; larger values are mistakes
+LARGEST_VALUE = 1e7  # metres or seconds; larger values are mistakes
 BOUNDS = {"lat": 90.0, "lon": 180.0, "heading": 6.3, "heading_deg": 360.0}  # 6.3: a turn, rounded up
 UNITS = {
     "t": "`t` is in seconds from the start of the mission",
@@ -69,7 +69,7 @@ def _rows(
     body: Sequence[tuple[int, str]], columns: tuple[str, ...]
 ) -> tuple[tuple[float, ...], ...] | FileFault:
     """Return the numbers of every row; ``row_of`` checks a row only if the fast conversion fails."""
-    bounds = [BOUNDS.get(column, FARTHEST) for column in columns]
+    bounds = [BOUNDS.get(column, LARGEST_VALUE) for column in columns]
     rows: list[tuple[float, ...]] = []
     for number, line in body:
         cells = line.split(",")
@@ -159,7 +159,7 @@ def row_of(line: int, cells: tuple[str, ...], columns: tuple[str, ...]) -> tuple
         unit = UNITS.get(column, f"`{column}` is in metres")
         if not _is_number(cell):
             return FileFault(f"`{cell[:30]}` is not a number for `{column}`", line, f"{unit}, without a unit")
-        if not isfinite(float(cell)) or abs(float(cell)) > BOUNDS.get(column, FARTHEST):
+        if not isfinite(float(cell)) or abs(float(cell)) > BOUNDS.get(column, LARGEST_VALUE):
             return FileFault(f"`{cell[:30]}` is out of bounds for `{column}`", line, unit)
     return tuple(float(cell) for cell in cells)
 

@@ -21,9 +21,9 @@ from shotc.spec.model import OneOf
 from shotc.spec.shot import ShotBase
 
 LAYOUTS = (("x", "y", "z"), ("lat", "lon", "height"))
-THINNED = 0.5  # metres, tolerance to which a recorded track is reproduced
-STRETCH = 128  # points that are thinned together
-MOST = 400  # most keyframes; a path with more is noise
+THINNED_M = 0.5  # metres, tolerance to which a recorded track is reproduced
+CHUNK_POINTS = 128  # points that are thinned together
+MOST_KEYFRAMES = 400  # most keyframes; a path with more is noise
 Along = Annotated[str, NamedOr("Along", {"along": "along"}, "heading")]
 
 
@@ -103,8 +103,8 @@ def _from_file(shot: FollowPathShot, scene: Scene) -> _Points | Diagnostic:
     if len(points) < 2:
         fault = FileFault("the file has fewer than two different points", None, "give two or more")
         return scene.bad_file(name, fault, "file")
-    if len(points) > MOST:
-        fault = FileFault(f"thinned to {THINNED} m, the path has {len(points)} corners", None, "smooth it")
+    if len(points) > MOST_KEYFRAMES:
+        fault = FileFault(f"thinned to {THINNED_M} m, the path has {len(points)} corners", None, "smooth it")
         return scene.bad_file(name, fault, "file")
     return [(p, ("file",)) for p in points]
 
@@ -118,14 +118,14 @@ def _distinct(points: list[Vec3]) -> list[Vec3]:
     return kept
 
 
-def thin(points: list[Vec3], tolerance: float = THINNED) -> list[Vec3]:
+def thin(points: list[Vec3], tolerance: float = THINNED_M) -> list[Vec3]:
     """Return few of the points, such that all points are within ``tolerance`` of the polyline through them.
 
     It is the Ramer-Douglas-Peucker algorithm on parts of bounded length, because it is quadratic.
     """
     kept: set[int] = {0, len(points) - 1}
-    for start in range(0, len(points), STRETCH):
-        kept |= _corners(points, start, min(start + STRETCH, len(points) - 1), tolerance)
+    for start in range(0, len(points), CHUNK_POINTS):
+        kept |= _corners(points, start, min(start + CHUNK_POINTS, len(points) - 1), tolerance)
     return [points[i] for i in sorted(kept)]
 
 

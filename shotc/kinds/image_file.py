@@ -12,7 +12,7 @@ from shotc.kinds.files import FileFault
 MOST_PIXELS = 25_000_000
 """Most pixels of one frame."""
 MOST_FRAMES = 1500
-MOST_DECODED = 400_000_000
+MOST_DECODED_PIXELS = 400_000_000
 """Most pixels of all frames together."""
 
 _PNG = b"\x89PNG\r\n\x1a\n"
@@ -49,7 +49,7 @@ def _too_large(width: int, height: int, frames: int) -> ImageFault | None:
         message = f"{has}; at most {MOST_PIXELS / 1e6:.0f} million are read"
         help_ = f"scale it to {small} or less; lights show no more than a pixel each"
         return ImageFault(FileFault(message, None, help_), size=True)
-    most = min(MOST_FRAMES, MOST_DECODED // pixels)
+    most = min(MOST_FRAMES, MOST_DECODED_PIXELS // pixels)
     if frames > most:
         message = f"it has {frames} frames; of {width} x {height} pixels at most {most} are read"
         help_ = f"thin it to {most} frames, or cut it into several effects"

@@ -19,9 +19,9 @@ from shotc.spec.words import each
 
 Span = tuple[float, float]
 
-ARC = pi / 12  # rad, largest turn between two keyframes
-FEWEST = 4  # fewest pieces of a path
-MOST = 48  # most pieces of a straight path
+LARGEST_ARC_RAD = pi / 12  # rad, largest turn between two keyframes
+FEWEST_PIECES = 4  # fewest pieces of a path
+MOST_PIECES = 48  # most pieces of a straight path
 
 
 def bearing(axis: Vec3, azimuth: float, distance: float, altitude: float) -> Vec3:
@@ -34,7 +34,7 @@ def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -
 
     start : azimuth of the first point; sweep : turn, positive counter-clockwise seen from above
     """
-    pieces = max(FEWEST, ceil(abs(sweep) / ARC - 1e-9))
+    pieces = max(FEWEST_PIECES, ceil(abs(sweep) / LARGEST_ARC_RAD - 1e-9))
     return [
         bearing(axis, start - sweep * t, _between(radius, t), _between(altitude, t))
         for t in (i / pieces for i in range(pieces + 1))
@@ -42,7 +42,7 @@ def ring(axis: Vec3, start: float, sweep: float, radius: Span, altitude: Span) -
 
 
 def line(
-    axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float, least: int = FEWEST
+    axis: Vec3, azimuth: float, distance: Span, altitude: Span, height: float, least: int = FEWEST_PIECES
 ) -> list[Vec3]:
     """Return points along a straight line in the vertical plane of one azimuth.
 
@@ -54,7 +54,7 @@ def line(
     turn = abs(last - first)
     nearest, farthest = sorted(hypot(d, z - height) for d, z in zip(distance, altitude, strict=True))
     zoom = farthest / max(nearest, 1e-6)
-    pieces = min(MOST, max(least, ceil(turn / ARC), ceil(zoom)))
+    pieces = min(MOST_PIECES, max(least, ceil(turn / LARGEST_ARC_RAD), ceil(zoom)))
     return [
         bearing(axis, azimuth, _between(distance, t), _between(altitude, t))
         for t in (i / pieces for i in range(pieces + 1))

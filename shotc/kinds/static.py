@@ -9,13 +9,13 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.camera import aim_at, yaw_of
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, Deferred, Ideal
-from shotc.kinds.base import STILL, Expansion, Kind, Scene
+from shotc.kinds.base import STILL_S, Expansion, Kind, Scene
 from shotc.kinds.moving import evenly, timed
 from shotc.spec.fields import Angle, LookAt, Pitch, Position
 from shotc.spec.model import OneOf
 from shotc.spec.shot import AIM, ShotBase
 
-SAME = 1e-3  # metres, distance below which a camera looks at its own position
+SAME_PLACE_M = 1e-3  # metres, distance below which a camera looks at its own position
 WATCH = Composition("fixed")  # the camera does not turn to its target
 
 
@@ -43,7 +43,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
         if aim is not None:
             subject = subject._replace(composition=WATCH)
         ideal = Ideal("world", None, evenly([scene.place(shot.at)]), placed=True, aim=aim)
-        return timed(shot, scene, ideal, (subject,), lasts=STILL)
+        return timed(shot, scene, ideal, (subject,), lasts=STILL_S)
     found = scene.aim(shot, shot)
     if isinstance(found, Diagnostic | Deferred):
         return Expansion.of([found])
@@ -51,7 +51,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
         scene.place(shot.at),
         found[1],
         aim=found[0],
-        hold=shot.timing.duration or STILL,
+        hold=shot.timing.duration or STILL_S,
         placed=True,
         path=scene.path,
     )
@@ -68,7 +68,7 @@ def _kept(shot: StaticShot, scene: Scene) -> Vec2 | Diagnostic | None:
         return None
     point, eye = scene.place(shot.look_at), scene.place(shot.at)
     offset = (point[0] - eye[0], point[1] - eye[1], point[2] - eye[2])
-    if hypot(*offset) < SAME:
+    if hypot(*offset) < SAME_PLACE_M:
         return scene.fault("G014", "the camera looks at its own place", "look at another point", "look_at")
     # The middle of the screen can be turned to any other point.
     return aim_at(offset, (0.0, 0.0), 1.0, 1.0, pi / 2)

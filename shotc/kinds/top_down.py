@@ -8,13 +8,13 @@ from pydantic import Field
 from shotc.diag.model import Diagnostic
 from shotc.ir.mission import Beside, Composition
 from shotc.ir.target import Target
-from shotc.kinds.base import STILL, Expansion, Kind, Scene
+from shotc.kinds.base import STILL_S, Expansion, Kind, Scene
 from shotc.rounding import at_most
 from shotc.spec.fields import CameraAltitude, Name, Velocity
 from shotc.spec.shot import ShotBase
 
 WATCH = Composition("top-down")
-NORTH = pi / 2
+NORTH_RAD = pi / 2
 
 
 class TopDownShot(ShotBase):
@@ -41,13 +41,13 @@ def expand(shot: TopDownShot, scene: Scene) -> Expansion:
     east, north, up = shot.drift or (0.0, 0.0, 0.0)
     duration = shot.timing.duration
     fixed = {
-        "aim": (atan2(north, east) if hypot(east, north) > 0 else NORTH, -pi / 2),
+        "aim": (atan2(north, east) if hypot(east, north) > 0 else NORTH_RAD, -pi / 2),
         "composition": shot.composition or WATCH,
     }
     drifts = hypot(east, north, up) > 0
     if drifts and duration is None:
         return Expansion.of([scene.lasting("K009", "a drift needs a duration", "drift")])
-    lasts = duration or STILL
+    lasts = duration or STILL_S
     above, high = shot.altitude.above, shot.altitude.first
     end = (east * lasts, north * lasts, high + up * lasts)
     if target.track is not None:

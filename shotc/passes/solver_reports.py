@@ -20,7 +20,7 @@ NO_NUMBERS = "the solver left no numbers by which a place or a constraint could 
 NOTHING_BROKEN = (
     "where it stopped no constraint is broken; it had not settled, so nothing there can be loosened"
 )
-STEEP = radians(80.0)  # pitch of a camera almost vertically above or below its target
+STEEP_RAD = radians(80.0)  # pitch of a camera almost vertically above or below its target
 
 
 class SolverState(NamedTuple):
@@ -141,7 +141,7 @@ def _help(path: PathIR, state: SolverState, keyframes: str) -> str:
 def _steep(path: PathIR, shot: str) -> bool:
     """Return whether a keyframe of a shot is almost vertically above or below its target."""
     placed = next(p for p in path.keyframes.shots if p.shot.id == shot)
-    return any(abs(keyframe.pitch) > STEEP for keyframe in placed.keyframes)
+    return any(abs(keyframe.pitch) > STEEP_RAD for keyframe in placed.keyframes)
 
 
 def _who(state: SolverState) -> str:

@@ -55,7 +55,7 @@ UNLIMITED = {
 DEPTHS = {(FleetTrajectory, "breaks"): 1, (FleetTrajectory, "coef"): 3, (Lights, "times"): 1}
 """Number of dimensions of each array field of a record."""
 
-LARGEST = 1e12
+LARGEST_NUMBER = 1e12
 """Largest absolute value that is read. In any unit, a larger number means a damaged file."""
 
 _HEXADECIMAL = re.compile(r"[0-9a-f]+").fullmatch
@@ -193,7 +193,9 @@ def _schema(kind: Any) -> CoreSchema:
 def _plain(kind: Any) -> CoreSchema:
     known = {
         object: core_schema.any_schema(),
-        float: core_schema.float_schema(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST),
+        float: core_schema.float_schema(
+            strict=True, allow_inf_nan=False, ge=-LARGEST_NUMBER, le=LARGEST_NUMBER
+        ),
         int: core_schema.int_schema(strict=True),
         bool: core_schema.bool_schema(strict=True),
         # A text may hold lone surrogates: they represent bytes of a file that are not UTF-8.
@@ -265,7 +267,7 @@ def _array(depth: int) -> CoreSchema:
         try:
             if numeric(value, depth):
                 array = np.array(value, dtype=np.float64)
-                if np.abs(array).max() <= LARGEST:
+                if np.abs(array).max() <= LARGEST_NUMBER:
                     return array
         except (ValueError, OverflowError):
             pass

@@ -16,7 +16,7 @@ from shotc.ir.trajectory import Claim, DroneTrajectory, VerifiedIR
 SHARES = np.linspace(0.0, 1.0, 2001)
 """Shares of a shot's duration, from 0 to 1, at which positions are compared, shape (2001,)."""
 
-EVERY = 20
+DRONE_STRIDE = 20
 """For the many drones of a fleet, only every EVERY-th of SHARES is compared."""
 
 ClaimKey = tuple[str, str | None, str]
@@ -115,7 +115,9 @@ def _duration(flown: Flown | None) -> float | None:
 
 def _apart(first: Flown, second: Flown) -> tuple[float | None, float | None]:
     shares = (
-        SHARES if all(isinstance(track, DroneTrajectory) for track, _ in (first, second)) else SHARES[::EVERY]
+        SHARES
+        if all(isinstance(track, DroneTrajectory) for track, _ in (first, second))
+        else SHARES[::DRONE_STRIDE]
     )
     one, other = (_places(flown, shares) for flown in (first, second))
     if one.shape != other.shape:

@@ -14,10 +14,10 @@ from shotc.ir.show import Display, Fleet, FleetGroup, Model, Picture, group_name
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.planfile.light_sanity import light_faults
 
-SAMPLES = 50_000_000
+MOST_FLEET_TICKS = 50_000_000
 """Most ticks of the output clock of all drones of a fleet together."""
 
-LARGEST_FLEET = 100_000
+MOST_DRONES = 100_000
 """Most drones of a fleet."""
 
 Fault = tuple[str, str]
@@ -57,8 +57,8 @@ def _fleet(fleet: Fleet, path: str) -> Iterator[Fault]:
     for name, value in (("radius", fleet.radius), ("rise", fleet.rise), ("apart.margin", fleet.apart.margin)):
         if value < 0:
             yield f"{path}.{name}", f"{value:g} is negative"
-    if not 0 < len(fleet.pads) <= LARGEST_FLEET:
-        yield f"{path}.pads", f"there are {len(fleet.pads)}, 1 to {LARGEST_FLEET} are possible"
+    if not 0 < len(fleet.pads) <= MOST_DRONES:
+        yield f"{path}.pads", f"there are {len(fleet.pads)}, 1 to {MOST_DRONES} are possible"
     if fleet.group is not None:
         yield from _group(fleet, fleet.group, f"{path}.group")
 
@@ -116,5 +116,5 @@ def _track(track: FleetTrajectory, mission: MissionIR, path: str) -> Iterator[Fa
         if not 0 <= shown.picture < pictures.get(shown.display, 0):
             yield f"{path}.shown[{i}]", f"there is no picture {shown.picture} of a display `{shown.display}`"
     end = max([float(breaks[-1]), *(p.end for p in track.phases), *(s.end for s in track.shown)])
-    if not isfinite(end) or end * mission.rate * n > SAMPLES:
+    if not isfinite(end) or end * mission.rate * n > MOST_FLEET_TICKS:
         yield f"{path}.breaks", f"it lasts {end:g} s: too many samples at {mission.rate:g} Hz"

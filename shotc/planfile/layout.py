@@ -6,16 +6,16 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-ROW = 100
+LONGEST_VALUE_CHARACTERS = 100
 """Most characters of a value on one line."""
 
-FIELDS = 20
+LINE_ITEMS = 20
 """Most items of a value on one line."""
 
-IN_ROW = 10
+LINE_NUMBERS = 10
 """Numbers per line of a long list."""
 
-RECORD = 420
+LONGEST_RECORD_CHARACTERS = 420
 """Most characters of an object of plain values on one line."""
 
 
@@ -43,7 +43,8 @@ def _parts(value: Any, pad: str) -> Iterator[str]:
     inner = pad + "  "
     if isinstance(value, list) and not any(isinstance(item, dict | list) for item in value):
         rows = (
-            json.dumps(value[i : i + IN_ROW], allow_nan=False)[1:-1] for i in range(0, len(value), IN_ROW)
+            json.dumps(value[i : i + LINE_NUMBERS], allow_nan=False)[1:-1]
+            for i in range(0, len(value), LINE_NUMBERS)
         )
         yield f"[\n{inner}" + f",\n{inner}".join(rows) + f"\n{pad}]"
         return
@@ -60,11 +61,11 @@ def _one_line(value: Any) -> str | None:
     if not isinstance(value, dict | list) or not value:
         return json.dumps(value, allow_nan=False)
     items = list(value.values()) if isinstance(value, dict) else value
-    if len(items) > FIELDS or not all(map(_is_short, items)):
+    if len(items) > LINE_ITEMS or not all(map(_is_short, items)):
         return None
     line = json.dumps(value, allow_nan=False)
     flat = isinstance(value, dict) and not any(isinstance(item, dict) for item in items)
-    return line if len(line) <= (RECORD if flat else ROW) else None
+    return line if len(line) <= (LONGEST_RECORD_CHARACTERS if flat else LONGEST_VALUE_CHARACTERS) else None
 
 
 def _is_short(value: Any) -> bool:

@@ -21,11 +21,11 @@ from shotc.planfile.text import as_bytes
 from shotc.planfile.write import FORMAT, VERSION, seal
 from shotc.source.file import WHOLE_FILE, Span
 
-SIZE_CAP = 256 * 2**20
-LONGEST = 1000  # digits of a number
+LARGEST_BYTES = 256 * 2**20
+LONGEST_VALUE_CHARACTERS = 1000  # digits of a number
 """Size of the largest plan that is read, bytes."""
 
-REPORTED = 20
+MOST_REPORTED = 20
 """Most faults that are reported one by one. A file of another kind has thousands."""
 
 
@@ -87,8 +87,8 @@ def _refused(*diagnostics: Diagnostic) -> ReadPlan:
 
 
 def _parse(data: bytes) -> Any:
-    if len(data) > SIZE_CAP:
-        raise _NotJsonError(f"it has {len(data)} bytes, more than {SIZE_CAP} are not read")
+    if len(data) > LARGEST_BYTES:
+        raise _NotJsonError(f"it has {len(data)} bytes, more than {LARGEST_BYTES} are not read")
     try:
         text = data.decode("utf-8")
         return json.loads(text, parse_int=_integer, parse_constant=_constant, object_pairs_hook=_object)
@@ -104,7 +104,7 @@ def _parse(data: bytes) -> Any:
 
 
 def _integer(text: str) -> int:
-    if len(text) > LONGEST:
+    if len(text) > LONGEST_VALUE_CHARACTERS:
         raise ValueError(f"a number has {len(text)} digits")
     return int(text)
 
@@ -154,9 +154,9 @@ def _foreign(document: Any, name: str) -> Diagnostic | None:
 
 def _report(faults: list[FieldFault], name: str) -> list[Diagnostic]:
     label = (Label(name, WHOLE_FILE),)
-    shown = [Diagnostic("E003", f"plan field `{f.path}`: {f.text}", label) for f in faults[:REPORTED]]
-    if len(faults) > REPORTED:
-        shown.append(Diagnostic("E003", f"and {len(faults) - REPORTED} more faults of this plan", label))
+    shown = [Diagnostic("E003", f"plan field `{f.path}`: {f.text}", label) for f in faults[:MOST_REPORTED]]
+    if len(faults) > MOST_REPORTED:
+        shown.append(Diagnostic("E003", f"and {len(faults) - MOST_REPORTED} more faults of this plan", label))
     return shown
 
 

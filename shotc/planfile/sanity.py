@@ -19,13 +19,13 @@ from shotc.ir.trajectory import DroneTrajectory, TrajectoryIR
 from shotc.planfile.fleet_sanity import fleet_faults
 from shotc.units import LARGEST
 
-SAMPLES = 20_000_000
+MOST_TICKS = 20_000_000
 """Most ticks of the output clock in a flight."""
 
-CORNERS = 1000
+MOST_CORNERS = 1000
 """Most corners of a zone."""
 
-UNIT = 1e-6
+UNIT_TOLERANCE = 1e-6
 """Tolerance of a unit vector's length, and of the position of a group's part against its body, metres."""
 
 FASTEST = (1 + 1e-6) * LARGEST["speed"]
@@ -101,8 +101,8 @@ def _solid(solid: Solid) -> str:
         return "its bottom is above its top"
     if isinstance(solid, Cylinder):
         return "its radius is negative" if solid.radius < 0 else ""
-    if not 3 <= len(solid.points) <= CORNERS:
-        return f"it has {len(solid.points)} corners, 3 to {CORNERS} are possible"
+    if not 3 <= len(solid.points) <= MOST_CORNERS:
+        return f"it has {len(solid.points)} corners, 3 to {MOST_CORNERS} are possible"
     if not is_simple(solid.points) or signed_area(solid.points) <= 0:
         return "its outline crosses itself or does not run counter-clockwise"
     return ""
@@ -186,7 +186,7 @@ def _shape(shape: TargetShape) -> str:
         return "a radius or height is negative" if min(shape) < 0 else ""
     if min(shape[:3]) < 0:
         return "a side is negative"
-    return "" if abs(hypot(*shape.ahead) - 1.0) <= UNIT else "`ahead` is no unit vector"
+    return "" if abs(hypot(*shape.ahead) - 1.0) <= UNIT_TOLERANCE else "`ahead` is no unit vector"
 
 
 def _groups(mission: MissionIR) -> Iterator[Fault]:
@@ -201,7 +201,7 @@ def _groups(mission: MissionIR) -> Iterator[Fault]:
             continue
         made = [(plus(group.centre, part.offset), part.shape) for part in group.shape.parts]
         same = [
-            dist(centre, body.centre) <= UNIT and shape == body.shape
+            dist(centre, body.centre) <= UNIT_TOLERANCE and shape == body.shape
             for (centre, shape), body in zip(made, parts, strict=False)
         ]
         if group.track is not None or len(made) != len(parts) or not all(same):
@@ -226,5 +226,5 @@ def _track(track: DroneTrajectory, mission: MissionIR, path: str) -> Iterator[Fa
     if track.curve.ctrl.shape[2] != len(CHANNELS):
         yield f"{path}.curve", f"has {track.curve.ctrl.shape[2]} channels, not {len(CHANNELS)}"
     times = chain((p.end for p in track.phases), (track.curve.end,))
-    if max(times) * mission.rate > SAMPLES:
+    if max(times) * mission.rate > MOST_TICKS:
         yield f"{path}.curve", f"lasts {track.curve.end:g} s: too many samples at {mission.rate:g} Hz"

@@ -19,7 +19,7 @@ from shotc.geom.solid_arrays.planes import separate
 from shotc.geom.solid_arrays.points import distances, support
 from shotc.geom.solid_arrays.segments import segment_distances
 from shotc.geom.solids import Solid
-from shotc.geom.taper import SLOPE, Taper
+from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.geom.vec import Vec3
 from shotc.ir.owners import Owner
 from shotc.planning.beside_mesh import BesideMesh
@@ -288,7 +288,7 @@ def beside_surface(
 def taper(space: FreeSpace, obstacle: Obstacle) -> Taper:
     """Return the tapered clearance from an obstacle in a free space with ends."""
     ends = np.array(space.ends, dtype=np.float64).reshape(-1, 3)
-    return Taper(obstacle.clearance, STEEPER_RATIO * SLOPE, ends, distances(obstacle.part, ends))
+    return Taper(obstacle.clearance, STEEPER_RATIO * TAPER_SLOPE, ends, distances(obstacle.part, ends))
 
 
 def six(hulls: Array) -> Array:

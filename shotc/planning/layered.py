@@ -30,7 +30,7 @@ RINGS_M = (1.0, 2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0)  # metres of places from t
 TURNS, RISES_RAD = 12, (0.0, 0.5, 1.0)
 CHANGE_S = 2.0  # seconds, weight of the rate of change of the offset over the offset
 FASTEST_M_S = 12.0  # fastest change of the offset from the ideal
-BLOCKED = 1e9  # cost of a blocked place or segment
+BLOCKED_COST = 1e9  # cost of a blocked place or segment
 UNSEEN_SHARE = 0.7  # offset, over the distance to the subject, that costs as much as hiding it
 FOR_SIGHT_SHARE = 0.4  # largest offset, over that distance, to see the subject
 SPREAD_S = 1.0  # seconds around a hidden sample in which the course is led
@@ -162,16 +162,16 @@ def _course(
         most = np.where(room[:, :1] >= 0.0, FOR_SIGHT_SHARE * away, np.inf)  # a blocked ideal is left anyway
         unseen = np.where(far <= most, watched.hidden(places), watched.filmed[:, None])
         price += (UNSEEN_SHARE * away) ** 2 * unseen
-    stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED)
+    stay = np.where(room >= 0.0, price * np.gradient(times)[:, None], BLOCKED_COST)
     if held is not None:
-        stay[held & (room[:, 0] >= 0.0), 1:] = BLOCKED
+        stay[held & (room[:, 0] >= 0.0), 1:] = BLOCKED_COST
     apart = np.linalg.norm(shifts[:, None] - shifts[None], axis=2)
-    change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED)
+    change = np.where(apart <= FASTEST_M_S * step.max(), (CHANGE_S * apart) ** 2, BLOCKED_COST)
     shut = np.zeros((len(step), len(shifts), len(shifts)), dtype=bool)
     tested = np.zeros(len(step), dtype=bool)
     while True:
         chosen, cost = _cheapest(stay, change, step, shut)
-        if cost >= BLOCKED:
+        if cost >= BLOCKED_COST:
             return None
         if not joined:
             return np.asarray(shifts[chosen])
@@ -180,7 +180,7 @@ def _course(
         if not len(stopped):
             return np.asarray(shifts[chosen])
         for k in stopped:
-            shut[k] = _shut(space, places[k : k + 2], room[k : k + 2], change < BLOCKED)
+            shut[k] = _shut(space, places[k : k + 2], room[k : k + 2], change < BLOCKED_COST)
         tested[stopped] = True
 
 
@@ -199,7 +199,7 @@ def _cheapest(stay: Array, change: Array, step: Array, shut: Mask) -> tuple[Arra
     cost, before = stay[0], []
     for k in range(len(step)):
         ways = cost[:, None] + change / step[k]
-        ways[shut[k]] = BLOCKED
+        ways[shut[k]] = BLOCKED_COST
         before.append(ways.argmin(axis=0))
         cost = ways.min(axis=0) + stay[k + 1]
     chosen = [int(cost.argmin())]

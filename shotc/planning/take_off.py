@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
-from shotc.geom.apart import ROOMIER
+from shotc.geom.apart import ROUNDING_RATIO
 from shotc.geom.colouring import coloured, conflicts, fewest_colours
 from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
@@ -64,6 +64,6 @@ def _take_off(pads: tuple[Vec3, ...], apart: Apart, rise: float) -> TakeOff:
     layer = coloured(level, apart.across)
     near = conflicts(level, apart.across)
     uneven = max((abs(pads[i][2] - pads[j][2]) for i, others in enumerate(near) for j in others), default=0.0)
-    step = ROOMIER * (apart.upright + uneven)
+    step = ROUNDING_RATIO * (apart.upright + uneven)
     count = max(layer) + 1
     return TakeOff(layer, tuple(rise + step * (count - 1 - k) for k in range(count)), step)

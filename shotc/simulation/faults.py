@@ -16,7 +16,7 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.judge import Run
 from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.verdict import RequirementVerdict
-from shotc.spec.presets import TOP_SPEED
+from shotc.spec.presets import TOP_SPEED_M_S
 
 WORDS = {
     "in_frame": "the whole target is in {} of a shot's frames",
@@ -169,11 +169,11 @@ def _untrue(mission: MissionIR, name: str, track: Track, end: float) -> Iterator
         )
     for i, (a, b) in enumerate(pairwise(track.points)):
         since, lasts = track.times[i], track.times[i + 1] - track.times[i]
-        if dist(a, b) > TOP_SPEED * lasts:
+        if dist(a, b) > TOP_SPEED_M_S * lasts:
             yield Diagnostic(
                 "W004",
                 f"the true track of `{name}` jumps {dist(a, b):.1f} m in {lasts:.3g} s at {since:g} s",
                 (label,),
-                help=f"nothing that is filmed moves faster than {TOP_SPEED:g} m/s: mend the rows there",
+                help=f"nothing that is filmed moves faster than {TOP_SPEED_M_S:g} m/s: mend the rows there",
             )
             return

@@ -23,10 +23,10 @@ from shotc.simulation.situations import replanned
 from shotc.simulation.vehicle import STEP_S, Lagging, Plant, Vehicle, VehicleState, steered
 from shotc.simulation.world import World
 
-HEADROOM = 1.3
+HEADROOM_RATIO = 1.3
 """Times the fastest speed of a plan, with which a controller may ask a drone to catch up."""
 
-EVERY = 2
+STEPS_PER_RECORD = 2
 """Steps of the drone for one of the gimbal, and for one record: 50 a second."""
 
 
@@ -84,12 +84,14 @@ def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent 
     conditions, runs = world.conditions, world.runs
     name, count, n = film.drone.name, len(film.times), len(runs)
     gusts = conditions.wind.blown(count, STEP_S, conditions.chances(runs, f"gusts {name}"))
-    error = conditions.gps.own_error(film.times[::EVERY], conditions.chances(runs, f"gps of {name}"))
+    error = conditions.gps.own_error(
+        film.times[::STEPS_PER_RECORD], conditions.chances(runs, f"gps of {name}")
+    )
     targets = _watched(world, film)
     shots = replanned(world.mission, film.track) if conditions.loop == "replan" else ()
     guidance = Guidance(world, film, shots, targets, sent, own)
     vehicle, gimbal = (
-        Vehicle(speed=HEADROOM * fastest(film.drone.limits)),
+        Vehicle(speed=HEADROOM_RATIO * fastest(film.drone.limits)),
         GimbalModel(film.drone.gimbal.rate),
     )
     state = VehicleState.at_rest(np.tile(film.position[0], (n, 1)))
@@ -98,15 +100,15 @@ def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent 
     attitude = Attitude(first, np.zeros((n, 3)))
     into = _Record.of(film, n, targets)
     for k in range(count):
-        off = error[k // EVERY]
-        if k % EVERY == 0:
-            into.add(k // EVERY, state, attitude, targets)
+        off = error[k // STEPS_PER_RECORD]
+        if k % STEPS_PER_RECORD == 0:
+            into.add(k // STEPS_PER_RECORD, state, attitude, targets)
             believed = state.position + off
             for target in targets:
                 target.look(k, film, conditions, (state.position, believed), attitude)
                 target.learn(float(film.times[k]))
             wanted, rate = _asked(world, film, k, (believed, state.velocity), targets)
-            attitude = turned(gimbal, attitude, wanted, rate, EVERY * STEP_S)
+            attitude = turned(gimbal, attitude, wanted, rate, STEPS_PER_RECORD * STEP_S)
         asked = guidance.setpoint(k, (state.position + off, state.velocity))
         state = plant.carried(state, *steered(vehicle, state, asked, off), world.steady + gusts[k])
     return into.done(film, guidance)
@@ -181,10 +183,10 @@ def _aim(
     """Return yaw, pitch and their rates, (R, 4), that keep a target where it is to be on screen."""
     offset, velocity = target[0] - drone[0], target[1] - drone[1]
     # After its last frame a target has no place on screen.
-    soon = min(k + EVERY, len(wanted) - 1)
+    soon = min(k + STEPS_PER_RECORD, len(wanted) - 1)
     n, next_ = len(offset), soon if np.isfinite(wanted[soon, 0]) else k
     now, later = (Shown(np.tile(wanted[i], (n, 1)), np.tile(film.half[i], (n, 1))) for i in (k, next_))
-    rates = aim_rates(offset, velocity, now, later, EVERY * STEP_S)
+    rates = aim_rates(offset, velocity, now, later, STEPS_PER_RECORD * STEP_S)
     return np.column_stack([*aimed(offset, *now), *rates])
 
 
@@ -199,7 +201,7 @@ class _Record:
 
     @staticmethod
     def of(film: PlanSamples, n: int, targets: tuple[TrackedTarget, ...]) -> _Record:
-        f = (len(film.times) + EVERY - 1) // EVERY
+        f = (len(film.times) + STEPS_PER_RECORD - 1) // STEPS_PER_RECORD
         known = tuple(Estimated(t.name, np.empty((f, n, 3)), np.empty((f, n, 3, 3))) for t in targets)
         return _Record(np.empty((f, n, 3)), np.empty((f, n, 3)), np.empty((f, n, 3)), known)
 
@@ -209,12 +211,12 @@ class _Record:
         self.position[i], self.velocity[i] = state.position, state.velocity
         self.angles[i] = np.stack(angles_of(attitude.axes), axis=-1)
         for target, into in zip(targets, self.estimated, strict=True):
-            now = target.tracker.now(i * EVERY * STEP_S)
+            now = target.tracker.now(i * STEPS_PER_RECORD * STEP_S)
             into.place[i], into.covariance[i] = now.position, now.covariance[:, :3, :3]
 
     def done(self, film: PlanSamples, guidance: Guidance) -> DroneRuns:
         yaw, pitch, roll = np.moveaxis(self.angles, -1, 0)
-        times = film.times[::EVERY]
+        times = film.times[::STEPS_PER_RECORD]
         return DroneRuns(
             film.drone.name,
             times,

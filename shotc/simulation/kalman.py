@@ -22,10 +22,10 @@ from shotc.geom.bernstein import Array
 from shotc.geom.pieces import Mask
 from shotc.simulation.sensors import BIAS_MEMORY_S
 
-GATE = 9.21
+GATE_CHI2 = 9.21
 """Squared distance from what is expected beyond which a detection is of something else: chi-square, 99 %."""
 
-STATES = 12
+STATE_COUNT = 12
 WAY, BIAS = slice(6, 9), slice(9, 12)
 """Where the velocity of the way and the bias stand in a state."""
 
@@ -110,7 +110,7 @@ class PositionFix:
 
     def taken(self, estimate: Estimate) -> Taken:
         """Take the position in."""
-        jacobian = np.zeros((len(self.place), 3, STATES))
+        jacobian = np.zeros((len(self.place), 3, STATE_COUNT))
         jacobian[:, :, :3] = jacobian[:, :, BIAS] = np.eye(3)
         noise = self.deviation**2 * np.eye(3)
         miss = self.place - estimate.position - estimate.mean[:, BIAS]
@@ -137,15 +137,15 @@ class PictureFix:
         expected, jacobian = projection(estimate.position - self.eye, self.axes, self.half)
         known = self.used & np.isfinite(expected).all(axis=1)
         miss = np.where(known[:, None], self.uv - expected, 0.0)
-        rows = np.zeros((len(miss), 2, STATES))
+        rows = np.zeros((len(miss), 2, STATE_COUNT))
         rows[:, :, :3] = np.where(known[:, None, None], jacobian, 0.0)
         noise = self.deviation**2 * np.eye(2)
         spread = rows @ estimate.covariance @ np.swapaxes(rows, 1, 2) + noise
         off = np.einsum("ri,rij,rj->r", miss, np.linalg.inv(spread), miss)
-        right = off <= GATE
+        right = off <= GATE_CHI2
         done = _updated(estimate, (miss, rows, noise), known & right)
         # Whose detections are of other things all the time is no better than one whose miss is at the gate.
-        rest = -0.5 * (GATE + np.linalg.slogdet(spread)[1])
+        rest = -0.5 * (GATE_CHI2 + np.linalg.slogdet(spread)[1])
         return Taken(done.estimate, np.where(known & ~right, rest, done.fit))
 
 
@@ -214,6 +214,6 @@ def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) ->
     gain = np.where(used[:, None, None], gain, 0.0)
     mean = estimate.mean + np.einsum("rij,rj->ri", gain, miss)
     # Joseph's form stays symmetric and positive.
-    left = np.eye(STATES) - gain @ jacobian
+    left = np.eye(STATE_COUNT) - gain @ jacobian
     covariance = left @ estimate.covariance @ np.swapaxes(left, 1, 2) + gain @ noise @ np.swapaxes(gain, 1, 2)
     return Taken(Estimate(estimate.time, mean, covariance), np.where(used, fit, 0.0))

@@ -20,7 +20,7 @@ from shotc.simulation.kalman import Estimate, Measurement, MotionModel, ahead, p
 LASTS_S = 10.0
 """Seconds for which a model holds in the mean before another one does."""
 
-LEAST = 1e-6
+LEAST_SHARE = 1e-6
 """Share that no model falls below: one that is given up never comes back."""
 
 
@@ -69,7 +69,7 @@ def taken(modes: Modes, measurement: Measurement) -> Modes:
     if len(found) == 1:
         return Modes((found[0].estimate,), modes.share)
     fit = np.stack([each.fit for each in found], axis=1)
-    share = np.maximum(modes.share * np.exp(fit - fit.max(axis=1, keepdims=True)), LEAST)
+    share = np.maximum(modes.share * np.exp(fit - fit.max(axis=1, keepdims=True)), LEAST_SHARE)
     return Modes(tuple(each.estimate for each in found), share / share.sum(axis=1, keepdims=True))
 
 

@@ -21,8 +21,8 @@ WIDTH_IN = 11.0
 PANEL_IN = 2.6
 
 HEAD_IN = 1.0
-BINS = 32
-HEADROOM = 1.3
+BIN_COUNT = 32
+HEADROOM_RATIO = 1.3
 """Times the tallest bar: the legend is above them."""
 
 
@@ -84,18 +84,22 @@ def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
             low, high = min(low, panel.limit), max(high, panel.limit)
         around = max(high - low, 0.1 * max(abs(high), 1e-3))
         drawn, _, _ = axes.hist(
-            values, bins=np.linspace(low - 0.05 * around, high + 0.05 * around, BINS), color=SUBJECT
+            values, bins=np.linspace(low - 0.05 * around, high + 0.05 * around, BIN_COUNT), color=SUBJECT
         )
         axes.plot(values, np.zeros(len(values)), "|", color=INK, markersize=8, clip_on=False)
-        axes.set_ylim(0.0, HEADROOM * float(drawn.max()))
+        axes.set_ylim(0.0, HEADROOM_RATIO * float(drawn.max()))
     worst = panel.measure(done.worst)
     if isfinite(worst):
         axes.axvline(
-            worst, ymax=1 / HEADROOM, color=CAMERA, linewidth=2.0, label=f"run {done.worst.number}, the worst"
+            worst,
+            ymax=1 / HEADROOM_RATIO,
+            color=CAMERA,
+            linewidth=2.0,
+            label=f"run {done.worst.number}, the worst",
         )
     if panel.limit is not None:
         axes.axvline(
-            panel.limit, ymax=1 / HEADROOM, color=KEEP_OUT, linewidth=1.5, linestyle="--", label="asked"
+            panel.limit, ymax=1 / HEADROOM_RATIO, color=KEEP_OUT, linewidth=1.5, linestyle="--", label="asked"
         )
     axes.xaxis.set_major_locator(MaxNLocator(6))
     axes.ticklabel_format(axis="x", useOffset=False)

@@ -20,10 +20,10 @@ from shotc.simulation.runs import RunBlock, Strays
 from shotc.simulation.sensors import GRADES
 from shotc.simulation.truth import Truth
 from shotc.simulation.verdict import RequirementVerdict, enough, held, verdicts
-from shotc.spec.presets import RUNS
+from shotc.spec.presets import RUN_COUNT
 
 SILENT = Rehearsal(
-    RehearsalPromise(), path=(), runs=RUNS, loop="replay", wind=None, gusts=0.0, gps="rtk", wander=0.0
+    RehearsalPromise(), path=(), runs=RUN_COUNT, loop="replay", wind=None, gusts=0.0, gps="rtk", wander=0.0
 )
 """What is asked of the rehearsals of a mission that says nothing of them."""
 

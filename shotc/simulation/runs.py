@@ -20,7 +20,7 @@ from shotc.simulation.judge import Run, judged
 from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
 
-BLOCK = 25
+BLOCK_RUNS = 25
 """Runs of cameras that are flown at once, as rows of arrays; those of fleets are flown one by one."""
 
 STRAYS_S = 0.2
@@ -50,7 +50,7 @@ def simulated(
 
     earlier : blocks that were done before; those of as many runs as are needed now are not flown again
     """
-    size = 1 if ir.fleets else BLOCK
+    size = 1 if ir.fleets else BLOCK_RUNS
     needed = {i: range(i, min(i + size, count)) for i in range(0, count, size)}
     for block in earlier:
         first = block.runs[0].number

@@ -38,7 +38,7 @@ LOOPS = {
     "track": "camera follows what it sees",
     "replan": "drone and camera follow what they see",
 }
-LARGEST_MARGIN = 2.0
+LARGEST_MARGIN_RATIO = 2.0
 """Times the separation: with a larger margin a show has no pictures left."""
 FLEETS = ("fleet", "drones", "strays, RMS", "99 %", "farthest", "nearest", "asked", "margin")
 
@@ -283,7 +283,7 @@ def _enough(fleet: Fleet, farthest: float, below: int) -> str:
         return "no two drones can come too near in this wind: the margin is twice the farthest stray, or more"
     stray, safe = f"a drone strays up to {at_least(farthest)} m from its place", up(2 * farthest, 1)
     margin = f"`separation: {{margin: {safe:g}}}`"
-    if safe > LARGEST_MARGIN * fleet.apart.horizontal:
+    if safe > LARGEST_MARGIN_RATIO * fleet.apart.horizontal:
         remedy = f"{stray}, too far for any margin: do not fly this show in such wind"
     elif below:
         remedy = f"{stray}: plan with {margin}, which keeps any two apart in such wind"

@@ -21,11 +21,11 @@ BoolArray = NDArray[np.bool_]
 Term = tuple[NDArray[Any], Array]
 
 USABLE = frozenset({Status.SOLVED, Status.INACCURATE})
-BESIDE = (
+BESIDE_CONES = (
     4  # neighbours on each side of a violated cone that are added with it (rows are in the curve's order)
 )
-REFINED = 1e-3  # share of the tolerance to which the linear systems of a step are solved
-ROUNDING = 1e-13  # absolute value of it, if that does not suffice
+REFINED_SHARE = 1e-3  # share of the tolerance to which the linear systems of a step are solved
+ROUNDING_SHARE = 1e-13  # absolute value of it, if that does not suffice
 
 
 class WarmStart(NamedTuple):
@@ -179,7 +179,7 @@ def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
 def _widened(chosen: BoolArray) -> BoolArray:
     """Return the mask with BESIDE neighbours on each side added."""
     out = chosen.copy()
-    for step in range(1, BESIDE + 1):
+    for step in range(1, BESIDE_CONES + 1):
         out[step:] |= chosen[:-step]
         out[:-step] |= chosen[step:]
     return out
@@ -198,7 +198,7 @@ def _settings(tolerance: float, *, scaled: bool) -> Any:
 def _solved(programme: tuple[Any, ...], settings: Any) -> tuple[Status, Array]:
     """Return Clarabel's status and solution of a programme."""
     # The coarser refinement is faster, but a few programmes make no progress with it.
-    for refined in (REFINED * settings.tol_feas, ROUNDING):
+    for refined in (REFINED_SHARE * settings.tol_feas, ROUNDING_SHARE):
         settings.iterative_refinement_reltol = settings.iterative_refinement_abstol = refined
         solution = clarabel.DefaultSolver(*programme, settings).solve()
         status = _STATUS.get(str(solution.status), Status.FAILED)

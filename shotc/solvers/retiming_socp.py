@@ -27,8 +27,8 @@ from shotc.solvers.conic import Status
 Array = NDArray[np.float64]
 
 # Rows of a norm below this share of its limit are negligible and omitted.
-NEGLIGIBLE = 1e-9
-NEAR = 0.6  # share of its limit above which a norm of the last iterate may be active in the next
+NEGLIGIBLE_SHARE = 1e-9
+NEAR_LIMIT_SHARE = 0.6  # share of its limit above which a norm of the last iterate may be active in the next
 NEWTON_STEPS = 6  # to the middle of a cell; five leave an error of 1e-10, six none
 
 
@@ -107,7 +107,7 @@ def retime(problem: RetimingProblem, around: Iterate, tolerance: float = 1e-6) -
     for limit in problem.jerks:
         model.jerk(limit)
     model.times()
-    near = WarmStart(model.start(), NEAR)
+    near = WarmStart(model.start(), NEAR_LIMIT_SHARE)
     status, x = model.rows.solve(model.total_time(), tolerance, scaled=True, near=near)
     inside = slice(1, -1)
     b, a = np.zeros_like(around.b), np.zeros_like(around.b)
@@ -303,4 +303,4 @@ def triangular(columns: Array) -> Array:
     """
     frame: Array = columns if columns.shape[2] == 1 else np.asarray(np.linalg.qr(columns, mode="r"))
     size = np.abs(frame).max(axis=(0, 1, 3))
-    return np.asarray(frame[:, :, size > NEGLIGIBLE * max(1.0, size.max())])
+    return np.asarray(frame[:, :, size > NEGLIGIBLE_SHARE * max(1.0, size.max())])

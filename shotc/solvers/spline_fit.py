@@ -17,8 +17,8 @@ from shotc.solvers.cone_rows import ConeRows
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import scalar_map, terms
 
-TOLERANCE = 1e-8
-TOUCH = 3e-7  # a third of verification's tolerance of a limit
+SOLVER_TOLERANCE = 1e-8
+TOUCH_TOLERANCE = 3e-7  # a third of verification's tolerance of a limit
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +65,7 @@ def within(points: Array, low: Array | float, high: Array | float) -> Array:
     verification tolerates them.
     """
     inside = np.clip(points, low, high)
-    return np.asarray(np.where(np.abs(inside - points) > TOUCH, inside, points))
+    return np.asarray(np.where(np.abs(inside - points) > TOUCH_TOLERANCE, inside, points))
 
 
 def _least_squares(task: Fit) -> tuple[Any, Array]:
@@ -127,7 +127,7 @@ def _bounded(task: Fit, free: Array) -> tuple[Status, Array]:
     binding, _ = _anchors(task)
     if len(binding.piece):
         programme.zero(terms(binding))
-    status, change = programme.solve(np.zeros(size), TOLERANCE, 2.0 * (matrix.T @ matrix))
+    status, change = programme.solve(np.zeros(size), SOLVER_TOLERANCE, 2.0 * (matrix.T @ matrix))
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return status, np.zeros(size)
     return status, np.asarray(free + change)

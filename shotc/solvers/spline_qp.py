@@ -28,8 +28,8 @@ from shotc.solvers.spline_problem import (
     terms,
 )
 
-MISS = 1e-6  # metres, tolerance of equalities
-TOLERANCE = 1e-8
+MISS_M = 1e-6  # metres, tolerance of equalities
+SOLVER_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -150,7 +150,7 @@ def _keeps(problem: SplineProblem, coef: Array) -> bool:
     """Return whether coefficients keep every equality and bound; NaN keeps none."""
     miss = np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value)
     return (
-        bool((miss <= MISS).all())
+        bool((miss <= MISS_M).all())
         and all(((f.rows.apply(coef) * f.normal).sum(axis=1) >= f.offset).all() for f in problem.half_spaces)
         and all((_lengths(cone, coef) <= cone.bound).all() for cone in problem.cones)
     )
@@ -193,11 +193,13 @@ def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) 
         bounded(rows, problem.size, cone, more)
     hessian, slope = _quadratic(problem, squares, slacks)
     near = WarmStart(np.zeros(rows.unknowns), 1.0)
-    status, x = rows.solve((slope + np.concatenate(price)) / unit, TOLERANCE, hessian / unit, near=near)
+    status, x = rows.solve(
+        (slope + np.concatenate(price)) / unit, SOLVER_TOLERANCE, hessian / unit, near=near
+    )
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))
     coef = np.ascontiguousarray(x[: 3 * problem.size].reshape(3, problem.size).T)
-    if np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max() > MISS:
+    if np.abs(problem.equalities.rows.apply(coef) - problem.equalities.value).max() > MISS_M:
         return SplineSolution(Status.FAILED, None, float("nan"), float("nan"))
     excess = float(np.concatenate(price)[3 * problem.size :] @ x[3 * problem.size :])
     return SplineSolution(status, coef, _energy(problem, coef), excess)

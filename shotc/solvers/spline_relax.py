@@ -17,7 +17,7 @@ from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import EVERY, SplineProblem, bounded, centred, terms
 
 POINT_PRICE = 1.01  # cost of a point's shift per metre; if a half-space's slack suffices, the point stays
-TOLERANCE = 1e-8
+SOLVER_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +60,7 @@ def relax(problem: SplineProblem, owners: int) -> Relaxation:
         if cone.price is None:
             bounded(rows, problem.size, cone, [(given[cone.owner], np.ones(len(cone.bound)))])
     cost = np.concatenate([np.zeros(curve), np.ones(owners), np.full(points, POINT_PRICE)])
-    status, x = rows.solve(cost, TOLERANCE)
+    status, x = rows.solve(cost, SOLVER_TOLERANCE)
     if status not in USABLE:
         return Relaxation(status, None, np.zeros(owners), np.zeros(points))
     coef = np.ascontiguousarray(x[:curve].reshape(3, problem.size).T)

@@ -19,7 +19,7 @@ from shotc.solvers.conic import Status
 Array = NDArray[np.float64]
 
 # Price of an overdraft by 100 % of every limit; the integral of squared jerk is about 1.
-OVERDRAFT = 1e4
+OVERDRAFT_PRICE = 1e4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +64,7 @@ def time_law(
         model.limits(limits, last)
     squares, cost = np.zeros(model.rows.unknowns), np.zeros(model.rows.unknowns)
     squares[3 * model.nodes : -1] = model.h / 720.0  # 720: that of the smoothest rest-to-rest law
-    cost[-1] = OVERDRAFT
+    cost[-1] = OVERDRAFT_PRICE
     status, x = model.rows.solve(cost, 1e-8, squares)
     s, v, a = (x[k * model.nodes : (k + 1) * model.nodes] for k in range(3))
     size, time = model.size, model.time

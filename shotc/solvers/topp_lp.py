@@ -18,7 +18,7 @@ from shotc.solvers.topp_problem import FastestProfile, LinearLimits, no_profile,
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-9  # of b in units of its node
+SOLVER_TOLERANCE = 1e-9  # of b in units of its node
 
 
 def fastest(limits: LinearLimits) -> FastestProfile:
@@ -31,7 +31,7 @@ def fastest(limits: LinearLimits) -> FastestProfile:
     rows.positive(0.0 * one, [(inside, one)])
     rows.positive(one, [(inside, -unit[1:-1] / limits.cap[1:-1])])
     _both_ends_of_cells(rows, limits, unit)
-    status, x = rows.solve(-np.ones(len(unit)), TOLERANCE)
+    status, x = rows.solve(-np.ones(len(unit)), SOLVER_TOLERANCE)
     if status not in USABLE or not np.isfinite(x).all():
         return no_profile(limits)
     b = np.clip(x * unit, 0.0, limits.cap)

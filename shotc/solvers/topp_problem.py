@@ -11,7 +11,7 @@ from shotc.solvers.conic import Status
 
 Array = NDArray[np.float64]
 
-SLOWEST = 1e-12  # sum of two path velocities below which a profile stands still
+SLOWEST_M_S = 1e-12  # sum of two path velocities below which a profile stands still
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,7 +55,7 @@ class FastestProfile:
 def profile_of(limits: LinearLimits, b: Array) -> FastestProfile:
     """Return the profile of squared velocities b, shape (N + 1,), with constant acceleration on each cell."""
     sd = np.sqrt(b)
-    time = float(np.sum(2.0 * limits.widths / np.maximum(sd[:-1] + sd[1:], SLOWEST)))
+    time = float(np.sum(2.0 * limits.widths / np.maximum(sd[:-1] + sd[1:], SLOWEST_M_S)))
     return FastestProfile(Status.SOLVED, b, time)
 
 

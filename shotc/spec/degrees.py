@@ -11,7 +11,7 @@ _PASTED = (  # compiled at first use, because few missions need it
     rf"\s*\(?\s*{_DEGREES}([NSns])?\s*[,;\s]\s*{_DEGREES}([EWew])?\s*"
     r"(?:[,;\s]\s*([+-]?\d{1,5}(?:\.\d+)?)\s*(?:m|metres|meters)?)?\s*\)?\s*"
 )
-LONGEST = 80  # most characters of such a text
+LONGEST_CHARACTERS = 80  # most characters of such a text
 
 
 class Pasted(NamedTuple):
@@ -24,7 +24,7 @@ class Pasted(NamedTuple):
 
 def pasted(value: object) -> Pasted | None:
     """Return the place that a text such as `46.68, 7.68` or `46°40'48"N 7°40'48"E` gives, if it is one."""
-    if not isinstance(value, str) or len(value) > LONGEST:
+    if not isinstance(value, str) or len(value) > LONGEST_CHARACTERS:
         return None
     match = re.fullmatch(_PASTED, value)
     if match is None:

@@ -31,7 +31,7 @@ from shotc.spec.fields import (
 from shotc.spec.fieldtypes import FieldType, Hinted, Integer, NamedOr
 from shotc.spec.heights import STANDING
 from shotc.spec.model import Model, OneOf, section
-from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE, ZOOM_RATE
+from shotc.spec.presets import DEFAULT_MODEL, PRESETS, RESERVE_SHARE, ZOOM_RATE_RAD_S
 from shotc.spec.quantities import Percentage, Quantity, Tuple, WattHours
 from shotc.units import SMALLEST
 
@@ -141,7 +141,9 @@ class CameraSpec(Model):
             return None
         width = FULL_FRAME_M if self.sensor is None else self.sensor[0]
         widest, longest = (field_of_view(focal, width) for focal in self.zoom)
-        return LensRange(longest, widest, ZOOM_RATE if self.zoom_rate is None else self.zoom_rate, width)
+        return LensRange(
+            longest, widest, ZOOM_RATE_RAD_S if self.zoom_rate is None else self.zoom_rate, width
+        )
 
     @property
     def aspect_ratio(self) -> float | None:
@@ -252,7 +254,9 @@ class PowerSpec(Model):
     efficiency: PositiveShare | None = Field(
         default=None, description="ideal power of hovering over the power that the battery gives"
     )
-    reserve: Reserve = Field(default=RESERVE, description="share of the battery that is left at landing")
+    reserve: Reserve = Field(
+        default=RESERVE_SHARE, description="share of the battery that is left at landing"
+    )
 
 
 class SafetySpec(Model):

@@ -84,7 +84,7 @@ class FleetSpec(Model):
         default={}, description="numbers of drones that draw apart from the rest of the fleet, by group"
     )
     rise: PositiveLength = Field(
-        default=presets.RISE, description="how far each rises, straight up, before it goes anywhere"
+        default=presets.RISE_M, description="how far each rises, straight up, before it goes anywhere"
     )
 
 

@@ -18,7 +18,7 @@ from shotc.spec.words import closest, elsewhere, nearest
 from shotc.units import clip, describe
 
 # The search for the nearest word takes time, and nobody reads a thousand proposals.
-_ADVISED = 100
+_ADVISED_KEYS = 100
 
 
 class MissingKey(NamedTuple):
@@ -236,7 +236,7 @@ def _wrong_keys(
     absent: Mapping[str, FieldInfo],
 ) -> list[InitErrorDetails]:
     """Return the faults of unknown and missing keys; one misspelt key is one fault, not two."""
-    placed = {key: _place(key, known) for key in unknown[:_ADVISED]}
+    placed = {key: _place(key, known) for key in unknown[:_ADVISED_KEYS]}
     meant = {key: closest(key, absent) for key, place in placed.items() if not place}
     still = [lack for lack in lacks if not set(lack.keys) & set(meant.values())]
     if len(unknown) == len(still) == 1 and not (placed[unknown[0]] or closest(unknown[0], known)):

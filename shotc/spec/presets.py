@@ -17,23 +17,23 @@ from shotc.ir.source import Autopilot
 Body = Literal["forward", "follow-camera", "free"]
 
 COMPOSITION = "thirds"
-SEPARATION = 3.0
-GROUND_CLEARANCE = 2.0
-TARGET_CLEARANCE = 1.0
-OBSTACLE_CLEARANCE = 2.0
-TRANSIT_FILMED = 5.0
-TRANSIT_OTHER = 3.0
-TOP_SPEED = 70.0  # m/s, of targets; faster than helicopters, trains, and cars except racing cars
-PACE = 0.75
+SEPARATION_M = 3.0
+GROUND_CLEARANCE_M = 2.0
+TARGET_CLEARANCE_M = 1.0
+OBSTACLE_CLEARANCE_M = 2.0
+TRANSIT_FILMED_M = 5.0
+TRANSIT_OTHER_M = 3.0
+TOP_SPEED_M_S = 70.0  # m/s, of targets; faster than helicopters, trains, and cars except racing cars
+PACE_SHARE = 0.75
 CIRCLE_SHARE = 0.03 / 36.0
 """Circle of confusion as a share of a sensor's width: the usual 0.03 mm of a full frame."""
-PIXELS = 3840  # width of a picture: UHD
-ZOOM_RATE = radians(10.0)  # rad/s, of the field of view: a slow zoom of a film camera
+WIDTH_PX = 3840  # width of a picture: UHD
+ZOOM_RATE_RAD_S = radians(10.0)  # rad/s, of the field of view: a slow zoom of a film camera
 SMOOTHING = NORMAL_S
-RATE = 50.0
-SHOW_RATE = 5.0
-RUNS = 20  # of a rehearsal
-RISE = 10.0  # metres over its pad to which a fleet's drone takes off vertically
+RATE_HZ = 50.0
+SHOW_RATE_HZ = 5.0
+RUN_COUNT = 20  # of a rehearsal
+RISE_M = 10.0  # metres over its pad to which a fleet's drone takes off vertically
 EMIT = ("csv", "mavlink", "storyboard", "rerun")
 SHOW_EMIT = ("csv", "skyc", "contact-sheet", "animatic", "rerun")
 LARGE_OUTPUTS = ("csv", "rerun")
@@ -78,15 +78,15 @@ def _gimbal(pitch: tuple[float, float], yaw: tuple[float, float], rates: tuple[f
     return Gimbal(low, high, radians(rates[0]), radians(rates[1]))
 
 
-RESERVE = 0.2  # share of a battery that is left at landing
+RESERVE_SHARE = 0.2  # share of a battery that is left at landing
 
 _X500_POWER = Power(
-    mass=2.0, battery=14.8 * 5.2 * 3600.0, rotors=4, radius=5 * 0.0254, efficiency=1.0, reserve=RESERVE
+    mass=2.0, battery=14.8 * 5.2 * 3600.0, rotors=4, radius=5 * 0.0254, efficiency=1.0, reserve=RESERVE_SHARE
 ).hovering_for(18 * 60.0)
 
 
 _DJI = "; speeds at most three quarters of the maker's in mode N, endurance of what it hovers or flies"
-_WIDE = radians(71.6)  # 24 mm equivalent, from the full width of a 4:3 sensor
+_WIDE_FOV_RAD = radians(71.6)  # 24 mm equivalent, from the full width of a 4:3 sensor
 
 
 def _dji(
@@ -106,7 +106,7 @@ def _dji(
         summary=summary,
         limits=_limits(linear, (60.0, 90.0) if light else (70.0, 100.0)),
         gimbal=_gimbal(pitch, (-10.0, 10.0), (60.0, 120.0)),
-        hfov=_WIDE,
+        hfov=_WIDE_FOV_RAD,
         aspect=16 / 9,
         radius=0.3 if light else 0.4,
         endurance=minutes * 60.0,

@@ -72,5 +72,5 @@ class RehearseSpec(Model):
         description="replay: drone and camera do what was planned; track: the camera follows what is seen; "
         "replan: the drone does, too",
     )
-    runs: Runs = Field(default=presets.RUNS, description="number of runs")
+    runs: Runs = Field(default=presets.RUN_COUNT, description="number of runs")
     require: RehearsalPromiseSpec = section("what has to hold in the runs")

@@ -36,12 +36,12 @@ class TransitClearanceSpec(Model):
     filmed: NonNegativeLength | None = Field(
         default=None,
         description="least distance from a drone's body to a target that the mission films; "
-        f"{presets.TRANSIT_FILMED:g} m where there is room by default",
+        f"{presets.TRANSIT_FILMED_M:g} m where there is room by default",
     )
     other: NonNegativeLength | None = Field(
         default=None,
         description="least distance from a drone's body to any other target and to keep-out zones; "
-        f"{presets.TRANSIT_OTHER:g} m where there is room by default",
+        f"{presets.TRANSIT_OTHER_M:g} m where there is room by default",
     )
 
 
@@ -54,20 +54,20 @@ class RulesSpec(Model):
         "the centre",
     )
     separation: NonNegativeLength = Field(
-        default=presets.SEPARATION, description="least distance between drones, centre to centre"
+        default=presets.SEPARATION_M, description="least distance between drones, centre to centre"
     )
     ground_clearance: NonNegativeLength = Field(
-        default=presets.GROUND_CLEARANCE, description="least distance from a drone's body to the ground"
+        default=presets.GROUND_CLEARANCE_M, description="least distance from a drone's body to the ground"
     )
     max_height: Annotated[float, _MAX_HEIGHT] | None = Field(
         default=None,
         description="greatest height of a drone above the ground, or off; a warning above 120 m by default",
     )
     target_clearance: NonNegativeLength = Field(
-        default=presets.TARGET_CLEARANCE, description="least distance from a drone's body to a target"
+        default=presets.TARGET_CLEARANCE_M, description="least distance from a drone's body to a target"
     )
     obstacle_clearance: NonNegativeLength = Field(
-        default=presets.OBSTACLE_CLEARANCE,
+        default=presets.OBSTACLE_CLEARANCE_M,
         description="least distance from a drone's body to the scene and to buildings",
     )
     look_ahead: Annotated[float, _LOOK_AHEAD] | None = Field(
@@ -84,7 +84,9 @@ class RulesSpec(Model):
         default=None,
         description="whether drones keep out of each other's pictures; prefer, by the frame, is the default",
     )
-    pace: Pace = Field(default=presets.PACE, description="share of the limits used where timing is auto")
+    pace: Pace = Field(
+        default=presets.PACE_SHARE, description="share of the limits used where timing is auto"
+    )
     smoothing: Smoothing = Field(
         default=presets.SMOOTHING,
         description="calm cameras against closeness to the ideal: shorter movements are smoothed away",

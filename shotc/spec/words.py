@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 
-_LONGEST_WORD = 80
-_SHORTEST_PART = 3  # letters; shorter words are parts of too many others
+_LONGEST_WORD_CHARACTERS = 80
+_SHORTEST_PART_CHARACTERS = 3  # letters; shorter words are parts of too many others
 # Synonyms from elsewhere for keys, kinds and names that are not similar in spelling. Of several meanings the
 # first that is known at the place is used.
 _MEANT = {
@@ -63,7 +63,7 @@ _ELSEWHERE = {
 
 def closest(word: str, known: Iterable[str]) -> str | None:
     """Return the known word that ``word`` is most likely meant to be, if there is one."""
-    if len(word) > _LONGEST_WORD:
+    if len(word) > _LONGEST_WORD_CHARACTERS:
         return None
     words = list(known)
     if slip := get_close_matches(word, words, n=1, cutoff=0.9):
@@ -113,4 +113,4 @@ def each(names: Iterable[str]) -> str:
 def _alike(word: str, other: str) -> bool:
     """Return whether two words are equal but for case, or one is a part of the other."""
     short, long = sorted((word, other), key=len)
-    return short == long or (len(short) >= _SHORTEST_PART and short in long)
+    return short == long or (len(short) >= _SHORTEST_PART_CHARACTERS and short in long)

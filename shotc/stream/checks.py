@@ -40,7 +40,7 @@ STATES = {
     5: "critical",
     6: "in an emergency",
 }
-SPEED_SLACK = 0.01
+SPEED_SLACK_SHARE = 0.01
 SLACK_RAD = 0.0175
 """A degree: what gimbals say of their range is rounded."""
 
@@ -324,7 +324,7 @@ def _speeds(ready: Ready, course: SetpointSeries) -> Iterator[Diagnostic]:
     asked = speeds(course)
     for limit in ready.vehicle.autopilot.speeds:
         most = ready.vehicle.parameters.get(limit.parameter, inf)
-        if asked[limit.axis] > most * (1 + SPEED_SLACK):
+        if asked[limit.axis] > most * (1 + SPEED_SLACK_SHARE):
             yield Diagnostic(
                 "A014",
                 f"the vehicle of `{ready.drone.name}` is not let fly as fast as the plan",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 EVERYWHERE = "0.0.0.0"
-PORT_MOST = 65535
+LARGEST_PORT = 65535
 
 
 class Endpoint(NamedTuple):
@@ -28,8 +28,8 @@ def endpoint(text: str) -> Endpoint:
     host, _, port = rest.rpartition(":")
     if scheme not in ("udp", "udpout") or not port:
         raise ValueError(f"`{text}` is no address; write `udp:PORT`, `udp:HOST:PORT` or `udpout:HOST:PORT`")
-    if not port.isascii() or not port.isdigit() or not 1 <= int(port) <= PORT_MOST:
-        raise ValueError(f"`{text}` has no port from 1 to {PORT_MOST}")
+    if not port.isascii() or not port.isdigit() or not 1 <= int(port) <= LARGEST_PORT:
+        raise ValueError(f"`{text}` has no port from 1 to {LARGEST_PORT}")
     if scheme == "udpout" and not host:
         raise ValueError(f"`{text}` does not say whom to call; write `udpout:HOST:{port}`")
     return Endpoint(host or EVERYWHERE, int(port), scheme == "udpout")

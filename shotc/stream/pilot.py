@@ -19,9 +19,9 @@ from shotc.stream.messages import ACCEPTED, IN_PROGRESS, REJECTED_FOR_NOW
 from shotc.stream.setpoints import Aim, SetpointSeries
 from shotc.stream.vehicle import VehicleStatus
 
-AGAIN = RATE_HZ // 2
+AGAIN_TICKS = RATE_HZ // 2
 """Ticks after which a command that had no effect is sent again."""
-FLOWING = RATE_HZ * 3 // 2
+FLOWING_TICKS = RATE_HZ * 3 // 2
 """Ticks of setpoints that PX4 has to have had before it follows them: more than a second."""
 SPOOL = RATE_HZ
 """Ticks that motors are given from arming to lift-off."""
@@ -31,7 +31,7 @@ PAD_OFF_M = 2.0
 """How far from its pad a vehicle may be when it arms: a metre, and as much drift while it waited."""
 STRAY_M = 10.0
 """A vehicle farther from its setpoint flies something else than the plan."""
-LIFTED = 0.85
+LIFTED_SHARE = 0.85
 """Share of the height at which a vehicle that takes off by itself is taken over."""
 LANDING_S = 60.0
 SET_MODE, ARM_DISARM, TAKE_OFF, CLAIM = 176, 400, 22, 1001
@@ -165,12 +165,12 @@ class Pilot:
     def _prepare(self, tick: int) -> None:
         self._go(PilotStage.MODE, tick)
         if self.vehicle.autopilot.lift == 0:
-            self._asked = tick + FLOWING - AGAIN
+            self._asked = tick + FLOWING_TICKS - AGAIN_TICKS
 
     def _enter_mode(self, tick: int) -> Iterator[Diagnostic]:
         pilot, gimbal = self.vehicle.autopilot, self.vehicle.gimbal
         claimed = gimbal is None or self.vehicle.answers.get(CLAIM) == ACCEPTED
-        flows = pilot.lift > 0 or tick >= self.begins + FLOWING
+        flows = pilot.lift > 0 or tick >= self.begins + FLOWING_TICKS
         if self.vehicle.mode == pilot.flown.custom and claimed and flows:
             self._go(PilotStage.ARMING, tick)
             return
@@ -198,7 +198,7 @@ class Pilot:
             self.vehicle.link.arm(armed=True)
 
     def _lift(self, tick: int) -> Iterator[Diagnostic]:
-        if self._height() >= LIFTED * self.course.height:
+        if self._height() >= LIFTED_SHARE * self.course.height:
             self._go(PilotStage.FLYING, tick)
             return
         yield from self._late_or_refused(tick, TAKE_OFF, "to take off")
@@ -238,7 +238,7 @@ class Pilot:
             self.vehicle.answers.pop(command, None)
         if self.vehicle.answers.get(command) in (ACCEPTED, IN_PROGRESS) or self._told > 3:
             return
-        if (tick - cut.tick) % AGAIN == 0:
+        if (tick - cut.tick) % AGAIN_TICKS == 0:
             self._told += 1
             if self._told > 3:
                 yield faults.not_recorded(self.vehicle, cut.shot, on=cut.on)
@@ -256,13 +256,13 @@ class Pilot:
                 yield faults.late(self.vehicle, what)
 
     def _again(self, tick: int) -> bool:
-        due = tick - self._asked >= AGAIN
+        due = tick - self._asked >= AGAIN_TICKS
         if due:
             self._asked = tick
         return due
 
     def _go(self, stage: PilotStage, tick: int) -> None:
-        self.stage, self._asked = stage, tick - AGAIN
+        self.stage, self._asked = stage, tick - AGAIN_TICKS
         self.vehicle.answers.clear()
         self.events.append(DOINGS[stage])
 

@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-LEVEL = 10
+PRIORITY_LEVEL = 10
 
 
 @contextmanager
@@ -39,7 +39,7 @@ if hasattr(os, "sched_setscheduler"):
         """Take real-time priority; return the policy and the level before, None where that is not allowed."""
         before = os.sched_getscheduler(0), os.sched_getparam(0).sched_priority
         try:
-            os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(LEVEL))
+            os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(PRIORITY_LEVEL))
         except OSError:
             return None
         return before

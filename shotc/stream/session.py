@@ -14,7 +14,7 @@ from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
 from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.path import HFOV
-from shotc.ir.sampling import SAME_TIME
+from shotc.ir.sampling import SAME_TIME_S
 from shotc.ir.source import TAKES
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 from shotc.stream import checks
@@ -33,7 +33,7 @@ from shotc.stream.vehicle import VehicleStatus
 if TYPE_CHECKING:  # the sockets come from outside, and MAVLink with them
     from shotc.stream.link import Link
 
-BETWEEN_CUTS = RATE_HZ // 10
+CUT_TICKS = RATE_HZ // 10
 """Ticks between the end of one recording and the begin of the next."""
 SILENT_TARGET_S = 5.0
 SAME_HFOV_RAD = 1e-4
@@ -178,7 +178,7 @@ def cuts_of(track: DroneTrajectory) -> tuple[RecordingTick, ...]:
         if phase.shot is not None:
             begin = ceil(phase.start * RATE_HZ - 1e-9)
             if cuts:
-                begin = max(begin, cuts[-1].tick + BETWEEN_CUTS)
+                begin = max(begin, cuts[-1].tick + CUT_TICKS)
             cuts += [
                 RecordingTick(begin, phase.shot, True),
                 RecordingTick(max(begin + 1, ceil(phase.end * RATE_HZ - 1e-9)), phase.shot, False),
@@ -232,7 +232,7 @@ def zoomed(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
     for phase in track.phases:
         if phase.shot is not None:
             begins, ends = track.curve.breaks[:-1], track.curve.breaks[1:]
-            inside = (begins < phase.end - SAME_TIME) & (ends > phase.start + SAME_TIME)
+            inside = (begins < phase.end - SAME_TIME_S) & (ends > phase.start + SAME_TIME_S)
             hfov = track.curve.ctrl[inside][..., HFOV]
             if np.ptp(hfov) > SAME_HFOV_RAD:
                 yield Diagnostic(

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from shotc.stream.endpoint import Endpoint
 
-LARGEST_DATAGRAM = 4096
+LARGEST_DATAGRAM_BYTES = 4096
 MOST_DATAGRAMS = 200
 """At once: who sends more does not keep us from flying."""
 
@@ -29,6 +29,6 @@ def datagrams(of: socket.socket) -> Iterator[tuple[bytes, tuple[str, int]]]:
     """Yield what has come and from where, until nothing is there or the other side's port is closed."""
     for _ in range(MOST_DATAGRAMS):
         try:
-            yield of.recvfrom(LARGEST_DATAGRAM)
+            yield of.recvfrom(LARGEST_DATAGRAM_BYTES)
         except OSError:
             return

@@ -25,11 +25,11 @@ if TYPE_CHECKING:  # MAVLink is an extra, and a vehicle is judged without it
     from shotc.stream.link import Link
 
 AUTOPILOT_COMPONENT = 1
-CAMERA_KIND = 30
+CAMERA_MAV_TYPE = 30
 """MAV_TYPE of a camera that has a heartbeat of its own."""
-WARNING = 4
+WARNING_SEVERITY = 4
 """The severity from which on a text is of no concern before a flight."""
-TEXTS_KEPT = 4
+MOST_KEPT_TEXTS = 4
 
 
 @dataclass(slots=True)
@@ -53,7 +53,7 @@ class VehicleStatus:
     gimbal: GimbalManager | None = None
     parameters: dict[str, float] = field(default_factory=dict)
     answers: dict[int, int] = field(default_factory=dict)
-    texts: deque[str] = field(default_factory=lambda: deque(maxlen=TEXTS_KEPT))
+    texts: deque[str] = field(default_factory=lambda: deque(maxlen=MOST_KEPT_TEXTS))
 
     @property
     def mode(self) -> int | None:
@@ -87,11 +87,11 @@ class VehicleStatus:
                 self.position = position
             case GimbalManager():
                 self.gimbal = message
-            case StatusText(severity, text) if severity <= WARNING:
+            case StatusText(severity, text) if severity <= WARNING_SEVERITY:
                 self.texts.append(text)
 
     def _met(self, heartbeat: Heartbeat, now: float) -> None:
         if heartbeat.component == AUTOPILOT_COMPONENT:
             self.heartbeat, self.seen = heartbeat, now
-        elif heartbeat.kind == CAMERA_KIND:
+        elif heartbeat.kind == CAMERA_MAV_TYPE:
             self.camera = heartbeat.component

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from shotc.cli.summary import WIDTH, summary
+from shotc.cli.summary import WIDTH_CHARACTERS, summary
 from shotc.emit.plan_json import EMITTER
 from shotc.ir.lowered import Lowered
 from shotc.ir.trajectory import VerifiedIR
@@ -105,7 +105,7 @@ def test_the_summary_of_a_thousand_drones_is_a_screen() -> None:
     text = summary(made, [Path("out/show/plan.json"), Path("out/show/trajectory.csv")], ["a note"])
     lines = text.splitlines()
     assert len(lines) <= 24
-    assert max(map(len, lines)) <= WIDTH
+    assert max(map(len, lines)) <= WIDTH_CHARACTERS
     assert lines[0] == "show: 1 display of 1000 drones, 0:46.0 in the air, planned and proved"
     assert "swarm (1000 drones)" in text
     assert "come nearest, 4.000 m, 1.150 m needed" in text

@@ -112,7 +112,7 @@ def test_a_film_is_flown_and_written(run: Run, given) -> None:
 @pytest.mark.long
 @pytest.mark.usefixtures("undrawn")
 def test_the_same_seed_gives_the_same_bytes_however_many_processes_fly(run: Run, given, monkeypatch) -> None:
-    monkeypatch.setattr("shotc.simulation.runs.BLOCK", 2)
+    monkeypatch.setattr("shotc.simulation.runs.BLOCK_RUNS", 2)
     documents = []
     for more in (("--jobs", "1"), ("--jobs", "2"), ("--seed", "2")):
         run("simulate", given(asking()), "--seeds", "3", "--gusts", "0.5", "--gps", "plain", *more)

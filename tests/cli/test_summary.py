@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from shotc.cli.centred import centred
-from shotc.cli.summary import WIDTH, shot_rows, summary
+from shotc.cli.summary import WIDTH_CHARACTERS, shot_rows, summary
 from shotc.geom.track import Track
 from shotc.ir.path import PathDeviation
 from shotc.ir.trajectory import Claim, VerifiedIR
@@ -19,7 +19,7 @@ def facts(plan: VerifiedIR, name: str) -> list[str]:
     """The facts of one name, each on one line."""
     found: list[str] = []
     for line in summary(plan, [Path("out/plan.json")], []).splitlines():
-        assert len(line) <= WIDTH
+        assert len(line) <= WIDTH_CHARACTERS
         if line[2:12].strip():
             found.append(line[2:])
         elif line.strip():

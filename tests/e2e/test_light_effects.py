@@ -17,7 +17,7 @@ from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 from shotc.planfile.read import read_plan
 from shotc.planfile.write import plan_bytes
-from shotc.show.emit.skyc.lights import TOLERANCE, programs
+from shotc.show.emit.skyc.lights import TOLERANCE_LEVELS, programs
 from tests.support import skyc_reader
 from tests.support.compiled import compiled
 
@@ -120,4 +120,4 @@ def test_the_dense_show_of_the_tree_stands_at_its_separation_and_plays() -> None
     wanted = light_colors(flight, times, slice(0, 3))
     for drone, code in zip(wanted, programs(flight), strict=False):
         found = np.array([skyc_reader.color_at(code, t) for t in times])
-        assert np.abs(found - drone).max() <= TOLERANCE + 0.51
+        assert np.abs(found - drone).max() <= TOLERANCE_LEVELS + 0.51

@@ -68,16 +68,16 @@ def scene(seed: int) -> str:
 
 
 @contextmanager
-def only(field: bool, ellipsoid: bool, reach: float = weights.RANGE) -> Iterator[None]:
+def only(field: bool, ellipsoid: bool, reach: float = weights.RANGE_M) -> Iterator[None]:
     """Leave out the potential field, the ellipsoids or both, or have the field end elsewhere."""
-    before = rounds.bodies_of, weights.FIELD, weights.RANGE
+    before = rounds.bodies_of, weights.FIELD_WEIGHT, weights.RANGE_M
     if not ellipsoid:
         rounds.bodies_of = lambda _around, _breaks: ()
-    weights.FIELD, weights.RANGE = before[1] if field else 0.0, reach
+    weights.FIELD_WEIGHT, weights.RANGE_M = before[1] if field else 0.0, reach
     try:
         yield
     finally:
-        rounds.bodies_of, weights.FIELD, weights.RANGE = before
+        rounds.bodies_of, weights.FIELD_WEIGHT, weights.RANGE_M = before
 
 
 def fly(text: str) -> Flown | None:

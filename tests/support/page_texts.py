@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from shotc.emit.storyboard.canvas import CAPITAL, Canvas, PageRectangle, Type
+from shotc.emit.storyboard.canvas import CAPITAL_RATIO, Canvas, PageRectangle, Type
 
 
 @dataclass(frozen=True)
@@ -32,9 +32,11 @@ def texts() -> Iterator[list[Written]]:
         width, height = self.extent(words, style)
         left = x - width * {"left": 0.0, "center": 0.5, "right": 1.0}[style.across]
         low = y - height * (0.5 if style.along.startswith("center") else 0.0)
-        dpi = 9.0 * 72.0 / (CAPITAL * self.least_size)
+        dpi = 9.0 * 72.0 / (CAPITAL_RATIO * self.least_size)
         found.append(
-            Written(words, style, PageRectangle(left, low, width, height), style.size * dpi / 72.0 * CAPITAL)
+            Written(
+                words, style, PageRectangle(left, low, width, height), style.size * dpi / 72.0 * CAPITAL_RATIO
+            )
         )
         text(self, x, y, words, style, *rest)
 

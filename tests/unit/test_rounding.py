@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.rounding import EXACT, at_least, at_most, away, down, plain, up
+from shotc.rounding import EXACT_SHARE, at_least, at_most, away, down, plain, up
 
 values = st.floats(-1e5, 1e5)
 digits = st.integers(0, 4)
@@ -17,7 +17,7 @@ digits = st.integers(0, 4)
 def test_a_number_rounded_up_is_enough_and_the_least_of_its_decimals(value, digits):
     step = 10.0**-digits
     told = up(value, digits)
-    assert told >= value - 1.01 * EXACT * step
+    assert told >= value - 1.01 * EXACT_SHARE * step
     assert told - value < step * (1 + 1e-6)
     assert told == float(at_least(value, digits))
 
@@ -35,7 +35,7 @@ def test_a_decimal_stays_itself_though_arithmetic_has_moved_its_last_bits(count,
     moved = exact
     for _ in range(abs(steps)):
         moved = nextafter(moved, steps * float("inf"))
-    if abs(moved - exact) * 10**digits < EXACT / 2:
+    if abs(moved - exact) * 10**digits < EXACT_SHARE / 2:
         assert up(moved, digits) == down(moved, digits) == exact
 
 
@@ -50,7 +50,7 @@ def test_what_means_three_is_three_and_what_is_more_is_more():
 def test_significant_digits_are_rounded_away_from_a_value(value, upper, digits):
     told = away(value, upper=upper, digits=digits)
     assert isclose(told, value, rel_tol=10.0 ** (1 - digits))
-    assert (told - value) * (1 if upper else -1) >= -2 * EXACT * 10.0 ** (1 - digits) * value
+    assert (told - value) * (1 if upper else -1) >= -2 * EXACT_SHARE * 10.0 ** (1 - digits) * value
     assert away(-value, upper=not upper, digits=digits) == -told
 
 

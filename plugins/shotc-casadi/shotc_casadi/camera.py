@@ -26,7 +26,7 @@ from shotc_casadi.lens import LEAST_SHARE, lens_bounds
 from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import LENS, PITCH, YAW
 
-STIFF = 1e-12  # weight of smoothness against the nodes, both dimensionless by the spacing of keyframes
+STIFF_WEIGHT = 1e-12  # weight of smoothness against the nodes, both dimensionless by the spacing of keyframes
 NODES_A_PIECE = 1.5
 
 
@@ -108,7 +108,7 @@ def _task(breaks: Array, stages: Stages, value: Array, at: Array, anchor: Array)
     """Return the fit of one channel; a node's weight is the length of path around it."""
     s = stages.s
     spacing = float(s[-1] - s[0]) / max(len(stages.pins) - 1, 1)
-    stiff = (1e-3 * STIFF * spacing, STIFF * spacing**5)
+    stiff = (1e-3 * STIFF_WEIGHT * spacing, STIFF_WEIGHT * spacing**5)
     return Fit(breaks, s, value, np.gradient(s) / spacing, at, anchor, stiff)
 
 

@@ -40,7 +40,7 @@ from shotc_casadi.report import deviation, report
 from shotc_casadi.rounds import Refined, refine_shot
 from shotc_casadi.walls import NodePlanes
 
-TRIES = 3  # with half-spaces about the last refined path; one more about the convex path, which is clear
+MOST_TRIES = 3  # with half-spaces about the last refined path; one more about the convex path, which is clear
 APART_S = 1e-6  # seconds at least between two nodes
 DEEPER_SHARE = 0.05  # a drone that is already in a picture may come this share deeper into it
 ROOM_SHARE = 0.5  # share of the room beside a wall that is kept; moving obstacles have their own share
@@ -74,7 +74,7 @@ def _refined(path: PathIR, subject: ShotContext, condition: AimCondition) -> tup
     """Return the path with one shot on a path refined, and its diagnostics."""
     shot, task, why, needs = subject.placed.shot.id, subject, "", None
     plain: tuple[Refined, PathIR] | None = None  # the first solution that is only against a preference
-    for tries in range(1, TRIES + 2):
+    for tries in range(1, MOST_TRIES + 2):
         refined = refine_shot(task, condition)
         if refined.camera is None and not why:
             error = report(path, refined, condition.name)
@@ -95,7 +95,7 @@ def _refined(path: PathIR, subject: ShotContext, condition: AimCondition) -> tup
             if against in (None, IN_PICTURE) and prefers_free_pictures(subject.mission):
                 plain = plain or (refined, moved)
             why = against or IN_PICTURE
-        course = path if tries == TRIES else moved
+        course = path if tries == MOST_TRIES else moved
         task = task._replace(beside=_Passing(course, subject, flown_shot(course, shot)).half_spaces)
     if plain is not None:
         return _told(path, plain[1], plain[0], condition)

@@ -12,7 +12,7 @@ from shotc_casadi.references import ShotContext
 
 GAIN_SHARE = 0.005  # of an outline, or of the frames: a smaller loss does not count
 LEAST_SHARE = 0.02  # the same for the one frame that shows least of the outline
-SAMPLES = 240  # of a path
+PATH_SAMPLES = 240  # of a path
 
 
 class Free(NamedTuple):
@@ -80,7 +80,7 @@ def lost_on_path(subject: ShotContext, camera: Piecewise) -> float:
 def _on_path(subject: ShotContext, camera: Piecewise) -> Free:
     mission, covered = subject.mission, [np.zeros(0)]
     standing = mission._replace(targets=tuple(t for t in mission.targets if t.track is None))
-    s = np.linspace(camera.start, camera.end, SAMPLES)
+    s = np.linspace(camera.start, camera.end, PATH_SAMPLES)
     for span in subject.leg.framing:
         inside = s[(s >= span.start) & (s <= span.end)]
         eyes = camera(inside)[:, :3]

@@ -14,7 +14,7 @@ from shotc.plugin_api.refiner import Array
 from shotc_casadi.camera import Given
 from shotc_casadi.conditions import OURS
 from shotc_casadi.frames import LEAST_HALF_FRAMES, insides
-from shotc_casadi.references import LENS, ShotContext, fields_of_view, references_at
+from shotc_casadi.references import LENS_COLUMN, ShotContext, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
 STEP_SHARE = 1e-5  # of the distance to the target, and of half a frame: the step of a difference quotient
@@ -40,7 +40,7 @@ def level_beside(subject: ShotContext, nodes: Stages, camera: Piecewise, given: 
         lost = slope if 0 < k < len(s) - 1 else np.minimum(slope, 0.0) if k == 0 else np.maximum(slope, 0.0)
         if np.abs(lost).max() * away[k] > SLIGHT_HALF_FRAMES:
             # A step of the field of view, if the camera has one, is a share of it.
-            unit = np.array([*[away[k]] * 3, half[k], half[k], *np.sin(q[k, LENS:])])
+            unit = np.array([*[away[k]] * 3, half[k], half[k], *np.sin(q[k, LENS_COLUMN:])])
             by = _by_pose(subject, float(s[k]), q[k], STEP_SHARE * unit)[touches] / STEP_SHARE
             rate[k] -= unit * np.linalg.lstsq(by, lost, rcond=None)[0]
             found.append(int(k))

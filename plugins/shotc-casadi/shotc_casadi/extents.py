@@ -24,9 +24,9 @@ from shotc.plugin_api.refiner import (
     bodies_of,
 )
 
-EXTENT = 9
+EXTENT_PARAMETERS = 9
 """Numbers of a body: its centre relative to the target's (3), radius, height, half-sides (2 x 2)."""
-ROUNDED = 1e-4  # of a length: smaller parts are rounded off
+ROUNDED_SHARE = 1e-4  # of a length: smaller parts are rounded off
 TINY_M2 = 1e-16  # m^2 added to a square so that it is not zero
 
 
@@ -73,7 +73,7 @@ def extents_of(shape: TargetShape, count: int, times: int) -> Array:
 
     shape : may have one course for each of the times
     """
-    rows = np.zeros((times, count, EXTENT))
+    rows = np.zeros((times, count, EXTENT_PARAMETERS))
     if count:
         parts = bodies_of(shape)
         for k in range(count):
@@ -84,7 +84,7 @@ def extents_of(shape: TargetShape, count: int, times: int) -> Array:
 
 
 def _body(shape: BodyShape, times: int) -> Array:
-    row = np.zeros((times, EXTENT - 3))
+    row = np.zeros((times, EXTENT_PARAMETERS - 3))
     row[:, 1] = shape.height
     if isinstance(shape, BoxShape):
         c, s = shape.ahead
@@ -102,7 +102,7 @@ def rounded(part: Any, squared: Any) -> Any:
     part : that component
     squared : the squared length of the vector
     """
-    return ca.sqrt(part**2 + ROUNDED**2 * squared + TINY_M2)
+    return ca.sqrt(part**2 + ROUNDED_SHARE**2 * squared + TINY_M2)
 
 
 def between(first: Array, second: Array, share: Array) -> Array:

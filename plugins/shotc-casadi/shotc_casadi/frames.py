@@ -25,7 +25,7 @@ from shotc.plugin_api.refiner import (
     subdivide,
 )
 from shotc_casadi.conditions import OURS
-from shotc_casadi.extents import EXTENT, Extent
+from shotc_casadi.extents import EXTENT_PARAMETERS, Extent
 from shotc_casadi.references import References, ShotContext, fields_of_view, references_at
 from shotc_casadi.stages import Stages
 
@@ -58,7 +58,7 @@ def insides(subject: ShotContext, references: References, s: Array, q: Array) ->
 
 def _bodies(references: References, offset: Array) -> Iterator[tuple[tuple[Array, Array, Array], Extent]]:
     """Yield offset and extent of every body of the targets; offset : of their centres, (3, M)."""
-    alone = np.zeros((EXTENT, offset.shape[1]))
+    alone = np.zeros((EXTENT_PARAMETERS, offset.shape[1]))
     alone[3], alone[4] = references.radius, references.height
     bodies = np.moveaxis(references.extents, 0, -1) if references.extents.shape[1] else alone[None]
     for body in map(Extent.of, bodies):

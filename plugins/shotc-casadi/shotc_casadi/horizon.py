@@ -14,7 +14,7 @@ import casadi as ca
 from shotc_casadi.derivatives import Derived, laid_out
 
 Solver = Literal["fatrop", "ipopt"]
-ITERATIONS = 300
+MOST_ITERATIONS = 300
 
 
 @lru_cache(maxsize=32)
@@ -41,10 +41,10 @@ def built(d: Derived, stages: int, solver: Solver, tolerance: float, pattern: by
         "nu": [d.inputs] * stages + [0],
         "ng": [d.bound] * stages + [d.last_bound],
         "equality": ([True] * states + [False] * d.bound) * stages + [False] * d.last_bound,
-        "fatrop": {"print_level": 0, "tol": tolerance, "max_iter": ITERATIONS, "max_soc": 0},
+        "fatrop": {"print_level": 0, "tol": tolerance, "max_iter": MOST_ITERATIONS, "max_soc": 0},
     }
     quiet: dict[str, Any] = {
-        "ipopt": {"print_level": 0, "sb": "yes", "tol": tolerance, "max_iter": ITERATIONS}
+        "ipopt": {"print_level": 0, "sb": "yes", "tol": tolerance, "max_iter": MOST_ITERATIONS}
     }
     # The status reports NaN; multipliers of the parameters are not needed.
     silent = {"print_time": False, "show_eval_warnings": False, "calc_lam_p": False}

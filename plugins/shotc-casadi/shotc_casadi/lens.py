@@ -20,7 +20,7 @@ from shotc_casadi.stages import Stages
 from shotc_casadi.symbols import LENS_FIELDS, LENS_STATES
 
 # Weights of the cost: dimensionless, as in ``problem``.
-ACCELERATION = 1e-2  # per squared share of the field of view, over the squared time between two pins
+ACCELERATION_WEIGHT = 1e-2  # per squared share of the field of view, over the squared time between two pins
 SAME_SHARE = 1e-9  # of a field of view: lenses that differ by less are the same
 LEAST_SHARE = 2e-3  # of a field of view: a lens that leaves its given one by less keeps that
 
@@ -92,7 +92,7 @@ def lens_parameters(subject: ShotContext, stages: Stages, off: float, pin: float
         "lens_off": lens_off,
         "spread_off": spread_off,
         "lens_still": each * still * at_rest / subject.drone.lens.rate**2,
-        "lens_acceleration": ACCELERATION / total * span**4 / np.sin(given) ** 2,
+        "lens_acceleration": ACCELERATION_WEIGHT / total * span**4 / np.sin(given) ** 2,
     }
     return np.column_stack([values[name] for name in LENS_FIELDS])
 

@@ -42,20 +42,20 @@ from shotc_casadi.symbols import (
 # shot's duration. So the weights fit a person from 5 m and a ship from 500 m, every lens, 5 s and 5 min. The
 # unit is time: a share of the shot's duration costs that share. The terms with higher priority weigh orders
 # of magnitude more: the shape of the flight, the target's place on screen, the whole target in the frame. To
-# back off by a share of the distance shrinks the picture by that share. So POSITION_ERROR over VISIBILITY is
-# the share of a crop that remains until the nodes ask for more.
-POSITION_ERROR = 3e3  # per squared share of the distance to the target
-FRAMING = 3e4  # per squared half frame
-VISIBILITY = 1e6  # per squared half frame
-AIMING = 10.0  # per rad^2: without a framed target, the author's angles are the reference
+# back off by a share of the distance shrinks the picture by that share. So POSITION_ERROR_WEIGHT over
+# VISIBILITY_WEIGHT is the share of a crop that remains until the nodes ask for more.
+POSITION_ERROR_WEIGHT = 3e3  # per squared share of the distance to the target
+FRAMING_WEIGHT = 3e4  # per squared half frame
+VISIBILITY_WEIGHT = 1e6  # per squared half frame
+AIMING_WEIGHT = 10.0  # per rad^2: without a framed target, the author's angles are the reference
 JERK_SHARE = 1.0  # per squared share of the jerk limit
 ANGULAR_JERK_SHARE = 1.0  # per squared share of the jerk that reaches the gimbal's acceleration in a second
-PACE = 0.3  # per squared relative change of a stage's length
-LAG = 1e3  # per squared share of the way to the neighbouring nodes: keeps a node at its progress
-PIN = 1e6  # per squared share of the distance, or half frame: given places and angles
-REST = 1e4  # per squared share of the drone's limits: where the drone rests
-TIMED = 1e7  # per squared share of the shot's duration: times that are asked for
-KNOTS = 50  # of the motion of the initial guess, in addition to the places that bind
+PACE_WEIGHT = 0.3  # per squared relative change of a stage's length
+LAG_WEIGHT = 1e3  # per squared share of the way to the neighbouring nodes: keeps a node at its progress
+PIN_WEIGHT = 1e6  # per squared share of the distance, or half frame: given places and angles
+REST_WEIGHT = 1e4  # per squared share of the drone's limits: where the drone rests
+TIME_WEIGHT = 1e7  # per squared share of the shot's duration: times that are asked for
+GUESS_KNOTS = 50  # of the motion of the initial guess, in addition to the places that bind
 SLOWEST, FASTEST = 5.0, 0.2  # bounds of a stage's length over that of the initial guess
 
 
@@ -85,7 +85,7 @@ def problem(
     )
     if not is_free(subject, condition, stages, references):
         return made
-    lens = lens_parameters(subject, stages, POSITION_ERROR, PIN, REST)
+    lens = lens_parameters(subject, stages, POSITION_ERROR_WEIGHT, PIN_WEIGHT, REST_WEIGHT)
     more, moves = lens_guess(subject, stages)
     low, high = lens_state_bounds(subject, stages, _pace(subject, margins))
     free = np.full_like(moves, inf)
@@ -119,7 +119,7 @@ def _guess(
     values = np.column_stack([q[:, :3], angles])
     rest = ([(1, np.zeros(5)), (2, np.zeros(5))],) * 2
     # The number of knots is fixed: a finer guess has sharper jerks, which the solver has to remove.
-    few = np.union1d(np.linspace(0, len(stages.s) - 1, KNOTS).astype(int), stages.pins)
+    few = np.union1d(np.linspace(0, len(stages.s) - 1, GUESS_KNOTS).astype(int), stages.pins)
     motion = make_interp_spline(stages.t[few], values[few], k=5, bc_type=rest)
     x = np.zeros((len(stages.s), STATES))
     rows = [motion(stages.t, order) for order in range(3)]
@@ -161,14 +161,14 @@ def _parameters(
         "state": pinned,
         "state_weight": each * weight,
         "tangent": rate / np.maximum(np.linalg.norm(rate, axis=1), 1e-9)[:, None],
-        "lag": each * LAG / spacing**2,
-        "framing": each * FRAMING * references.framed,
-        "visibility": each * VISIBILITY * references.whole,
-        "aiming": each * AIMING * (1.0 - references.framed),
+        "lag": each * LAG_WEIGHT / spacing**2,
+        "framing": each * FRAMING_WEIGHT * references.framed,
+        "visibility": each * VISIBILITY_WEIGHT * references.whole,
+        "aiming": each * AIMING_WEIGHT * (1.0 - references.framed),
         "jerk": np.full(n + 1, JERK_SHARE / total / drone.limits.jerk**2),
         "angular_jerk": np.full(n + 1, ANGULAR_JERK_SHARE / total / swing**2),
         "time": np.full(n + 1, 1.0 / total),
-        "pace": np.full(n + 1, each * PACE),
+        "pace": np.full(n + 1, each * PACE_WEIGHT),
         "nominal": 1.0 / np.append(np.diff(stages.t), 1.0),
     }
     table = [np.asarray(values[name]).reshape(n + 1, width) for name, width in FIELDS.items()]
@@ -213,7 +213,7 @@ def _pinned(
     value[:, POSITION] = subject.leg.curve(stages.s)[:, :3]
     distance = _distance(references, value[:, POSITION], stages)
     weight = np.zeros_like(value)
-    weight[:, POSITION] = (POSITION_ERROR / distance**2)[:, None]
+    weight[:, POSITION] = (POSITION_ERROR_WEIGHT / distance**2)[:, None]
     leg, s = subject.leg, stages.s
     half = fields_of_view(subject, s)[1]
     pins = [int(k) for k in stages.pins]
@@ -221,14 +221,14 @@ def _pinned(
     times = dict(zip(*due(leg), strict=True))
     shares = _shares(subject)
     for k in pins:
-        weight[k, POSITION] = PIN / distance[k] ** 2
+        weight[k, POSITION] = PIN_WEIGHT / distance[k] ** 2
         if k in (pins[0], pins[-1]) or references.framed[k]:
-            weight[k, [YAW, PITCH]] = PIN / half[k] ** 2
+            weight[k, [YAW, PITCH]] = PIN_WEIGHT / half[k] ** 2
         if _among(s[k], rests):
             value[k, shares > 0] = 0.0
-            weight[k] += REST * shares**2
+            weight[k] += REST_WEIGHT * shares**2
         if s[k] in times:
-            value[k, TIME], weight[k, TIME] = times[s[k]], TIMED / float(stages.t[-1]) ** 2
+            value[k, TIME], weight[k, TIME] = times[s[k]], TIME_WEIGHT / float(stages.t[-1]) ** 2
     weight[:, POSITION] *= margins.hold
     return value, weight
 

@@ -12,8 +12,8 @@ from shotc_casadi.derivatives import derived
 from shotc_casadi.horizon import Solver
 from shotc_casadi.solving import Array, Instance, Solution, solved
 
-TOLERANCE = 1e-4
-FEASIBLE = 1e-3  # of a constraint's residual, each in its own unit
+SOLVER_TOLERANCE = 1e-4
+FEASIBLE_RESIDUAL = 1e-3  # of a constraint's residual, each in its own unit
 NARROW_WIDTH = 1e-3  # least width of a state's bounds: without an interior, fatrop does not end
 ROWS = ("speed", "acceleration")
 
@@ -74,8 +74,8 @@ def instance(problem: Problem) -> Instance:
         held=problem.held,
         driven=problem.driven,
         named=partial(_named, problem.planes),
-        tolerance=TOLERANCE,
-        feasible=FEASIBLE,
+        tolerance=SOLVER_TOLERANCE,
+        feasible=FEASIBLE_RESIDUAL,
     )
 
 

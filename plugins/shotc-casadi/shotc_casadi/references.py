@@ -30,11 +30,11 @@ from shotc.plugin_api.refiner import (
     steady,
 )
 from shotc_casadi.conditions import AimCondition
-from shotc_casadi.extents import EXTENT, between, count_of, extents_of
+from shotc_casadi.extents import EXTENT_PARAMETERS, between, count_of, extents_of
 from shotc_casadi.sight import sight_point
 from shotc_casadi.walls import NodePlanes
 
-LENS = 5  # column of the field of view in a camera of x, y, z, yaw, pitch, field of view
+LENS_COLUMN = 5  # column of the field of view in a camera of x, y, z, yaw, pitch, field of view
 AHEAD_M = 1.0  # metres ahead of the camera: the target if no target is asked for
 
 
@@ -159,7 +159,7 @@ def _unframed(subject: ShotContext, s: Array) -> References:
         framed=np.zeros(n),
         whole=np.zeros(n),
         inside=np.zeros((n, 4)),
-        extents=np.zeros((n, _bodies(subject), EXTENT)),
+        extents=np.zeros((n, _bodies(subject), EXTENT_PARAMETERS)),
     )
 
 
@@ -210,6 +210,6 @@ def fields_of_view(subject: ShotContext, s: Array, q: Array | None = None) -> tu
 
     q : x, y, z, yaw, pitch of a camera there, and its field of view if it is not the convex path's
     """
-    wide = subject.leg.curve(s)[:, HFOV] if q is None or q.shape[1] <= LENS else q[:, LENS]
+    wide = subject.leg.curve(s)[:, HFOV] if q is None or q.shape[1] <= LENS_COLUMN else q[:, LENS_COLUMN]
     half = np.tan(wide / 2)
     return half, half / subject.drone.aspect

@@ -27,8 +27,8 @@ from shotc_casadi.stages import Stages, stages
 from shotc_casadi.symbols import PITCH, YAW
 from shotc_casadi.walls import half_spaces
 
-ROUNDS = 6
-HOLD_AFTER = 3  # rounds; later ones almost hold the convex path, which is known to be clear
+MOST_ROUNDS = 6
+HOLD_AFTER_ROUNDS = 3  # rounds; later ones almost hold the convex path, which is known to be clear
 
 
 class UnprovedPlace(NamedTuple):
@@ -96,7 +96,7 @@ def _refine(
     following = problem(subject, condition, nodes, references, walls, margins)
     given = _given(nodes, references, following)
     done: list[_Tried] = []
-    for rounds in range(1, ROUNDS + 1):
+    for rounds in range(1, MOST_ROUNDS + 1):
         attempt = by_one_of(solvers, partial(solve, following))
         tried = _tried(subject, condition, nodes, following, attempt, given)
         helped = not done or tried.check.helped(min(t.check for t in done))
@@ -104,7 +104,7 @@ def _refine(
         best = min(done, key=lambda t: t.check)
         if tried.camera is None or tried.check.holds or (best.check.lack <= 0 and not helped):
             break
-        margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER)
+        margins = tighter(margins, tried.check, hold=rounds >= HOLD_AFTER_ROUNDS)
         walls = _walls(subject, nodes, margins)
         if tried.check.cropped > 0:
             references = asked_again(subject, nodes, references, tried.camera)

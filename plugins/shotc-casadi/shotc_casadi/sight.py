@@ -7,9 +7,9 @@ import numpy as np
 from shotc.plugin_api import MissionIR
 from shotc.plugin_api.refiner import Array, FreeSpace, PlacedKeyframe, distances
 
-STEPS = 2000
+WAY_STEPS = 2000
 HORIZON_M = 1000.0  # metres along a ray
-NEAR = 1e-3
+NEAR_SHARE = 1e-3
 
 
 def sight_point(
@@ -40,9 +40,9 @@ def _march(part: object, eye: Array, ray: Array) -> float | None:
     Every step is as long as the distance to the solid, so it cannot jump over it.
     """
     along = 0.0
-    for _ in range(STEPS):
+    for _ in range(WAY_STEPS):
         gap = float(distances(part, eye + along * ray))  # type: ignore[arg-type]
-        if gap < NEAR:
+        if gap < NEAR_SHARE:
             return along
         along += gap
         if along > HORIZON_M:

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 
 from shotc_casadi.conditions import Visibility
-from shotc_casadi.extents import EXTENT, Extent, rounded
+from shotc_casadi.extents import EXTENT_PARAMETERS, Extent, rounded
 
 STATES, INPUTS = 16, 6
 WIDTH = STATES + INPUTS
@@ -27,7 +27,7 @@ JERK, YAW_JERK, PITCH_JERK, LENGTH = slice(0, 3), 3, 4, 5
 LENS, LENS_RATE, LENS_ACCELERATION = 16, 17, 6  # states and input of a lens that zooms
 LENS_STATES, LENS_INPUTS = 2, 1
 
-WIND = 2  # parameters of the wind
+WIND_PARAMETERS = 2  # parameters of the wind
 
 RIGHT, UP, AHEAD = range(3)  # what _to_camera returns
 EDGES = ((RIGHT, 1), (RIGHT, -1), (UP, 1), (UP, -1))  # left, right, bottom, top: axis, inward sign
@@ -170,7 +170,7 @@ def stage(
     slack = [
         ca.dot(p[first + 4 * i : first + 4 * i + 3], position) - p[first + 4 * i + 3] for i in range(planes)
     ]
-    level = x[VELOCITY][:2] - p[-WIND:] if windy else x[VELOCITY][:2]
+    level = x[VELOCITY][:2] - p[-WIND_PARAMETERS:] if windy else x[VELOCITY][:2]
     held = ca.vertcat(ca.sumsqr(level), ca.sumsqr(x[ACCELERATION]), *slack)
     return StageSymbols(z, p, _following(x, u), node, passing, held, ca.sumsqr(u[JERK]))
 
@@ -178,7 +178,7 @@ def stage(
 def size(planes: int, extents: int = 0, windy: bool = False, zooms: bool = False) -> int:
     """Return the number of parameters of a stage."""
     lens = sum(LENS_FIELDS.values()) * zooms
-    return sum(FIELDS.values()) + EXTENT * extents + 4 * planes + lens + WIND * windy
+    return sum(FIELDS.values()) + EXTENT_PARAMETERS * extents + 4 * planes + lens + WIND_PARAMETERS * windy
 
 
 def cut(p: Any, fields: Mapping[str, int]) -> dict[str, Any]:
@@ -269,8 +269,8 @@ def _bodies(
     if not extents:
         return (_Body(view, given["radius"], given["height"]),)
     bodies, at = [], sum(FIELDS.values())
-    for first in range(at, at + EXTENT * extents, EXTENT):
-        extent = Extent.of(p[first : first + EXTENT])
+    for first in range(at, at + EXTENT_PARAMETERS * extents, EXTENT_PARAMETERS):
+        extent = Extent.of(p[first : first + EXTENT_PARAMETERS])
         off = _to_camera(extent.offset, x[YAW], x[PITCH])
         seen = (view[0] + off[0], view[1] + off[1], view[2] + off[2])
         sides = (_to_camera((a[0], a[1], 0.0), x[YAW], x[PITCH]) for a in (extent.along, extent.across))

@@ -11,7 +11,7 @@ from shotc.plugin_api.refiner import Array, FreeSpace, IntArray, corridor, kept
 from shotc_casadi.margins import Margins
 from shotc_casadi.stages import Stages
 
-POINTS = 5  # of the reference; their hull stands for a node and its neighbourhood
+HULL_POINTS = 5  # of the reference; their hull stands for a node and its neighbourhood
 COUNTS = (0, 2, 4, 8, 16)  # possible numbers of half-spaces, so that few programmes are built
 FREE_M = -1.0  # slack in metres of an unused half-space
 
@@ -36,7 +36,7 @@ def half_spaces(
     s, share = stages.s, margins.comfort
     low = np.concatenate([s[:1], s[:-1]])
     high = np.concatenate([s[1:], s[-1:]])
-    hulls = reference(low[:, None] + np.linspace(0.0, 1.0, POINTS) * (high - low)[:, None])[:, :, :3]
+    hulls = reference(low[:, None] + np.linspace(0.0, 1.0, HULL_POINTS) * (high - low)[:, None])[:, :, :3]
     nodes: list[list[tuple[float, Array]]] = [[] for _ in s]
     planes = corridor(space, hulls, margins.reach, share)
     rows = np.column_stack([planes.normal, planes.offset.max(axis=1)])

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.clock import program, symbols, weights
-from shotc_casadi.clock.bodies import NONE, MovingEllipsoid, inscribed, kept_from
+from shotc_casadi.clock.bodies import NO_BODY_M2, MovingEllipsoid, inscribed, kept_from
 from shotc_casadi.clock.problem import ClockProblem, Use, breaks_of, guess, problem
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, references_at
 from shotc_casadi.clock.refiner import subject_of
@@ -53,7 +53,7 @@ def numbers(scale: Array, centre: Array, reach: float) -> Array:
 def test_the_distance_and_the_field_are_the_paper_s() -> None:
     rng = np.random.default_rng(3)
     scale, centre = rng.normal(size=(3, 3)) + 2 * np.eye(3), rng.normal(size=3)
-    body, eye = ca.SX.sym("b", symbols.BODY), ca.SX.sym("e", 3)
+    body, eye = ca.SX.sym("b", symbols.BODY_PARAMETERS), ca.SX.sym("e", 3)
     depth = ca.Function("depth", [body, eye], [symbols.inside(body, eye)])
     for at in centre + rng.normal(size=(20, 3)):
         away = at - centre
@@ -122,7 +122,9 @@ def test_where_there_is_no_way_out_the_slack_is_what_is_lacking() -> None:
     start = made.states[0, :3]
     table = made.parameters.copy()
     first = symbols.size(symbols.Sizes(made.sizes.planes, made.sizes.occluders))
-    table[0, first : first + symbols.BODY] = numbers(body.scale, start + np.array([0.0, 0.5, 0.0]), 1.5)
+    table[0, first : first + symbols.BODY_PARAMETERS] = numbers(
+        body.scale, start + np.array([0.0, 0.5, 0.0]), 1.5
+    )
     found = program.solve(replace(made, parameters=table), "fatrop")
     assert found.status == "solved"
     assert found.inputs[0, -1] == pytest.approx(1 - 0.25, abs=1e-2)
@@ -147,7 +149,7 @@ def test_what_is_far_away_makes_no_part_of_the_problem() -> None:
     assert kept_from((far,), references, course).bodies.shape[1] == 0
     near: ClockReferences = kept_from((far,), references, course + np.array([0.0, 0.0, 3.0]))
     assert near.bodies.shape[1] == 1
-    assert (near.bodies[:, 0, 12] < NONE).all()
+    assert (near.bodies[:, 0, 12] < NO_BODY_M2).all()
     # What was near once stays in the problem.
     assert kept_from((far,), near, course).bodies.shape[1] == 1
 
@@ -168,7 +170,7 @@ def test_walkers_who_come_near_are_kept_farther_away_and_the_picture_stays(seed:
     assert ellipsoid[:5] == pytest.approx(neither[:5], rel=0.05, abs=5e-3)
     assert both.nearest > neither.nearest
     assert both.screen < neither.screen + 1e-3
-    assert weights.FIELD > 0.0
+    assert weights.FIELD_WEIGHT > 0.0
 
 
 @pytest.mark.long

@@ -197,7 +197,7 @@ def test_two_solvers_find_the_same_motion() -> None:
     assert (a.status, b.status) == ("solved", "solved")
     assert a.objective == pytest.approx(b.objective, rel=1e-3)
     assert np.abs(a.states[:, :3] - b.states[:, :3]).max() < 0.02
-    assert max(a.residual, b.residual) < program.FEASIBLE
+    assert max(a.residual, b.residual) < program.FEASIBLE_RESIDUAL
 
 
 @pytest.mark.parametrize("width", [5.0, 0.0])

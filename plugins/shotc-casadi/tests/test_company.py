@@ -144,7 +144,7 @@ def test_a_shot_keeps_clear_of_what_crosses_behind_it() -> None:
 
 
 def test_what_nothing_keeps_clear_is_told_and_flown_as_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(company, "TRIES", 0)
+    monkeypatch.setattr(company, "MOST_TRIES", 0)
     before = path_of(BEHIND, "none", "solve-path-qp")
     outcome = OURS.refine(before, PassContext())
     assert outcome.value is not None

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from shotc_casadi.clock import outline
-from shotc_casadi.extents import EXTENT, Extent, between, count_of, extents_of
+from shotc_casadi.extents import EXTENT_PARAMETERS, Extent, between, count_of, extents_of
 from shotc_casadi.symbols import FIELDS, STATES, size, stage
 
 from shotc.geom.camera import View, frustum_margins, view
@@ -86,7 +86,7 @@ def test_between_two_targets_each_body_goes_from_one_to_the_other() -> None:
     box, pole = BoxShape(6.0, 2.0, 3.0, (1.0, 0.0)), CylinderShape(0.5, 8.0)
     first, second = extents_of(box, 1, 1), extents_of(pole, 1, 1)
     way = between(first, second, np.array([[0.0], [0.5], [1.0]]))
-    assert way.shape == (3, 1, EXTENT)
+    assert way.shape == (3, 1, EXTENT_PARAMETERS)
     assert way[0] == pytest.approx(first[0])
     assert way[2] == pytest.approx(second[0])
     assert way[1, 0] == pytest.approx([0, 0, 0, 0.25, 5.5, 1.5, 0, 0, 0.5])

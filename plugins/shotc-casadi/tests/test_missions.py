@@ -9,7 +9,7 @@ import pytest
 from shotc_casadi import rounds
 from shotc_casadi.conditions import OURS
 from shotc_casadi.refiner import subjects
-from shotc_casadi.rounds import ROUNDS, refine_shot
+from shotc_casadi.rounds import MOST_ROUNDS, refine_shot
 
 from shotc.api import emit_plan
 from shotc.diag.registry import has_errors
@@ -133,7 +133,7 @@ def test_where_framing_and_a_wall_conflict_the_wall_wins_and_the_loss_is_told():
     curve = leg_named(path).curve
     points = curve(np.linspace(curve.start, curve.end, 150))[:, :3]
     assert min(least_room(path.keyframes.mission, path.keyframes.mission.drones[0], p) for p in points) > 0
-    assert dict(path.stats)["s.refine_rounds"] <= ROUNDS
+    assert dict(path.stats)["s.refine_rounds"] <= MOST_ROUNDS
     found, convex = seen(done.plan), seen(compiled(LOW, "none").plan)
     assert convex.inside.min() < found.inside.min() < 0.0
     assert found.off.max() < 0.01  # its place on screen yields a little to the whole of it
@@ -146,7 +146,7 @@ def test_what_the_nodes_do_not_keep_is_tightened_until_it_is_proved(monkeypatch)
     wall = owner_of(subject.mission, "zone wall")
     monkeypatch.setattr(rounds, "half_spaces", lambda space, *rest: real(space.without(wall), *rest))
     found = refine_shot(subject, OURS)
-    assert 1 < found.rounds <= ROUNDS
+    assert 1 < found.rounds <= MOST_ROUNDS
     assert found.camera is not None
     assert shortfall(subject.space, found.camera.ctrl[:, :, :3]).max() <= 0.0
 

@@ -112,7 +112,7 @@ def test_who_overlaps_the_subject_is_a_part_of_it_and_not_looked_past(radius: st
 
 def test_the_programme_s_term_is_the_paper_s() -> None:
     occluder, eyes, points = drawn(7)
-    numbers, eye, point = ca.SX.sym("s", symbols.OCCLUDER), ca.SX.sym("e", 3), ca.SX.sym("p", 3)
+    numbers, eye, point = ca.SX.sym("s", symbols.OCCLUDER_PARAMETERS), ca.SX.sym("e", 3), ca.SX.sym("p", 3)
     term = ca.Function("occlusion", [numbers, eye, point], [symbols.occlusion(numbers, eye, point)])
     given = [*occluder.scale.T.ravel(), *occluder.centres[0], 1.0]
     found = np.array([float(term(given, e, p)) for e, p in zip(eyes, points, strict=True)])

@@ -15,7 +15,7 @@ from shotc_casadi import solving
 from shotc_casadi.conditions import LOOK_AT, OURS, OURS_4PT
 from shotc_casadi.derivatives import derived
 from shotc_casadi.horizon import built
-from shotc_casadi.program import FEASIBLE, NARROW_WIDTH, TOLERANCE, instance, solve
+from shotc_casadi.program import FEASIBLE_RESIDUAL, NARROW_WIDTH, SOLVER_TOLERANCE, instance, solve
 from shotc_casadi.symbols import INPUTS, LENGTH, PITCH, PITCH_RATE, STATES, TIME, size, stage
 from shotc_casadi.timeout import TimedOut, within
 
@@ -39,7 +39,7 @@ def test_both_solvers_come_to_the_same(condition):
     assert one.objective == pytest.approx(two.objective, rel=1e-4)
     assert one.states == pytest.approx(two.states, abs=2e-2)
     assert one.states[:, [0, 1, 2, 9, 12]] == pytest.approx(two.states[:, [0, 1, 2, 9, 12]], abs=2e-3)
-    assert max(one.residual, two.residual) < FEASIBLE
+    assert max(one.residual, two.residual) < FEASIBLE_RESIDUAL
 
 
 def plain(made):
@@ -63,7 +63,7 @@ def plain(made):
 def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
     made, seen = task(walled()), {}
     assert made.planes > 0
-    nlp = built(derived(made.visibility, made.planes), made.stages, solver, TOLERANCE, b"")
+    nlp = built(derived(made.visibility, made.planes), made.stages, solver, SOLVER_TOLERANCE, b"")
 
     class Spy:
         stats = nlp.stats
@@ -86,12 +86,17 @@ def test_the_solution_meets_the_kkt_conditions(solver, monkeypatch):
         (x, on_x, seen["given"]["lbx"], seen["given"]["ubx"]),
         (g, on_g, seen["given"]["lbg"], seen["given"]["ubg"]),
     ):
-        assert (value > low - FEASIBLE).all()
-        assert (value < high + FEASIBLE).all()
+        assert (value > low - FEASIBLE_RESIDUAL).all()
+        assert (value < high + FEASIBLE_RESIDUAL).all()
         equal = low == high
         # A force acts only at the bound that it points away from.
-        assert np.abs(np.minimum(force, 0.0) * np.minimum(value - low, 1e3))[~equal].max() < 2 * TOLERANCE
-        assert np.abs(np.maximum(force, 0.0) * np.minimum(high - value, 1e3))[~equal].max() < 2 * TOLERANCE
+        assert (
+            np.abs(np.minimum(force, 0.0) * np.minimum(value - low, 1e3))[~equal].max() < 2 * SOLVER_TOLERANCE
+        )
+        assert (
+            np.abs(np.maximum(force, 0.0) * np.minimum(high - value, 1e3))[~equal].max()
+            < 2 * SOLVER_TOLERANCE
+        )
 
 
 def test_the_motion_keeps_the_limits_at_every_node():

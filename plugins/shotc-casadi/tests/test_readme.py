@@ -13,33 +13,33 @@ from shotc_casadi.timeout import TIMEOUT_S
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 WEIGHTS = {
-    "framing": problem.FRAMING,
-    "visibility": problem.VISIBILITY,
-    "aiming": problem.AIMING,
-    "position": problem.POSITION_ERROR,
+    "framing": problem.FRAMING_WEIGHT,
+    "visibility": problem.VISIBILITY_WEIGHT,
+    "aiming": problem.AIMING_WEIGHT,
+    "position": problem.POSITION_ERROR_WEIGHT,
     "jerk": problem.JERK_SHARE,
     "angular jerk": problem.ANGULAR_JERK_SHARE,
     "time": 1.0,
-    "pace": problem.PACE,
-    "lag": problem.LAG,
-    "lens": problem.POSITION_ERROR,
-    "zoom": lens.ACCELERATION,
-    "pins": problem.PIN,
-    "rests": problem.REST,
-    "due": problem.TIMED,
-    "place": weights.PLACE,
-    "given place": weights.PLACED,
-    "leash": weights.LEASH,
-    "place jerk": weights.JERK,
+    "pace": problem.PACE_WEIGHT,
+    "lag": problem.LAG_WEIGHT,
+    "lens": problem.POSITION_ERROR_WEIGHT,
+    "zoom": lens.ACCELERATION_WEIGHT,
+    "pins": problem.PIN_WEIGHT,
+    "rests": problem.REST_WEIGHT,
+    "due": problem.TIME_WEIGHT,
+    "place": weights.PLACE_WEIGHT,
+    "given place": weights.PLACED_WEIGHT,
+    "leash": weights.LEASH_SHARE,
+    "place jerk": weights.JERK_WEIGHT,
     "turn acceleration": weights.TURN[2],
     "turn jerk": weights.TURN[4],
-    "steep": weights.STEEP,
-    "yielding place": weights.YIELDS,
-    "hidden": weights.HIDDEN,
-    "together": weights.TOGETHER,
-    "loose place": weights.LOOSE,
-    "field": weights.FIELD,
-    "touch": weights.TOUCH,
+    "steep": weights.PITCH_WEIGHT,
+    "yielding place": weights.YIELDING_WEIGHT,
+    "hidden": weights.HIDDEN_WEIGHT,
+    "together": weights.SUBJECTS_WEIGHT,
+    "loose place": weights.LOOSE_WEIGHT,
+    "field": weights.FIELD_WEIGHT,
+    "touch": weights.TOUCH_WEIGHT,
 }
 
 
@@ -53,7 +53,7 @@ def test_every_condition_is_there():
     for made in (OURS, OURS_4PT, FRAMING_ONLY, LOOK_AT, ANG):
         assert f"| `{made.name}` |" in README
     assert TIMEOUT_S == 30.0  # "half a minute"
-    assert f"in a range of {weights.RANGE} m" in README
+    assert f"in a range of {weights.RANGE_M} m" in README
 
 
 def test_yaw_and_pitch_weigh_the_same_and_rates_nothing():

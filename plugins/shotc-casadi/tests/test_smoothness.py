@@ -164,7 +164,7 @@ def _on_clock(kind: Any, _: int, scene: Scene, rng: np.random.Generator) -> tupl
     scale = np.diag(1 / np.array([0.6, 0.6, 1.2])).ravel()
     occluder = [*scale, *(0.5 * (scene.eye + scene.centre)), 1.0, *scene.centre]
     body = [*scale, *scene.centre, 0.0, 1.5]
-    parts = [flat(clock.FIELDS, values), rng.normal(size=clock.PLANE * sizes.planes)]
+    parts = [flat(clock.FIELDS, values), rng.normal(size=clock.PLANE_PARAMETERS * sizes.planes)]
     parts += [np.array(occluder)] * sizes.occluders + [np.array(body)] * sizes.bodies
     for k in range(sizes.subjects):
         parts += [_subject(scene, k), _bodies(sizes.extents)]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from shotc.emit.base import Emission
-from shotc.emit.dji.kmz import POINTS_MOST, read_kmz, write_kmz
+from shotc.emit.dji.kmz import MOST_POINTS, read_kmz, write_kmz
 from shotc.emit.waypoints.machine_files import FileFormat, emit_files
 from shotc.emit.waypoints.models import CURVED
 from shotc.ir.trajectory import VerifiedIR
@@ -14,7 +14,7 @@ from shotc.ir.trajectory import VerifiedIR
 FORMAT = FileFormat(
     "dji",
     ("dji-fly", "pilot-2"),
-    POINTS_MOST,
+    MOST_POINTS,
     ".kmz",
     CURVED,
     write_kmz,

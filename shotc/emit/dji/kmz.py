@@ -16,7 +16,7 @@ from shotc.ir.drone import Drone
 from shotc.ir.photos import Photos
 
 TEMPLATE, WAYLINES = "wpmz/template.kml", "wpmz/waylines.wpml"
-POINTS_MOST = 200  # waypoints of a mission in DJI Fly
+MOST_POINTS = 200  # waypoints of a mission in DJI Fly
 _KINDS = {"startRecord": "start", "stopRecord": "stop", "hover": "stay", "zoom": "zoom"}
 _INTERVALS = {
     "multipleTiming": lambda every: Photos(seconds=every),

@@ -14,8 +14,8 @@ from shotc.ir.photos import Photos
 
 KML = "http://www.opengis.net/kml/2.2"
 CREATED_MS = 1704067200000  # 2024-01-01; a constant, so that the same plan gives the same bytes
-APPROACH = 5.0  # m/s on the way to the first point, which is above the pad
-CLIMB_LEAST = 1.2  # metres, least height to which DJI Pilot 2 climbs before it flies to the first point
+APPROACH_M_S = 5.0  # m/s on the way to the first point, which is above the pad
+LEAST_CLIMB_M = 1.2  # metres, least height to which DJI Pilot 2 climbs before it flies to the first point
 STOP = "toPointAndStopWithContinuityCurvature"
 PASS = "toPointAndPassWithContinuityCurvature"
 
@@ -84,9 +84,9 @@ class WpmlMission:
         self._put(config, "exitOnRCLost", "goContinue" if lost == "continue" else "executeLostAction")
         self._put(config, "executeRCLostAction", DJI_ACTIONS[lost])
         if self.profile.full_template:
-            climb = max(self.points[0].place.alt, CLIMB_LEAST)
+            climb = max(self.points[0].place.alt, LEAST_CLIMB_M)
             self._put(config, "takeOffSecurityHeight", f"{climb:.1f}")
-        self._put(config, "globalTransitionalSpeed", f"{APPROACH:g}")
+        self._put(config, "globalTransitionalSpeed", f"{APPROACH_M_S:g}")
         if self.profile.full_template:
             self._put(
                 config,

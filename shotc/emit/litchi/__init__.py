@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from shotc.emit.base import Emission
-from shotc.emit.litchi.table import POINTS_MOST, read_table, write_table
+from shotc.emit.litchi.table import MOST_POINTS, read_table, write_table
 from shotc.emit.waypoints.machine_files import FileFormat, emit_files
 from shotc.emit.waypoints.models import ROUNDED
 from shotc.emit.waypoints.report import without_waypoints
@@ -18,7 +18,7 @@ FARTHEST_M = 30_000.0
 FORMAT = FileFormat(
     "litchi",
     ("dji-fly", "litchi"),
-    POINTS_MOST,
+    MOST_POINTS,
     "-litchi.csv",
     ROUNDED,
     lambda points, _: write_table(points),

@@ -11,9 +11,9 @@ from shotc.emit.waypoints.geo import GeoPosition
 from shotc.emit.waypoints.route import PointAction, Waypoint
 from shotc.ir.photos import Photos
 
-POINTS_MOST = 99  # points of a block in Litchi
-ACTIONS_MOST = 15  # actions at a point
-STAY_MOST = 32.0  # seconds of one stay action
+MOST_POINTS = 99  # points of a block in Litchi
+MOST_ACTIONS = 15  # actions at a point
+LONGEST_STAY_S = 32.0  # seconds of one stay action
 NONE, STAY, START, STOP = -1, 0, 2, 3
 COLUMNS = (
     "latitude",
@@ -24,7 +24,7 @@ COLUMNS = (
     "rotationdir",
     "gimbalmode",
     "gimbalpitchangle",
-    *(f"action{what}{n}" for n in range(1, ACTIONS_MOST + 1) for what in ("type", "param")),
+    *(f"action{what}{n}" for n in range(1, MOST_ACTIONS + 1) for what in ("type", "param")),
     "altitudemode",
     "speed(m/s)",
     "poi_latitude",
@@ -75,7 +75,7 @@ def _row(point: Waypoint, photos: Photos | None) -> list[str]:
     place = point.place
     every = photos or Photos(-1.0, -1.0)
     actions = [pair for action in point.actions if not action.photos for pair in _pairs(action)]
-    actions += [(NONE, 0)] * (ACTIONS_MOST - len(actions))
+    actions += [(NONE, 0)] * (MOST_ACTIONS - len(actions))
     return [
         f"{place.lat:.9f}",
         f"{place.lon:.9f}",
@@ -85,7 +85,7 @@ def _row(point: Waypoint, photos: Photos | None) -> list[str]:
         "0",
         "2",
         f"{point.pitch:.1f}",
-        *(str(number) for pair in actions[:ACTIONS_MOST] for number in pair),
+        *(str(number) for pair in actions[:MOST_ACTIONS] for number in pair),
         "0",
         f"{point.speed:.2f}",
         *_focus(point.watched),
@@ -112,14 +112,14 @@ def _pairs(action: PointAction) -> list[tuple[int, int]]:
     """Return type and parameter of an action; a stay longer than STAY_MOST is divided into several."""
     if action.kind != "stay":
         return [(START if action.kind == "start" else STOP, 0)]
-    count = ceil(action.seconds / STAY_MOST)
+    count = ceil(action.seconds / LONGEST_STAY_S)
     return [(STAY, round(1000 * action.seconds / count))] * count
 
 
 def _waypoint(row: dict[str, str]) -> Waypoint:
     heading = float(row["heading(deg)"])
     lat, lon, alt = (float(row[f"poi_{name}"]) for name in ("latitude", "longitude", "altitude(m)"))
-    pairs = [(int(row[f"actiontype{n}"]), int(row[f"actionparam{n}"])) for n in range(1, ACTIONS_MOST + 1)]
+    pairs = [(int(row[f"actiontype{n}"]), int(row[f"actionparam{n}"])) for n in range(1, MOST_ACTIONS + 1)]
     return Waypoint(
         GeoPosition(float(row["latitude"]), float(row["longitude"]), float(row["altitude(m)"])),
         heading - 360.0 if heading >= 180.0 else heading,

@@ -44,13 +44,13 @@ from shotc.emit.waypoints.geo import METRE_DECIMALS, Geo, GeoPosition, tie
 from shotc.emit.waypoints.link import link_notes
 from shotc.emit.waypoints.report import PROMISED, fleetless, flown_here, lens, no_origin
 from shotc.emit.waypoints.timing import evenly, kept_apart_by_time
-from shotc.emit.waypoints.track import SAMPLE_STEP, SampledFlight, track_of
+from shotc.emit.waypoints.track import SAMPLE_STEP_S, SampledFlight, track_of
 from shotc.geom.bernstein import Array
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-COARSER = 16.0  # largest factor on the tolerances; framing is loosened first, then position
+COARSEST_RATIO = 16.0  # largest factor on the tolerances; framing is loosened first, then position
 HALVINGS = 6  # bisection steps of the search for the least coarseness that fits into the autopilot's memory
 
 
@@ -138,7 +138,7 @@ class _Job:
             return Emission((), tuple(faults)), None
         flight = self._fit()
         everywhere = self.flight.curve(
-            np.arange(self.flight.curve.start, self.flight.curve.end + SAMPLE_STEP, SAMPLE_STEP)
+            np.arange(self.flight.curve.start, self.flight.curve.end + SAMPLE_STEP_S, SAMPLE_STEP_S)
         )
         fence = fence_of(
             self.mission, self.geo, everywhere[:, :3], one_inclusion=self.drone.autopilot == "px4"
@@ -218,7 +218,7 @@ def _coarse(intended: Tolerance, degree: float) -> Tolerance:
 
     From 0 to 1 the tolerances of framing grow; from 1 to 2 those of position grow.
     """
-    return intended.scaled(COARSER ** min(degree, 1.0), COARSER ** max(degree - 1.0, 0.0))
+    return intended.scaled(COARSEST_RATIO ** min(degree, 1.0), COARSEST_RATIO ** max(degree - 1.0, 0.0))
 
 
 EMITTER = MavlinkEmitter()

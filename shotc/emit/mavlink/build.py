@@ -43,7 +43,7 @@ from shotc.emit.mavlink.speed import Speeds, adapted, seconds
 from shotc.emit.mavlink.steps import SAME, WaypointStep
 from shotc.emit.mavlink.style import Command, Style, turns_body
 from shotc.emit.waypoints.geo import Geo, GeoPosition
-from shotc.emit.waypoints.lens import SAME_LENS, edge
+from shotc.emit.waypoints.lens import SAME_LENS_HALF_FRAMES, edge
 from shotc.emit.waypoints.track import Poses, SampledFlight, select
 from shotc.ir.drone import Drone
 from shotc.ir.limits import Vec3
@@ -51,8 +51,8 @@ from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 
-SLEW = 60.0  # deg/s, ArduPilot's ATC_SLEW_YAW, the fastest turn that is flown
-SLOW_TURN = 0.01  # deg/s; zero would select the default rate
+SLEW_DEG_S = 60.0  # deg/s, ArduPilot's ATC_SLEW_YAW, the fastest turn that is flown
+LEAST_TURN_DEG_S = 0.01  # deg/s; zero would select the default rate
 
 
 @dataclass(slots=True)
@@ -170,7 +170,7 @@ class Builder:
         lens = self.drone.lens
         if lens is None or not self.style.zooms:
             return
-        if self.hfov is None or edge(command.hfov, self.hfov) > SAME_LENS:
+        if self.hfov is None or edge(command.hfov, self.hfov) > SAME_LENS_HALF_FRAMES:
             self.items.append(self.dialect.zoom(lens, command.hfov))
             self.hfov = command.hfov
 
@@ -194,13 +194,13 @@ class Builder:
         # A mount that cannot pan takes control of the body with every mount command, so the heading must be
         # commanded again (ArduCopter, do_mount_control).
         if self.yaw is None:
-            rate = SLEW
+            rate = SLEW_DEG_S
         elif abs(yaw - self.yaw) < SAME and not force:
             return
         else:
             moving = seconds(self.speeds, step.across, step.rise)
             time = max(moving if step.duration > 0 else step.hold, 0.5)
-            rate = min(SLEW, max(SLOW_TURN, round(abs(degrees_of(yaw - self.yaw)) / time, 4)))
+            rate = min(SLEW_DEG_S, max(LEAST_TURN_DEG_S, round(abs(degrees_of(yaw - self.yaw)) / time, 4)))
         self.items.append(action(CONDITION_YAW, compass_deg(yaw), rate, 0.0, 0.0))
         self.yaw = yaw
 

@@ -41,7 +41,7 @@ from shotc.geom.focal import field_of_view
 from shotc.ir.drone import LensRange
 from shotc.ir.source import Autopilot
 
-ITSELF = -2.0  # the mission's own system and component, which take primary control of the gimbal
+ITSELF_PARAMETER = -2.0  # the mission's own system and component, which take primary control of the gimbal
 
 
 class Px4:
@@ -59,7 +59,7 @@ class Px4:
 
     def takeoff(self, place: GeoPosition, yaw: float) -> list[MissionItem]:
         """Return the take-off, after which the mission claims the gimbal."""
-        claim = action(GIMBAL_CONFIGURE, ITSELF, ITSELF, 0.0, 0.0)
+        claim = action(GIMBAL_CONFIGURE, ITSELF_PARAMETER, ITSELF_PARAMETER, 0.0, 0.0)
         return [at(TAKEOFF, place, 0.0, 0.0, 0.0, compass_deg(yaw)), claim]
 
     def waypoint(self, place: GeoPosition, hold: float, radius: float, yaw: float) -> MissionItem:

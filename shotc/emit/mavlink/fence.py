@@ -18,7 +18,7 @@ from shotc.ir.mission import MissionIR, Zone
 
 Array = NDArray[np.float64]
 
-MARGIN = 0.25  # metres that thinning may add to the flight
+MARGIN_M = 0.25  # metres that thinning may add to the flight
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ def _misfit(zone: Zone, xy: Array) -> str:
     distance = footprint_distances(zone.solid, xy)
     if zone.keep == "in":
         return "" if float(distance.max()) == 0.0 else "the flight's ground track leaves it"
-    if float(distance.min()) < MARGIN:
+    if float(distance.min()) < MARGIN_M:
         return "the plan passes over or under it, and a fence has no height"
     return ""
 

@@ -11,8 +11,8 @@ from shotc.emit.mavlink.items import FRAME_RELATIVE, POSITION_COMMANDS, MissionI
 from shotc.emit.waypoints.geo import Geo, GeoPosition
 
 QUADROTOR = 2
-CRUISE_SPEED = 15  # m/s; the loader demands a number, a multirotor never uses it
-RELATIVE = 1  # altitude mode: relative to home
+CRUISE_M_S = 15  # m/s; the loader demands a number, a multirotor never uses it
+RELATIVE_ALTITUDE_MODE = 1  # altitude mode: relative to home
 
 
 def write_plan(
@@ -33,9 +33,9 @@ def write_plan(
         "version": 2,
         "firmwareType": firmware,
         "vehicleType": QUADROTOR,
-        "cruiseSpeed": CRUISE_SPEED,
+        "cruiseSpeed": CRUISE_M_S,
         "hoverSpeed": _number(hover_speed),
-        "globalPlanAltitudeMode": RELATIVE,
+        "globalPlanAltitudeMode": RELATIVE_ALTITUDE_MODE,
         "plannedHomePosition": [geo.home_lat, geo.home_lon, geo.home_alt],
         "items": "@items",
     }
@@ -71,7 +71,7 @@ def _item(item: MissionItem, number: int) -> dict[str, Any]:
     }
     if item.frame == FRAME_RELATIVE and item.command in POSITION_COMMANDS:
         altitude = row["params"][6]
-        row |= {"Altitude": altitude, "AltitudeMode": RELATIVE, "AMSLAltAboveTerrain": None}
+        row |= {"Altitude": altitude, "AltitudeMode": RELATIVE_ALTITUDE_MODE, "AMSLAltAboveTerrain": None}
     return row
 
 

@@ -21,7 +21,7 @@ from shotc.emit.mavlink.dialect import DIALECTS
 from shotc.emit.mavlink.items import MissionItem
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, seconds
 from shotc.emit.mavlink.style import facing, follow, turns_body
-from shotc.emit.waypoints.flown import STAY_PACE, ReflownSamples
+from shotc.emit.waypoints.flown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.geo import Geo, GeoPosition
 from shotc.geom.camera import yaw_of
 from shotc.geom.vec import wrapped
@@ -29,9 +29,9 @@ from shotc.ir.drone import Drone
 
 Array = NDArray[np.float64]
 
-PX4_TURN = radians(45.0)  # rad/s, MPC_YAWRAUTO_MAX
+PX4_YAW_RATE_RAD_S = radians(45.0)  # rad/s, MPC_YAWRAUTO_MAX
 STEP_TIME, STEP_WAY = 0.05, 0.1  # seconds and metres between samples of the flight
-STEPS_MOST = 2000  # samples of one leg
+MOST_STEPS = 2000  # samples of one leg
 
 
 @dataclass(slots=True)
@@ -43,7 +43,7 @@ class _Pilot:
     speeds: Speeds
     yaw: float = nan
     yaw_goal: float = nan
-    turn_rate: float = PX4_TURN
+    turn_rate: float = PX4_YAW_RATE_RAD_S
     pitch: float = nan
     pitch_goal: float = nan
     pan: float = nan
@@ -97,13 +97,13 @@ def _waypoint(pilot: _Pilot, params: tuple[float | None, ...]) -> None:
     hold = _number(params[0])
     start = pilot.position
     if moving > 0:
-        count = min(STEPS_MOST, max(1, ceil(moving / STEP_TIME), ceil(length / STEP_WAY)))
+        count = min(MOST_STEPS, max(1, ceil(moving / STEP_TIME), ceil(length / STEP_WAY)))
         share = np.linspace(0.0, 1.0, count + 1)
-        _log(pilot, start + share[:, None] * way, share * moving, share * max(length, moving * STAY_PACE))
+        _log(pilot, start + share[:, None] * way, share * moving, share * max(length, moving * STAY_PACE_M_S))
     pilot.position = target
     if hold > 0:
-        share = np.linspace(0.0, 1.0, min(STEPS_MOST, max(2, ceil(hold / STEP_TIME))) + 1)
-        _log(pilot, np.broadcast_to(target, (len(share), 3)), share * hold, share * hold * STAY_PACE)
+        share = np.linspace(0.0, 1.0, min(MOST_STEPS, max(2, ceil(hold / STEP_TIME))) + 1)
+        _log(pilot, np.broadcast_to(target, (len(share), 3)), share * hold, share * hold * STAY_PACE_M_S)
 
 
 def _log(pilot: _Pilot, position: Array, time: Array, way: Array) -> None:

@@ -16,7 +16,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least
 
-CUT_LEAST = 0.05  # metres of missing clearance, below which there is no warning
+LEAST_CUT_M = 0.05  # metres of missing clearance, below which there is no warning
 
 
 def left_out(mission: MissionIR, drone: Drone, left: Left) -> Diagnostic:
@@ -93,7 +93,7 @@ def in_step(mission: MissionIR, meeting: WaysTooNear) -> Diagnostic:
 
 def cut(mission: MissionIR, drone: Drone, name: str, depth: float) -> Diagnostic | None:
     """Return the warning that straight legs come nearer to an obstacle than its clearance allows, or None."""
-    if depth < CUT_LEAST:
+    if depth < LEAST_CUT_M:
         return None
     return Diagnostic(
         "E106",

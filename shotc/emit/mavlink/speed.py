@@ -7,9 +7,11 @@ from math import inf
 
 from shotc.ir.limits import Limits
 
-SHARE = 0.15  # difference from the speed in force, above which a leg has its own speed item
-SLOWEST = 0.1  # m/s; autopilots ignore slower speeds
-STEEP = 0.1  # horizontal over vertical distance, below which the vertical speed determines the time of a leg
+SPEED_DIFFERENCE_SHARE = 0.15  # difference from the speed in force, above which a leg has its own speed item
+SLOWEST_M_S = 0.1  # m/s; autopilots ignore slower speeds
+STEEP_RATIO = (
+    0.1  # horizontal over vertical distance, below which the vertical speed determines the time of a leg
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +35,7 @@ def seconds(speeds: Speeds, across: float, rise: float) -> float:
 
 def is_steep(across: float, rise: float) -> bool:
     """Return whether the vertical speed determines the time of a leg."""
-    return across < STEEP * abs(rise)
+    return across < STEEP_RATIO * abs(rise)
 
 
 def adapted(now: Speeds, limits: Limits | None, across: float, rise: float, duration: float) -> Speeds:
@@ -57,6 +59,6 @@ def adapted(now: Speeds, limits: Limits | None, across: float, rise: float, dura
 
 
 def _changed(now: float, wanted: float) -> float:
-    wanted = max(round(wanted, 2), SLOWEST)
+    wanted = max(round(wanted, 2), SLOWEST_M_S)
     ratio = wanted / now if now > 0 else inf
-    return wanted if abs(ratio - 1) > SHARE else now
+    return wanted if abs(ratio - 1) > SPEED_DIFFERENCE_SHARE else now

@@ -8,22 +8,22 @@ from math import acos, hypot, pi, tan
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.emit.mavlink.speed import SLOWEST
+from shotc.emit.mavlink.speed import SLOWEST_M_S
 from shotc.emit.mavlink.style import Command, Style, command_of, region_of
 from shotc.emit.mavlink.thin import StraightLeg
-from shotc.emit.waypoints.lens import SAME_LENS, edge
+from shotc.emit.waypoints.lens import SAME_LENS_HALF_FRAMES, edge
 from shotc.emit.waypoints.track import SampledFlight
 from shotc.ir.limits import Vec3
 
 Array = NDArray[np.float64]
 
-SETTLE = 1.0  # seconds of rest before and after a shot that begins or ends at rest
-ALIGN = 3.0  # seconds in which a body turns by 180 degrees
-STANDSTILL = 0.05  # m/s
+SETTLE_S = 1.0  # seconds of rest before and after a shot that begins or ends at rest
+HALF_TURN_S = 3.0  # seconds in which a body turns by 180 degrees
+STANDSTILL_M_S = 0.05  # m/s
 SAME = float(np.radians(0.1))  # rad; smaller changes of an angle get no command of their own
 RADIUS_LEAST, RADIUS_REST = 0.3, 0.5  # metres, acceptance radius of a waypoint
-CORNER_ACCELERATION = 3.0  # m/s^2, MPC_ACC_HOR: acceleration of an autopilot that rounds a corner
-CORNER_CUT = 0.25  # metres by which a rounded corner may miss its waypoint
+CORNER_M_S2 = 3.0  # m/s^2, MPC_ACC_HOR: acceleration of an autopilot that rounds a corner
+CORNER_CUT_M = 0.25  # metres by which a rounded corner may miss its waypoint
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,9 @@ def whole_seconds(steps: list[WaypointStep]) -> list[WaypointStep]:
 def _aligned(track: SampledFlight) -> WaypointStep:
     """Return a stay above the pad that turns the body, for a flight that starts with a filmed leg."""
     command = command_of(track.poses, 0, 0, filmed=False)
-    return WaypointStep(StraightLeg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, ALIGN, RADIUS_REST)
+    return WaypointStep(
+        StraightLeg(0, 0, None, rest=True), command, None, 0.0, 0.0, 0.0, HALF_TURN_S, RADIUS_REST
+    )
 
 
 def _step(
@@ -88,14 +90,14 @@ def _step(
     elapsed = float(time[leg.last] - time[leg.first])
     if leg.rest:
         return WaypointStep(leg, command, region, 0.0, 0.0, 0.0, elapsed, RADIUS_REST)
-    stops = _speed(track, leg.last) < STANDSTILL
+    stops = _speed(track, leg.last) < STANDSTILL_M_S
     boundary = following is not None and following.shot != leg.shot
     radius = RADIUS_REST
     if following is not None and not following.rest and not stops:
         radius = _radius(points[leg.first], points[leg.last], points[following.last], elapsed)
-    # Autopilots do not fly slower than SLOWEST: the drone arrives early and waits.
-    hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST)
-    hold = max(hold, SETTLE) if stops and boundary else hold
+    # Autopilots do not fly slower than SLOWEST_M_S: the drone arrives early and waits.
+    hold = max(0.0, elapsed - float(np.linalg.norm(way)) / SLOWEST_M_S)
+    hold = max(hold, SETTLE_S) if stops and boundary else hold
     return WaypointStep(leg, command, region, hypot(way[0], way[1]), float(way[2]), elapsed, hold, radius)
 
 
@@ -111,7 +113,7 @@ def _joins(track: SampledFlight, style: Style, before: WaypointStep, stay: Waypo
     ):
         if np.abs(angles[part] - commanded).max() > SAME:
             return False
-    return not style.zooms or bool(edge(poses.hfov[part], before.command.hfov).max() <= SAME_LENS)
+    return not style.zooms or bool(edge(poses.hfov[part], before.command.hfov).max() <= SAME_LENS_HALF_FRAMES)
 
 
 def _speed(track: SampledFlight, index: int) -> float:
@@ -132,6 +134,6 @@ def _radius(before: Array, corner: Array, after: Array, elapsed: float) -> float
         return RADIUS_LEAST
     turn = acos(float(np.clip(way @ onward / (lengths[0] * lengths[1]), -1.0, 1.0)))
     speed = lengths[0] / elapsed
-    at_speed = speed**2 * tan(min(turn, 0.9 * pi) / 2) / CORNER_ACCELERATION
-    uncut = CORNER_CUT / max(tan(turn / 4), 1e-6)
+    at_speed = speed**2 * tan(min(turn, 0.9 * pi) / 2) / CORNER_M_S2
+    uncut = CORNER_CUT_M / max(tan(turn / 4), 1e-6)
     return max(RADIUS_LEAST, min(max(at_speed, RADIUS_REST), uncut, min(lengths) / 2))

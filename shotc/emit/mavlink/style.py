@@ -30,14 +30,16 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-CENTRED = 0.02  # (u, v) distance from the centre, below which a target is framed by following it
-SWIVEL_LEAST = 2.0  # degrees of gimbal yaw, below which a gimbal counts as fixed in yaw
-WINDOW = 20  # samples over which a region of interest is compared with fixed angles
-GAIN_LEAST = 0.5  # largest error of regions of interest over that of fixed angles, for which they are used
-TURN_LEAST = 1e-7  # 1 - cos of the turn in a window, below which the window does not turn
-AWAY_MOST = 500.0  # metres to a region of interest where no near subject is framed
-NEAR_PARALLEL = 1e-7  # rad^2, mean squared angle between camera axes that have no useful intersection
-PAN_LEAST = np.radians(0.5)  # rad between body and camera, below which they count as parallel
+CENTRED_HALF_FRAMES = 0.02  # (u, v) distance from the centre, below which a target is framed by following it
+LEAST_SWIVEL_DEG = 2.0  # degrees of gimbal yaw, below which a gimbal counts as fixed in yaw
+WINDOW_SAMPLES = 20  # samples over which a region of interest is compared with fixed angles
+LEAST_GAIN_RATIO = (
+    0.5  # largest error of regions of interest over that of fixed angles, for which they are used
+)
+LEAST_TURN_VERSINE = 1e-7  # 1 - cos of the turn in a window, below which the window does not turn
+FARTHEST_REGION_M = 500.0  # metres to a region of interest where no near subject is framed
+NEAR_PARALLEL_RAD2 = 1e-7  # rad^2, mean squared angle between camera axes that have no useful intersection
+LEAST_PAN_RAD = np.radians(0.5)  # rad between body and camera, below which they count as parallel
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +92,7 @@ def style_of(mission: MissionIR, flight: DroneTrajectory, track: SampledFlight) 
             followed[phase.shot] = mission.target(target).centre
         elif swivels(drone) and _gains(select(poses, inside), track.subject[inside]):
             aimed.add(phase.shot)
-    return Style(drone.autopilot, bool(parted > PAN_LEAST), followed, frozenset(aimed), drone.zooms)
+    return Style(drone.autopilot, bool(parted > LEAST_PAN_RAD), followed, frozenset(aimed), drone.zooms)
 
 
 def region_of(style: Style, track: SampledFlight, part: slice, shot: str | None) -> Vec3 | None:
@@ -141,7 +143,7 @@ def turns_body(drone: Drone) -> bool:
 def swivels(drone: Drone) -> bool:
     """Return whether the gimbal can turn in yaw."""
     low, high = drone.gimbal.yaw
-    return degrees(high - low) > SWIVEL_LEAST
+    return degrees(high - low) > LEAST_SWIVEL_DEG
 
 
 def facing(position: Array, point: Vec3 | Array) -> Array:
@@ -154,11 +156,11 @@ def _meeting(poses: Poses, subject: Array) -> Vec3:
     """Return the point with the least squared distance to all camera axes, or a point straight ahead."""
     position, axis = poses.position, _axes(poses)
     middle = len(axis) // 2
-    away = min(float(np.linalg.norm(subject[middle] - position[middle])), AWAY_MOST)
+    away = min(float(np.linalg.norm(subject[middle] - position[middle])), FARTHEST_REGION_M)
     ahead = position[middle] + away * axis[middle]
     # A weak pull towards ``ahead`` keeps the system regular where the axes are parallel.
     across = np.eye(3) - axis[:, :, None] * axis[:, None, :]
-    pull = NEAR_PARALLEL * len(axis)
+    pull = NEAR_PARALLEL_RAD2 * len(axis)
     meeting = np.linalg.solve(
         across.sum(axis=0) + pull * np.eye(3),
         np.einsum("nij,nj->i", across, position) + pull * ahead,
@@ -178,14 +180,14 @@ def _gains(poses: Poses, subject: Array) -> bool:
     """Return whether regions of interest show a shot better than fixed angles, compared window by window."""
     axis = _axes(poses)
     by_place = by_direction = 0.0
-    for first in range(0, len(axis) - 1, WINDOW):
-        part = slice(first, first + WINDOW + 1)
+    for first in range(0, len(axis) - 1, WINDOW_SAMPLES):
+        part = slice(first, first + WINDOW_SAMPLES + 1)
         point = _meeting(select(poses, part), subject[part])
         by_place += _off_axis(np.array(point), poses.position[part], axis[part])
         middle = axis[part][len(axis[part]) // 2]
         by_direction += float(1.0 - (axis[part] @ middle).min())
-    turns = by_direction > TURN_LEAST * len(axis) / WINDOW
-    return turns and by_place < GAIN_LEAST * by_direction
+    turns = by_direction > LEAST_TURN_VERSINE * len(axis) / WINDOW_SAMPLES
+    return turns and by_place < LEAST_GAIN_RATIO * by_direction
 
 
 def _off_axis(point: Array, position: Array, axis: Array) -> float:
@@ -205,7 +207,7 @@ def _lone_target(flight: DroneTrajectory, phase: Phase) -> str | None:
 
 def _is_centred(poses: Poses, subject: Array, drone: Drone) -> bool:
     off = np.hypot(*project(poses, subject, drone).T)
-    return bool((off <= CENTRED).all())
+    return bool((off <= CENTRED_HALF_FRAMES).all())
 
 
 def _middle(angles: Array) -> float:

@@ -16,17 +16,17 @@ from shotc.emit.mavlink.focus import Focus
 from shotc.emit.mavlink.style import Style, command_of, facing, follow, region_of, turns_body
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
 from shotc.emit.waypoints.lens import edge
-from shotc.emit.waypoints.track import SAMPLE_STEP, Poses, SampledFlight, SampleRange, project, select
+from shotc.emit.waypoints.track import SAMPLE_STEP_S, Poses, SampledFlight, SampleRange, project, select
 from shotc.geom.vec import wrapped
 from shotc.ir.drone import Drone
 
 Array = NDArray[np.float64]
 
-LEG_LEAST = 0.5  # seconds; autopilots skip waypoints that follow each other faster
-NEARER = 0.02  # metres by which a straight leg may violate a clearance that the curve keeps
-EVENING = 5  # bisection steps of the tolerance scale for legs of even length
-TURN_MOST = radians(170.0)  # rad of one leg, so that the shortest turn is the planned one
-PRECISE = 1e-3  # metres; shorter chords have no direction
+SHORTEST_LEG_S = 0.5  # seconds; autopilots skip waypoints that follow each other faster
+CLEARANCE_CUT_M = 0.02  # metres by which a straight leg may violate a clearance that the curve keeps
+EVENING_HALVINGS = 5  # bisection steps of the tolerance scale for legs of even length
+LARGEST_TURN_RAD = radians(170.0)  # rad of one leg, so that the shortest turn is the planned one
+SHORTEST_CHORD_M = 1e-3  # metres; shorter chords have no direction
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ class Thinner:
         # Greedy cutting leaves a short last leg; a tighter tolerance with the same number of legs evens them
         # out.
         best, low, high = self._greedy(stretch, tolerance), 0.0, 1.0
-        for _ in range(EVENING):
+        for _ in range(EVENING_HALVINGS):
             share = (low + high) / 2
             trial = self._greedy(stretch, tolerance.scaled(share, share))
             if len(trial) <= len(best):
@@ -98,7 +98,7 @@ class Thinner:
 
     def _longest(self, stretch: SampleRange, first: int, tolerance: Tolerance) -> int:
         time = self.track.time
-        least = int(np.searchsorted(time, time[first] + LEG_LEAST - SAMPLE_STEP / 2))
+        least = int(np.searchsorted(time, time[first] + SHORTEST_LEG_S - SAMPLE_STEP_S / 2))
         good, step = min(max(least, first + 1), stretch.last), 4
         bad = stretch.last + 1
         while good < stretch.last:
@@ -127,7 +127,7 @@ class Thinner:
             return False
         if leg.shot is None:
             return True
-        if abs(planned.body_yaw[-1] - planned.body_yaw[0]) > TURN_MOST:
+        if abs(planned.body_yaw[-1] - planned.body_yaw[0]) > LARGEST_TURN_RAD:
             return False
         poses = self._flown(leg, planned, flown, share)
         if np.abs(wrapped(poses.body_yaw - planned.body_yaw)).max() > tolerance.heading:
@@ -146,7 +146,7 @@ class Thinner:
     def _clear(self, part: slice, flown: Array, reach: float) -> bool:
         for obstacle, planned in zip(self.obstacles, self.planned_shortfall, strict=True):
             worst = float(planned[part].max())
-            if worst > -reach and shortfall(obstacle, flown).max() > max(worst, 0.0) + NEARER:
+            if worst > -reach and shortfall(obstacle, flown).max() > max(worst, 0.0) + CLEARANCE_CUT_M:
                 return False
         return True
 
@@ -189,6 +189,6 @@ def along(points: Array, time: Array, *, rest: bool) -> Array:
     """
     chord = points[-1] - points[0]
     length2 = float(chord @ chord)
-    if rest or length2 < PRECISE**2:
+    if rest or length2 < SHORTEST_CHORD_M**2:
         return np.asarray((time - time[0]) / max(time[-1] - time[0], 1e-12))
     return np.asarray(np.clip((points - points[0]) @ chord / length2, 0.0, 1.0))

@@ -37,7 +37,7 @@ POINTER = "KHR_animation_pointer"
 FLOAT, UNSIGNED = 5126, 5125
 VERTICES, INDICES = 34962, 34963
 POINTS, LINE_STRIP, TRIANGLES = 0, 3, 4
-ROUGHNESS = 0.9
+ROUGHNESS_SHARE = 0.9
 SHAPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 
@@ -153,7 +153,7 @@ class _File:
 
 def _material(paint: Paint) -> dict[str, Any]:
     color = [*paint.linear, paint.opacity]
-    surface = {"baseColorFactor": color, "metallicFactor": 0.0, "roughnessFactor": ROUGHNESS}
+    surface = {"baseColorFactor": color, "metallicFactor": 0.0, "roughnessFactor": ROUGHNESS_SHARE}
     blend = {"alphaMode": "BLEND"} if paint.opacity < 1.0 else {}
     return {"name": paint.name, "pbrMetallicRoughness": surface, "doubleSided": True, **blend}
 

@@ -26,7 +26,7 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 NEAR_M, FAR_M = 0.1, 10_000.0
 """Near and far clipping depth of the cameras."""
-ZOOM_LEAST = 1e-9
+LEAST_ZOOM_RAD = 1e-9
 """Radians of change, above which a field of view is animated."""
 
 
@@ -102,7 +102,7 @@ class CameraSamples:
     @property
     def zooms(self) -> bool:
         """Whether the field of view changes."""
-        return bool(np.ptp(self.hfov) > ZOOM_LEAST)
+        return bool(np.ptp(self.hfov) > LEAST_ZOOM_RAD)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -34,7 +34,7 @@ from shotc.geom.focal import focal_length
 from shotc.ir.trajectory import VerifiedIR
 
 FILE = "mission.usda"
-APERTURE = 0.36
+APERTURE_DM = 0.36
 """Width of the film in tenths of a metre: 36 mm."""
 LINE_WIDTH_M = 0.1
 PLACE, TURN = "%d: (%.6f, %.6f, %.6f)", "%d: (%.9f, %.9f, %.9f, %.9f)"
@@ -177,7 +177,7 @@ def _carried(motion: BodyMotion) -> list[str]:
 
 
 def _camera(name: tuple[str, str], camera: CameraSamples) -> Iterator[str]:
-    focal = [focal_length(hfov, APERTURE) for hfov in camera.hfov.tolist()]
+    focal = [focal_length(hfov, APERTURE_DM) for hfov in camera.hfov.tolist()]
     lens = f"float focalLength = {focal[0]:.9g}"
     if camera.zooms:
         lens = (
@@ -186,8 +186,8 @@ def _camera(name: tuple[str, str], camera: CameraSamples) -> Iterator[str]:
     lines = [
         f"float2 clippingRange = ({NEAR_M:g}, {FAR_M:g})",
         lens,
-        f"float horizontalAperture = {APERTURE:g}",
-        f"float verticalAperture = {APERTURE / camera.aspect:.9g}",
+        f"float horizontalAperture = {APERTURE_DM:g}",
+        f"float verticalAperture = {APERTURE_DM / camera.aspect:.9g}",
         'token projection = "perspective"',
         *_moved(camera.places, graphics(camera.yaw, camera.pitch)),
     ]

@@ -15,8 +15,8 @@ from shotc.ir.show import Apart, Fleet
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.planning.on_pads import standing_at
 
-SAMPLES = 240
-NEIGHBOURS = 12
+SAMPLED_TIMES = 240
+NEIGHBOUR_COUNT = 12
 """Neighbours of a drone that are examined for the cylinder's measure, because the Euclidean nearest drone
 need not be the nearest by that measure.
 """
@@ -42,7 +42,7 @@ def nearness(flown: TrajectoryIR) -> tuple[Nearness, ...]:
 
 
 def _of(fleet: Fleet, flight: FleetTrajectory) -> Nearness:
-    times = np.linspace(flight.breaks[0], flight.breaks[-1], SAMPLES + 1)
+    times = np.linspace(flight.breaks[0], flight.breaks[-1], SAMPLED_TIMES + 1)
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     standing = standing_at(fleet, flight, times)
     several = (~standing).sum(axis=0) > 1
@@ -59,6 +59,6 @@ def _least(points: Array, apart: Apart) -> float:
     tree = cKDTree(points)
     if apart.shape == "ellipsoid":
         return float(tree.query(points, k=2)[0][:, 1].min())
-    _, near = tree.query(points, k=min(NEIGHBOURS, len(points)))
+    _, near = tree.query(points, k=min(NEIGHBOUR_COUNT, len(points)))
     away = points[:, None] - points[near[:, 1:]]
     return float(np.maximum(np.hypot(away[..., 0], away[..., 1]), np.abs(away[..., 2])).min())

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc import __version__
-from shotc.emit.report.nearness import SAMPLES, Nearness, nearness
+from shotc.emit.report.nearness import SAMPLED_TIMES, Nearness, nearness
 from shotc.emit.report.pictures import nearness_plot, site_map
 from shotc.emit.report.style import STYLE
 from shotc.emit.site.volumes import OFF_ACROSS_M, OFF_UPRIGHT_M, REACTION_S, Volumes, volumes
@@ -210,8 +210,8 @@ def _claim(claim: Claim) -> Row:
 def _pairs(found: Sequence[Nearness]) -> str:
     about = (
         "<p>The distance of the nearest two drones of a fleet, in the measure of its separation (heights "
-        f"scaled by their ratio), at {SAMPLES + 1} instants. The separation is proved at every instant, also "
-        "between these: see separation above.</p>"
+        f"scaled by their ratio), at {SAMPLED_TIMES + 1} instants. The separation is proved at every "
+        "instant, also between these: see separation above.</p>"
     )
     plots = [f"<h3>{escape(each.fleet)}</h3>\n{nearness_plot(each)}" for each in found]
     return "\n".join([about, *plots]) if plots else ""

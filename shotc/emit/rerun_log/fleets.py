@@ -20,16 +20,16 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 
-RATE = 5.0
+RATE_HZ = 5.0
 """Samples a second."""
 
-GLOW = 0.35
+GLOW_RADIUS_M = 0.35
 """Radius of a light, metres."""
 
 UNLIT = (70, 74, 82)
 """Colour of a drone whose light is off, so that it stays visible in the recording."""
 
-WIDTH = 1280
+WIDTH_PX = 1280
 NIGHT = (4, 6, 14, 255)
 
 
@@ -56,8 +56,8 @@ def log_fleets(stream: Any, plan: VerifiedIR) -> dict[str, tuple[Plot, ...]]:
         turn = np.stack([right, down, forward], axis=1)
         entity = f"world/audience/{display.id}"
         stream.log(entity, rr.Transform3D(translation=seen.eye, mat3x3=turn), static=True)
-        focal = WIDTH / 2.0 / float(np.tan(seen.hfov / 2.0))
-        lens = rr.Pinhole(focal_length=focal, width=WIDTH, height=round(WIDTH / ASPECT))
+        focal = WIDTH_PX / 2.0 / float(np.tan(seen.hfov / 2.0))
+        lens = rr.Pinhole(focal_length=focal, width=WIDTH_PX, height=round(WIDTH_PX / ASPECT))
         stream.log(entity, lens, static=True)
     return plots
 
@@ -71,7 +71,7 @@ def log_words(stream: Any, plan: VerifiedIR) -> None:
 
 def _times(flight: FleetTrajectory) -> Array:
     end = float(flight.breaks[-1])
-    return np.append(np.arange(0.0, end, 1.0 / RATE), end)
+    return np.append(np.arange(0.0, end, 1.0 / RATE_HZ), end)
 
 
 def _lights(stream: Any, flight: FleetTrajectory, t: Array) -> None:
@@ -81,7 +81,7 @@ def _lights(stream: Any, flight: FleetTrajectory, t: Array) -> None:
     colors = colors.astype(np.uint8)
     n = at.shape[1]
     entity = f"world/fleets/{flight.fleet}"
-    stream.log(entity, rr.Points3D.from_fields(radii=[GLOW]), static=True)
+    stream.log(entity, rr.Points3D.from_fields(radii=[GLOW_RADIUS_M]), static=True)
     stream.send_columns(
         entity,
         indexes=[rr.TimeColumn("t", duration=t)],
@@ -102,7 +102,7 @@ def show_blueprint(plan: VerifiedIR, bounds: tuple[Array, Array], plots: dict[st
             name=f"The audience of {display.id}",
             contents=[f"/world/fleets/{display.fleet}"],
             background=NIGHT,
-            visual_bounds=rrb.VisualBounds2D(x_range=[0, WIDTH], y_range=[0, WIDTH / ASPECT]),
+            visual_bounds=rrb.VisualBounds2D(x_range=[0, WIDTH_PX], y_range=[0, WIDTH_PX / ASPECT]),
         )
         for display in displays
     ]

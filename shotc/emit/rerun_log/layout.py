@@ -21,7 +21,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.trajectory import VerifiedIR
 
 BACKGROUND = (24, 27, 32, 255)
-TOGETHER = 4  # cameras whose views are shown at once
+MOST_CAMERAS = 4  # cameras whose views are shown at once
 SKY = (96, 118, 140, 255)
 
 
@@ -68,7 +68,7 @@ def _side_by_side(cameras: list[Any]) -> Any:
     """Return all views side by side, or as tabs if there are too many."""
     if len(cameras) == 1:
         return cameras[0]
-    return rrb.Grid(*cameras, grid_columns=2) if len(cameras) <= TOGETHER else rrb.Tabs(*cameras)
+    return rrb.Grid(*cameras, grid_columns=2) if len(cameras) <= MOST_CAMERAS else rrb.Tabs(*cameras)
 
 
 def panels(span: tuple[float, float] | None = None) -> tuple[Any, ...]:

@@ -25,10 +25,10 @@ from shotc.ir.phases import Phase, Reference
 from shotc.ir.sampling import framed, projected
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-WIDTH = 1280
+WIDTH_PX = 1280
 """Width of the camera's view, pixels."""
 
-SCREEN_DEPTH = 0.3
+SCREEN_DEPTH_M = 0.3
 """Distance of the overlay from its camera, metres.
 
 The viewer draws 2D lines behind every 3D object that it projects into a camera's view. The overlay is
@@ -36,7 +36,7 @@ therefore 3D, and nearer than anything else.
 """
 
 LIMIT_COLOR, PROMISED = KEEP_OUT, "promised"
-AFTER = 1e-3
+AFTER_S = 1e-3
 """Time after a shot at which its overlay disappears, seconds."""
 
 LINE_COLORS = (CAMERA, shade(SUBJECT, 1.45), (0.80, 0.47, 0.65), (0.60, 0.63, 0.68))
@@ -129,9 +129,9 @@ def _camera(stream: Any, drone: Drone, t: Array, poses: Array, frustum: float) -
     )
     stream.send_columns(f"{entity}/lens", indexes=index, columns=lens)
     # Below this entity, x and y are (u, v).
-    reach = SCREEN_DEPTH * np.tan(half)
-    scale = np.stack([reach, -reach / drone.aspect, np.full(len(half), SCREEN_DEPTH)], axis=-1)
-    place = np.tile([0.0, 0.0, SCREEN_DEPTH], (len(half), 1))
+    reach = SCREEN_DEPTH_M * np.tan(half)
+    scale = np.stack([reach, -reach / drone.aspect, np.full(len(half), SCREEN_DEPTH_M)], axis=-1)
+    place = np.tile([0.0, 0.0, SCREEN_DEPTH_M], (len(half), 1))
     columns = rr.Transform3D.columns(translation=place, scale=scale)
     stream.send_columns(f"{entity}/screen", indexes=index, columns=columns)
 
@@ -150,7 +150,7 @@ def camera_quaternions(yaw: Array, pitch: Array) -> Array:
 
 def frame_size(drone: Drone) -> tuple[int, int]:
     """Return width and height of the camera's view in pixels."""
-    return WIDTH, round(WIDTH / drone.aspect)
+    return WIDTH_PX, round(WIDTH_PX / drone.aspect)
 
 
 def camera_entity(drone: Drone) -> str:
@@ -193,7 +193,7 @@ def _centre(stream: Any, entity: str, ticks: Array, shown: Frames) -> None:
         return
     stream.send_columns(
         entity,
-        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER])],
+        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER_S])],
         columns=rr.Points3D.columns(positions=points).partition([*near.astype(int), 0]),
     )
     dot = rr.Points3D.from_fields(radii=rr.Radius.ui_points(3.5), colors=[rgba8(WHITE)])
@@ -217,7 +217,7 @@ def _strips(stream: Any, entity: str, ticks: Array, strips: list[Array], lengths
     lifted = strip_batch(np.column_stack([points, np.zeros(len(points))]), [len(strip) for strip in strips])
     stream.send_columns(
         entity,
-        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER])],
+        indexes=[rr.TimeColumn("t", duration=[*ticks, ticks[-1] + AFTER_S])],
         columns=rr.LineStrips3D.columns(strips=lifted).partition([*lengths, 0]),
     )
 
@@ -251,7 +251,7 @@ def _composition(stream: Any, plan: VerifiedIR, flight: DroneTrajectory, phase: 
     entity = f"{camera_entity(drone)}/screen/composition"
     stream.send_columns(
         entity,
-        indexes=[rr.TimeColumn("t", duration=[*times, phase.end + AFTER])],
+        indexes=[rr.TimeColumn("t", duration=[*times, phase.end + AFTER_S])],
         columns=rr.LineStrips3D.columns(strips=strips).partition([*(len(some) for some in lines), 0]),
     )
     _style(stream, entity, rgba8(WHITE, 0.5), 0.5)

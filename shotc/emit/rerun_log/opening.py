@@ -13,26 +13,26 @@ from shotc.ir.bodies import moved
 from shotc.ir.mission import MissionIR
 from shotc.ir.occlusion import hiders
 from shotc.ir.path import CAM_PITCH, CAM_YAW
-from shotc.ir.sampling import SAME_TIME
+from shotc.ir.sampling import SAME_TIME_S
 from shotc.ir.terrain import ground_heights
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-HEADINGS = 8
+HEADING_COUNT = 8
 """Number of directions that are tried for a view in which nothing hides a subject."""
 
-ELEVATION = radians(33.0)
+ELEVATION_RAD = radians(33.0)
 """Elevation of the eye above the point it looks at."""
 
-AWAY = 2.6
+DISTANCE_RATIO = 2.6
 """Distance of the eye in radii of the scene it looks at; the viewer's lens of 55 deg needs at least 2.2."""
 
-NEAREST = 6.0
+NEAREST_M = 6.0
 """Metres added to that distance."""
 
-OVER_GROUND = 3.0
+OVER_GROUND_M = 3.0
 """Least height of the eye above terrain, metres."""
 
-AHEAD = 10.0
+AHEAD_M = 10.0
 """Distance of the point that a camera without a subject is taken to look at, metres."""
 
 
@@ -59,13 +59,13 @@ def first_stand(plan: VerifiedIR) -> OpeningView | None:
     filming = [f for f in plan.trajectory.drones if any(p.shot and p.start == time for p in f.phases)]
     flight = filming[0]
     mission = plan.trajectory.keyframes.mission
-    subjects = [f.target for f in flight.framing if f.start - SAME_TIME <= time <= f.end + SAME_TIME]
+    subjects = [f.target for f in flight.framing if f.start - SAME_TIME_S <= time <= f.end + SAME_TIME_S]
     subjects = list(dict.fromkeys(subjects))
     camera = _camera(flight, time, ahead=not subjects)
     points = np.concatenate([camera, *_bodies(mission, subjects, time)])
     low, high = points.min(axis=0), points.max(axis=0)
-    middle, away = (low + high) / 2, AWAY * float(np.linalg.norm(high - low)) / 2 + NEAREST
-    eyes = [_over_ground(mission, middle + away * _toward(k)) for k in range(HEADINGS)]
+    middle, away = (low + high) / 2, DISTANCE_RATIO * float(np.linalg.norm(high - low)) / 2 + NEAREST_M
+    eyes = [_over_ground(mission, middle + away * _toward(k)) for k in range(HEADING_COUNT)]
     covered = [_covered(mission, subjects, (eye, camera[0]), time) for eye in eyes]
     x, y, z = eyes[int(np.argmin(covered))].tolist()
     return OpeningView((x, y, z), (float(middle[0]), float(middle[1]), float(middle[2])))
@@ -75,15 +75,15 @@ def _toward(k: int) -> Array:
     """Return the direction of the k-th eye, shape (3,); the first is south-west, where the light
     comes from.
     """
-    turn = radians(236.0) + 2 * pi * k / HEADINGS
-    return np.array([cos(ELEVATION) * cos(turn), cos(ELEVATION) * sin(turn), sin(ELEVATION)])
+    turn = radians(236.0) + 2 * pi * k / HEADING_COUNT
+    return np.array([cos(ELEVATION_RAD) * cos(turn), cos(ELEVATION_RAD) * sin(turn), sin(ELEVATION_RAD)])
 
 
 def _camera(flight: DroneTrajectory, time: float, *, ahead: bool) -> Array:
     pose = flight.curve(time)
     yaw, pitch = float(pose[CAM_YAW]), float(pose[CAM_PITCH])
     way = np.array([cos(pitch) * cos(yaw), cos(pitch) * sin(yaw), sin(pitch)])
-    return np.array([pose[:3], pose[:3] + (AHEAD if ahead else 0.0) * way])
+    return np.array([pose[:3], pose[:3] + (AHEAD_M if ahead else 0.0) * way])
 
 
 def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]:
@@ -100,7 +100,7 @@ def _over_ground(mission: MissionIR, eye: Array) -> Array:
     """Return an eye, raised if it is below OVER_GROUND above the terrain."""
     if mission.terrain is None:
         return eye
-    least = ground_heights(mission, eye[None, :2])[0] + OVER_GROUND
+    least = ground_heights(mission, eye[None, :2])[0] + OVER_GROUND_M
     return np.array([eye[0], eye[1], max(eye[2], least)])
 
 

@@ -11,7 +11,7 @@ from shotc.emit.palette import CAMERA, FLIGHT, KEEP_IN, KEEP_OUT, SUBJECT, VERTI
 from shotc.emit.rerun_log.obstacle_meshes import log_meshes
 from shotc.emit.rerun_log.terrain_mesh import log_terrain
 from shotc.emit.scene_extent import scene_bounds, scene_time
-from shotc.emit.solid_mesh import SIDES, solid_mesh
+from shotc.emit.solid_mesh import POLYGON_SIDES, solid_mesh
 from shotc.geom.bernstein import Array
 from shotc.geom.silhouette import edge_strips
 from shotc.geom.solids import Cylinder, Solid
@@ -21,8 +21,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
-MANY = 12
-TRACK_RATE = 10.0  # samples a second of a moving target's track
+MANY_TARGETS = 12
+TRACK_RATE_HZ = 10.0  # samples a second of a moving target's track
 """Number of keyframes, above which only the shot has a label."""
 
 PHASE_COLORS: dict[str, Rgb] = {
@@ -92,7 +92,7 @@ def _zones(stream: Any, mission: MissionIR) -> None:
     for zone in mission.zones:
         color = KEEP_OUT if zone.keep == "out" else KEEP_IN
         entity = f"world/zones/{zone.name}"
-        strips = [strip.tolist() for strip in edge_strips(zone.solid, SIDES)]
+        strips = [strip.tolist() for strip in edge_strips(zone.solid, POLYGON_SIDES)]
         edges = rr.LineStrips3D(strips, radii=rr.Radius.ui_points(0.7), colors=[rgba8(color)])
         stream.log(f"{entity}/edges", edges, static=True)
         if zone.keep == "out":
@@ -123,7 +123,7 @@ def _targets(stream: Any, mission: MissionIR, last: float) -> None:
 
 
 def _motion(stream: Any, target: Target, last: float) -> None:
-    times = np.linspace(0.0, last, int(np.clip(last * TRACK_RATE, 2, 6000)))
+    times = np.linspace(0.0, last, int(np.clip(last * TRACK_RATE_HZ, 2, 6000)))
     away, (translation, quaternion) = moved(target, times), carried(target, times)
     columns = rr.Transform3D.columns(translation=translation)
     if quaternion is not None:
@@ -180,7 +180,7 @@ def _flight(stream: Any, plan: VerifiedIR, flight: DroneTrajectory) -> None:
     for placed in plan.trajectory.keyframes.shots:
         marks = [k for k in flight.keyframes if k.shot == placed.shot.id]
         if marks:
-            by_hand = len(marks) <= MANY and all(keyframe.placed for keyframe in placed.keyframes)
+            by_hand = len(marks) <= MANY_TARGETS and all(keyframe.placed for keyframe in placed.keyframes)
             named = [f"{k.shot} {k.index + 1}" for k in marks] if by_hand else []
             points = rr.Points3D(
                 np.stack([flight.curve(k.time)[:3] for k in marks]),

@@ -26,7 +26,7 @@ from shotc.ir.mission import GeoOrigin, MissionIR
 from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
 
-MOST_NAMED = 500
+MOST_NAMED_PADS = 500
 """Most pads of a fleet that get a placemark each. A larger fleet gets one placemark for all pads, because the
 viewer is slow with more.
 """
@@ -141,7 +141,7 @@ def _pads(folder: Element, mission: MissionIR, origin: GeoOrigin) -> None:
         _point(_mark(folder, f"home of {drone.name}"), origin, np.array([drone.home]))
     for fleet in mission.fleets:
         pads, names = np.array(fleet.pads), drone_names(fleet)
-        if len(pads) > MOST_NAMED:
+        if len(pads) > MOST_NAMED_PADS:
             _point(_mark(folder, f"pads of {fleet.name}, {len(pads)} drones"), origin, pads)
             continue
         group = SubElement(folder, f"{{{KML}}}Folder")

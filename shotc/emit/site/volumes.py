@@ -25,7 +25,7 @@ OFF_ACROSS_M, OFF_UPRIGHT_M = 7.0, 4.0
 Horizontally 3 of the receiver, 3 of position hold and 1 of the map; vertically 4.
 """
 REACTION_S = 1.0
-SIDES = 32
+POLYGON_SIDES = 32
 """Sides of the polygon around a circle that widens a hull."""
 
 
@@ -106,7 +106,7 @@ def widened(corners: Array, margin: float) -> Array:
 
     It is never narrower than the exact margin.
     """
-    points = (_outermost(corners)[:, None] + ring(margin, SIDES)).reshape(-1, 2)
+    points = (_outermost(corners)[:, None] + ring(margin, POLYGON_SIDES)).reshape(-1, 2)
     return np.asarray(points[ConvexHull(points).vertices])
 
 

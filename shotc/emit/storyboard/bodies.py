@@ -14,7 +14,7 @@ from shotc.geom.shapes import BodyShape, CylinderShape
 from shotc.geom.silhouette import project_loop, shape_outline
 from shotc.geom.vec import Vec3
 
-LIGHT = np.radians(215.0)
+LIGHT_RAD = np.radians(215.0)
 """Direction to the light, an angle in W, rad; it is fixed, so that shading shows which side is seen."""
 
 STRIPS, RIM = 24, 64  # strips of a cylinder's side, points of its rim
@@ -49,7 +49,7 @@ def draw_body(canvas: Canvas, shown: PictureRectangle, shape: BodyShape, offset:
         polygon = project_loop(shown.camera, np.array([[*a, low], [*b, low], [*b, high], [*a, high]]))
         if len(polygon):
             strips.append(shown.place(polygon))
-            colors.append(shade(color, 1.02 + 0.26 * float(np.cos(outward - LIGHT))))
+            colors.append(shade(color, 1.02 + 0.26 * float(np.cos(outward - LIGHT_RAD))))
     if strips:
         canvas.polygons(strips, colors, colors, 0.4, shown.box)
     if high < 0:

@@ -30,18 +30,18 @@ from shotc.emit.palette import INK, PAPER, WHITE, Rgb
 from shotc.geom.bernstein import Array
 
 Color = tuple[float, ...]
-QUICK = 3
+COMPRESSION_LEVEL = 3
 """Compression level of PNG, from 0 to 9."""
 
 LEAST_CAPITAL_PX = 9.0
 """Height of a capital letter in the smallest text of a page, pixels of the file."""
 
-SEAM = 0.6
+SEAM_PT = 0.6
 """Width of the edges that close the seams between the quads of a mesh, points."""
 
 ELLIPSIS = "…"
 
-CAPITAL = 1493 / 2048
+CAPITAL_RATIO = 1493 / 2048
 """Height of a capital letter of the font, DejaVu Sans, over the size of the text."""
 
 
@@ -196,7 +196,7 @@ class Canvas:
         corners : shape (m + 1, n + 1, 2)
         faces : colours, shape (m, n, 3)
         """
-        net = QuadMesh(corners, antialiased=True, transform=self._inches, linewidths=SEAM)
+        net = QuadMesh(corners, antialiased=True, transform=self._inches, linewidths=SEAM_PT)
         net.set_facecolor(faces.reshape(-1, 3))
         net.set_edgecolor(faces.reshape(-1, 3))  # closes the seams between the quads
         self._add(net, clip)
@@ -244,7 +244,7 @@ class Canvas:
     @property
     def least_size(self) -> float:
         """The smallest readable size of text in the file, points."""
-        return LEAST_CAPITAL_PX / CAPITAL * 72.0 / float(self._figure.dpi)
+        return LEAST_CAPITAL_PX / CAPITAL_RATIO * 72.0 / float(self._figure.dpi)
 
     def fitted(self, text: str, style: Type, room: float) -> Fitted:
         """Return a text that is at most ``room`` inches wide.
@@ -276,7 +276,7 @@ class Canvas:
         # a file of the same size.
         page = Image.fromarray(np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., :3]))
         stream = BytesIO()
-        page.save(stream, "PNG", compress_level=QUICK, dpi=(self._figure.dpi, self._figure.dpi))
+        page.save(stream, "PNG", compress_level=COMPRESSION_LEVEL, dpi=(self._figure.dpi, self._figure.dpi))
         return stream.getvalue()
 
     def _add(self, artist: Any, clip: PageRectangle | None) -> None:

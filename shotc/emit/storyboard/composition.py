@@ -7,7 +7,7 @@ from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition
 from shotc.spec.compositions import NAMED_POINTS
 
-SAME_PLACE = 1e-6
+SAME_PLACE_HALF_FRAMES = 1e-6
 
 
 def composition_text(placed: PlacedShot) -> str:
@@ -70,4 +70,4 @@ def _name_of(place: Vec2) -> str:
 
 
 def _same(a: Vec2, b: Vec2) -> bool:
-    return max(abs(a[0] - b[0]), abs(a[1] - b[1])) < SAME_PLACE
+    return max(abs(a[0] - b[0]), abs(a[1] - b[1])) < SAME_PLACE_HALF_FRAMES

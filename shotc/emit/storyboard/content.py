@@ -25,7 +25,7 @@ from shotc.rounding import at_least
 
 MOST_PLACED, MOST_GENERATED = 12, 6
 
-SAME_MOMENT = 0.05
+SAME_MOMENT_S = 0.05
 """Seconds, below which two moments have the same picture."""
 
 
@@ -57,7 +57,7 @@ class StoryboardFrame:
 
     def is_at(self, time: float) -> bool:
         """Return whether it shows the scene of a time, seconds."""
-        return self.time - SAME_MOMENT <= time <= self.time + self.hold + SAME_MOMENT
+        return self.time - SAME_MOMENT_S <= time <= self.time + self.hold + SAME_MOMENT_S
 
     @property
     def targets(self) -> tuple[str, ...]:

@@ -18,18 +18,18 @@ from shotc.geom.surface.ground import Ground, height_at
 FINE_IN = 0.05
 """Distance of the height samples of a plan, inches."""
 
-LEVELS = 10
+CONTOUR_COUNT = 10
 """Approximate number of contours of a plan."""
 
 LEAST_STEP_M = 0.5
-LABELLED = 5
+LABELLED_EVERY = 5
 """Every LABELLED-th contour is bold and labelled with its height, if the plan shows at least two of them."""
 
 MOST_LABELS = 6
 LINE, BOLD = 0.45, 0.9
 """Widths of contours, points."""
 
-STRETCH = 400
+PROFILE_POINTS = 400
 """Samples of a profile."""
 
 _TURN = np.array([0, 1, 2])
@@ -59,7 +59,7 @@ class PlanRelief:
     @property
     def told(self) -> Array:
         """Heights of the bold, labelled contours, shape (n,)."""
-        for every in (LABELLED, 2):
+        for every in (LABELLED_EVERY, 2):
             number = np.round(self.levels / self.step) if self.step else self.levels
             found = self.levels[number % every == 0]
             if len(found) >= 2:
@@ -86,7 +86,7 @@ def relief_of(sheet: Sheet, ground: Ground) -> PlanRelief:
     z = height_at(ground, plan.reshape(-1, 2)).reshape(rows, columns)
     found = z[np.isfinite(z)]
     rise = float(np.ptp(found)) if found.size else 0.0
-    step = max(round_length(rise / LEVELS), LEAST_STEP_M) if rise > LEAST_STEP_M else 0.0
+    step = max(round_length(rise / CONTOUR_COUNT), LEAST_STEP_M) if rise > LEAST_STEP_M else 0.0
     return PlanRelief(np.concatenate([plan, z[..., None]], axis=-1), step)
 
 
@@ -151,7 +151,7 @@ def profile(sheet: Sheet, ground: Ground, through: Array) -> Array:
     The columns are the position along the view and z of W, metres; z is NaN where there is no ground.
     """
     half = sheet.box.width / 2 / sheet.inches
-    along = sheet.centre[0] + np.linspace(-half, half, STRETCH)
+    along = sheet.centre[0] + np.linspace(-half, half, PROFILE_POINTS)
     return profile_at(sheet.axes, ground, through, along)
 
 

@@ -19,7 +19,7 @@ from shotc.emit.storyboard.side_by_side import (
 )
 from shotc.ir.comparison import Comparison, ShotDifference
 
-FACTS = 0.36
+FACTS_HEIGHT_IN = 0.36
 
 
 def draw_differences(comparison: Comparison, dpi: float) -> bytes:
@@ -36,7 +36,7 @@ def draw_differences(comparison: Comparison, dpi: float) -> bytes:
 def _page(comparison: Comparison, dpi: float) -> bytes:
     mission, found = comparison.mission, comparison.differences
     sizes = [picture_size(mission.drone(mission.shot(each.shot).drone).aspect) for each in found]
-    heights = [NAMES + height + caption_height(CELL) + FACTS for _, height in sizes]
+    heights = [NAMES + height + caption_height(CELL) + FACTS_HEIGHT_IN for _, height in sizes]
     width, height = 2 * MARGIN + 2 * (CELL + GAP) - GAP, HEADING + sum(heights) + 0.2
     canvas = Canvas(width, height, dpi)
     canvas.write(MARGIN, height - 0.66, mission.name, Type(22, INK, bold=True), width - 2 * MARGIN)

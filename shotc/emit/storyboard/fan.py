@@ -30,18 +30,18 @@ from shotc.geom.surface.ground import Ground, height_at
 RINGS, COLUMNS = 96, 64
 """Rings and columns of a picture; a picture that shows the nadir has twice the columns, all around."""
 
-FIRST = 0.05
+FIRST_RING_RATIO = 0.05
 """Radius of the first ring over the height of the eye above ground."""
 
-ROUND_NADIR = 1.2
+NADIR_HALF_FRAMES = 1.2
 """Distance of the nadir from the middle of the picture, in half pictures, up to which columns go
 all around.
 """
 
-UNDERFOOT = 1e-3
+INNERMOST_RING_M = 1e-3
 """Radius of the innermost ring if there is ground below the eye, metres."""
 
-HAZE = 20.0
+HAZE_RATIO = 20.0
 """Distance at which haze has taken half of the colour, over the height of the eye above ground."""
 
 FARTHEST_SCREEN = 50.0
@@ -92,10 +92,10 @@ def fan_of(shown: PictureRectangle, ground: Ground, parts: Sequence[float] = ())
     reach = float(np.hypot(*np.maximum(np.abs(low - eye), np.abs(high - eye))[:2]))
     under = float(height_at(ground, eye[None, :2])[0])
     over = max(float(eye[2]) - (float(low[2]) if np.isnan(under) else under), 1.0)
-    first = min(max(FIRST * over, float(np.hypot(*gap))), reach / 2)
+    first = min(max(FIRST_RING_RATIO * over, float(np.hypot(*gap))), reach / 2)
     rings = np.geomspace(first, reach, RINGS)
     if not gap.any():
-        rings[0] = UNDERFOOT  # no hole below the eye
+        rings[0] = INNERMOST_RING_M  # no hole below the eye
     inner = [part for part in parts if rings[0] < part < reach]
     radius = np.unique(np.concatenate([rings, inner]))
     angle = _directions(shown.camera)
@@ -108,7 +108,7 @@ def _directions(camera: View) -> Array:
     """Return evenly spaced directions in the plan that cover a picture, angles in W, rad, shape (C,)."""
     yaw = float(np.arctan2(camera.sin_yaw, camera.cos_yaw))
     _, down, forward = camera.to_camera((0.0, 0.0, -1.0))
-    if forward > 0 and abs(down) <= ROUND_NADIR * forward * camera.half_height:
+    if forward > 0 and abs(down) <= NADIR_HALF_FRAMES * forward * camera.half_height:
         return yaw + np.linspace(-np.pi, np.pi, 2 * COLUMNS)
     side = np.linspace(-1.0, 1.0, 17)
     u = np.concatenate([side, side, np.full(17, 1.0)]) * camera.half_width
@@ -165,7 +165,7 @@ def _faces(fan: Fan) -> Array:
     light = hillshade(np.cross(p[1:, 1:] - p[:-1, :-1], p[:-1, 1:] - p[1:, :-1]))
     colors = shades(np.array(GROUND), light)
     away = 0.5 * (fan.radius[1:] + fan.radius[:-1])
-    haze = (away / (away + HAZE * max(fan.over, 10.0)))[:, None, None]
+    haze = (away / (away + HAZE_RATIO * max(fan.over, 10.0)))[:, None, None]
     return np.asarray(colors + (np.array(GROUND_FAR) - colors) * haze)
 
 

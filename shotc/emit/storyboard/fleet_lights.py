@@ -14,9 +14,9 @@ from shotc.geom.fleet_spline import places
 from shotc.ir.light_colors import light_colors
 from shotc.ir.trajectory import VerifiedIR
 
-RADIUS = 0.022
+RADIUS_IN = 0.022
 """Radius of a light, inches."""
-CORNERS = 12
+POLYGON_CORNERS = 12
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,8 +46,8 @@ def draw_lights(canvas: Canvas, shown: PictureRectangle, lights: FleetLights) ->
     u, v, depth = shown.camera.project((away[:, 0], away[:, 1], away[:, 2]))
     seen = np.flatnonzero((depth > 0) & (np.abs(u) <= 1.0) & (np.abs(v) <= 1.0))
     seen = seen[np.argsort(-depth[seen], kind="stable")]
-    turn = np.linspace(0.0, 2.0 * np.pi, CORNERS + 1)[:-1]
-    ring = RADIUS * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    turn = np.linspace(0.0, 2.0 * np.pi, POLYGON_CORNERS + 1)[:-1]
+    ring = RADIUS_IN * np.stack([np.cos(turn), np.sin(turn)], axis=1)
     rings = [shown.place(np.array([u[k], v[k]])) + ring for k in seen]
     faces: list[Color] = [
         (*lights.colors[k].tolist(), 1.0 if lights.colors[k].any() else 0.0) for k in seen.tolist()

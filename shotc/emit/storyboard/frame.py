@@ -24,13 +24,13 @@ from shotc.ir.mission import Composition, MissionIR, frozen
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.rounding import as_minutes
 
-LINE = 0.165
+LINE_HEIGHT_IN = 0.165
 """Height of a line of a caption, inches."""
 
 DOT, LEAST_UNDER_DOT = 0.038, 0.2
 """Radius of the dot on a subject, and least size of a subject that stays visible under it, inches."""
 
-WIDE = 2.3
+WIDE_CELL_IN = 2.3
 """Width of a cell, below which the facts of a caption take two lines, inches."""
 
 PICTURE_SIDES = ("over", "over from", "over to", "right top", "left top", "under", "right", "left", "on")
@@ -73,7 +73,7 @@ def draw_frame(canvas: Canvas, cell: Cell, moment: StoryboardFrame, mission: Mis
 
 def caption_height(width: float) -> float:
     """Return the height of the caption below a picture in a cell of some width, inches."""
-    return 0.24 + (3 if width > WIDE else 4) * LINE
+    return 0.24 + (3 if width > WIDE_CELL_IN else 4) * LINE_HEIGHT_IN
 
 
 def compass(yaw: float) -> str:
@@ -208,11 +208,11 @@ def _caption(
     facts.append(_height(pose, mission))
     if moment.hold > 0:
         facts.append(f"hold {moment.hold:g} s")
-    rows = [facts] if cell.width > WIDE else [facts[:2], facts[2:]]
+    rows = [facts] if cell.width > WIDE_CELL_IN else [facts[:2], facts[2:]]
     for i, row in enumerate(rows, start=1):
         text = " · ".join(row).replace("-", "−")
-        canvas.write(box.x, base - i * LINE, text, Type(7.8, QUIET), cell.width)
-    x, y = box.x, base - (len(rows) + 1) * LINE
+        canvas.write(box.x, base - i * LINE_HEIGHT_IN, text, Type(7.8, QUIET), cell.width)
+    x, y = box.x, base - (len(rows) + 1) * LINE_HEIGHT_IN
     if moment.worst:
         words, style = f"worst: {moment.worst}", Type(7.8, KEEP_OUT, bold=True)
         x += canvas.write(x, y, words, style, cell.width) + 0.1

@@ -10,10 +10,10 @@ import numpy as np
 from shotc.emit.palette import WHITE, Rgb
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, Type
 
-GAP = 0.05
+GAP_IN = 0.05
 """Distance of a label from its object and from everything else, inches."""
 
-STEP = 0.04
+STEP_IN = 0.04
 """Step of the search for a free place away from the object, inches."""
 
 FLUSH = ("over from", "over to", "under from", "under to")
@@ -70,15 +70,15 @@ def nearest_room(
     inner: PageRectangle,
     thing: PageRectangle,
     taken: Sequence[PageRectangle],
-    gap: float = GAP,
+    gap: float = GAP_IN,
 ) -> PageRectangle | None:
     """Return the nearest free place of some size to an object, or None.
 
     gap : distance from what is taken, inches
     """
     width, height = size
-    across = np.arange(inner.x, inner.right - width + 1e-9, STEP)
-    up = np.arange(inner.y, inner.top - height + 1e-9, STEP)
+    across = np.arange(inner.x, inner.right - width + 1e-9, STEP_IN)
+    up = np.arange(inner.y, inner.top - height + 1e-9, STEP_IN)
     x, y = (axis.ravel() for axis in np.meshgrid(across, up))
     free = np.ones(len(x), dtype=np.bool_)
     for other in taken:
@@ -131,7 +131,7 @@ def free_room(
 def _meets(room: PageRectangle, others: Sequence[PageRectangle]) -> bool:
     # The distance is a little less than the label's gap from its own object, which may be among the others.
     wide = PageRectangle(
-        room.x - 0.9 * GAP, room.y - 0.9 * GAP, room.width + 1.8 * GAP, room.height + 1.8 * GAP
+        room.x - 0.9 * GAP_IN, room.y - 0.9 * GAP_IN, room.width + 1.8 * GAP_IN, room.height + 1.8 * GAP_IN
     )
     return any(wide.meets(other) for other in others)
 
@@ -140,17 +140,17 @@ def _beside(thing: PageRectangle, side: str, size: tuple[float, float]) -> PageR
     width, height = size
     x, y = thing.x + (thing.width - width) / 2, thing.y + (thing.height - height) / 2
     if "left" in side:
-        x = thing.x - GAP - width
+        x = thing.x - GAP_IN - width
     elif "right" in side:
-        x = thing.right + GAP
+        x = thing.right + GAP_IN
     elif "from" in side:
         x = thing.x
     elif "to" in side.split():
         x = thing.right - width
     if "under" in side:
-        y = thing.y - GAP - height
+        y = thing.y - GAP_IN - height
     elif "over" in side:
-        y = thing.top + GAP
+        y = thing.top + GAP_IN
     elif "top" in side:
         y = thing.top - height
     return PageRectangle(x, y, width, height)

@@ -41,7 +41,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from shotc.ir.target import Target
 
-NUMBER = 0.095
+NUMBER_RADIUS_IN = 0.095
 """Radius of a frame's number, inches."""
 
 MOST_SQUARES = 20
@@ -200,7 +200,7 @@ def _path(canvas: Canvas, sheet: Sheet, board: ShotBoard, mission: MissionIR) ->
 def _clear_of(strip: Array, marks: Array, start: int) -> int:
     """Return the index of the point on a path nearest to ``start`` that no frame number covers."""
     room = np.linalg.norm(strip[:, None] - marks, axis=-1).min(axis=1)
-    free = np.flatnonzero(room > 2.2 * NUMBER)
+    free = np.flatnonzero(room > 2.2 * NUMBER_RADIUS_IN)
     free = free[(free > 2) & (free < len(strip) - 3)]
     return int(free[np.argmin(np.abs(free - start))]) if len(free) else start
 
@@ -223,7 +223,7 @@ def _furniture(
 def _content(sheet: Sheet, board: ShotBoard, mission: MissionIR) -> list[PageRectangle]:
     """Return the rectangles of a map's content: path, frames, home, targets and zones."""
     content = [_square(at, 0.06) for at in sheet.place(board.path[::4])]
-    content += [_square(sheet.place(m.pose[:3]), 2 * NUMBER) for m in board.moments]
+    content += [_square(sheet.place(m.pose[:3]), 2 * NUMBER_RADIUS_IN) for m in board.moments]
     content.append(_square(sheet.place(np.array(board.drone.home)), 0.1))
     shapes = [_body(sheet, t) for t in mission.targets]
     shapes += [sheet.outline(z.solid) for z in mission.zones if z.keep == "out"]
@@ -238,14 +238,14 @@ def _numbers(
     spots = []
     for moment in board.moments:
         spot = _spot(sheet, moment, [*taken, *bodies])
-        taken.append(_square(np.array(spot), NUMBER))
+        taken.append(_square(np.array(spot), NUMBER_RADIUS_IN))
         spots.append(spot)
     for moment, spot in zip(board.moments, spots, strict=True):
         x, y = (float(c) for c in sheet.place(moment.pose[:3]))
         canvas.lines([np.array([(x, y), spot])], INK, 0.8)
         canvas.disc((x, y), 0.03, CAMERA, INK, 0.7)
     for moment, spot in zip(board.moments, spots, strict=True):
-        canvas.disc(spot, NUMBER, INK, WHITE, 0.8)
+        canvas.disc(spot, NUMBER_RADIUS_IN, INK, WHITE, 0.8)
         canvas.text(*spot, moment.mark, Type(7.5, WHITE, True, "center", "center_baseline"))
 
 
@@ -255,11 +255,13 @@ def _spot(sheet: Sheet, moment: StoryboardFrame, taken: list[PageRectangle]) -> 
     back = float(moment.pose[CAM_YAW]) + pi if sheet.is_plan else pi
     ways = [(away, back + turn) for away in (0.24, 0.42) for turn in (0.0, 0.9, -0.9, 1.8, -1.8, 2.7)]
     spots = [(x, y)] + [(x + r * cos(a), y + r * sin(a)) for r, a in ways]
-    rooms = (_square(np.array(s), NUMBER) for s in spots)
+    rooms = (_square(np.array(s), NUMBER_RADIUS_IN) for s in spots)
     free = (r for r in rooms if sheet.box.holds(r) and not any(r.meets(other) for other in taken))
     place = _square(np.array((x, y)), 0.0)
-    room = next(free, None) or nearest_room((2 * NUMBER, 2 * NUMBER), sheet.box, place, taken, 0.0)
-    return (x, y) if room is None else (room.x + NUMBER, room.y + NUMBER)
+    room = next(free, None) or nearest_room(
+        (2 * NUMBER_RADIUS_IN, 2 * NUMBER_RADIUS_IN), sheet.box, place, taken, 0.0
+    )
+    return (x, y) if room is None else (room.x + NUMBER_RADIUS_IN, room.y + NUMBER_RADIUS_IN)
 
 
 def _square(at: Array, half: float) -> PageRectangle:

@@ -34,7 +34,7 @@ from shotc.rounding import as_minutes, at_least
 
 WIDTH, MARGIN, GAP = 16.0, 0.55, 0.28
 HEADING, FOOTING, BAND, LINE = 1.40, 0.85, 0.60, 0.18
-MANY = 4
+MANY_SHOTS = 4
 """Number of shots, above which pictures and maps are smaller."""
 
 
@@ -74,7 +74,7 @@ def band_height(board: ShotBoard) -> float:
 
 def layout(aspect: float, shots: int) -> ShotLayout:
     """Return the layout of shots with one aspect ratio, on a page of some number of shots."""
-    map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY else (3.0, 4, 2.4)
+    map_width, columns, tallest = (3.9, 3, 3.0) if shots <= MANY_SHOTS else (3.0, 4, 2.4)
     room = WIDTH - 2 * MARGIN - map_width - 0.35
     width = min((room + GAP) / columns - GAP, tallest * aspect)
     cell = max(width, 1.7)
@@ -90,7 +90,7 @@ def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
 
 def _page(plan: VerifiedIR, dpi: float) -> bytes:
     shots = len(plan.trajectory.keyframes.shots)
-    boards = shot_boards(plan) if shots <= MANY else shot_boards(plan, most_generated=4)
+    boards = shot_boards(plan) if shots <= MANY_SHOTS else shot_boards(plan, most_generated=4)
     layouts = [layout(board.drone.aspect, shots) for board in boards]
     heights = [place.height(board) for place, board in zip(layouts, boards, strict=True)]
     height = HEADING + sum(heights) + FOOTING

@@ -24,7 +24,7 @@ from shotc.ir.bodies import parts_of_one
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.target import Target
 
-AT_FOOT = 0.985
+AT_FOOT_SHARE = 0.985
 """Share of the distance to an object, up to which ground is painted over it. Ground beyond is what the object
 stands on, and is painted before it.
 """
@@ -41,7 +41,7 @@ def draw_scene(
     subjects = {part for name in subjects for part in mission.parts_of(name)}
     things = painting_order(shown.eye, _things(mission))
     layers: list[FanPainter | MeshPainter] = []
-    away = [AT_FOOT * _distance(shown.eye, thing) for thing in things]
+    away = [AT_FOOT_SHARE * _distance(shown.eye, thing) for thing in things]
     meshes = MeshPainter(canvas, shown, mission) if mission.meshes else None
     bands: list[float] = []
     if mission.terrain is None:

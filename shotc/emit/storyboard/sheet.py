@@ -18,7 +18,7 @@ from shotc.ir.terrain import ground_heights
 BORDER, SHARE = 0.45, 0.17
 """Free border around the content: inches, and for a small sheet at most this share of its height."""
 
-NEAR = 1.3
+NEAR_RATIO = 1.3
 """Objects within the content's extent times this factor are shown as well."""
 
 
@@ -123,7 +123,7 @@ def _extent(axes: Array, board: ShotBoard, mission: MissionIR) -> tuple[Array, A
         ground = _lowest_ground(board, mission)
         if 0 < low[1] - ground < high[1] - low[1]:
             low = np.array([low[0], ground])
-    reach = np.maximum(high - low, 10.0) * (NEAR - 1) / 2
+    reach = np.maximum(high - low, 10.0) * (NEAR_RATIO - 1) / 2
     things = [t.solid for t in mission.targets] + [z.solid for z in mission.zones if z.keep == "out"]
     pad = np.array([board.drone.home]) @ axes.T
     for shape in (pad, *(outline(axes, thing) for thing in things)):

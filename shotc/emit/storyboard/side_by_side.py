@@ -20,7 +20,7 @@ from shotc.ir.trajectory import VerifiedIR
 
 MARGIN, GAP, CELL = 0.55, 0.32, 3.15
 HEADING, NAMES, PLOT, FACTS = 1.15, 0.42, 1.15, 0.72
-TALLEST = 3.0
+TALLEST_IN = 3.0
 """Height of the tallest picture, inches, for a camera in portrait format."""
 
 
@@ -79,7 +79,7 @@ def _page(comparison: Comparison, dpi: float) -> bytes:
 
 def picture_size(aspect: float) -> tuple[float, float]:
     """Return the width and the height of a picture, inches."""
-    width = min(CELL, TALLEST * aspect)
+    width = min(CELL, TALLEST_IN * aspect)
     return width, width / aspect
 
 

@@ -24,14 +24,14 @@ LEAST_M = 0.2
 """Longest side of a triangle that is partly behind the eye, metres."""
 STEP_PX = 0.7
 """Largest distance between neighbouring points of a triangle, pixels."""
-AT_ONCE = 1_000_000
+POINTS_AT_ONCE = 1_000_000
 """Most points that are made in one batch."""
-BLOCK = 64
+BLOCK_TRIANGLES = 64
 """Consecutive (and thus neighbouring) triangles that are culled together."""
 _CORNERS = tuple((i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1))
-EDGE = 0.82
+EDGE_BRIGHTNESS_RATIO = 0.82
 """Lightness of a pixel beside one that is much nearer."""
-NEARER = 0.06
+NEARER_SHARE = 0.06
 """Share of a pixel's distance by which its neighbour has to be nearer to count as much nearer."""
 
 
@@ -89,7 +89,7 @@ def raster_of(faces: Faces, project: Project, size: tuple[int, int]) -> DepthRas
     for cut in np.unique(cuts):
         share = _shares(int(cut))
         own = np.flatnonzero(cuts == cut)
-        for some in np.array_split(own, 1 + len(own) * len(share) // AT_ONCE):
+        for some in np.array_split(own, 1 + len(own) * len(share) // POINTS_AT_ONCE):
             a, b, c = (small.triangles[some, k, None] for k in range(3))
             # einsum takes three times as long for such short sums.
             p = (share[:, :1] * a + share[:, 1:2] * b + share[:, 2:] * c).reshape(-1, 3)
@@ -126,7 +126,7 @@ def _in_view(triangles: Array, project: Project) -> Mask:
     """
     if not len(triangles):
         return np.zeros(0, dtype=bool)
-    begins = np.arange(0, len(triangles), BLOCK)
+    begins = np.arange(0, len(triangles), BLOCK_TRIANGLES)
     ends = np.stack(
         [
             np.minimum.reduceat(lowest(triangles), begins, axis=0),
@@ -135,7 +135,7 @@ def _in_view(triangles: Array, project: Project) -> Mask:
     )
     corners = np.stack([ends[[i, j, k], :, [0, 1, 2]].T for i, j, k in _CORNERS], axis=1)
     seen = ~np.any(np.all(project(corners).beyond, axis=1), axis=1)
-    return np.repeat(seen, BLOCK)[: len(triangles)]
+    return np.repeat(seen, BLOCK_TRIANGLES)[: len(triangles)]
 
 
 def _quartered(triangles: Array) -> Array:
@@ -186,6 +186,6 @@ def _edges(depth: Array) -> Array:
         for step in (1, -1):
             beside = np.roll(depth, step, axis=axis)
             shown = np.isfinite(depth)
-            near = np.where(shown, depth, 0.0) * (1.0 - NEARER)
-            light[shown & ((beside < near) | np.isinf(beside))] = EDGE
+            near = np.where(shown, depth, 0.0) * (1.0 - NEARER_SHARE)
+            light[shown & ((beside < near) | np.isinf(beside))] = EDGE_BRIGHTNESS_RATIO
     return light

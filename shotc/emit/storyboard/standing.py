@@ -15,14 +15,14 @@ from shotc.geom.bernstein import Array
 from shotc.geom.surface.triangles import TINY, cross
 from shotc.ir.mission import MissionIR
 
-PIXELS_AN_INCH = 165.0
+PIXELS_PER_IN = 165.0
 NEAR_M = 0.05
 """Least depth at which something is drawn, metres."""
 FAR_M = 1e5
 """Distance of a map's eye from W's origin, metres."""
-UPRIGHT = 0.75
+UPRIGHT_BRIGHTNESS_RATIO = 0.75
 """Lightness on a map of a face that is seen edge-on."""
-BANDS = 24
+DISTANCE_BANDS = 24
 """Number of distances at which painting alternates between terrain and meshes."""
 
 
@@ -56,7 +56,7 @@ class MeshPainter:
     def bands(self) -> list[float]:
         """Distances in the plan from the nearest to the farthest visible point, metres."""
         seen = self._away[self._away > 0.0]
-        return list(np.geomspace(seen.min(), seen.max(), BANDS)) if seen.size else []
+        return list(np.geomspace(seen.min(), seen.max(), DISTANCE_BANDS)) if seen.size else []
 
     def draw_beyond(self, distance: float) -> None:
         """Draw the remaining meshes beyond a distance in the plan, metres."""
@@ -67,7 +67,7 @@ class MeshPainter:
 
 
 def _size(inches: float) -> int:
-    return max(1, round(inches * PIXELS_AN_INCH))
+    return max(1, round(inches * PIXELS_PER_IN))
 
 
 def draw_on_map(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
@@ -92,6 +92,9 @@ def draw_on_map(canvas: Canvas, sheet: Sheet, mission: MissionIR) -> None:
     a, b, c = (faces.triangles[:, k] for k in range(3))
     normal = cross(b - a, c - a)
     across = np.abs(normal @ ahead) / np.maximum(np.linalg.norm(normal, axis=1), TINY)
-    flat = Faces(faces.triangles, shades(np.array(STONE), UPRIGHT + (1.0 - UPRIGHT) * across))
+    flat = Faces(
+        faces.triangles,
+        shades(np.array(STONE), UPRIGHT_BRIGHTNESS_RATIO + (1.0 - UPRIGHT_BRIGHTNESS_RATIO) * across),
+    )
     raster = raster_of(flat, project, size)
     canvas.image(raster.pixels(raster.shown), box)

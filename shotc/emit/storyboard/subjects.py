@@ -14,13 +14,13 @@ from shotc.ir.mission import Composition, Shot
 from shotc.ir.occlusion import others_of
 from shotc.ir.parked import bodies
 from shotc.ir.phases import KeyframeTime, Reference
-from shotc.ir.sampling import SAME_TIME, projected, references
+from shotc.ir.sampling import SAME_TIME_S, projected, references
 from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 NOTICE_SHARE = 0.05
 """Covered share of an outline, below which it is not mentioned beside a picture."""
 
-MOVED = 0.02
+MOVED_HALF_FRAMES = 0.02
 """Distance in (u, v) units, above which the user's own framing of a subject is shown."""
 
 
@@ -44,7 +44,7 @@ class FramedSubject:
         """Whether composition moved the subject visibly away from the user's own framing."""
         if self.asked is None or self.reference is None:
             return False
-        return bool(np.hypot(*np.subtract(self.asked, self.reference)) > MOVED)
+        return bool(np.hypot(*np.subtract(self.asked, self.reference)) > MOVED_HALF_FRAMES)
 
 
 def at_keyframe(
@@ -74,7 +74,7 @@ def at_time(
     placed, flight = pair
     shot = placed.shot
     spans = _spans([f for f in flight.framing if f.shot == shot.id], time)
-    passed = [k.index for k in flight.keyframes if k.shot == shot.id and k.time <= time + SAME_TIME]
+    passed = [k.index for k in flight.keyframes if k.shot == shot.id and k.time <= time + SAME_TIME_S]
     framed = []
     for target in dict.fromkeys(span.target for span in spans):
         u, v = (float(c) for c in references(flight, shot.id, target, np.array([time]))[0])
@@ -92,9 +92,9 @@ def at_time(
 
 def _spans(framing: Sequence[Reference], time: float) -> list[Reference]:
     """Return the references that hold at a time; where one ends as another begins, only the later one."""
-    inside = [f for f in framing if f.start - SAME_TIME <= time <= f.end + SAME_TIME]
+    inside = [f for f in framing if f.start - SAME_TIME_S <= time <= f.end + SAME_TIME_S]
     last = max((f.start for f in inside), default=0.0)
-    return [f for f in inside if time < f.end - SAME_TIME] or [f for f in inside if f.start == last]
+    return [f for f in inside if time < f.end - SAME_TIME_S] or [f for f in inside if f.start == last]
 
 
 def _composition(shot: Shot, target: str, keyframe: int) -> Composition:

@@ -16,12 +16,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
-from shotc.emit.waypoints.flown import STAY_PACE
-from shotc.emit.waypoints.lens import SAME_LENS, edge, middle_lens, shown_by, stay_and_zoom, zoomed
+from shotc.emit.waypoints.flown import STAY_PACE_M_S
+from shotc.emit.waypoints.lens import (
+    SAME_LENS_HALF_FRAMES,
+    edge,
+    middle_lens,
+    shown_by,
+    stay_and_zoom,
+    zoomed,
+)
 from shotc.emit.waypoints.models import TURNINGS, CurveModel, Legs, legs_of, times_of, turned
 from shotc.emit.waypoints.route import PointAction, Route
-from shotc.emit.waypoints.stations import LEG_LEAST, Station, StationInterval, stations_of
-from shotc.emit.waypoints.track import LOST, Poses, SampledFlight, SampleRange, project, select
+from shotc.emit.waypoints.stations import SHORTEST_LEG_M, Station, StationInterval, stations_of
+from shotc.emit.waypoints.track import (
+    BEHIND_CAMERA_HALF_FRAMES,
+    Poses,
+    SampledFlight,
+    SampleRange,
+    project,
+    select,
+)
 from shotc.ir.drone import Drone, LensRange
 from shotc.ir.photos import Photos
 
@@ -29,17 +43,19 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 WORST, MEAN = 0.05, 0.02  # half frames that a file may add to a shot
-KEPT = 0.93  # share of these bounds when points are chosen; positions and angles are rounded afterwards
-STEADY = 0.8  # share of these bounds when the drone stands and zooms; stays are rounded to tenths of a second
-POSITION = 1.0  # metres that a path may deviate from the plan
-NEARER = 0.02  # metres by which a clearance may be violated more than by the plan
-UNEVEN = 2.2  # ratio of the lengths of neighbouring legs, above which the longer one is divided
-LEG_MOST = 40.0  # metres, so that samples of legs are close together
-TURN_MOST = radians(150.0)  # rad of one leg, so that the shortest turn is the planned one
+KEPT_SHARE = 0.93  # share of these bounds when points are chosen; positions and angles are rounded afterwards
+STEADY_SHARE = (
+    0.8  # share of these bounds when the drone stands and zooms; stays are rounded to tenths of a second
+)
+POSITION_ERROR_M = 1.0  # metres that a path may deviate from the plan
+CLEARANCE_CUT_M = 0.02  # metres by which a clearance may be violated more than by the plan
+UNEVEN_RATIO = 2.2  # ratio of the lengths of neighbouring legs, above which the longer one is divided
+LONGEST_LEG_M = 40.0  # metres, so that samples of legs are close together
+LARGEST_TURN_RAD = radians(150.0)  # rad of one leg, so that the shortest turn is the planned one
 SPEED_LEAST, SPEED_MOST = 0.1, 15.0  # m/s
 CURVE_SHARE = 0.45  # largest distance of a corner's rounding from its point, over the shorter leg
 CURVE_LEAST, CURVE_MOST = 0.2, 2.0  # metres; the least one at a stop
-ROUNDS = 400
+MOST_ROUNDS = 400
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +84,7 @@ class Chooser:
         stay = None if self.lens is None else self._stay
         needed, gaps = stations_of(self.track, self.way, stay, self.photos)
         parts = [_Part(gap, self._seeds(gap)) for gap in gaps]
-        for _ in range(ROUNDS):
+        for _ in range(MOST_ROUNDS):
             stations, owners = _joined(needed, parts)
             scores = self._scores(stations, owners, parts)
             cuts = self._cuts(stations, owners, scores)
@@ -101,7 +117,9 @@ class Chooser:
         """Return the actions while the drone stands and films, and possibly zooms."""
         assert self.lens is not None
         part = slice(stretch.first, stretch.last + 1)
-        return stay_and_zoom(self.lens, self.track.time[part], self.track.poses.hfov[part], WORST * STEADY)
+        return stay_and_zoom(
+            self.lens, self.track.time[part], self.track.poses.hfov[part], WORST * STEADY_SHARE
+        )
 
     def _actions(self, stations: list[Station]) -> tuple[tuple[PointAction, ...], ...]:
         """Return the actions at each station: its own, then the zoom for the leg that begins there."""
@@ -113,7 +131,7 @@ class Chooser:
             last = next((a for a in reversed(actions) if a.kind == "zoom"), last)
             if i + 1 < len(stations):
                 hfov = self._lens_of(station.last, stations[i + 1].first)
-                if last is None or edge(hfov, shown_by(self.lens, last)) > SAME_LENS:
+                if last is None or edge(hfov, shown_by(self.lens, last)) > SAME_LENS_HALF_FRAMES:
                     last = zoomed(self.lens, hfov)
                     actions.append(last)
             done.append(tuple(actions))
@@ -141,7 +159,7 @@ class Chooser:
     def _seeds(self, gap: StationInterval) -> list[int]:
         """Return the initial points inside a gap: two if its ends coincide, else none."""
         position = self.track.poses.position
-        if np.linalg.norm(position[gap.last] - position[gap.first]) >= LEG_LEAST:
+        if np.linalg.norm(position[gap.last] - position[gap.first]) >= SHORTEST_LEG_M:
             return []
         thirds = [self._at(self.way[gap.first] + s * self._length(gap) / 3) for s in (1, 2)]
         return [i for i in thirds if gap.first < i < gap.last]
@@ -164,7 +182,9 @@ class Chooser:
             if score.max() <= 1:
                 continue
             for i in np.flatnonzero(owners == k)[np.argsort(-score, kind="stable")]:
-                beside = [j for j in (i - 1, i + 1) if 0 <= j < len(ends) and length[j] > UNEVEN * length[i]]
+                beside = [
+                    j for j in (i - 1, i + 1) if 0 <= j < len(ends) and length[j] > UNEVEN_RATIO * length[i]
+                ]
                 leg = max(beside, key=length.__getitem__, default=i)
                 middle = self._middle(*ends[leg])
                 if middle is not None:
@@ -179,7 +199,7 @@ class Chooser:
 
     def _far(self, a: int, b: int) -> bool:
         position = self.track.poses.position
-        return bool(np.linalg.norm(position[b] - position[a]) >= LEG_LEAST)
+        return bool(np.linalg.norm(position[b] - position[a]) >= SHORTEST_LEG_M)
 
     def _scores(self, stations: list[Station], owners: Index, parts: list[_Part]) -> list[Array]:
         """Return the error of each leg of each part over its bound; 1 is at the bound.
@@ -193,23 +213,23 @@ class Chooser:
         samples, legs = self._matched(stations)
         mean = np.zeros(len(parts))
         filmed = np.array([part.gap.shot is not None for part in parts])
-        edges = _most(self._edges(stations, samples, legs), legs, len(owners)) / (WORST * KEPT)
+        edges = _most(self._edges(stations, samples, legs), legs, len(owners)) / (WORST * KEPT_SHARE)
         worst = np.where(filmed[owners], edges, 0.0)
         for shape in self.shapes:
             flown = legs_of(route, shape)
             off, errors = self._judge(route, flown, samples, legs)
             near = self._nearer(flown, samples, legs, off)
-            worst = np.maximum(worst, _most(off, legs, len(owners)) / POSITION)
-            worst = np.maximum(worst, near / NEARER)
+            worst = np.maximum(worst, _most(off, legs, len(owners)) / POSITION_ERROR_M)
+            worst = np.maximum(worst, near / CLEARANCE_CUT_M)
             for error in errors:
-                screen = np.where(filmed[owners], _most(error, legs, len(owners)) / (WORST * KEPT), 0.0)
+                screen = np.where(filmed[owners], _most(error, legs, len(owners)) / (WORST * KEPT_SHARE), 0.0)
                 worst = np.maximum(worst, screen)
                 count = np.maximum(np.bincount(owners[legs], minlength=len(parts)), 1)
                 sums = np.bincount(owners[legs], error, minlength=len(parts))
-                mean = np.maximum(mean, np.where(filmed, sums / count / (MEAN * KEPT), 0.0))
+                mean = np.maximum(mean, np.where(filmed, sums / count / (MEAN * KEPT_SHARE), 0.0))
         turns = np.abs(np.diff(route.yaw))
-        long = np.linalg.norm(np.diff(route.position, axis=0), axis=1) > LEG_MOST
-        worst = np.where((turns > TURN_MOST) | long, np.inf, worst)
+        long = np.linalg.norm(np.diff(route.position, axis=0), axis=1) > LONGEST_LEG_M
+        worst = np.where((turns > LARGEST_TURN_RAD) | long, np.inf, worst)
         lifted = worst * np.where(mean > 1, np.maximum(1.0, mean), 1.0)[owners]
         return [
             np.maximum(lifted[owners == k], 1.0 + 1e-6) if mean[k] > 1 else lifted[owners == k]
@@ -249,13 +269,13 @@ class Chooser:
             yaw = route.yaw[leg] + turn * (route.yaw[leg + 1] - route.yaw[leg])
             pitch = route.pitch[leg] + turn * (route.pitch[leg + 1] - route.pitch[leg])
             shift = project(Poses(position, yaw, yaw, pitch, planned.hfov), subject, self.drone) - meant
-            errors.append(np.nan_to_num(np.hypot(*shift.T), nan=LOST))
+            errors.append(np.nan_to_num(np.hypot(*shift.T), nan=BEHIND_CAMERA_HALF_FRAMES))
         return np.linalg.norm(position - planned.position, axis=1), errors
 
     def _nearer(self, flown: Legs, samples: Index, leg: Index, off: Array) -> Array:
         """Return how much deeper each leg violates a clearance than the plan does there, metres."""
         count = len(flown.way)
-        reach = _most(off, leg, count) + NEARER
+        reach = _most(off, leg, count) + CLEARANCE_CUT_M
         nearer = np.zeros(count)
         for obstacle, planned in zip(self.obstacles, self.planned, strict=True):
             held = _most(planned[samples], leg, count, start=-np.inf)
@@ -286,7 +306,7 @@ def chooser_of(
 ) -> Chooser:
     """Return the chooser of one drone's track."""
     steps = np.linalg.norm(np.diff(track.poses.position, axis=0), axis=1)
-    way = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE * 0.01 * np.diff(track.time))))
+    way = np.cumsum(np.append(0.0, np.maximum(steps, STAY_PACE_M_S * 0.01 * np.diff(track.time))))
     planned = tuple(shortfall(obstacle, track.poses.position) for obstacle in obstacles)
     return Chooser(track, drone, obstacles, shapes, way, planned, halts, lens)
 

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints.clearance import Obstacle, shortfall
-from shotc.emit.waypoints.flown import STAY_PACE, ReflownSamples
+from shotc.emit.waypoints.flown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.lens import edge
-from shotc.emit.waypoints.track import LOST, Poses, poses_at, project, subject_at
+from shotc.emit.waypoints.track import BEHIND_CAMERA_HALF_FRAMES, Poses, poses_at, project, subject_at
 from shotc.geom.vec import wrapped
 from shotc.ir.bodies import moved
 from shotc.ir.drone import Drone
@@ -24,9 +24,9 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-SEARCH = 3.0  # metres of progress before and after the expected one, in which the nearest point is sought
-CHUNK = 256  # planned points compared in one batch, to bound memory
-ORDER = 1e-3  # weight of a metre of wrong progress over that of a metre of distance
+SEARCH_M = 3.0  # metres of progress before and after the expected one, in which the nearest point is sought
+CHUNK_POINTS = 256  # planned points compared in one batch, to bound memory
+ORDER_WEIGHT = 1e-3  # weight of a metre of wrong progress over that of a metre of distance
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +183,7 @@ def _meet(plan: Poses, time: Array, flown: ReflownSamples, inside: NDArray[np.bo
 
 def _progress(position: Array, time: Array) -> Array:
     steps = np.linalg.norm(np.diff(position, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(np.maximum(steps, STAY_PACE * np.diff(time)))])
+    return np.concatenate([[0.0], np.cumsum(np.maximum(steps, STAY_PACE_M_S * np.diff(time)))])
 
 
 def _nearest(points: Array, expected: Array, position: Array, progress: Array) -> tuple[Array, Array]:
@@ -193,15 +193,15 @@ def _nearest(points: Array, expected: Array, position: Array, progress: Array) -
     if len(position) == 1:
         return np.zeros(len(points), dtype=int), np.zeros(len(points))
     chunks = [
-        _nearest_of(points[i : i + CHUNK], expected[i : i + CHUNK], position, progress)
-        for i in range(0, len(points), CHUNK)
+        _nearest_of(points[i : i + CHUNK_POINTS], expected[i : i + CHUNK_POINTS], position, progress)
+        for i in range(0, len(points), CHUNK_POINTS)
     ]
     return np.concatenate([c[0] for c in chunks]), np.concatenate([c[1] for c in chunks])
 
 
 def _nearest_of(points: Array, expected: Array, position: Array, progress: Array) -> tuple[Array, Array]:
-    low = np.searchsorted(progress, expected - SEARCH)
-    high = np.searchsorted(progress, expected + SEARCH, side="right")
+    low = np.searchsorted(progress, expected - SEARCH_M)
+    high = np.searchsorted(progress, expected + SEARCH_M, side="right")
     width = max(1, int((high - low).max()))
     window = np.clip(low[:, None] + np.arange(width), 0, len(position) - 2)
     start = position[window]
@@ -212,7 +212,7 @@ def _nearest_of(points: Array, expected: Array, position: Array, progress: Array
     share = np.clip(np.where(length2 > 0, along / np.where(length2 > 0, length2, 1.0), 0.0), 0.0, 1.0)
     miss = offset - share[..., None] * way
     lag = progress[window] + share * (progress[window + 1] - progress[window]) - expected[:, None]
-    cost = np.einsum("nwk,nwk->nw", miss, miss) + (ORDER * lag) ** 2
+    cost = np.einsum("nwk,nwk->nw", miss, miss) + (ORDER_WEIGHT * lag) ** 2
     best = cost.argmin(axis=1)
     rows = np.arange(len(points))
     return np.asarray(window[rows, best]), np.asarray(share[rows, best])
@@ -224,4 +224,4 @@ def _shift(
     subject = subject_at(mission, flight, time, plan)
     meant = project(plan, subject, drone)
     shift = np.hypot(*(project(met, subject, drone) - meant).T)
-    return np.where(np.isnan(meant[:, 0]), 0.0, np.nan_to_num(shift, nan=LOST))
+    return np.where(np.isnan(meant[:, 0]), 0.0, np.nan_to_num(shift, nan=BEHIND_CAMERA_HALF_FRAMES))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-STAY_PACE = 0.1  # m/s; the least pace of progress, which stays and slow motion count with
+STAY_PACE_M_S = 0.1  # m/s; the least pace of progress, which stays and slow motion count with
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -14,7 +14,9 @@ from shotc.ir.drone import LensRange
 
 Array = NDArray[np.float64]
 
-SAME_LENS = 2e-3  # half frames at the picture's edge, below which two fields of view count as equal
+SAME_LENS_HALF_FRAMES = (
+    2e-3  # half frames at the picture's edge, below which two fields of view count as equal
+)
 
 
 def edge(planned: Array | float, flown: Array | float) -> Array:

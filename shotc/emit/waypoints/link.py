@@ -5,7 +5,7 @@ from __future__ import annotations
 from shotc.ir.drone import Drone, LinkLost, Safety
 
 NOTHING = Safety(None, None, ())
-RETURN_OVER = 10.0  # metres from the highest point up to the return height; DJI Fly has its own setting
+RETURN_OVER_M = 10.0  # metres from the highest point up to the return height; DJI Fly has its own setting
 DJI_ACTIONS: dict[LinkLost, str] = {
     "return": "goBack",
     "hover": "hover",
@@ -40,7 +40,7 @@ def return_height(highest: float, safety: Safety | None) -> float:
     highest : height of its highest point above the pad, metres
     """
     written = None if safety is None else safety.return_height
-    return highest + RETURN_OVER if written is None else written
+    return highest + RETURN_OVER_M if written is None else written
 
 
 def link_notes(drone: Drone, height: float, *, written: bool) -> list[str]:

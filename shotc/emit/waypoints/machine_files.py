@@ -37,12 +37,14 @@ from shotc.ir.trajectory import DroneTrajectory, VerifiedIR
 
 Array = NDArray[np.float64]
 
-CUT_LEAST = 0.05  # metres by which a re-flight may come nearer to an obstacle than the plan
-STRAIGHT = np.radians(0.05)  # rad off a target that a camera looks straight at; files have tenths of a degree
-SAME_PLACE = 0.1  # metres between points, below which some machines refuse them as equal
-ASIDE = 0.15  # metres by which such a point is moved
-FINE = 160  # intervals of a leg at which clearances are judged, before they are proved in between
-RATE_MOST = 10.0  # Hz of the judged frames; the picture changes slowly
+LEAST_CUT_M = 0.05  # metres by which a re-flight may come nearer to an obstacle than the plan
+STRAIGHT_RAD = np.radians(
+    0.05
+)  # rad off a target that a camera looks straight at; files have tenths of a degree
+SAME_PLACE_M = 0.1  # metres between points, below which some machines refuse them as equal
+ASIDE_M = 0.15  # metres by which such a point is moved
+FINE_SAMPLES = 160  # intervals of a leg at which clearances are judged, before they are proved in between
+HIGHEST_RATE_HZ = 10.0  # Hz of the judged frames; the picture changes slowly
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +165,7 @@ class _Job:
             for number, block in zip(named, blocks, strict=True)
         )
         route = route_of(joined([self.form.read(a.data) for a in artifacts]), self.geo)
-        legs = tuple(s.samples(route, FINE) for s in self.form.shapes)
+        legs = tuple(s.samples(route, FINE_SAMPLES) for s in self.form.shapes)
         return _Written(artifacts, route, legs, frozenset(self.chooser.photos))
 
     def _watched(self, stations: list[Station]) -> list[GeoPosition | None]:
@@ -176,7 +178,7 @@ class _Job:
             target, at = self.track.subject[each.first : each.last + 1], [stations[i].first for i in inside]
             east, north, _ = (target[0] - self.track.poses.position[at]).T
             off = wrapped(np.arctan2(north, east) - self.track.poses.cam_yaw[at])
-            if np.ptp(target, axis=0).max() < SAME_PLACE and np.abs(off).max(initial=0.0) < STRAIGHT:
+            if np.ptp(target, axis=0).max() < SAME_PLACE_M and np.abs(off).max(initial=0.0) < STRAIGHT_RAD:
                 place = self.geo.places(target[:1])[0]
                 for i in inside:
                     found[i] = place
@@ -213,7 +215,7 @@ class _Job:
         errors: list[Error] = []
         for shape, turning in product(self.form.shapes, TURNINGS):
             flown = fly(route, legs_of(route, shape), turning, self.chooser.lens)
-            errors.append(compare(self.mission, self.flight, flown, RATE_MOST))
+            errors.append(compare(self.mission, self.flight, flown, HIGHEST_RATE_HZ))
         shots = tuple(_worst_shot([e.shots[i] for e in errors]) for i in range(len(errors[0].shots)))
         worst = max(errors, key=lambda e: e.screen)
         return replace(
@@ -236,8 +238,8 @@ class _Job:
             worst = max(range(len(depths)), key=lambda k: float(depths[k].max()))
             deepest = int(depths[worst].argmax())
             place, depth = places[worst][deepest], float(depths[worst][deepest])
-            if depth <= CUT_LEAST:
-                between = self._between(written.route, obstacle, held + CUT_LEAST)
+            if depth <= LEAST_CUT_M:
+                between = self._between(written.route, obstacle, held + LEAST_CUT_M)
                 if between is None:
                     continue
                 place, depth = between[0], between[1] - held
@@ -291,8 +293,8 @@ def _parted(route: Route) -> Route:
     position = route.position.copy()
     for i in range(1, len(position)):
         way = position[i - 1] - position[i]
-        if np.linalg.norm(position[:i] - position[i], axis=1).min() < SAME_PLACE:
-            position[i] += ASIDE * way / max(float(np.linalg.norm(way)), ASIDE)
+        if np.linalg.norm(position[:i] - position[i], axis=1).min() < SAME_PLACE_M:
+            position[i] += ASIDE_M * way / max(float(np.linalg.norm(way)), ASIDE_M)
     return replace(route, position=position)
 
 

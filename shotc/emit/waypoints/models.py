@@ -13,17 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shotc.emit.waypoints import paths
-from shotc.emit.waypoints.flown import STAY_PACE, ReflownSamples
+from shotc.emit.waypoints.flown import STAY_PACE_M_S, ReflownSamples
 from shotc.emit.waypoints.lens import shown_by
 from shotc.emit.waypoints.route import Route
 from shotc.ir.drone import LensRange
 
 Array = NDArray[np.float64]
 
-SAMPLES = 33  # intervals of a leg
+LEG_SAMPLES = 33  # intervals of a leg
 GENTLE, BRISK = 1.5, 3.0  # m/s^2, accelerations between speeds
-STAY_STEP = 0.1  # seconds between samples of a stay
-SLOWEST = 0.05  # m/s, so that every leg ends
+STAY_STEP_S = 0.1  # seconds between samples of a stay
+SLOWEST_M_S = 0.05  # m/s, so that every leg ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,10 +98,10 @@ class Legs:
     @property
     def share(self) -> Array:
         """Progress on each leg, 0 to 1, (m - 1, k + 1)."""
-        return self.way / np.maximum(self.way[:, -1:], paths.SHORT)
+        return self.way / np.maximum(self.way[:, -1:], paths.SHORTEST_M)
 
 
-def legs_of(route: Route, shape: CurveModel, count: int = SAMPLES) -> Legs:
+def legs_of(route: Route, shape: CurveModel, count: int = LEG_SAMPLES) -> Legs:
     """Return the legs of a route."""
     position = shape.samples(route, count)
     steps = np.linalg.norm(np.diff(position, axis=1), axis=2)
@@ -114,7 +114,7 @@ def times_of(route: Route, legs: Legs, ramp: float) -> Array:
     A machine brakes before it stops, and changes from one speed to the next after the point.
     """
     length = legs.way[:, -1]
-    goal = np.maximum(route.speed[:-1], SLOWEST)
+    goal = np.maximum(route.speed[:-1], SLOWEST_M_S)
     entry = np.zeros(len(length))
     for i in range(1, len(length)):
         if not route.stops[i]:
@@ -128,7 +128,7 @@ def times_of(route: Route, legs: Legs, ramp: float) -> Array:
     square = np.where(square < goal[:, None] ** 2, rising, falling)
     braking = np.where(route.stops[1:, None], 2 * ramp * (length[:, None] - legs.way), np.inf)
     speed = np.sqrt(np.maximum(np.minimum(square, braking), 0.0))
-    mean = np.maximum((speed[:, 1:] + speed[:, :-1]) / 2, SLOWEST / 2)
+    mean = np.maximum((speed[:, 1:] + speed[:, :-1]) / 2, SLOWEST_M_S / 2)
     steps = np.diff(legs.way, axis=1) / mean
     return np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1)
 
@@ -137,7 +137,7 @@ def turned(route: Route, legs: Legs, times: Array, turning: AngleRamps) -> Array
     """Return the share of its turn at each sample of a leg, (m - 1, k + 1)."""
     if not turning.by_time:
         return legs.share
-    return np.asarray(times / np.maximum(times[:, -1:], paths.SHORT))
+    return np.asarray(times / np.maximum(times[:, -1:], paths.SHORTEST_M))
 
 
 def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = None) -> ReflownSamples:
@@ -155,7 +155,7 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
             if action.kind == "stay":
                 stay = _stay(route, legs, i, action.seconds)
                 rows.append(_stamped(stay, part, way, now, hfov))
-                way, now = way + action.seconds * STAY_PACE, now + action.seconds
+                way, now = way + action.seconds * STAY_PACE_M_S, now + action.seconds
             elif action.kind == "zoom":
                 hfov = hfov if lens is None else shown_by(lens, action)
             else:
@@ -173,11 +173,17 @@ def fly(route: Route, legs: Legs, turning: AngleRamps, lens: LensRange | None = 
 
 def _stay(route: Route, legs: Legs, i: int, seconds: float) -> Array:
     """Return the rows of a stay at a point: position, yaw, pitch, path length and time."""
-    time = np.linspace(0.0, seconds, max(2, int(seconds / STAY_STEP)) + 1)
+    time = np.linspace(0.0, seconds, max(2, int(seconds / STAY_STEP_S)) + 1)
     place = legs.position[i, 0] if i < len(legs.position) else legs.position[-1, -1]
     ones = np.ones(len(time))
     return np.column_stack(
-        [np.tile(place, (len(time), 1)), route.yaw[i] * ones, route.pitch[i] * ones, time * STAY_PACE, time]
+        [
+            np.tile(place, (len(time), 1)),
+            route.yaw[i] * ones,
+            route.pitch[i] * ones,
+            time * STAY_PACE_M_S,
+            time,
+        ]
     )
 
 

@@ -21,7 +21,7 @@ Mask = NDArray[np.bool_]
 Tangents = Callable[[Array], tuple[Array, Array]]
 """From points (m, 3) to the handles of each leg, (m - 1, 3) each: from its start, and back from its end."""
 
-SHORT = 1e-9  # metres, in place of a length of zero
+SHORTEST_M = 1e-9  # metres, in place of a length of zero
 
 
 def through(points: Array, stops: Mask, tangents: Tangents, count: int, *, cut: bool) -> Array:
@@ -64,7 +64,7 @@ def catmull_rom(alpha: float) -> Tangents:
     def tangents(points: Array) -> tuple[Array, Array]:
         way = np.diff(points, axis=0)
         way = np.concatenate([way[:1], way, way[-1:]])
-        knots = np.maximum(np.linalg.norm(way, axis=1), SHORT)[:, None] ** alpha
+        knots = np.maximum(np.linalg.norm(way, axis=1), SHORTEST_M)[:, None] ** alpha
         before, after = knots[:-1], knots[1:]
         rate = way[:-1] / before - (way[:-1] + way[1:]) / (before + after) + way[1:] / after
         span = knots[1:-1]
@@ -81,7 +81,7 @@ def handles(share: float) -> Tangents:
     def tangents(points: Array) -> tuple[Array, Array]:
         way = np.diff(points, axis=0)
         along = np.concatenate([way[:1], points[2:] - points[:-2], way[-1:]])
-        along = along / np.maximum(np.linalg.norm(along, axis=1), SHORT)[:, None]
+        along = along / np.maximum(np.linalg.norm(along, axis=1), SHORTEST_M)[:, None]
         length = share * np.linalg.norm(way, axis=1)[:, None]
         return along[:-1] * length, along[1:] * length
 
@@ -91,7 +91,7 @@ def handles(share: float) -> Tangents:
 def natural(points: Array) -> tuple[Array, Array]:
     """Return the handles of the natural cubic spline parameterised by chord length, for points (m, 3)."""
     way = np.diff(points, axis=0)
-    span = np.maximum(np.linalg.norm(way, axis=1), SHORT)
+    span = np.maximum(np.linalg.norm(way, axis=1), SHORTEST_M)
     count = len(points)
     matrix, right = np.zeros((count, count)), np.zeros((count, 3))
     rows = np.arange(1, count - 1)
@@ -122,7 +122,7 @@ def rounded(points: Array, sizes: Array, count: int) -> Array:
 def corners(points: Array, sizes: Array) -> Array:
     """Return the Bernstein control points (m - 1, 3, 4, 3) of the legs of ``rounded``: curve, line, curve."""
     way = np.diff(points, axis=0)
-    unit = way / np.maximum(np.linalg.norm(way, axis=1), SHORT)[:, None]
+    unit = way / np.maximum(np.linalg.norm(way, axis=1), SHORTEST_M)[:, None]
     size = sizes.copy()[:, None]
     size[0] = size[-1] = 0.0
     before, after = np.concatenate([unit[:1], unit]), np.concatenate([unit, unit[-1:]])

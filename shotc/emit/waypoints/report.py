@@ -14,7 +14,7 @@ from shotc.diag.model import Diagnostic
 from shotc.emit.waypoints.choose import MEAN, WORST
 from shotc.emit.waypoints.compare import Error, ShotError
 from shotc.emit.waypoints.lens import edge
-from shotc.emit.waypoints.stations import LEG_LEAST
+from shotc.emit.waypoints.stations import SHORTEST_LEG_M
 from shotc.emit.waypoints.timing import WaysTooNear, too_near
 from shotc.emit.waypoints.track import SampledFlight
 from shotc.ir.drone import Drone
@@ -26,7 +26,7 @@ from shotc.ir.source import TAKES, ZOOM_COMMANDS, Autopilot
 from shotc.ir.trajectory import DroneTrajectory
 from shotc.rounding import at_least, exposure
 
-ZOOM_LEAST = np.radians(0.1)
+LEAST_ZOOM_RAD = np.radians(0.1)
 PROMISED = "E122"  # for a zoom that is not carried although the shot promises its framing
 UNKNOWN_LENS = (
     "say what the camera carries, as `camera: {zoom: [24 mm, 70 mm]}`, or film the shot with the field of"
@@ -34,7 +34,7 @@ UNKNOWN_LENS = (
 )
 OTHER_LENS = "film the shot with the field of view of the drone, or zoom by hand"
 UNPROMISED = ", and remove its `require`: no file can promise a zoom by hand"
-TURN_LEAST = np.radians(1.0)  # turn of the camera while the drone stands, above which it is mentioned
+LEAST_TURN_RAD = np.radians(1.0)  # turn of the camera while the drone stands, above which it is mentioned
 FILES = {"mavlink": "MAVLink", "dji": "DJI", "litchi": "Litchi"}
 """Names of the emitters' files."""
 
@@ -128,7 +128,7 @@ def lens(mission: MissionIR, flight: DroneTrajectory) -> list[Diagnostic]:
     out: list[Diagnostic] = []
     for phase in (p for p in flight.phases if p.shot is not None):
         hfov = flight.curve(np.linspace(phase.start, phase.end, 101))[:, HFOV]
-        if np.abs(hfov - drone.hfov).max() < ZOOM_LEAST:
+        if np.abs(hfov - drone.hfov).max() < LEAST_ZOOM_RAD:
             continue
         shot = mission.shot(phase.shot or "")
         off = float(edge(hfov, drone.hfov).max())
@@ -193,14 +193,14 @@ def _why(track: SampledFlight, each: ShotError) -> tuple[str, str]:
     for stretch in track.stretches:
         part = slice(stretch.first, stretch.last + 1)
         turn = max(np.ptp(track.poses.cam_yaw[part]), np.ptp(track.poses.cam_pitch[part]))
-        if stretch.shot == each.shot and stretch.rest and turn > TURN_LEAST:
+        if stretch.shot == each.shot and stretch.rest and turn > LEAST_TURN_RAD:
             return (
                 f"its camera turns by {degrees(turn):.0f} deg while the drone stands, and such a file turns"
                 " it on the way to the next point alone",
                 "let the drone move while the camera turns, or turn it by hand",
             )
     return (
-        f"its points are as near as {LEG_LEAST} m, nearer ones are refused",
+        f"its points are as near as {SHORTEST_LEG_M} m, nearer ones are refused",
         "film from farther away, or turn more slowly for the way that is flown",
     )
 
@@ -244,7 +244,7 @@ def broken(mission: MissionIR, drone: Drone, owner: Owner, depth: float, time: f
         (mission.origins.key(drone.path), mission.origins.key(owner.path)),
         (
             f"the plan keeps off it; the curve that is worst for it does not, at about t = {time:.1f} s",
-            f"points cannot be nearer to each other than {LEG_LEAST} m",
+            f"points cannot be nearer to each other than {SHORTEST_LEG_M} m",
         ),
         f"leave {at_least(depth, 1)} m more room there, or let the way bend less",
     )

@@ -16,10 +16,10 @@ from shotc.ir.photos import Photos
 
 Array = NDArray[np.float64]
 
-LEG_LEAST = 0.7  # metres between neighbouring points; DJI's older machines refuse 0.5
-SETTLE = 1.0  # seconds of an unfilmed stay at most; without a clock, waiting has no use
-STAY_LEAST = 0.1  # seconds; DJI's machines refuse a file with a stay of 0
-STANDSTILL = 0.05  # m/s
+SHORTEST_LEG_M = 0.7  # metres between neighbouring points; DJI's older machines refuse 0.5
+SETTLE_S = 1.0  # seconds of an unfilmed stay at most; without a clock, waiting has no use
+SHORTEST_STAY_S = 0.1  # seconds; DJI's machines refuse a file with a stay of 0
+STANDSTILL_M_S = 0.05  # m/s
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,15 +71,15 @@ def stations_of(
             actions += _changed(shot, stretch.shot, photos or {})
             shot = stretch.shot
             seconds = float(track.time[stretch.last] - track.time[stretch.first])
-            seconds = round(seconds if shot else min(seconds, SETTLE), 1)
-            if seconds >= STAY_LEAST:
+            seconds = round(seconds if shot else min(seconds, SETTLE_S), 1)
+            if seconds >= SHORTEST_STAY_S:
                 actions += stay(stretch) if stay and shot else [PointAction("stay", seconds)]
         actions += _changed(shot, after.shot if after else None, photos or {})
         shot = after.shot if after else None
         first, last = _ends(track, group, before, after)
         ends = before is None or after is None
         stays = any(a.kind == "stay" for a in actions)
-        stops = ends or stays or _speed(track, first) < STANDSTILL
+        stops = ends or stays or _speed(track, first) < STANDSTILL_M_S
         stations.append(Station(first, last, stops, tuple(actions), _aim(group, before, after, first, last)))
     return stations, gaps
 
@@ -98,7 +98,7 @@ def _grouped(track: SampledFlight, way: Array) -> tuple[list[list[SampleRange]],
 
 
 def _is_short(track: SampledFlight, way: Array, stretch: SampleRange) -> bool:
-    return bool(way[stretch.last] - way[stretch.first] < LEG_LEAST)
+    return bool(way[stretch.last] - way[stretch.first] < SHORTEST_LEG_M)
 
 
 def _ends(

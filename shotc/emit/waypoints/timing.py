@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from shotc.emit.waypoints.clearance import shortfall
-from shotc.emit.waypoints.track import SAMPLE_STEP
+from shotc.emit.waypoints.track import SAMPLE_STEP_S
 from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import target_owner
@@ -19,8 +19,8 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.planning.clearances import Clearance
 
 TRACK_STEP_S = 0.5  # seconds between positions of a moving target
-STEP = 0.5  # metres between positions of a path; at 3 m a distance is at most 0.02 m too large
-LESS = 0.05  # metres of a separation that rounding may take
+STEP_M = 0.5  # metres between positions of a path; at 3 m a distance is at most 0.02 m too large
+ROUNDING_M = 0.05  # metres of a separation that rounding may take
 
 
 class WaysTooNear(NamedTuple):
@@ -47,7 +47,7 @@ def kept_apart_by_time(
     found: list[WaysTooNear] = []
     for one, other in pairs:
         distance = float(trees[one].query(trees[other].data)[0].min())
-        if distance < mission.rules.separation - LESS:
+        if distance < mission.rules.separation - ROUNDING_M:
             found.append(WaysTooNear((one, other), distance))
     return found
 
@@ -66,14 +66,14 @@ def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str)
 def evenly(way: Array) -> Array:
     """Return positions (k, 3) every STEP along a path through positions (n, 3), both ends included."""
     done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1)))
-    at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP) + 1))
+    at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP_M) + 1))
     return np.stack([np.interp(at, done, axis) for axis in way.T], axis=1)
 
 
 def _places(flight: DroneTrajectory) -> Array:
     """Return the positions of a flight from pad to pad, (n, 3)."""
     curve = flight.curve
-    return curve(np.arange(curve.start, curve.end + SAMPLE_STEP, SAMPLE_STEP))[:, :3]
+    return curve(np.arange(curve.start, curve.end + SAMPLE_STEP_S, SAMPLE_STEP_S))[:, :3]
 
 
 def _columns(mission: MissionIR, name: str, way: Array) -> list[Array]:

@@ -24,11 +24,11 @@ from shotc.ir.trajectory import DroneTrajectory
 
 Array = NDArray[np.float64]
 
-SAMPLE_STEP = 0.1  # seconds; at 10 m/s and 3 m/s^2 the curve deviates from its samples' chords by 4 mm
-REST_SPREAD = 1e-4  # metres, extent of the control points of a piece that stands still
-REST_LEAST = 0.25  # seconds; a shorter standstill is a turning point of the motion, not a hold
-LOST = 9.0  # half frames, the screen error of a subject behind the re-flown camera
-FAR = 1e4  # metres to the point straight ahead that is watched where nothing is framed
+SAMPLE_STEP_S = 0.1  # seconds; at 10 m/s and 3 m/s^2 the curve deviates from its samples' chords by 4 mm
+REST_SPREAD_M = 1e-4  # metres, extent of the control points of a piece that stands still
+SHORTEST_REST_S = 0.25  # seconds; a shorter standstill is a turning point of the motion, not a hold
+BEHIND_CAMERA_HALF_FRAMES = 9.0  # half frames, the screen error of a subject behind the re-flown camera
+FAR_M = 1e4  # metres to the point straight ahead that is watched where nothing is framed
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def track_of(mission: MissionIR, flight: DroneTrajectory) -> SampledFlight:
     stretches: list[SampleRange] = []
     first = 0
     for start, end, shot, rest in spans:
-        count = max(2, ceil((end - start) / SAMPLE_STEP))
+        count = max(2, ceil((end - start) / SAMPLE_STEP_S))
         times.append(np.linspace(start, end, count + 1)[1:])
         stretches.append(SampleRange(first, first + count, shot, rest))
         first += count
@@ -98,7 +98,7 @@ def subject_at(mission: MissionIR, flight: DroneTrajectory, time: Array, poses: 
     """
     level = np.cos(poses.cam_pitch)
     ahead = [level * np.cos(poses.cam_yaw), level * np.sin(poses.cam_yaw), np.sin(poses.cam_pitch)]
-    subject: Array = poses.position + FAR * np.stack(ahead, axis=1)
+    subject: Array = poses.position + FAR_M * np.stack(ahead, axis=1)
     for span in flight.framing:
         inside = (time >= span.start) & (time <= span.end)
         filmed = mission.target(span.target)
@@ -142,7 +142,7 @@ def _spans(flight: DroneTrajectory) -> list[tuple[float, float, str | None, bool
         if phase.name in UPRIGHT:
             continue
         inside = [(max(a, phase.start), min(b, phase.end)) for a, b in rests]
-        inside = [(a, b) for a, b in inside if b - a >= REST_LEAST]
+        inside = [(a, b) for a, b in inside if b - a >= SHORTEST_REST_S]
         cuts = sorted({phase.start, phase.end, *(t for pair in inside for t in pair)})
         spans.extend((a, b, phase.shot, (a, b) in inside) for a, b in pairwise(cuts))
     return spans
@@ -151,7 +151,7 @@ def _spans(flight: DroneTrajectory) -> list[tuple[float, float, str | None, bool
 def _rests(curve: Piecewise) -> list[tuple[float, float]]:
     spread = np.ptp(curve.ctrl[:, :, :3], axis=1).max(axis=1)
     rests: list[tuple[float, float]] = []
-    for still, (start, end) in zip(spread <= REST_SPREAD, pairwise(curve.breaks.tolist()), strict=True):
+    for still, (start, end) in zip(spread <= REST_SPREAD_M, pairwise(curve.breaks.tolist()), strict=True):
         if still and rests and rests[-1][1] == start:
             rests[-1] = (rests[-1][0], end)
         elif still:

@@ -7,11 +7,11 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.solids import Cylinder, Solid
 
-SIDES = 48
+POLYGON_SIDES = 48
 """Sides of the polygon for a circle."""
 
 
-def ring(radius: float, sides: int = SIDES) -> Array:
+def ring(radius: float, sides: int = POLYGON_SIDES) -> Array:
     """Return the corners of a regular polygon around a circle, counter-clockwise from East, (sides, 2), m."""
     turn = 2.0 * np.pi * np.arange(sides) / sides
     return np.asarray(radius / np.cos(np.pi / sides) * np.stack([np.cos(turn), np.sin(turn)], axis=-1))

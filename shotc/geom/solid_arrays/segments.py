@@ -18,7 +18,7 @@ coordinates, so that no line passes between two convex parts of one solid."""
 SETTLED_SHARE = 1e-7
 """Tolerance of a segment's nearest point, as a share of its length."""
 
-ROUNDS = 60
+MOST_ROUNDS = 60
 """Most iterations; about twelve suffice."""
 
 
@@ -49,7 +49,7 @@ def nearest_on_segments(part: Solid, a: Array, b: Array) -> Array:
     falls, rises = np.minimum(slope(low), 0.0), np.maximum(slope(high), 0.0)
     level = SETTLED_SHARE**2 * np.einsum("nd,nd->n", side, side) + NO_AREA_M2
     before, at = np.zeros(len(a)), low
-    for _ in range(ROUNDS):
+    for _ in range(MOST_ROUNDS):
         at = low - falls / np.maximum(rises - falls, NO_AREA_M2) * (high - low)
         now = slope(at)
         beyond = now >= 0.0

@@ -13,10 +13,10 @@ from shotc.geom.surface.tree import Surface, surface_of
 
 MOST_POINTS = 1_000_000
 """Most points of a surface; of larger clouds each cell of a grid keeps one."""
-_SAMPLE = 2_000  # points whose neighbours are searched
-_BESIDE = 8  # points before and after one in Morton order that are tried as neighbours
+_SAMPLED_POINTS = 2_000  # points whose neighbours are searched
+_NEIGHBOUR_POINTS = 8  # points before and after one in Morton order that are tried as neighbours
 _FIRST_CELLS = 4096  # cells along the longest side of a cloud in the first attempt to thin it
-_LARGER = 1.1  # factor on the estimated size of cells
+_LARGER_RATIO = 1.1  # factor on the estimated size of cells
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +59,9 @@ def splats(points: Array, size: float, most: int) -> Splats:
         if len(begins) <= most:
             lowest, highest = _boxes(points[order], begins)
             return Splats(np.asarray(0.5 * (lowest + highest)), order[begins], size)
-        size *= max(_LARGER, _LARGER * float(np.sqrt(len(begins) / most)))  # most clouds are surfaces
+        size *= max(
+            _LARGER_RATIO, _LARGER_RATIO * float(np.sqrt(len(begins) / most))
+        )  # most clouds are surfaces
 
 
 def _thinned(points: Array, most: int) -> tuple[Array, float]:
@@ -90,7 +92,7 @@ def median_spacing(surface: Surface) -> float:
 
     It is taken over at most 2,000 points, evenly spaced in Morton order; 0 if all points coincide.
     """
-    picked = np.unique(np.linspace(0, len(surface) - 1, _SAMPLE).astype(np.intp))
+    picked = np.unique(np.linspace(0, len(surface) - 1, _SAMPLED_POINTS).astype(np.intp))
     p, nearest = surface.triangles[picked, 0], _near_in_order(surface, picked)
     known = np.isfinite(nearest)
     p, nearest = p[known], nearest[known]
@@ -103,7 +105,9 @@ def median_spacing(surface: Surface) -> float:
 
 def _near_in_order(surface: Surface, picked: IntArray) -> Array:
     """Return the distance of each point from the nearest distinct one of its neighbours in Morton order."""
-    beside = np.clip(picked[:, None] + np.arange(-_BESIDE, _BESIDE + 1), 0, len(surface) - 1)
+    beside = np.clip(
+        picked[:, None] + np.arange(-_NEIGHBOUR_POINTS, _NEIGHBOUR_POINTS + 1), 0, len(surface) - 1
+    )
     points = surface.triangles[:, 0]
     away = np.linalg.norm(points[beside] - points[picked][:, None], axis=2)
     return np.asarray(np.where(away > 0.0, away, np.inf).min(axis=1))

@@ -16,7 +16,7 @@ from shotc.geom.surface.triangles import cross, dot
 STEEP_COSINE = 0.1
 """Cosine of the angle between a line of sight and a billboard's normal, below which all its cells are
 tested."""
-_NONE = 1e-300
+_NO_LENGTH = 1e-300
 
 
 def stopped_by_discs(
@@ -40,7 +40,7 @@ def stopped_by_discs(
     its, to = frame[pair], away[pair]
     way = boards.corner[its] - boards.eye[its]
     way = way + ((a + 0.5) / n)[:, None] * boards.right[its] + ((b + 0.5) / n)[:, None] * boards.up[its]
-    square = np.maximum(dot(way, way), _NONE)
+    square = np.maximum(dot(way, way), _NO_LENGTH)
     along = dot(to, way) / square
     off = dot(to, to) - along**2 * square
     met = (along > 0.0) & (off <= radius**2) & (along + radius / np.sqrt(square) < reach[its, a, b])
@@ -56,19 +56,19 @@ def _cells_about(
     away : the points minus the eyes of their frames, (K, 3), metres
     """
     normal = cross(boards.right, boards.up)
-    normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]
+    normal /= np.maximum(np.sqrt(dot(normal, normal)), _NO_LENGTH)[:, None]
     corner = boards.corner - boards.eye
     depth = dot(normal, corner)
     side = np.sign(depth)
     far, deep = np.sqrt(dot(away, away)), dot(away, normal[frame]) * side[frame]
-    cosine = (deep - radius) / np.maximum(far, _NONE)
+    cosine = (deep - radius) / np.maximum(far, _NO_LENGTH)
     clear = (cosine > STEEP_COSINE) & (deep > 2.0 * radius)
-    share = np.where(clear, deep / np.maximum(np.abs(depth), _NONE)[frame], 1.0)
+    share = np.where(clear, deep / np.maximum(np.abs(depth), _NO_LENGTH)[frame], 1.0)
     on = away / share[:, None] - corner[frame]
     reach = radius / np.where(clear, share * cosine, 1.0)
     first, last = np.zeros((2, len(away), 2), dtype=np.intp)
     for k, way in enumerate((boards.right, boards.up)):
-        square = np.maximum(dot(way, way), _NONE)[frame]
+        square = np.maximum(dot(way, way), _NO_LENGTH)[frame]
         at, half = dot(on, way[frame]) / square, reach / np.sqrt(square)
         low, high = np.ceil((at - half) * n - 0.5), np.floor((at + half) * n - 0.5)
         first[:, k] = np.where(clear, np.clip(low, 0, n), 0)

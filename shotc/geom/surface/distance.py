@@ -16,7 +16,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces, join
-from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS, ProvedExtreme
+from shotc.geom.proof import MOST_HALVINGS, OPEN_PIECES_LIMIT, ProvedExtreme
 from shotc.geom.surface.near import nearest, some_distance
 from shotc.geom.surface.tree import Pairs, Surface, TooMany, box_distances, search
 from shotc.geom.surface.triangles import closest, dot, highest, lowest
@@ -25,7 +25,7 @@ Gap = Callable[[float], float]
 PIECES_LIMIT = 50_000
 """Most pieces into which curves are cut, so that each one meets fewer boxes."""
 
-LIKELIEST = 8
+MEASURED_PIECES = 8
 """Pieces whose middles are measured exactly before the search."""
 
 
@@ -181,7 +181,7 @@ class _Distances:
         """
         middle = middles(parts.pieces.ctrl)
         some = some_distance(self.surface, middle)
-        likely = np.argsort(some)[:LIKELIEST]
+        likely = np.argsort(some)[:MEASURED_PIECES]
         limit = np.nextafter(min(self.known.best, float(some.min())), np.inf)
         found = nearest(self.surface, middle[likely], limit)
         self.known.meet(found.distance, parts, likely, found.triangle)
@@ -210,7 +210,7 @@ class _Distances:
     def close(self, parts: Numbered, pairs: Pairs) -> None:
         """Halve pieces of pairs until no pair may be nearer than the least known distance minus the gap."""
         lower = np.zeros(len(pairs))
-        for _ in range(ROUNDS):
+        for _ in range(MOST_HALVINGS):
             lower = np.maximum(lower, self._boxes_apart(parts, pairs))
             pairs, lower = self.known.keep_open(pairs, lower, self.gap)
             if not len(pairs) or len(pairs) > OPEN_PIECES_LIMIT:

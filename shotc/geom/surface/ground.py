@@ -13,13 +13,13 @@ from shotc.geom.bernstein import Array, bernstein_basis
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Pieces
 from shotc.geom.surface.distance import SurfaceBound, inf_distance
-from shotc.geom.surface.near import AT_ONCE, nearest
+from shotc.geom.surface.near import BATCH_ITEMS, nearest
 from shotc.geom.surface.tree import Surface, surface_of, under_points
 from shotc.geom.surface.triangles import TINY
 
-EDGE = 1e-6
+EDGE_M = 1e-6
 """Least distance from the edge of the ground, metres; a nearer curve is not proved to stay above ground."""
-LOOKS = 9
+SAMPLES_PER_PIECE = 9
 """Samples a piece for the distance by which a curve leaves the ground."""
 _NEXT = [1, 2, 0]
 _WEIGHT = 1e-9
@@ -91,8 +91,8 @@ def height_at(ground: Ground, xy: Array) -> Array:
 def under(ground: Ground, xy: Array) -> Under:
     """Return the ground below points (K, 2), metres of W."""
     out = Under(np.full(len(xy), np.nan), np.full(len(xy), -1))
-    for start in range(0, len(xy), AT_ONCE):
-        part = slice(start, start + AT_ONCE)
+    for start in range(0, len(xy), BATCH_ITEMS):
+        part = slice(start, start + BATCH_ITEMS)
         _under(ground.surface, xy[part], Under(out.height[part], out.triangle[part]))
     return out
 
@@ -140,7 +140,7 @@ def leaves(ground: Ground, pieces: Pieces) -> NoGround | None:
 
 
 def _apart_at_all(distance: float) -> float:
-    return max(0.5 * distance, EDGE)
+    return max(0.5 * distance, EDGE_M)
 
 
 def _touched(pieces: Pieces, found: SurfaceBound) -> NoGround:
@@ -151,7 +151,7 @@ def _touched(pieces: Pieces, found: SurfaceBound) -> NoGround:
 
 
 def _farthest_out(ground: Ground, pieces: Pieces) -> NoGround | None:
-    x = np.linspace(0.0, 1.0, LOOKS)
+    x = np.linspace(0.0, 1.0, SAMPLES_PER_PIECE)
     basis = bernstein_basis(pieces.ctrl.shape[1] - 1, x)
     places = np.einsum("xk,mkd->mxd", basis, pieces.ctrl[..., :2]).reshape(-1, 2)
     times = (pieces.low[:, None] + x * (pieces.high - pieces.low)[:, None]).ravel()

@@ -21,11 +21,11 @@ from shotc.geom.surface.planes import Kept, Planes
 from shotc.geom.surface.tree import Pairs, in_plan
 from shotc.geom.surface.triangles import TINY, cross, dot
 
-PIVOTS = 40
+MOST_PIVOTS = 40
 """Most exchanges of a basis; about twelve suffice."""
-DEEPER = 1e-6
+DEEPER_M = 1e-6
 """Least depth of a difference below the plane of a basis to enter it, metres."""
-FAR = 1e4
+FAR_M = 1e4
 """Distance in the plan and height of the first basis, metres."""
 _NEXT = [1, 2, 0]
 
@@ -119,16 +119,16 @@ def _slopes(hulls: Array, places: Array, begin: IntArray) -> Array:
     """Return the slopes (P, 2) of the planes with the most space below hulls (P, m, 3)."""
     count = len(hulls)
     turn = 2 * np.pi * np.arange(3) / 3
-    start = FAR * np.column_stack([np.cos(turn), np.sin(turn), np.ones(3)])
+    start = FAR_M * np.column_stack([np.cos(turn), np.sin(turn), np.ones(3)])
     basis = np.tile(start, (count, 1, 1))
     slope, active = np.zeros((count, 2)), np.arange(count)
     ends = np.append(begin, len(places))
     owner = np.repeat(np.arange(count), np.diff(ends))
-    for _ in range(PIVOTS):
+    for _ in range(MOST_PIVOTS):
         slope[active], height = _plane(basis[active])
         above = places[:, 2] - dot(places[:, :2], slope[owner])
         enters, depth = _deepest(hulls, places, (slope, above, begin))
-        deeper = depth[active] < height - DEEPER
+        deeper = depth[active] < height - DEEPER_M
         active = active[deeper]
         if not len(active):
             break

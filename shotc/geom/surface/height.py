@@ -14,15 +14,15 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask, Pieces
-from shotc.geom.proof import OPEN_PIECES_LIMIT, ROUNDS
+from shotc.geom.proof import MOST_HALVINGS, OPEN_PIECES_LIMIT
 from shotc.geom.surface.distance import Gap, LeastSearch, Numbered, SurfaceBound, halve, middles, run
 from shotc.geom.surface.ground import Ground, NoGround, heights, leaves, under
 from shotc.geom.surface.tree import Pairs, plan_boxes_meet, search
 from shotc.geom.surface.triangles import TINY, dot, highest, lowest
 
-PARTED = 1e-9
+PARTED_M = 1e-9
 """Least separation of a triangle from a piece by a side, metres; at a common side both triangles count."""
-SLIVER = 1e-9
+SLIVER_RATIO = 1e-9
 """Area over the square of the longest side, in the plan, below which a triangle's plane is not used."""
 _NEXT = [1, 2, 0]
 
@@ -100,7 +100,7 @@ class _Heights:
     def close(self, parts: Numbered, pairs: Pairs) -> None:
         """Halve pieces of pairs until no pair may have less than the least known value minus the gap."""
         lower = np.full(len(pairs), -np.inf)
-        for _ in range(ROUNDS):
+        for _ in range(MOST_HALVINGS):
             triangles = self.ground.surface.triangles[pairs.triangle]
             met = ~_parted(triangles, parts.pieces.ctrl[pairs.item])
             pairs, lower, triangles = pairs.pick(met), lower[met], triangles[met]
@@ -126,7 +126,7 @@ class _Heights:
         one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
         turn = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
         sizes = dot(one[:, :2], one[:, :2]) + dot(other[:, :2], other[:, :2])
-        whole = np.abs(turn) > SLIVER * sizes
+        whole = np.abs(turn) > SLIVER_RATIO * sizes
         turn = np.where(whole, turn, 1.0)
         slope_x = (one[:, 2] * other[:, 1] - other[:, 2] * one[:, 1]) / turn
         slope_y = (one[:, 0] * other[:, 2] - other[:, 0] * one[:, 2]) / turn
@@ -153,5 +153,5 @@ def _parted(triangles: Array, ctrl: Array) -> Mask:
     turn = edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]
     inward = np.stack([-edges[..., 1], edges[..., 0]], axis=-1) * np.sign(turn)[:, None, None]
     reach = np.einsum("kmd,ked->kme", ctrl[..., :2], inward).max(axis=1)
-    border = dot(plan, inward) - PARTED * np.sqrt(dot(edges, edges))
+    border = dot(plan, inward) - PARTED_M * np.sqrt(dot(edges, edges))
     return np.asarray((reach < border).any(axis=1) | (np.abs(turn) <= TINY))

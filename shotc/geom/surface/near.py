@@ -9,16 +9,16 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
-from shotc.geom.surface.tree import FAN, Pairs, Surface, box_distances, search
+from shotc.geom.surface.tree import LEAF_TRIANGLES, Pairs, Surface, box_distances, search
 from shotc.geom.surface.triangles import closest, dot, segment_distances
 
-AT_ONCE = 2048
+BATCH_ITEMS = 2048
 """Queries that are processed together, so that their pairs fit the processor's cache."""
 ROUNDING = 1e-9
 """Tolerance of the distance of a box compared with a triangle in it: metres, and share of the distance."""
-CENTRED = 0.25
+CENTRE_WEIGHT = 0.25
 """Weight of the squared distance from a box's middle, relative to that from the box, in the descent."""
-SHORT = 4.0
+LONGEST_SEGMENT_M = 4.0
 """Longest part of a segment, metres; longer segments are cut, because an oblique one has too large a box."""
 
 
@@ -43,8 +43,8 @@ def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> Neares
     count = len(p)
     found = NearestOnSurface(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
     limits = np.broadcast_to(np.asarray(limit, dtype=np.float64), (count,))
-    for start in range(0, count, AT_ONCE):
-        part = slice(start, start + AT_ONCE)
+    for start in range(0, count, BATCH_ITEMS):
+        part = slice(start, start + BATCH_ITEMS)
         _nearest(
             surface, p[part], limits[part], NearestOnSurface(*(getattr(found, f)[part] for f in _FIELDS))
         )
@@ -94,12 +94,12 @@ def some_distance(surface: Surface, p: Array) -> Array:
         low, high = surface.low[level][nodes], surface.high[level][nodes]
         apart = np.maximum(np.maximum(low - p[:, None], p[:, None] - high), 0.0)
         off = 0.5 * (low + high) - p[:, None]  # the middle decides between boxes that contain the point
-        node = nodes[each, (dot(apart, apart) + CENTRED * dot(off, off)).argmin(axis=1)]
+        node = nodes[each, (dot(apart, apart) + CENTRE_WEIGHT * dot(off, off)).argmin(axis=1)]
         below = len(surface.low[level - 1]) if level else len(surface)
-        nodes = np.minimum(FAN * node[:, None] + np.arange(FAN), below - 1)
+        nodes = np.minimum(LEAF_TRIANGLES * node[:, None] + np.arange(LEAF_TRIANGLES), below - 1)
     triangles = surface.triangles[nodes.ravel()]
-    found = closest(triangles, np.repeat(p, FAN, axis=0)).distance
-    return np.asarray(found.reshape(-1, FAN).min(axis=1))
+    found = closest(triangles, np.repeat(p, LEAF_TRIANGLES, axis=0)).distance
+    return np.asarray(found.reshape(-1, LEAF_TRIANGLES).min(axis=1))
 
 
 def within(surface: Surface, low: Array, high: Array, reach: Array | float) -> Pairs:
@@ -118,7 +118,7 @@ def comes_within(surface: Surface, a: Array, b: Array, distance: Array | float) 
     """Return which segments a-b, shapes (K, 3), come nearer to a surface than a distance, metres; (K,)."""
     out = np.zeros(len(a), dtype=bool)
     limits = np.broadcast_to(np.asarray(distance, dtype=np.float64), (len(a),))
-    parts = np.maximum(1, np.ceil(np.linalg.norm(b - a, axis=1) / SHORT)).astype(np.intp)
+    parts = np.maximum(1, np.ceil(np.linalg.norm(b - a, axis=1) / LONGEST_SEGMENT_M)).astype(np.intp)
     owner = np.repeat(np.arange(len(a)), parts)
     step = np.arange(len(owner)) - np.repeat(np.cumsum(parts) - parts, parts)
     side, share = (b - a)[owner], 1.0 / parts[owner][:, None]
@@ -126,8 +126,8 @@ def comes_within(surface: Surface, a: Array, b: Array, distance: Array | float) 
     end = np.where(
         (step + 1 == parts[owner])[:, None], b[owner], a[owner] + side * ((step + 1)[:, None] * share)
     )
-    for start in range(0, len(owner), AT_ONCE):
-        part = slice(start, start + AT_ONCE)
+    for start in range(0, len(owner), BATCH_ITEMS):
+        part = slice(start, start + BATCH_ITEMS)
         p, q, of = begin[part], end[part], owner[part]
         pairs = within(surface, np.minimum(p, q), np.maximum(p, q), limits[of])
         pairs = pairs.pick(~out[of[pairs.item]])

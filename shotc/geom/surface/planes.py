@@ -18,13 +18,13 @@ from shotc.geom.surface.near import within
 from shotc.geom.surface.tree import Pairs, Surface
 from shotc.geom.surface.triangles import closest, cross, dot
 
-MOST = 32
+MOST_PLANES = 32
 """Most planes of a piece; a piece that needs more is crowded."""
-STEPS = 24
+NEAREST_POINT_STEPS = 24
 """Steps towards the nearest point of a hull."""
-CLOSE = 1e-3
+CLOSE_SHARE = 1e-3
 """Relative difference of a gap and the distance at which the gap counts as optimal."""
-TOUCHES = 1e-9
+TOUCHES_M = 1e-9
 """Distance from a triangle up to which a point is on it, metres."""
 _TURN = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
 WAYS_OUT = np.vstack([np.column_stack([np.cos(_TURN), np.sin(_TURN), np.zeros(8)]), [[0.0, 0.0, 1.0]]])
@@ -64,7 +64,7 @@ def half_spaces(surface: Surface, hulls: Array, clearance: float, reach: float, 
     found: list[Planes] = []
     none = np.zeros(len(hulls), dtype=bool)
     pairs, far = _candidates(surface, hulls, clearance + reach)
-    for _ in range(MOST):
+    for _ in range(MOST_PLANES):
         if not len(pairs):
             break
         piece, first = pairs.best(far)
@@ -113,7 +113,7 @@ def _still_before(
     piece, normal, behind = planes
     which = np.searchsorted(piece, pairs.item)
     reaches = support(surface.triangles[pairs.triangle], normal[which])
-    keep = reaches > behind[which] + TOUCHES
+    keep = reaches > behind[which] + TOUCHES_M
     return pairs.pick(keep), far[keep]
 
 
@@ -133,12 +133,12 @@ def separate(triangles: Array, hulls: Array) -> tuple[Array, Array]:
     normal, gap = _first(triangles, hulls)
     each = np.arange(len(hulls))
     at = hulls[each, _distances(triangles, hulls).argmin(axis=1)]
-    for _ in range(STEPS):
+    for _ in range(NEAREST_POINT_STEPS):
         n, far = _away(triangles, at)
         its = _gaps(triangles, hulls, n[:, None])[:, 0]
         wins = its > gap
         normal[wins], gap[wins] = n[wins], its[wins]
-        if ((gap >= (1.0 - CLOSE) * far) | (far <= TOUCHES)).all():
+        if ((gap >= (1.0 - CLOSE_SHARE) * far) | (far <= TOUCHES_M)).all():
             break
         step = hulls[each, np.einsum("kmd,kd->km", hulls, n).argmin(axis=1)] - at
         x = np.clip(-far * dot(n, step) / np.maximum(dot(step, step), 1e-18), 0.0, 1.0)
@@ -191,7 +191,7 @@ def _away(triangles: Array, p: Array) -> tuple[Array, Array]:
     """
     found = closest(triangles, p)
     away = p - found.point
-    outside = (found.distance > TOUCHES)[:, None]
+    outside = (found.distance > TOUCHES_M)[:, None]
     return np.where(
-        outside, away / np.maximum(found.distance, TOUCHES)[:, None], WAYS_OUT[-1]
+        outside, away / np.maximum(found.distance, TOUCHES_M)[:, None], WAYS_OUT[-1]
     ), found.distance

@@ -23,16 +23,16 @@ from shotc.geom.surface.triangles import cross, dot, highest, lowest, without_si
 FRAMES_AT_ONCE = 256
 """Frames that are processed together, so that their pairs with triangles fit the processor's cache."""
 PAIRS_AT_ONCE = 16_384
-TOGETHER = 16
+GROUPED_FRAMES = 16
 """Consecutive frames that share one search of the tree, because they are nearly alike."""
 ALIKE_RATIO = 0.5
 """Largest width of the common boxes of such frames, summed over axes, as a share of the way to a
 billboard."""
-SHORT_OF = 1.0 - 1e-6
+RAY_SHARE = 1.0 - 1e-6
 """Share of the way to a cell at which rays end, so that the support of a target does not hide it."""
 BESIDE_M = 1e-6
 """Distance at which all rays pass an omitted triangle, metres; far above rounding."""
-_NONE = 1e-300  # replaces a zero length; a quotient by it is far above any share
+_NO_LENGTH = 1e-300  # replaces a zero length; a quotient by it is far above any share
 
 
 def hidden(surface: Surface, boards: Billboards, n: int = 8) -> Mask:
@@ -73,7 +73,7 @@ def stopped(surface: Surface, boards: Billboards, pairs: Pairs, reach: Array) ->
     pairs : of frames and triangles, by ``in_the_way``
     reach : share of the way to a cell at which its ray ends, (F, n, n), at most 1
     """
-    ends = SHORT_OF * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])
+    ends = RAY_SHARE * np.minimum(reach, 1.0).reshape(-1, reach.shape[1] * reach.shape[2])
     out = np.zeros(ends.shape, dtype=bool)
     for first in range(0, len(pairs), PAIRS_AT_ONCE):
         part = pairs.pick(slice(first, first + PAIRS_AT_ONCE))
@@ -103,13 +103,13 @@ def candidates(surface: Surface, boards: Billboards, far: float = 1.0, about: fl
     on = boards.corner + 0.5 * (boards.right + boards.up) - boards.eye
     grown = 0.5 * (np.abs(boards.right) + np.abs(boards.up))
     each = _Sliding(boards.eye.T, boards.eye.T, np.concatenate([on + grown, grown - on], axis=1).T)
-    starts = np.arange(0, len(boards), TOGETHER)
+    starts = np.arange(0, len(boards), GROUPED_FRAMES)
     several = each.together(starts)
-    if len(boards) <= TOGETHER or not several.alike(on[starts].T):
+    if len(boards) <= GROUPED_FRAMES or not several.alike(on[starts].T):
         return search(surface, len(boards), each.meets(far, about))
     found = search(surface, len(starts), several.meets(far, about))
-    lasts = np.minimum(starts + TOGETHER, len(boards))[found.item]
-    frame = starts[found.item][:, None] + np.arange(TOGETHER)
+    lasts = np.minimum(starts + GROUPED_FRAMES, len(boards))[found.item]
+    frame = starts[found.item][:, None] + np.arange(GROUPED_FRAMES)
     inside = frame < lasts[:, None]
     item, triangle = frame[inside], np.repeat(found.triangle, inside.sum(axis=1))
     corners = surface.triangles[triangle]
@@ -149,7 +149,7 @@ class _Pyramids:
         (K,).
         """
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normal /= np.maximum(np.sqrt(dot(normal, normal)), _NONE)[:, None]
+        normal /= np.maximum(np.sqrt(dot(normal, normal)), _NO_LENGTH)[:, None]
         far = dot(normal, corners[:, 0])
         nearest = (np.einsum("kd,ked->ek", normal, self.ends[frame]) * np.sign(far)).max(axis=0)
         return np.asarray(np.abs(far) - nearest <= beside)
@@ -164,7 +164,7 @@ def _pyramids(boards: Billboards, n: int) -> _Pyramids:
         [cross(ends[:, k], way) for k, way in ((0, right), (2, right), (0, up), (1, up))], axis=1
     )
     inward = np.einsum("fsd,fsd->fs", normals, np.stack([up, -up, right, -right], axis=1))
-    length = np.maximum(np.linalg.norm(normals, axis=2), _NONE)
+    length = np.maximum(np.linalg.norm(normals, axis=2), _NO_LENGTH)
     return _Pyramids(ends, np.asarray(normals * (np.sign(inward) / length)[:, :, None]))
 
 
@@ -195,7 +195,7 @@ class _Sliding:
     def meets(self, far: float, about: float) -> Meets:
         """Return the test for ``search``: whether the boxes meet boxes of the tree."""
         # At share x of the way: x speed >= low - eye, and x speed >= eye - high, axis by axis.
-        speed = np.where(self.speed == 0.0, _NONE, self.speed)
+        speed = np.where(self.speed == 0.0, _NO_LENGTH, self.speed)
         per, enters = 1.0 / speed, speed > 0.0
         first_eye, last_eye = np.ascontiguousarray(self.high), np.ascontiguousarray(self.low)
 

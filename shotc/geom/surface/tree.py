@@ -16,15 +16,15 @@ from shotc.geom.bspline import IntArray
 from shotc.geom.pieces import Mask
 from shotc.geom.surface.triangles import Halved, dot, halved, highest, lowest
 
-FAN = 4
+LEAF_TRIANGLES = 4
 """Triangles of a leaf, and children of a node."""
-TOP = 16
+TOP_NODES = 16
 """Most nodes of the top level, where a search starts."""
-TOGETHER = 16
+GROUPED_POINTS = 16
 """Consecutive points that share one search."""
-LONG = 8.0
+LONG_EDGE_RATIO = 8.0
 """Length of a triangle over the median longest edge above which it is halved; it would enlarge its leaf."""
-SPARE = 4096
+SPARE_HALVES = 4096
 """Most halves of a few long triangles; with many triangles the limit is half their number."""
 _SPREAD = (
     (32, 0x1F00000000FFFF),
@@ -70,7 +70,7 @@ def surface_of(triangles: Array) -> Surface:
     order = np.argsort(_morton(small.triangles.mean(axis=1)), kind="stable")
     laid, source = small.triangles[order], small.source[order]
     low, high = [_grouped(lowest(laid), np.minimum)], [_grouped(highest(laid), np.maximum)]
-    while len(low[-1]) > TOP:
+    while len(low[-1]) > TOP_NODES:
         low.append(_grouped(low[-1], np.minimum))
         high.append(_grouped(high[-1], np.maximum))
     for array in (laid, source, *low, *high):
@@ -84,8 +84,8 @@ def _without_long(triangles: Array) -> Halved:
     """
     sides = triangles[:, [1, 2, 0]] - triangles
     edges = np.sqrt(dot(sides, sides).max(axis=1))
-    limit = max(LONG * float(np.median(edges)), LONG * 1e-3 * float(edges.max()), 1e-9)
-    while ((edges[edges > limit] / limit) ** 2).sum() > max(0.5 * len(edges), SPARE):
+    limit = max(LONG_EDGE_RATIO * float(np.median(edges)), LONG_EDGE_RATIO * 1e-3 * float(edges.max()), 1e-9)
+    while ((edges[edges > limit] / limit) ** 2).sum() > max(0.5 * len(edges), SPARE_HALVES):
         limit *= 2.0
     if not (edges > limit).any():
         return Halved(triangles.copy(), np.arange(len(triangles)))
@@ -104,7 +104,7 @@ def _morton(points: Array) -> Array:
 
 
 def _grouped(boxes: Array, extreme: np.ufunc) -> Array:
-    return np.asarray(extreme.reduceat(boxes, np.arange(0, len(boxes), FAN), axis=0))
+    return np.asarray(extreme.reduceat(boxes, np.arange(0, len(boxes), LEAF_TRIANGLES), axis=0))
 
 
 class TooMany(Exception):
@@ -150,10 +150,10 @@ def search(surface: Surface, count: int, meets: Meets, most: int | None = None) 
     for level in range(len(surface.low) - 1, -1, -1):
         keep = meets(item, surface.low[level][node], surface.high[level][node])
         item, node = item[keep], node[keep]
-        if most is not None and FAN * len(item) > most:
+        if most is not None and LEAF_TRIANGLES * len(item) > most:
             raise TooMany
-        item = np.repeat(item, FAN)
-        node = (FAN * node[:, None] + np.arange(FAN)).ravel()
+        item = np.repeat(item, LEAF_TRIANGLES)
+        node = (LEAF_TRIANGLES * node[:, None] + np.arange(LEAF_TRIANGLES)).ravel()
         inside = node < (below[level - 1] if level else len(surface))
         item, node = item[inside], node[inside]
     corners = surface.triangles[node]
@@ -175,14 +175,14 @@ def under_points(surface: Surface, xy: Array) -> Pairs:
 
     Consecutive points share a search if they are near each other, as on a path.
     """
-    starts = np.arange(0, len(xy), TOGETHER)
+    starts = np.arange(0, len(xy), GROUPED_POINTS)
     if len(starts) < 2:
         return in_plan(surface, xy, xy)
     low, high = (extreme.reduceat(xy, starts, axis=0) for extreme in (np.minimum, np.maximum))
     if (high - low).mean() > (surface.high[0] - surface.low[0])[:, :2].mean():
         return in_plan(surface, xy, xy)
     found = in_plan(surface, low, high)
-    point = starts[found.item][:, None] + np.arange(TOGETHER)
+    point = starts[found.item][:, None] + np.arange(GROUPED_POINTS)
     inside = point < len(xy)
     item, triangle = point[inside], np.repeat(found.triangle, inside.sum(axis=1))
     corners = surface.triangles[triangle]

@@ -21,8 +21,8 @@ from shotc.geom.vec import Vec3
 
 MOST_CELLS = 2_000_000
 """Most cells of the grid in the mission's box: twice as many triangles, half a gigabyte."""
-_ALONG = 33  # samples on each side of a box that are transformed to the system of the file
-_SPARE = 2  # posts beyond the box on each side; sides of boxes bulge in other systems by far less
+_SIDE_SAMPLES = 33  # samples on each side of a box that are transformed to the system of the file
+_MARGIN_POSTS = 2  # posts beyond the box on each side; sides of boxes bulge in other systems by far less
 
 
 class PlanRectangle(NamedTuple):
@@ -103,11 +103,11 @@ def _sides(
     posts: Posts, box: PlanRectangle, system: System | None, origin: Vec3 | None
 ) -> tuple[Array, Array]:
     """Return points on the sides of a box, x (N,) and y (N,), in the system of the posts."""
-    share = np.linspace(0.0, 1.0, _ALONG)
+    share = np.linspace(0.0, 1.0, _SIDE_SAMPLES)
     (x0, y0), (x1, y1) = box
     across, up = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
-    x = np.concatenate([across, across, np.full(_ALONG, x0), np.full(_ALONG, x1)])
-    y = np.concatenate([np.full(_ALONG, y0), np.full(_ALONG, y1), up, up])
+    x = np.concatenate([across, across, np.full(_SIDE_SAMPLES, x0), np.full(_SIDE_SAMPLES, x1)])
+    y = np.concatenate([np.full(_SIDE_SAMPLES, y0), np.full(_SIDE_SAMPLES, y1), up, up])
     if system is None or origin is None:
         return x, y
     places = of_world(np.column_stack([x, y, np.zeros(len(x))]), origin)
@@ -122,8 +122,8 @@ def _about(values: Array, wanted: Array) -> slice | None:
     low, high = float(wanted.min()), float(wanted.max())
     if high < values[0] or low > values[-1]:
         return None
-    first = int(np.searchsorted(values, low, side="right")) - 1 - _SPARE
-    last = int(np.searchsorted(values, high, side="left")) + 1 + _SPARE
+    first = int(np.searchsorted(values, low, side="right")) - 1 - _MARGIN_POSTS
+    last = int(np.searchsorted(values, high, side="left")) + 1 + _MARGIN_POSTS
     return slice(max(first, 0), min(last, len(values)))
 
 

@@ -41,7 +41,7 @@ NAMES = {
     "sensor": ("sensor", "sensor_width", "sensor_mm"),
 }
 """Accepted names of the columns. Names of angles may end in ``_deg`` or ``_rad``."""
-LEVEL_AXIS = 1e-6
+LEVEL_AXIS_SHARE = 1e-6
 """Least horizontal part of the view direction. Below it, the camera's up axis gives the heading."""
 
 
@@ -135,7 +135,9 @@ def _camera(
     forward, up, right = axes
     pitch = degrees(asin(max(-1.0, min(1.0, forward[2]))))
     flat = (
-        forward if hypot(forward[0], forward[1]) > LEVEL_AXIS else _times(up, -1.0 if forward[2] > 0 else 1.0)
+        forward
+        if hypot(forward[0], forward[1]) > LEVEL_AXIS_SHARE
+        else _times(up, -1.0 if forward[2] > 0 else 1.0)
     )
     level(row.node, degrees(asin(max(-1.0, min(1.0, right[2])))), notes)
     heading = degrees(atan2(flat[0], flat[1])) % 360.0

@@ -32,7 +32,7 @@ from shotc.importers.cameras.takes import (
     Take,
 )
 from shotc.importers.notes import Notes, plain
-from shotc.importers.xml_tree import LARGEST, Node, XmlFault
+from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault
 from shotc.ir.mission import GeoOrigin
 
 OVER_GROUND_M = 10.0
@@ -67,7 +67,7 @@ def unpacked(data: bytes) -> bytes | XmlFault:
     """Return the KML in a file: the first document of a KMZ, or the bytes themselves."""
     if not data.startswith(MAGIC):
         return data
-    found = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST)
+    found = member(data, lambda name: name.lower().endswith(".kml"), "a KML document", LARGEST_BYTES)
     return XmlFault(found) if isinstance(found, str) else found
 
 

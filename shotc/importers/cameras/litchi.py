@@ -25,7 +25,7 @@ EXAMPLE = "latitude,longitude,altitude(m),heading(deg),...,gimbalmode,gimbalpitc
 FOOT_M = 0.3048
 ACTIONS = range(1, 16)
 STAY, START, STOP, TILT = 0, 2, 3, 5
-FOCUS = 1
+FOCUS_GIMBAL_MODE = 1
 """Gimbal mode in which the camera follows the point of interest."""
 
 
@@ -95,7 +95,7 @@ def _cameras(
             notes.assume(row.node, "a waypoint without a heading", "0 deg, North")
         hold = sum(value for kind, value in actions_of(row, notes) if kind == STAY) / 1000.0
         focus = _focus(row, origin, notes, feet=feet)
-        if focus is None or mode != FOCUS:
+        if focus is None or mode != FOCUS_GIMBAL_MODE:
             reach = reached(row.cells.get("gimbalpitchangle", row.node), pitch, notes)
             yield ImportedCamera(row.node, at, (heading or 0.0) % 360.0, reach, hold=max(0.0, hold))
         else:

@@ -9,16 +9,16 @@ from math import degrees, dist, hypot, sqrt
 from shotc.importers.cameras.takes import ImportedCamera
 from shotc.importers.cameras.thin import unwound
 from shotc.ir.limits import Limits
-from shotc.spec.presets import ZOOM_RATE
+from shotc.spec.presets import ZOOM_RATE_RAD_S
 
-SHARE = 0.75
+PACE_SHARE = 0.75
 """Largest share of the available time that the fastest flight of a take may need."""
 
 
 def too_fast(cameras: Sequence[ImportedCamera], limits: Limits) -> ImportedCamera | None:
     """Return the first camera from which a drone is late at the next one, None if it is always in time."""
     for camera, lasts, least in (*_turns(unwound(cameras), limits), *_stretches(cameras, limits)):
-        if least > SHARE * lasts:
+        if least > PACE_SHARE * lasts:
             return camera
     return None
 
@@ -32,7 +32,7 @@ def _turns(
         across = dist(a.at[:2], b.at[:2]) / limits.speed
         upright = up / limits.climb if up > 0 else -up / limits.descent
         turn = abs(b.heading - a.heading) / degrees(limits.yaw_rate)
-        zoom = abs((b.hfov or 0.0) - (a.hfov or 0.0)) / degrees(ZOOM_RATE)
+        zoom = abs((b.hfov or 0.0) - (a.hfov or 0.0)) / degrees(ZOOM_RATE_RAD_S)
         yield a, (b.time or 0.0) - (a.time or 0.0) - a.hold, max(across, upright, turn, zoom)
 
 

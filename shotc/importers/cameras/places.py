@@ -18,7 +18,7 @@ FAR_M = 20_000.0
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees, of the gimbal of the drone in the mission
 NARROWEST_DEG, WIDEST_DEG = 1.01, 169.9
 """Fields of view just inside the range of the language, because focal lengths are rounded."""
-LARGEST_NUMBER = 1e9
+LARGEST_COORDINATE_M = 1e9
 ROLLED_DEG = 0.5
 """Largest roll that is not visible, degrees."""
 
@@ -90,4 +90,4 @@ def number(text: str) -> float | None:
         value = float(text)
     except ValueError:
         return None
-    return value if abs(value) < LARGEST_NUMBER and "_" not in text else None
+    return value if abs(value) < LARGEST_COORDINATE_M and "_" not in text else None

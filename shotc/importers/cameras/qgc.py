@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from shotc.geom.focal import field_of_view
 from shotc.geom.vec import Vec3
 from shotc.importers.cameras.places import (
-    LARGEST_NUMBER,
+    LARGEST_COORDINATE_M,
     aim,
     is_place,
     origin_at,
@@ -47,13 +47,13 @@ _TAKING = (START, STOP, PHOTOS_BY_WAY, MODE, ZOOM, FOCUS, PHOTOS, NO_PHOTOS)
 QUIET = frozenset((20, 21, 22, 1001, 115, *_AIMING, *_TAKING))
 """Commands that need no note: they are read, or every plan has them (take-off, landing, return, control of
 the gimbal, mode and focus of the camera)."""
-FOCAL_LENGTH = 3
+FOCAL_LENGTH_ZOOM_TYPE = 3
 """Zoom type of command 531 that means a focal length in mm."""
 SEA_LEVEL, HOME_LEVEL, TERRAIN = (0, 5), (3, 6), (10, 11)
 """MAVLink frames by the reference of their heights."""
-YAW_LOCK = 16
+YAW_LOCK_FLAG = 16
 """Flag of command 1000: yaw is relative to North, not to the body."""
-PARAMETERS = 7
+PARAMETER_COUNT = 7
 LARGEST_FOCAL_MM = 2000.0
 
 
@@ -145,9 +145,9 @@ def footage(data: bytes, name: str, asked: ImportOptions, notes: Notes) -> Impor
 def _assumed(items: Sequence[CameraCommand], notes: Notes) -> None:
     """Note the assumptions about camera commands, once each."""
     zooms = [item for item in items if item.command == ZOOM]
-    for item in [item for item in zooms if item.params[0] == FOCAL_LENGTH][:1]:
+    for item in [item for item in zooms if item.params[0] == FOCAL_LENGTH_ZOOM_TYPE][:1]:
         notes.assume(item.node, "a focal length without the sensor's width", "a frame 36 mm wide")
-    for item in [item for item in zooms if item.params[0] != FOCAL_LENGTH][:1]:
+    for item in [item for item in zooms if item.params[0] != FOCAL_LENGTH_ZOOM_TYPE][:1]:
         notes.assume(item.node, "a zoom that is no focal length", "the lens stays as it is")
     for item in [item for item in items if item.command in (PHOTOS, PHOTOS_BY_WAY)][:1]:
         notes.assume(item.node, "photos are taken", "a film of the same way")
@@ -163,8 +163,8 @@ def _items(document: Document, listed: Sequence[Any], notes: Notes) -> Iterator[
             what = f"a `{plain(kind, 30)}`" if isinstance(kind, str) else "no simple item"
             notes.assume(node, f"item {i + 1} is {what}", "it is left out")
             continue
-        numbers = [number_of(value) for value in params[:PARAMETERS]]
-        numbers += [None] * (PARAMETERS - len(numbers))
+        numbers = [number_of(value) for value in params[:PARAMETER_COUNT]]
+        numbers += [None] * (PARAMETER_COUNT - len(numbers))
         frame = item.get("frame")
         made = CameraCommand(
             node, command, frame if isinstance(frame, int) else HOME_LEVEL[0], tuple(numbers)
@@ -261,8 +261,8 @@ def _told(item: CameraCommand, looks: _Aim, origin: GeoOrigin) -> None:
         looks.place = None
     elif item.command == GIMBAL and p[0] is not None:
         looks.pitch, looks.yaw, looks.place = p[0], p[1] or 0.0, None
-        looks.locked = bool(int(p[4] or 0.0) & YAW_LOCK)
-    elif item.command == ZOOM and p[0] == FOCAL_LENGTH and 0 < (p[1] or 0.0) < LARGEST_FOCAL_MM:
+        looks.locked = bool(int(p[4] or 0.0) & YAW_LOCK_FLAG)
+    elif item.command == ZOOM and p[0] == FOCAL_LENGTH_ZOOM_TYPE and 0 < (p[1] or 0.0) < LARGEST_FOCAL_MM:
         looks.hfov = shown(degrees(field_of_view((p[1] or 0.0) / 1e3)))
     elif item.command == MOUNT and p[0] is not None:
         looks.pitch, looks.yaw, looks.locked, looks.place = p[0], p[2] or 0.0, False, None
@@ -284,7 +284,7 @@ def number_of(value: Any) -> float | None:
     """Return a JSON number, None for any other value."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
-    return float(value) if abs(value) < LARGEST_NUMBER else None
+    return float(value) if abs(value) < LARGEST_COORDINATE_M else None
 
 
 def node_at(document: Document, *path: str | int) -> Node:

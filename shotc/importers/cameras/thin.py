@@ -1,7 +1,7 @@
 """Remove cameras whose picture hardly differs from the one interpolated between their neighbours.
 
 A camera is removed if the camera interpolated linearly between its neighbours shows the corners and the
-centre of its frame within ``PICTURE`` half frames of the original. The filmed objects are assumed at a
+centre of its frame within ``PICTURE_ERROR_HALF_FRAMES`` of the original. The filmed objects are assumed at a
 distance equal to the camera's height above ground, but at least ``NEAREST_M``.
 """
 
@@ -15,14 +15,14 @@ from typing import NamedTuple
 from shotc.geom.vec import Vec3
 from shotc.importers.cameras.takes import ImportedCamera
 
-PICTURE = 0.01
+PICTURE_ERROR_HALF_FRAMES = 0.01
 """Largest error of the picture, half frames."""
 NEAREST_M = 5.0
 ASPECT = 16 / 9
 """Width over height of the frame."""
 WIDEST_TURN_DEG = 120.0
 """Largest turn between remaining neighbours. The direction of a half turn would be ambiguous."""
-MOST_APART = 200
+MOST_CAMERAS_APART = 200
 """Most cameras from one that remains to the next. It bounds the run time for any file."""
 CORNERS = ((0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
 
@@ -50,12 +50,12 @@ def thinned(
     lens = [camera._replace(hfov=camera.hfov or usual_hfov) for camera in unwound(cameras)]
     way = _way(lens, on_clock=on_clock)
     needed = (i for i, camera in enumerate(lens) if camera.hold > 0 or camera.look_at)
-    kept = {*range(0, len(lens), MOST_APART), len(lens) - 1, *needed}
+    kept = {*range(0, len(lens), MOST_CAMERAS_APART), len(lens) - 1, *needed}
     spans = list(pairwise(sorted(kept)))
     while spans:
         first, last = spans.pop()
         worst, at = _worst(lens, way, first, last)
-        if worst > PICTURE:
+        if worst > PICTURE_ERROR_HALF_FRAMES:
             kept.add(at)
             spans += [(first, at), (at, last)]
     return tuple(cameras[i] for i in sorted(kept))

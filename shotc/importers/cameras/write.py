@@ -9,7 +9,7 @@ from typing import NamedTuple
 from shotc.geom.focal import focal_length
 from shotc.importers.cameras.pace import too_fast
 from shotc.importers.cameras.takes import ImportedCamera, ImportedTakes, ImportOptions, Take
-from shotc.importers.cameras.thin import PICTURE, thinned
+from shotc.importers.cameras.thin import PICTURE_ERROR_HALF_FRAMES, thinned
 from shotc.importers.names import safe
 from shotc.importers.notes import Notes
 from shotc.spec.presets import PRESETS
@@ -60,7 +60,10 @@ def written(
     head = [f"# Imported from {what}."]
     if counts[1] < counts[0]:
         kept_of = f"{counts[1]} of {counts[0]} cameras"
-        head.append(f"# {kept_of}: between them the picture is within {PICTURE:g} half frames of the file's.")
+        head.append(
+            f"# {kept_of}: between them the picture is within {PICTURE_ERROR_HALF_FRAMES:g} half frames "
+            "of the file's."
+        )
     said = {f"# {note.comment}": None for note in notes.found}
     body = ["shotc: 1", f"mission: {safe(name)}", *_world(footage), "drones:", *drone, "shots:", *shots]
     return Written("\n".join([*head, *said, *body, ""]), len(kept), counts[1], counts[0])

@@ -32,7 +32,7 @@ from shotc.importers.xml_tree import Node
 
 WAYPOINT, RETURN, LAND, TAKEOFF, LOITER_TIME, SPLINE, DELAY = 16, 20, 21, 22, 19, 82, 93
 SPEED, GIMBAL, MOUNT = 178, 1000, 205
-LAST_NAV = 95
+LAST_NAVIGATION_COMMAND = 95
 """Commands up to this number move the drone."""
 ASTRAY = {
     17: "circles without end",
@@ -43,7 +43,7 @@ ASTRAY = {
 LEVELS: dict[int, Level] = {0: "sea", 5: "sea", 3: "home", 6: "home"}
 PX4, ARDUPILOT = 12, 3
 HEADER = "QGC WPL 110"
-PARAMETERS = 7
+PARAMETER_COUNT = 7
 CLIMB, DESCENT = 2, 3
 
 
@@ -126,8 +126,8 @@ def _simple(item: Any, name: str, node: Node) -> FlightCommand:
         what = f"a `{plain(kind, 30)}`" if isinstance(kind, str) else "no simple item"
         message = f"{name} is {what}: it has no `command`, `frame` and `params`"
         refuse(BROKEN, message, node, "save the plan with its items laid out")
-    numbers = [number_of(value) for value in params[:PARAMETERS]]
-    return FlightCommand(node, name, command, frame, (*numbers, *[None] * (PARAMETERS - len(numbers))))
+    numbers = [number_of(value) for value in params[:PARAMETER_COUNT]]
+    return FlightCommand(node, name, command, frame, (*numbers, *[None] * (PARAMETER_COUNT - len(numbers))))
 
 
 def _flown(whole: Node, items: Sequence[FlightCommand], autopilot: Literal["px4", "ardupilot"]) -> Waypoints:
@@ -167,7 +167,7 @@ def _take(run: _Run, item: FlightCommand) -> None:
 def _do(run: _Run, item: FlightCommand) -> None:
     """Apply an item that is not a place to fly to."""
     command, p = item.command, item.params
-    if command in ASTRAY or command <= LAST_NAV:
+    if command in ASTRAY or command <= LAST_NAVIGATION_COMMAND:
         what = ASTRAY.get(command, "a way that no model here has")
         refuse(BROKEN, f"{item.name} is command {command}, {what}, which is not judged", item.node)
     if command == SPEED:

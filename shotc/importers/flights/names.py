@@ -2,13 +2,13 @@
 
 from pathlib import PurePath
 
-from shotc.importers.xml_tree import LARGEST
+from shotc.importers.xml_tree import LARGEST_BYTES
 
 WAYPOINTS = (".plan", ".waypoints", ".kmz", ".wpml", ".kml")
 TABLE, SHOW, TABLES = ".csv", ".skyc", ".zip"
 SUFFIXES = (*WAYPOINTS, TABLE, SHOW, TABLES)
 """File name extensions of flights, in lower case."""
-LARGEST_CLOCKED = 200_000_000
+LARGEST_CLOCKED_BYTES = 200_000_000
 """Largest size of a table, a show or an archive of tables, bytes. Waypoints have the size of other
 importers."""
 
@@ -25,4 +25,4 @@ def is_flight(name: str) -> bool:
 
 def largest(name: str) -> int:
     """Return the largest size of a file with this name, bytes."""
-    return LARGEST if suffix_of(name) in WAYPOINTS else LARGEST_CLOCKED
+    return LARGEST_BYTES if suffix_of(name) in WAYPOINTS else LARGEST_CLOCKED_BYTES

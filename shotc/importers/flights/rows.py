@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.importers.cameras.places import LARGEST_NUMBER, number
+from shotc.importers.cameras.places import LARGEST_COORDINATE_M, number
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.notes import plain
 from shotc.importers.xml_tree import Node
@@ -151,7 +151,7 @@ def numbers_of(body: Sequence[str], lines: Sequence[int], columns: Sequence[int]
         values = np.loadtxt(body, delimiter=",", usecols=columns, comments=None, ndmin=2)
     except (ValueError, IndexError):
         values = None
-    if values is not None and (np.abs(values) < LARGEST_NUMBER).all():
+    if values is not None and (np.abs(values) < LARGEST_COORDINATE_M).all():
         return values
     for line, text in zip(lines, body, strict=True):
         for k in columns:

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from shotc.geom.geodetic import to_world
 from shotc.importers.archive import Archive
-from shotc.importers.cameras.places import LARGEST_NUMBER, is_place
+from shotc.importers.cameras.places import LARGEST_COORDINATE_M, is_place
 from shotc.importers.flights.light_program import KeyedLight, keyed
-from shotc.importers.flights.names import LARGEST_CLOCKED
+from shotc.importers.flights.names import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, refuse
 from shotc.importers.flights.rows import LONGEST_S
 from shotc.importers.notes import plain
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 SHOW = "show.json"
 WHOLE = Node("", 1, 1, wide=1)
 MOST_DRONES, MOST_POINTS = 20_000, 20_000
-MOST_UNPACKED = 5 * LARGEST_CLOCKED
+MOST_UNPACKED_BYTES = 5 * LARGEST_CLOCKED_BYTES
 """Largest size of all parts of a show together, bytes."""
 SHORTEST_S = 1e-3
 DEGREE = 3
@@ -86,7 +86,7 @@ def shift(origin: tuple[float, float, float | None] | None, world: GeoOrigin | N
 
 def show(data: bytes, *, lit: bool = False) -> SkycShow:
     """Return the flights of a show, with their lights if ``lit``."""
-    archive = Archive(data, LARGEST_CLOCKED, MOST_UNPACKED)
+    archive = Archive(data, LARGEST_CLOCKED_BYTES, MOST_UNPACKED_BYTES)
     content = _part(archive, SHOW)
     if not isinstance(content, dict) or content.get("version") != 1:
         said = plain(str(content.get("version")), 20) if isinstance(content, dict) else "none"
@@ -234,7 +234,9 @@ def _turned(points: Array, turn: float) -> Array:
 
 
 def _is_number(value: Any) -> bool:
-    return not isinstance(value, bool) and isinstance(value, int | float) and abs(value) < LARGEST_NUMBER
+    return (
+        not isinstance(value, bool) and isinstance(value, int | float) and abs(value) < LARGEST_COORDINATE_M
+    )
 
 
 def _is_place(value: Any) -> bool:

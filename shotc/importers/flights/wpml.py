@@ -25,7 +25,7 @@ from shotc.importers.flights.points import (
     refuse,
 )
 from shotc.importers.notes import plain
-from shotc.importers.xml_tree import LARGEST, Node, XmlFault, parse_xml
+from shotc.importers.xml_tree import LARGEST_BYTES, Node, XmlFault, parse_xml
 
 WAYLINES = "wpmz/waylines.wpml"
 NAMESPACE = re.compile(r"http://www\.(uav|dji)\.com/wpmz/1\.0\.[0-6]")
@@ -45,7 +45,7 @@ def text_of(data: bytes) -> bytes:
     """Return the XML of a file; for a ``.kmz``, that of its waylines."""
     if not data.startswith(MAGIC):
         return data
-    found = member(data, lambda name: name.lower().endswith(".wpml"), f"`{WAYLINES}`", LARGEST)
+    found = member(data, lambda name: name.lower().endswith(".wpml"), f"`{WAYLINES}`", LARGEST_BYTES)
     if isinstance(found, str):
         refuse(UNREADABLE, found, Node("", 1, 1, wide=1))
     return found

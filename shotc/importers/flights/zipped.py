@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from shotc.importers.archive import members
 from shotc.importers.cameras.places import number
 from shotc.importers.cameras.takes import Refused
-from shotc.importers.flights.names import LARGEST_CLOCKED
+from shotc.importers.flights.names import LARGEST_CLOCKED_BYTES
 from shotc.importers.flights.points import BROKEN, FOREIGN, UNREADABLE, Unread, refuse
 from shotc.importers.flights.rows import MOST_ROWS, PLACE, DroneRows, check_order, numbers_of
 from shotc.importers.notes import plain
@@ -25,7 +25,7 @@ HEADS = ("time_msec", "time [msec]")
 """Start of the optional header line, in lower case."""
 EXAMPLE = "Time [msec],x [m],y [m],z [m],Red,Green,Blue"
 COLORS = ("red", "green", "blue")
-BRIGHTEST = 255
+BRIGHTEST_LEVEL = 255
 EARLY_S, LANDED_M = 1.0, 0.5
 """A table that ends more than EARLY_S seconds before the longest one must end on the ground: at most LANDED_M
 metres above its start."""
@@ -51,7 +51,7 @@ def tables(data: bytes) -> tuple[DroneRows, ...]:
     """Return the rows of each drone, in the order of the tables in the archive."""
     found: dict[str, DroneRows] = {}
     left = MOST_ROWS
-    for member in members(data, _is_table, LARGEST_CLOCKED):
+    for member in members(data, _is_table, LARGEST_CLOCKED_BYTES):
         if isinstance(member, str):
             refuse(UNREADABLE, member, WHOLE)
         if len(found) == MOST_DRONES:
@@ -124,10 +124,12 @@ def _cells(line: str) -> list[str]:
 
 def _check_colors(rows: DroneRows, colors: NDArray[np.float64]) -> None:
     """Refuse colours that are not integers from 0 to 255."""
-    wrong = (colors < 0) | (colors > BRIGHTEST) | (colors != np.round(colors))
+    wrong = (colors < 0) | (colors > BRIGHTEST_LEVEL) | (colors != np.round(colors))
     if wrong.any():
         i, k = (int(index[0]) for index in np.nonzero(wrong))
-        message = f"{COLORS[k]} is {colors[i, k]:g}, and a light is a whole number from 0 to {BRIGHTEST}"
+        message = (
+            f"{COLORS[k]} is {colors[i, k]:g}, and a light is a whole number from 0 to {BRIGHTEST_LEVEL}"
+        )
         refuse(BROKEN, message, rows.node(i))
 
 

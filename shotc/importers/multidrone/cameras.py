@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import Place, written
 from shotc.importers.multidrone.read import Role
-from shotc.importers.multidrone.task import NEAREST, Made, RoleTask, Said
+from shotc.importers.multidrone.task import NEAREST_M, Made, RoleTask, Said
 
-BESIDE = 8.0  # metres to the East of its target, for a camera that would stand at the target's place
-LEAST = 0.1  # least travel of an elevator, metres
-LEVEL = 90.0  # degrees, tilt of a camera that looks at the horizon
-MOST_PAN = 720.0  # degrees
+BESIDE_M = 8.0  # metres to the East of its target, for a camera that would stand at the target's place
+LEAST_RISE_M = 0.1  # least travel of an elevator, metres
+LEVEL_TILT_DEG = 90.0  # degrees, tilt of a camera that looks at the horizon
+MOST_PAN_DEG = 720.0  # degrees
 LOWEST_PITCH, HIGHEST_PITCH = -90.0, 30.0  # degrees
 
 
@@ -22,7 +22,7 @@ def elevator(task: RoleTask) -> Made:
     low, one = task.altitude("z_s")
     high, two = task.altitude("z_e")
     place, (lower, upper), said = _stand(task, low, high)
-    if abs(high - low) < LEAST:
+    if abs(high - low) < LEAST_RISE_M:
         kept = task.assume("an elevator that neither rises nor sinks", "a still camera")
         params = f"at: {lower}, look_at: {task.target}"
         return Made("static", params, ((*place, low),) * 3, (*one, *two, *said, kept))
@@ -78,12 +78,12 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
     poses : places with the course there, rad; pan angles are relative to the course
     """
     params = task.role.params
-    pans, tilts = (_ends(params, "pan", 0.0), _ends(params, "tilt", LEVEL))
+    pans, tilts = (_ends(params, "pan", 0.0), _ends(params, "tilt", LEVEL_TILT_DEG))
     node = task.role.node.first("targetIdentifierParams") or task.role.node
     message = "pan and tilt in degrees without a frame"
     taken = "pan counter-clockwise from the way, tilt from straight down: 90 is level"
     said: Said = (task.notes.assume(node, message, taken),)
-    if max(map(abs, pans)) > MOST_PAN:
+    if max(map(abs, pans)) > MOST_PAN_DEG:
         message = f"a pan of {pans[0]:g} to {pans[1]:g} deg is none that can be meant"
         said = (*said, task.notes.assume(node, message, "the camera keeps to the way"))
         pans = (0.0, 0.0)
@@ -95,9 +95,9 @@ def _panned(task: RoleTask, poses: list[tuple[str, float]]) -> tuple[str, Said]:
         if last is not None and not _sweeps(pans):
             heading += 360.0 * round((last - heading) / 360.0)
         last = heading
-        pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL))
+        pitch = max(LOWEST_PITCH, min(HIGHEST_PITCH, tilt - LEVEL_TILT_DEG))
         rows.append(f"{{at: {at}, heading: {heading:.1f} deg, pitch: {pitch:g} deg}}")
-    if not LOWEST_PITCH + LEVEL <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL:
+    if not LOWEST_PITCH + LEVEL_TILT_DEG <= min(tilts) <= max(tilts) <= HIGHEST_PITCH + LEVEL_TILT_DEG:
         shown = f"{min(tilts):g} to {max(tilts):g} deg"
         said = (
             *said,
@@ -139,13 +139,13 @@ def _stand(task: RoleTask, *altitudes: float) -> _Stand:
     origin = task.action.origin
     if origin is not None:
         place = task.frame.place(origin)
-        if hypot(place[0] - x, place[1] - y) >= NEAREST:
+        if hypot(place[0] - x, place[1] - y) >= NEAREST_M:
             return _Stand(place, [task.frame.written(origin, z) for z in altitudes], ())
     message = "the camera would stand where its target begins"
     said = task.notes.assume(
         task.action.node.first("originOfFormation") or task.action.node,
         message,
-        f"{BESIDE:g} m to the East of there",
+        f"{BESIDE_M:g} m to the East of there",
     )
-    place = (x + BESIDE, y)
+    place = (x + BESIDE_M, y)
     return _Stand(place, [written(place, z) for z in altitudes], (said,))

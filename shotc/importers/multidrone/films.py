@@ -8,7 +8,15 @@ from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import CoordinateFrame
 from shotc.importers.multidrone.read import Sequence, ShootingAction
-from shotc.importers.multidrone.targets import LEAD, NEAR, SAME, GroundTrack, courses_of, gap, route_of
+from shotc.importers.multidrone.targets import (
+    LEAD_S,
+    SAME_POINT_M,
+    SAME_TARGET_M,
+    GroundTrack,
+    courses_of,
+    gap,
+    route_of,
+)
 from shotc.importers.notes import Notes, plain
 from shotc.rounding import at_least
 
@@ -47,7 +55,7 @@ def films_of(sequences: Rows[Sequence], frame: CoordinateFrame, notes: Notes) ->
     targets: list[_Target] = []
     first = 1
     for number, sequence in enumerate(sequences, 1):
-        clock = LEAD
+        clock = LEAD_S
         courses = courses_of(sequence, frame, notes)
         for k, (action, known) in enumerate(zip(sequence.actions, courses, strict=True), 1):
             start, clock = clock, clock + action.duration
@@ -72,8 +80,8 @@ def _name(
     node = action.node.first("RTTrajectory") or action.node
     for known in targets:
         apart = gap(known.course, course)
-        if apart < NEAR and (known.identity == identity or None in (known.identity, identity)):
-            if apart < SAME:
+        if apart < SAME_TARGET_M and (known.identity == identity or None in (known.identity, identity)):
+            if apart < SAME_POINT_M:
                 return known.name, ()
             message = f"the way of one target is told again, and up to {at_least(apart, 1)} m beside"
             return known.name, (notes.assume(node, message, f"{known.name}, as it was told first"),)

@@ -15,10 +15,10 @@ from shotc.rounding import plain
 
 Place = tuple[float, float]
 
-AGREES = 15.0  # metres, largest distance at which a map and the points agree
-FARTHEST = 10_000.0  # metres, largest plausible distance of a point from most others
-AWAY = 30.0  # metres, a larger distance between a map and the points is noted
-DEGREE = 111_320.0  # metres of a degree of latitude, roughly
+AGREES_M = 15.0  # metres, largest distance at which a map and the points agree
+FARTHEST_M = 10_000.0  # metres, largest plausible distance of a point from most others
+AWAY_M = 30.0  # metres, a larger distance between a map and the points is noted
+DEGREE_M = 111_320.0  # metres of a degree of latitude, roughly
 
 
 class CoordinateFrame(NamedTuple):
@@ -56,7 +56,7 @@ def without_far(sequences: Rows[Sequence], notes: Notes) -> list[Sequence]:
         middle = (median(p.at[0] for p in group), median(p.at[1] for p in group))
         for point in group:
             off = hypot(*_world(point.at, middle)) if point.on_earth else dist(point.at, middle)
-            if off > FARTHEST:
+            if off > FARTHEST_M:
                 message = f"a point that is {off / 1000:.0f} km from most others"
                 notes.assume(point.node, message, "the point is left out")
                 far.add(id(point))
@@ -110,7 +110,7 @@ def _elsewhere(actions: Rows[ShootingAction], notes: Notes) -> tuple[str, ...]:
             continue
         first = action.points[0].at
         off = min(dist((0.0, 0.0), _world(p, first)) for p in found.points)
-        if off > AWAY:
+        if off > AWAY_M:
             message = f"the map (KML) in the description begins {off:.0f} m from the trajectory"
             said.append(notes.assume(found.node, message, "the points of the trajectory hold"))
     return tuple(said)
@@ -124,14 +124,14 @@ def _anchor(action: ShootingAction) -> Place | None:
     pairs = list(zip(action.points, found.points, strict=True))
     known = [(p.at, on_map) for p, on_map in pairs if p.on_earth]
     local = [(p.at, on_map) for p, on_map in pairs if not p.on_earth]
-    if not known or not local or any(dist((0, 0), _world(a, b)) > AGREES for a, b in known):
+    if not known or not local or any(dist((0, 0), _world(a, b)) > AGREES_M for a, b in known):
         return None
     at, place = local[0]
     lat, lon = place
     for _ in range(4):  # Newton iterations; the map is nearly linear
         x, y = _world(place, (lat, lon))
-        lat += (y - at[1]) / DEGREE
-        lon += (x - at[0]) / (DEGREE * max(cos(radians(lat)), 0.01))
+        lat += (y - at[1]) / DEGREE_M
+        lon += (x - at[0]) / (DEGREE_M * max(cos(radians(lat)), 0.01))
     return (lat, lon) if abs(lat) <= 90 and abs(lon) <= 180 else None
 
 

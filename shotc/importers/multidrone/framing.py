@@ -11,7 +11,7 @@ from shotc.importers.notes import Notes, plain
 
 THIRDS = "RULE_OF_THIRDS"
 CENTRED = frozenset(("", "CENTRAL", "CENTER", "CENTERED", "CENTRED"))
-ASIDE = 0.25  # least sine of the angle between view and motion at which the motion counts as sideways
+ASIDE_SINE = 0.25  # least sine of the angle between view and motion at which the motion counts as sideways
 
 # The dashboard's names of framings, and the nearest size of shotc; None if the name implies no size.
 SIZES: dict[str, str | None] = {
@@ -78,7 +78,7 @@ def _third(course: GroundTrack, camera: Place, t: float) -> tuple[str, str]:
     x, y = course.at(t)
     view, way = (x - camera[0], y - camera[1]), course.heading(t)
     across = (view[0] * sin(way) - view[1] * cos(way)) / max(hypot(*view), 1e-6)
-    if abs(across) < ASIDE:
+    if abs(across) < ASIDE_SINE:
         return "lower-third", "for the target moves along the view, and its way lies above it"
     if across > 0:
         return "right-third", "with the room on the left, where the target moves to"

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from shotc.importers.multidrone.read import ShootingAction, below
 from shotc.importers.xml_tree import Node, XmlFault, parse_xml
 
-MOST = 1000  # most coordinates of a line
+MOST_COORDINATES = 1000  # most coordinates of a line
 
 
 class MapLine(NamedTuple):
@@ -40,7 +40,7 @@ def _line(text: str) -> tuple[tuple[float, float], ...]:
     if isinstance(root, XmlFault):
         return ()
     for line in below(root, "LineString"):
-        words = line.value("coordinates").split()[:MOST]
+        words = line.value("coordinates").split()[:MOST_COORDINATES]
         points = [_place(word) for word in words]
         if points and all(points):
             return tuple(p for p in points if p is not None)

@@ -9,9 +9,11 @@ from typing import Any, NamedTuple
 from shotc.importers.notes import Notes, plain
 from shotc.importers.xml_tree import Node
 
-LARGEST = 5e4  # metres or seconds, larger values are damage
-SHORTEST = 1.0  # seconds, the MultiDrone planner rounds durations down to whole seconds, and 0 is no duration
-KMH = 3.6  # the dashboard writes `formationSpeed` in km/h
+LARGEST_VALUE = 5e4  # metres or seconds, larger values are damage
+SHORTEST_S = (
+    1.0  # seconds, the MultiDrone planner rounds durations down to whole seconds, and 0 is no duration
+)
+KMH_PER_M_S = 3.6  # the dashboard writes `formationSpeed` in km/h
 PARAMS = frozenset(("x_s", "x_e", "y_0", "z_0", "z_s", "z_e", "r_0", "azimuth_s", "azimuth_speed"))
 PARAMS |= frozenset(("pan_s", "pan_e", "tilt_s", "tilt_e", "ID"))
 FLIES = frozenset(("FLY_THROUGH", "FLY THROUGH", "FLYTHROUGH"))
@@ -113,7 +115,7 @@ def _number(text: str, name: str, node: Node, notes: Notes) -> float | None:
         mended = text.replace(",", ".")
         notes.assume(node, f"{shown} has a decimal comma", mended)
         text = mended
-    if _NUMBER.fullmatch(text) and abs(value := float(text)) <= LARGEST:
+    if _NUMBER.fullmatch(text) and abs(value := float(text)) <= LARGEST_VALUE:
         return value
     notes.assume(node, f"{shown} is no number that can be meant", "it counts as missing")
     return None
@@ -132,7 +134,7 @@ def _action(node: Node, notes: Notes) -> ShootingAction | None:
         notes.assume(node, "an action without a shooting role", taken)
         roles = [Role(node, node, kind.upper(), "", "", {})]
     duration = number(node.first("duration"), notes)
-    if duration is None or duration < SHORTEST:
+    if duration is None or duration < SHORTEST_S:
         duration = 20.0
         message = "an action without a duration lasts to the next event, which the file does not tell"
         notes.assume(node.first("duration") or node, message, "20 s")
@@ -140,7 +142,7 @@ def _action(node: Node, notes: Notes) -> ShootingAction | None:
     return ShootingAction(
         node,
         duration,
-        None if speed is None or speed < 0 else speed / KMH,
+        None if speed is None or speed < 0 else speed / KMH_PER_M_S,
         tuple(p for p in points if p is not None),
         None if origin is None else _point(origin, notes),
         tuple(roles),
@@ -189,7 +191,7 @@ def _role(node: Node, kind: str, notes: Notes) -> Role:
 def _parameter(name: str, value: Any, node: Node, notes: Notes) -> float | None:
     if isinstance(value, str) and value.strip():
         return _number(value.strip(), name, node, notes)
-    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST:
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_VALUE:
         return float(value)
     shown = plain(str(value), 30)
     notes.assume(node, f"{name} = `{shown}` is no number that can be meant", "it counts as missing")

@@ -20,8 +20,8 @@ SIZES = {
     "TARGET_MONUMENT": (3.0, 10.0),
 }
 USUAL = (1.0, 1.8)  # radius and height of a target of unknown type, metres
-APART = 6.0  # distance between two homes, metres
-AWAY = 20.0  # distance from the first target's start to the homes, metres
+HOMES_APART_M = 6.0  # distance between two homes, metres
+HOMES_AWAY_M = 20.0  # distance from the first target's start to the homes, metres
 
 
 def world(frame: CoordinateFrame) -> Iterator[str]:
@@ -88,7 +88,8 @@ def drones(films: Rows[FilmedAction], number: int, root: Node, notes: Notes) -> 
     if len(team) < number:
         named = f"{len(team)} drone" if len(team) == 1 else f"{len(team)} drones"
         message = f"the file names {named}, its shots need {number}; it does not say where they stand"
-    taken = f"folding camera drones, {APART:g} m apart, {AWAY:g} m beside where the first trajectory begins"
+    beside = f"{HOMES_AWAY_M:g} m beside where the first trajectory begins"
+    taken = f"folding camera drones, {HOMES_APART_M:g} m apart, {beside}"
     yield "drones:"
     yield f"  # {notes.assume(root.first('droneTeam') or root, message, taken)}"
     course = films[0].course
@@ -97,8 +98,11 @@ def drones(films: Rows[FilmedAction], number: int, root: Node, notes: Notes) -> 
     aside = {f.first + k for f in films if not f.main for k in range(len(f.action.roles))}
     order = sorted(range(1, number + 1), key=lambda drone: drone in aside)
     for i in range(number):
-        along = APART * (i - 0.5 * (number - 1))
-        home = (x + along * cos(way) - AWAY * sin(way), y + along * sin(way) + AWAY * cos(way))
+        along = HOMES_APART_M * (i - 0.5 * (number - 1))
+        home = (
+            x + along * cos(way) - HOMES_AWAY_M * sin(way),
+            y + along * sin(way) + HOMES_AWAY_M * cos(way),
+        )
         named = f"  # {plain(team[i].value('name'), 60)}" if i < len(team) else ""
         place, rank = written(home, 0.0), order.index(i + 1) + 1
         yield f"  cam{i + 1}: {{model: pro, home: {place}, priority: {rank}}}{named}"

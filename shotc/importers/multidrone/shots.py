@@ -11,12 +11,12 @@ from collections.abc import Callable
 from math import cos, degrees, pi, radians, sin
 
 from shotc.importers.multidrone.cameras import elevator, fly_through, static
-from shotc.importers.multidrone.task import NEAREST, Made, RoleTask, Said
+from shotc.importers.multidrone.task import NEAREST_M, Made, RoleTask, Said
 from shotc.importers.notes import plain
 
-TURNS = 19 * pi  # rad, largest turn of an orbit
-NEARER = 1.0  # metres
-LEAST_TURN = radians(5.0)
+LARGEST_TURN_RAD = 19 * pi  # rad, largest turn of an orbit
+NEARER_M = 1.0  # metres
+LEAST_TURN_RAD = radians(5.0)
 FOLLOWING = frozenset(("CHASE", "LEAD", "LATERAL", "FLYBY", "FLY_BY", "FLYOVER"))
 
 
@@ -81,15 +81,20 @@ def _orbit(task: RoleTask) -> Made:
         more = task.assume(f"azimuth_s = {begin:g} is no angle in rad", "degrees")
         begin, three = radians(begin), (*three, more)
     sweep = turn * task.duration
-    if abs(sweep) > TURNS:
+    if abs(sweep) > LARGEST_TURN_RAD:
         message = (
             f"azimuth_speed = {turn:g} rad/s over {task.duration:g} s are {abs(sweep) / (2 * pi):.0f} turns"
         )
-        sweep = TURNS if sweep > 0 else -TURNS
-        two = (*two, task.assume(message, f"{TURNS / (2 * pi):g} turns, the most that are flown, and slower"))
-    if abs(sweep) < LEAST_TURN:
-        two = (*two, task.assume("an orbit that does not turn", f"{degrees(LEAST_TURN):.0f} deg"))
-        sweep = LEAST_TURN
+        sweep = LARGEST_TURN_RAD if sweep > 0 else -LARGEST_TURN_RAD
+        two = (
+            *two,
+            task.assume(
+                message, f"{LARGEST_TURN_RAD / (2 * pi):g} turns, the most that are flown, and slower"
+            ),
+        )
+    if abs(sweep) < LEAST_TURN_RAD:
+        two = (*two, task.assume("an orbit that does not turn", f"{degrees(LEAST_TURN_RAD):.0f} deg"))
+        sweep = LEAST_TURN_RAD
     # Counter-clockwise from the target's course; shotc uses a compass bearing.
     bearing = degrees(pi / 2 - task.course.heading(task.start) - begin) % 360
     turned = f"sweep: {degrees(sweep):.1f} deg, start_azimuth: {bearing:.1f} deg"
@@ -113,9 +118,12 @@ def _establish(task: RoleTask) -> Made:
     bearing = degrees(pi / 2 - heading + (pi if far < 0 else 0.0)) % 360
     begins, apart = _apart(task, abs(far))
     ends, close = _apart(task, abs(near))
-    if max(abs(ends - begins), abs(last - high)) < NEARER / 2:
-        close = (*close, task.assume("an approach that goes nowhere", f"it begins {NEARER:g} m farther away"))
-        begins += NEARER
+    if max(abs(ends - begins), abs(last - high)) < NEARER_M / 2:
+        close = (
+            *close,
+            task.assume("an approach that goes nowhere", f"it begins {NEARER_M:g} m farther away"),
+        )
+        begins += NEARER_M
     params = f"azimuth: {bearing:.1f} deg, distance: [{begins:g}, {ends:g}], altitude: [{high:g}, {last:g}]"
     side = -1.0 if far < 0 else 1.0
     path = task.along((side * begins, 0.0, high), (side * ends, 0.0, last))
@@ -130,9 +138,9 @@ def _establish(task: RoleTask) -> Made:
 
 
 def _apart(task: RoleTask, away: float) -> tuple[float, Said]:
-    if away >= NEAREST:
+    if away >= NEAREST_M:
         return away, ()
-    return NEAREST, (task.assume(f"{away:g} m from the target is too near", f"{NEAREST:g} m"),)
+    return NEAREST_M, (task.assume(f"{away:g} m from the target is too near", f"{NEAREST_M:g} m"),)
 
 
 KINDS: dict[str, Callable[[RoleTask], Made]] = {

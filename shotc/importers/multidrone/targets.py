@@ -7,16 +7,16 @@ from math import atan2, dist, pi
 from typing import NamedTuple
 
 from shotc.importers.multidrone.frames import CoordinateFrame, Place
-from shotc.importers.multidrone.read import KMH, MissionPoint, Sequence, ShootingAction
+from shotc.importers.multidrone.read import KMH_PER_M_S, MissionPoint, Sequence, ShootingAction
 from shotc.importers.notes import Notes
 
-LEAD = 40.0  # seconds from take-off to the first frame
-SAME = 0.05  # metres, largest distance at which two points count as equal
-FASTEST = 40.0  # m/s, a larger speed between two points means wrong times
-NEAR = 1.5  # metres, largest distance of two courses of the same target
-OVERLAP = 0.5  # seconds, largest difference between the durations of an action and its trajectory
-SLOWEST = 0.05  # m/s, a slower target counts as standing
-DIFFERS = 1.5  # largest ratio of two speeds that count as equal
+LEAD_S = 40.0  # seconds from take-off to the first frame
+SAME_POINT_M = 0.05  # metres, largest distance at which two points count as equal
+FASTEST_M_S = 40.0  # m/s, a larger speed between two points means wrong times
+SAME_TARGET_M = 1.5  # metres, largest distance of two courses of the same target
+OVERLAP_S = 0.5  # seconds, largest difference between the durations of an action and its trajectory
+SLOWEST_M_S = 0.05  # m/s, a slower target counts as standing
+SAME_SPEED_RATIO = 1.5  # largest ratio of two speeds that count as equal
 
 
 class GroundTrack(NamedTuple):
@@ -34,18 +34,18 @@ class GroundTrack(NamedTuple):
     @property
     def stands(self) -> bool:
         """Whether the target never moves."""
-        return all(dist(self.places[0], place) < SAME for place in self.places)
+        return all(dist(self.places[0], place) < SAME_POINT_M for place in self.places)
 
     def moves(self, t: float) -> bool:
         """Return whether the target moves at a time."""
-        return dist(self.at(t - 0.5), self.at(t + 0.5)) >= SLOWEST
+        return dist(self.at(t - 0.5), self.at(t + 0.5)) >= SLOWEST_M_S
 
     def heading(self, t: float) -> float:
         """Return the direction of motion, rad, counter-clockwise from East; the next one while it stands."""
         legs = [
             (b, atan2(q[1] - p[1], q[0] - p[0]))
             for (_, b), (p, q) in zip(pairwise(self.times), pairwise(self.places), strict=True)
-            if dist(p, q) >= SAME
+            if dist(p, q) >= SAME_POINT_M
         ]
         return next((way for end, way in legs if t < end), legs[-1][1] if legs else pi / 2)
 
@@ -65,7 +65,7 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
     """
     runs: list[_Run] = []
     found: list[int | None] = []
-    begins = LEAD
+    begins = LEAD_S
     for action in sequence.actions:
         points, said = list(action.points), []
         if not points and action.origin is not None:
@@ -76,7 +76,7 @@ def courses_of(sequence: Sequence, frame: CoordinateFrame, notes: Notes) -> tupl
             found.append(None)
         else:
             follows = begins
-            if runs and begins < runs[-1].times[-1] - OVERLAP:
+            if runs and begins < runs[-1].times[-1] - OVERLAP_S:
                 follows = runs[-1].times[-1]
                 message = "the trajectory before lasts longer than its action"
                 said.append(notes.assume(action.node, message, "it is finished first"))
@@ -101,7 +101,7 @@ class _Run(NamedTuple):
 
     def takes_up(self, t: float, place: Place) -> bool:
         """Return whether the target can reach a place at a time from the end of its course."""
-        return dist(self.places[-1], place) <= max(SAME, FASTEST * (t - self.times[-1]))
+        return dist(self.places[-1], place) <= max(SAME_POINT_M, FASTEST_M_S * (t - self.times[-1]))
 
     def add(
         self, clock: list[float], places: list[Place], points: list[MissionPoint], comments: list[str]
@@ -109,7 +109,7 @@ class _Run(NamedTuple):
         """Add places with their times, without points that repeat the place and time of the one before."""
         self.comments.extend(comments)
         for t, place, point in zip(clock, places, points, strict=True):
-            if self.places and dist(self.places[-1], place) < SAME and t < self.times[-1] + 0.1:
+            if self.places and dist(self.places[-1], place) < SAME_POINT_M and t < self.times[-1] + 0.1:
                 continue
             self.times.append(max(t, self.times[-1] + 0.1) if self.times else t)
             self.places.append(place)
@@ -139,7 +139,7 @@ def _clock(
 ) -> list[float]:
     """Return the mission time of each point: from the file if plausible, else from the speed."""
     ways = [dist(p, q) for p, q in pairwise(places)]
-    if sum(ways) < SAME:
+    if sum(ways) < SAME_POINT_M:
         return [begins] * len(points)
     given = [p.time for p in points if p.time is not None]
     wrong = _wrong(points, given, ways)
@@ -147,8 +147,11 @@ def _clock(
         _compare(action, sum(ways) / (given[-1] - given[0]), said, notes)
         return [begins + t - given[0] for t in given]
     node, message = wrong
-    if action.speed is not None and SLOWEST <= action.speed <= FASTEST:
-        pace, taken = action.speed, f"its points are passed at formationSpeed, {action.speed * KMH:g} km/h"
+    if action.speed is not None and SLOWEST_M_S <= action.speed <= FASTEST_M_S:
+        pace, taken = (
+            action.speed,
+            f"its points are passed at formationSpeed, {action.speed * KMH_PER_M_S:g} km/h",
+        )
     else:
         pace, taken = 1.0, "its points are passed at 1 m/s, for formationSpeed is of no use"
     said.append(notes.assume(node.node.first("time") or node.node, message, taken))
@@ -170,7 +173,7 @@ def _wrong(
     for (a, b), way, point in zip(pairwise(given), ways, points[1:], strict=True):
         if b <= a:
             return point, f"the times of the trajectory do not rise: {b:g} s follows {a:g} s"
-        if way / (b - a) > FASTEST:
+        if way / (b - a) > FASTEST_M_S:
             return point, f"the times ask for {way / (b - a):.0f} m/s up to this point"
     return None
 
@@ -180,7 +183,7 @@ def _compare(action: ShootingAction, pace: float, said: list[str], notes: Notes)
     node = action.node.first("formationSpeed")
     if node is None or action.speed is None:
         return
-    if pace <= action.speed * DIFFERS and action.speed <= pace * DIFFERS:
+    if pace <= action.speed * SAME_SPEED_RATIO and action.speed <= pace * SAME_SPEED_RATIO:
         return
     message = f"formationSpeed says {action.speed:.2f} m/s, the times of the trajectory {pace:.2f} m/s"
     said.append(notes.assume(node, message, "the times hold"))

@@ -11,8 +11,8 @@ from shotc.importers.multidrone.read import Role, ShootingAction
 from shotc.importers.multidrone.targets import GroundTrack
 from shotc.importers.notes import Notes, plain
 
-NEAREST = 3.0  # least distance of a camera from its target, metres
-LOWEST = 2.0  # lowest height above the ground, metres
+NEAREST_M = 3.0  # least distance of a camera from its target, metres
+LOWEST_M = 2.0  # lowest height above the ground, metres
 
 Said = tuple[str, ...]
 Path = tuple[Vec3, Vec3, Vec3]
@@ -65,10 +65,10 @@ class RoleTask(NamedTuple):
     def altitude(self, name: str = "z_0") -> tuple[float, Said]:
         """Return a height above the ground under the target, metres, and comments."""
         z, said = self.param(name, 5.0)
-        if z >= LOWEST:
+        if z >= LOWEST_M:
             return z, said
-        more = self.assume(f"{name} = {z:g} m is too low to be flown", f"{LOWEST:g} m")
-        return LOWEST, (*said, more)
+        more = self.assume(f"{name} = {z:g} m is too low to be flown", f"{LOWEST_M:g} m")
+        return LOWEST_M, (*said, more)
 
     def along(self, begin: Vec3, end: Vec3) -> Path:
         """Return the path of a camera that moves with the target.

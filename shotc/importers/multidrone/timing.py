@@ -10,13 +10,13 @@ from shotc.importers.multidrone.films import FilmedAction
 from shotc.importers.multidrone.frames import CoordinateFrame
 from shotc.importers.multidrone.read import Role
 from shotc.importers.multidrone.shots import shot_of
-from shotc.importers.multidrone.targets import OVERLAP
+from shotc.importers.multidrone.targets import OVERLAP_S
 from shotc.importers.multidrone.task import RoleTask
 from shotc.importers.notes import Notes
 
 SETTLE, PACE = 9.0, 3.0  # seconds to leave one shot and enter the next, and m/s between them
-SHARE = 0.6  # largest share of an action's duration for the flight of its drones to their places
-SHORTEST = 2.0  # seconds
+TRANSFER_SHARE = 0.6  # largest share of an action's duration for the flight of its drones to their places
+SHORTEST_S = 2.0  # seconds
 WATCHING = frozenset(("STATIC", "ELEVATOR", "FLY_THROUGH", "FLYTHROUGH"))
 
 
@@ -47,7 +47,7 @@ def _cut(film: FilmedAction, change: float, notes: Notes) -> FilmedAction:
     action, said = film.action, list(film.comments)
     start, duration = film.start, film.duration
     if change > 0:
-        change = min(change, SHARE * duration)
+        change = min(change, TRANSFER_SHARE * duration)
         message = "the action begins as the last one ends"
         said.append(notes.assume(action.node, message, f"the drones change places for {change:g} s"))
         start, duration = round(start + change, 2), round(duration - change, 2)
@@ -57,7 +57,7 @@ def _cut(film: FilmedAction, change: float, notes: Notes) -> FilmedAction:
         said.append(notes.assume(action.node, message, f"it begins at {start:g} s"))
     known = film.course.times[-1] - start
     goes_along = any(role.kind.replace(" ", "_") not in WATCHING for role in action.roles)
-    if goes_along and not film.course.stands and SHORTEST < known < duration - OVERLAP:
+    if goes_along and not film.course.stands and SHORTEST_S < known < duration - OVERLAP_S:
         node = action.node.first("duration") or action.node
         told = film.course.times[-1] - film.start
         message = f"the action lasts {action.duration:g} s, the way of its target is told for {told:.1f} s"

@@ -12,7 +12,7 @@ from shotc.importers.multidrone.framing import composition_of, size_of
 from shotc.importers.multidrone.read import Sequence
 from shotc.importers.multidrone.scene import drones, targets, world
 from shotc.importers.multidrone.shots import shot_of
-from shotc.importers.multidrone.targets import LEAD
+from shotc.importers.multidrone.targets import LEAD_S
 from shotc.importers.multidrone.timing import task_of, timed
 from shotc.importers.names import safe
 from shotc.importers.notes import Notes, plain
@@ -67,7 +67,7 @@ def _event(root: Node, notes: Notes) -> str:
     event = plain(root.attributes.get("eventRef", ""), 40)
     name = f"its event `{event}`" if event else "an event that it does not name"
     message = f"the file counts time from {name}, whose time is not known"
-    return notes.assume(root, message, f"the event is {LEAD:g} s after the first take-off")
+    return notes.assume(root, message, f"the event is {LEAD_S:g} s after the first take-off")
 
 
 def _shot(film: FilmedAction, k: int, frame: CoordinateFrame, notes: Notes) -> list[str]:

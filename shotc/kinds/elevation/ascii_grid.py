@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
-from shotc.kinds.elevation.srtm import WGS84
+from shotc.kinds.elevation.srtm import WGS84_EPSG
 from shotc.kinds.files import finite
 
 NEEDED = ("ncols", "nrows")
@@ -17,7 +17,7 @@ CORNERS = (("xllcorner", "xllcenter"), ("yllcorner", "yllcenter"))
 STEPS = ("dx", "dy")
 NAMES = {*NEEDED, "cellsize", *STEPS, "nodata_value", *(name for both in CORNERS for name in both)}
 NO_HEIGHT = -9999.0  # default no-data value
-DEGREES = 0.1
+LARGEST_CELL_DEG = 0.1
 """Largest cell in degrees, for coordinates that may be degrees; no grid has smaller cells in metres."""
 
 
@@ -58,8 +58,8 @@ def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFa
     heights[heights == header.values.get("nodata_value", NO_HEIGHT)] = np.nan
     x = np.asarray(_first(header.values, 0, steps.x) + steps.x * np.arange(steps.columns))
     y = np.asarray(_first(header.values, 1, steps.y) + steps.y * np.arange(steps.rows)[::-1])
-    if system is None and steps.x < DEGREES and abs(x).max() <= 360.0 and abs(y).max() <= 90.0:
-        system = WGS84
+    if system is None and steps.x < LARGEST_CELL_DEG and abs(x).max() <= 360.0 and abs(y).max() <= 90.0:
+        system = WGS84_EPSG
     if system is None:
         help_ = "give its `epsg` beside `file`, such as `epsg: 32632`; the .prj file beside it tells"
         return TerrainFault(

@@ -8,16 +8,16 @@ from shotc.geom.bernstein import Array
 from shotc.geom.bspline import IntArray
 from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
 from shotc.geom.terrain.systems import GEOGRAPHIC
-from shotc.kinds.elevation.srtm import WGS84
+from shotc.kinds.elevation.srtm import WGS84_EPSG
 from shotc.kinds.files import FileFault, read_table
 
 LAYOUTS = (("x", "y", "z"), ("lat", "lon", "alt"))
 MOST_ROWS = 1_000_000
-FULL = 0.5
+FULL_SHARE = 0.5
 """Least share of a grid's places with a post; with fewer, the points are no grid."""
-SAME = 1e-6
+SAME_PLACE_SHARE = 1e-6
 """Tolerance of equal coordinates, as a share of the axis's extent, because tables are rounded."""
-USUAL = 0.25
+USUAL_GAP_SHARE = 0.25
 """Quantile of the gaps between columns or rows that is the step of the grid; larger gaps lack some."""
 
 
@@ -38,7 +38,7 @@ def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFau
     x, y, z = (rows[:, columns[name]] for name in names)
     (x_places, column), (y_places, row) = _places(x), _places(y)
     shape = (len(y_places), len(x_places))
-    if shape[0] * shape[1] > MOST_POSTS or len(rows) < FULL * shape[0] * shape[1]:
+    if shape[0] * shape[1] > MOST_POSTS or len(rows) < FULL_SHARE * shape[0] * shape[1]:
         message = f"its {len(rows)} points lie on {shape[0]} rows and {shape[1]} columns"
         help_ = "export a grid: every row of it has a point on every column"
         return TerrainFault("grid", f"{message}, so that they are no grid", None, help_)
@@ -49,7 +49,7 @@ def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFau
         return TerrainFault("grid", "a point lies where another does", table.lines[again])
     heights = np.full(shape, np.nan)
     heights[row, column] = z
-    return posts_of(heights, x_places, y_places, WGS84 if on_earth else None)
+    return posts_of(heights, x_places, y_places, WGS84_EPSG if on_earth else None)
 
 
 def _places(values: Array) -> tuple[Array, IntArray]:
@@ -58,14 +58,14 @@ def _places(values: Array) -> tuple[Array, IntArray]:
     """
     order = np.argsort(values, kind="stable")
     ordered = values[order]
-    begins = np.concatenate([[True], np.diff(ordered) > SAME * (ordered[-1] - ordered[0])])
+    begins = np.concatenate([[True], np.diff(ordered) > SAME_PLACE_SHARE * (ordered[-1] - ordered[0])])
     number = np.empty(len(values), dtype=np.intp)
     number[order] = np.cumsum(begins) - 1
     there = ordered[begins]
     gaps = np.diff(there)
     if not len(gaps):
         return there, number
-    steps = np.rint(gaps / np.quantile(gaps, USUAL, method="lower"))
+    steps = np.rint(gaps / np.quantile(gaps, USUAL_GAP_SHARE, method="lower"))
     at = np.concatenate([[0.0], np.cumsum(np.maximum(steps, 1.0))])
     if at[-1] > MOST_POSTS:
         return there, number  # no grid, as its count of places says

@@ -18,12 +18,12 @@ from shotc.geom.terrain.posts import MOST_POSTS, Posts, TerrainFault, posts_of
 
 PIXEL_SCALE, TIE_POINTS, MATRIX, KEYS, NO_DATA = 33550, 33922, 34264, 34735, 42113
 MODEL, RASTER, GEOGRAPHIC, ANGLES, PROJECTED, UNITS_UP = 1024, 1025, 2048, 2054, 3072, 4099
-IS_POINT = 2
+PIXEL_IS_POINT = 2
 """Value of RASTER for posts at the tie point of their pixel; else they are at the pixel's middle."""
-DEGREES = 9102
+DEGREE_UNIT = 9102
 USER_DEFINED = 32767
-METRE = 9001
-METRES = {METRE: 1.0, 9002: 0.3048, 9003: 1200 / 3937}
+METRE_UNIT = 9001
+METRES = {METRE_UNIT: 1.0, 9002: 0.3048, 9003: 1200 / 3937}
 """Metres of a unit of heights: metre, foot, and US survey foot."""
 BANDS = frozenset({"L", "I", "F", "I;16", "I;16B", "I;16L", "I;16N"})
 SAVE_AS = "save it as float32 or int16, uncompressed or with deflate or LZW: `gdal_translate -ot Float32`"
@@ -74,13 +74,13 @@ def _along(axis: Along, count: int) -> Array:
 
 def _placed(tags: dict[int, Any], system: int | None) -> RasterTags | TerrainFault:
     keys = _keys(tags.get(KEYS, ()))
-    axes = _axes(tags, keys.get(RASTER) == IS_POINT)
+    axes = _axes(tags, keys.get(RASTER) == PIXEL_IS_POINT)
     if isinstance(axes, TerrainFault):
         return axes
     code = _system(keys, system)
     if isinstance(code, TerrainFault):
         return code
-    unit = keys.get(UNITS_UP, METRE)
+    unit = keys.get(UNITS_UP, METRE_UNIT)
     if unit not in METRES:
         return TerrainFault("system", f"its heights are in the unit {unit} of EPSG, which is not known")
     return RasterTags(*axes, code, METRES[unit])
@@ -135,7 +135,7 @@ def _system(keys: dict[int, int], given: int | None) -> int | TerrainFault:
     if code is not None and given is not None and code != given:
         message = f"its tags say EPSG:{code}, the mission says EPSG:{given}"
         return TerrainFault("system", message, None, "leave `epsg` out")
-    if PROJECTED not in keys and keys.get(ANGLES, DEGREES) != DEGREES:
+    if PROJECTED not in keys and keys.get(ANGLES, DEGREE_UNIT) != DEGREE_UNIT:
         return TerrainFault("system", f"its angles are in the unit {keys[ANGLES]} of EPSG, not in degrees")
     found = code if code is not None else given
     assert found is not None

@@ -11,8 +11,8 @@ from shotc.geom.terrain.systems import GEOGRAPHIC
 
 SIDES = (1201, 3601)
 """Posts along a side, for three arc seconds and for one."""
-VOID = -32768
-WGS84 = 4326
+VOID_HEIGHT = -32768
+WGS84_EPSG = 4326
 _NAME = re.compile(r"(?:^|[/\\])([NS])(\d{2})([EW])(\d{3})[^/\\]*$", re.IGNORECASE)
 
 
@@ -33,6 +33,6 @@ def read_srtm(name: str, data: bytes, system: int | None = None) -> Posts | Terr
     if not (-90 <= lat < 90 and -180 <= lon < 180):
         return TerrainFault("number", f"its name says {lat} N, {lon} E, where no tile is")
     heights = np.frombuffer(data, dtype=">i2").reshape(side, side).astype(np.float64)
-    heights[heights == VOID] = np.nan
+    heights[heights == VOID_HEIGHT] = np.nan
     along = np.arange(side) / (side - 1)
-    return posts_of(heights, lon + along, lat + 1 - along, WGS84)
+    return posts_of(heights, lon + along, lat + 1 - along, WGS84_EPSG)

@@ -15,9 +15,9 @@ from shotc.kinds.footprints.geojson import Footprint
 from shotc.kinds.footprints.tags import HeightExtent, extent_of, is_building, is_part
 
 LEAST_AREA_M2 = 0.01
-COVERED = 0.9
+COVERED_SHARE = 0.9
 """Least share of an outline that its parts cover; with less, the outline stays."""
-SAME_AREA = 1e-6
+SAME_AREA_SHARE = 1e-6
 """Tolerance of the area of a ring's triangles, as a share of the ring's area."""
 
 Project = Callable[[Vec2], Vec2]
@@ -139,7 +139,7 @@ def _shape(footprint: Footprint, ring: tuple[Vec2, ...]) -> _Shape | str:
         return "its ring encloses no area"
     ring = ring if area > 0 else ring[::-1]
     lid = tuple(triangles(ring)) if is_simple(ring) else ()
-    if abs(sum(map(signed_area, lid)) - abs(area)) > SAME_AREA * abs(area):
+    if abs(sum(map(signed_area, lid)) - abs(area)) > SAME_AREA_SHARE * abs(area):
         return "its ring crosses or touches itself"
     x, y = zip(*ring, strict=True)
     low, high = (min(x), min(y)), (max(x), max(y))
@@ -166,10 +166,10 @@ def _replaced(shapes: list[_Shape]) -> _Replaced:
         own = [i for i, part in enumerate(parts) if _lies_in(part, outline)]
         named |= {i: _inheriting(parts[i], outline) for i in own if i not in named}
         share = sum(parts[i].area for i in own if parts[i].extent.bottom <= 0.0) / outline.area
-        if own and share < COVERED:
+        if own and share < COVERED_SHARE:
             text = f"its parts cover {100 * share:.0f} % of its outline"
             uncovered.append(BuildingFault(outline.footprint.name, outline.footprint.number, text))
-        if not own or (share < COVERED and outline.extent.top is not None):
+        if not own or (share < COVERED_SHARE and outline.extent.top is not None):
             left.append(outline)
     return _Replaced([*left, *(named.get(i, part) for i, part in enumerate(parts))], uncovered)
 

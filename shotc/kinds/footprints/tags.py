@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 LEVEL_M = 3.0
 """Height of a level, for buildings with a number of levels and no height, metres."""
-LONGEST_NAME = 80
+LONGEST_NAME_CHARACTERS = 80
 HIGHEST_M = 1_000.0
 """No building is higher."""
 _FEET = re.compile(r"(\d+(?:\.\d+)?)\s*(?:'|’|ft|feet)(?:\s*(\d+(?:\.\d+)?)\s*(?:\"|''|”|in)?)?")
@@ -93,4 +93,4 @@ def name_of(value: Any) -> str:
     """Return a name or an id as printable text; empty for a value that is neither."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         return ""
-    return "".join(c if c.isprintable() else " " for c in str(value)[:LONGEST_NAME]).strip()
+    return "".join(c if c.isprintable() else " " for c in str(value)[:LONGEST_NAME_CHARACTERS]).strip()

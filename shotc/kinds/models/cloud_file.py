@@ -18,7 +18,7 @@ NONE = "?"
 """Replaces the separator of a line that is no row."""
 RECORD, EXTENDED = 54, 60
 """Bytes of the header of a variable length record, and of an extended one (LAS 1.4)."""
-EXTENDED_END = 247
+EXTENDED_END_BYTES = 247
 """End of the number of extended records in the header of LAS 1.4, byte offset."""
 COMPRESSED = b"\x80"
 """First point format of LAZ; its points start with the position of a chunk table."""
@@ -103,8 +103,8 @@ def _promised(data: bytes) -> int:
 
     header, points = number(94, 2), number(96, 4)
     least = [points, header + RECORD * number(100, 4)]
-    if data[25:26] >= b"\x04" and header >= EXTENDED_END:
-        least.append(header + EXTENDED * number(EXTENDED_END - 4, 4))
+    if data[25:26] >= b"\x04" and header >= EXTENDED_END_BYTES:
+        least.append(header + EXTENDED * number(EXTENDED_END_BYTES - 4, 4))
     if data[104:105] >= COMPRESSED:
         table = number(points, 8)
         table = number(len(data) - 8, 8) if table == NO_TABLE else table

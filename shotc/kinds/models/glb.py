@@ -20,7 +20,7 @@ COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 LINES, LOOP, LINE_STRIP, TRIANGLES, STRIP, FAN = 1, 2, 3, 4, 5, 6
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 COMPRESSED = frozenset({"KHR_draco_mesh_compression", "EXT_meshopt_compression"})
-DEEPEST = 500  # most nodes below one another
+DEEPEST_LEVEL = 500  # most nodes below one another
 MOST_NODES = 100_000
 
 
@@ -108,7 +108,7 @@ def _placed(file: _File) -> Iterator[_Placed]:
     while waiting:
         number, above, depth = waiting.pop(0)
         seen += 1
-        if depth > DEEPEST or seen > MOST_NODES:
+        if depth > DEEPEST_LEVEL or seen > MOST_NODES:
             raise ValueError("its nodes lie too deep, or are too many")
         node = file.item("nodes", number)
         matrix = above @ _matrix(node)

@@ -12,7 +12,7 @@ from shotc.geom.bspline import IntArray
 from shotc.kinds.models.parts import Colors, NodePart, fans, part, table
 
 _AFTER_SLASH = re.compile(r"/\S*")
-MOST_NAME = 80
+LONGEST_NAME_CHARACTERS = 80
 
 
 class _Lines(NamedTuple):
@@ -60,7 +60,7 @@ def _lines(text: str) -> _Lines:
             found.faces.append(line)
             found.seen.append(len(found.corners))
         elif word == named:
-            found.begins.append((line[2:].strip()[:MOST_NAME], len(found.faces)))
+            found.begins.append((line[2:].strip()[:LONGEST_NAME_CHARACTERS], len(found.faces)))
     return found
 
 

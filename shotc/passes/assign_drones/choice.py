@@ -12,9 +12,9 @@ from shotc.solvers.assignment import AssignmentProgramme, least_cost
 
 Choice = Mapping[int, str]
 
-LEAST_WAY = 1e-3  # seconds of work per metre of distance
-EARLIER = 1e-6  # preference of a drone over those written after it
-SLACK = 1e-6
+WORK_PER_METRE_S = 1e-3  # seconds of work per metre of distance
+EARLIER_COST = 1e-6  # preference of a drone over those written after it
+COST_SLACK = 1e-6
 
 Row = tuple[dict[int, float], float]
 
@@ -31,7 +31,7 @@ def choose(tasks: Sequence[ShotTask], drones: Sequence[str]) -> Choice | None:
     once = np.zeros((len(tasks), count + 1))
     highest[count] = np.inf
     for (i, d), c in column.items():
-        cost[c] = LEAST_WAY * tasks[i].length(d) + EARLIER * drones.index(d)
+        cost[c] = WORK_PER_METRE_S * tasks[i].length(d) + EARLIER_COST * drones.index(d)
         once[i, c] = 1.0
         highest[c] = float(_can(tasks[i], d))
     rows = [*_work(tasks, drones, column, count), *_clashes(tasks, drones, column)]
@@ -52,7 +52,7 @@ def _can(task: ShotTask, drone: str) -> bool:
     if task.flown_by is not None:
         return task.flown_by == drone
     away = task.way(drone)
-    if task.start is not None and away > task.start + SLACK:
+    if task.start is not None and away > task.start + COST_SLACK:
         return False
     return away + task.duration + task.back(drone) <= task.drones[drone].endurance
 
@@ -79,5 +79,5 @@ def _clashes(
         assert first.start is not None
         assert second.start is not None
         for d in drones:
-            if first.start + first.duration + first.to(second, d) > second.start + SLACK:
+            if first.start + first.duration + first.to(second, d) > second.start + COST_SLACK:
                 yield {column[k, d]: 1.0, column[m, d]: 1.0}, 1.0

@@ -17,7 +17,7 @@ from shotc.passes.resolve.checks.motion import least_shot, least_travel
 from shotc.passes.resolve.lower.names import AUTO
 from shotc.spec.load import LoadedMission
 
-SLOWER = 2.0
+SLOWER_RATIO = 2.0
 """Duration of a transfer over its least time, for smooth starts and stops and for obstacles."""
 
 
@@ -111,7 +111,7 @@ def later(busy: list[ShotTask]) -> str:
     """
     *others, last = sorted(busy, key=lambda task: task.start or 0.0)
     drones = [last.flown_by] if last.flown_by is not None else list(last.drones)
-    free = min(_end(task) + SLOWER * task.to(last, drone) for task in others for drone in drones)
+    free = min(_end(task) + SLOWER_RATIO * task.to(last, drone) for task in others for drone in drones)
     return f"start shot `{last.id}` later, by `timing: {{start: {ceil(free)} s}}`"
 
 

@@ -31,7 +31,7 @@ from shotc.passes.parameterize_time.explain.times import (
 )
 from shotc.planning.timing.estimate import LegTiming, can_be_timed, time_leg
 from shotc.planning.timing.flight import TrajectoryBuilder
-from shotc.planning.timing.leg import TINY
+from shotc.planning.timing.leg import SHORTEST_HOLD_S
 from shotc.planning.timing.limits import ceiling_of
 from shotc.planning.timing.move import TimedMove
 
@@ -107,7 +107,7 @@ class _Pilot:
         """Add a shot on its own clock, and an error if the drone is late for it."""
         first = float(leg.curve.start)
         earliest = max(self.flight.clock, ready - (leg.start - first))
-        if first < earliest - TINY and not self.faults:
+        if first < earliest - SHORTEST_HOLD_S and not self.faults:
             lead = leg.start - first
             before = tuple(self.flight.phases)
             self.faults.append(start_too_early(self.mission, leg, leg.start, earliest + lead, before))
@@ -125,7 +125,7 @@ class _Pilot:
         if fault is not None:
             self.faults.append(fault)
         earliest = max(self.flight.clock, ready)
-        if leg.start is not None and leg.start < earliest - TINY and not self.faults:
+        if leg.start is not None and leg.start < earliest - SHORTEST_HOLD_S and not self.faults:
             before = tuple(self.flight.phases)
             self.faults.append(start_too_early(self.mission, leg, leg.start, earliest, before))
         self.flight.wait(max(earliest, leg.start or 0.0), leg.pose)

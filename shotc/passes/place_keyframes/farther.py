@@ -12,22 +12,22 @@ from shotc.kinds.parameters import DISTANCES, at_distance, distance_of, span
 from shotc.planning.framing.candidates import FixedCamera
 from shotc.rounding import at_least, up
 
-FARTHEST = 50.0  # largest factor of the present distance that is tried
-LEVEL = 0.1  # metres from the target's axis, below which a camera is above it
-NUDGE = 0.01  # metres added to a proposed distance
+FARTHEST_RATIO = 50.0  # largest factor of the present distance that is tried
+ABOVE_AXIS_M = 0.1  # metres from the target's axis, below which a camera is above it
+NUDGE_M = 0.01  # metres added to a proposed distance
 
 Fits = Callable[[FixedCamera], bool]
 
 
 def farther(mission: MissionIR, shot: Shot, keyframe: Keyframe, setting: FixedCamera, fits: Fits) -> str:
-    """Return a remedy with a place where the target fits, at most ``FARTHEST`` times as far; else empty.
+    """Return a remedy with a place where the target fits, within ``FARTHEST_RATIO`` times as far; else empty.
 
     A camera placed by the user goes straight back, or horizontally where that would be too close to the
     ground. A generated path keeps its altitude.
     """
     if not keyframe.placed and shot.kind in DISTANCES:
         return _by_parameter(mission, shot, keyframe, setting, fits)
-    aside = hypot(*setting.offset[:2]) > LEVEL
+    aside = hypot(*setting.offset[:2]) > ABOVE_AXIS_M
     level = aside and not keyframe.placed
     offset = _back(setting, fits, level=level)
     radius = mission.drone(shot.drone).radius
@@ -80,10 +80,10 @@ def _back(setting: FixedCamera, fits: Fits, *, level: bool) -> Vec3 | None:
     def scaled(k: float) -> Vec3:
         return (x * k, y * k, z if level else z * k)
 
-    k = least(lambda k: fits(setting._replace(offset=scaled(k))), 1.0, FARTHEST)
+    k = least(lambda k: fits(setting._replace(offset=scaled(k))), 1.0, FARTHEST_RATIO)
     if k is None:
         return None
-    return scaled(k + NUDGE / (hypot(x, y) if level else hypot(x, y, z)))
+    return scaled(k + NUDGE_M / (hypot(x, y) if level else hypot(x, y, z)))
 
 
 def _by_parameter(
@@ -101,7 +101,7 @@ def _by_parameter(
     for k in (keyframe, *shot.keyframes):
         now = max(enough, distance_of(centre, k))
         if not whole(k, now):
-            needed = least(lambda d, k=k: whole(k, d), now, now * FARTHEST)  # type: ignore[misc]
+            needed = least(lambda d, k=k: whole(k, d), now, now * FARTHEST_RATIO)  # type: ignore[misc]
             if needed is None:
                 return ""
             enough = needed

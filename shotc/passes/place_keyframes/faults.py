@@ -26,7 +26,7 @@ from shotc.planning.framing.candidates import (
 from shotc.planning.framing.placing import Unmet
 from shotc.rounding import at_least, at_most
 
-WIDEST = radians(150)
+WIDEST_RAD = radians(150)
 _WARNINGS = ("G011", "G012")
 
 
@@ -119,7 +119,7 @@ def _wider(setting: FixedCamera, aim: Vec2, widest: float) -> list[str]:
 def _widest(mission: MissionIR, shot: Shot) -> float:
     """Return the widest field of view that the drone of a shot may have, rad."""
     lens = mission.drone(shot.drone).lens
-    return WIDEST if lens is None else lens.widest
+    return WIDEST_RAD if lens is None else lens.widest
 
 
 def does_not_fit(keyframe: Keyframe, setting: FixedCamera, asked: Vec2) -> Miss:

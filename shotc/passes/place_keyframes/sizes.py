@@ -19,8 +19,8 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.mission import MissionIR, frozen
 from shotc.spec.words import each
 
-LOOKS = 40  # samples of a shot on its own clock
-OFF = 0.1  # relative error of the size, above which there is a warning
+SHOT_SAMPLES = 40  # samples of a shot on its own clock
+OFF_SIZE_SHARE = 0.1  # relative error of the size, above which there is a warning
 
 
 class SizeCase(NamedTuple):
@@ -45,7 +45,7 @@ def check_size(mission: MissionIR, placed: PlacedShot) -> Diagnostic | None:
     if not looks:
         return None
     worst = max(looks, key=lambda look: abs(look.size / asked - 1.0))
-    if abs(worst.size / asked - 1.0) <= OFF:
+    if abs(worst.size / asked - 1.0) <= OFF_SIZE_SHARE:
         return None
     low, high = min(look.size for look in looks), max(look.size for look in looks)
     sizes = f"{low:.3g} to {high:.3g}" if high - low > 0.01 * high else f"{worst.size:.3g}"
@@ -96,8 +96,8 @@ def _on_clock(mission: MissionIR, placed: PlacedShot) -> Iterator[SizeCase]:
         return
     start, duration = first_start(mission, shot), shot.timing.duration or 0.0
     subject, drone = placed.subjects[0], mission.drone(shot.drone)
-    for i in range(LOOKS + 1):
-        t = start + duration * i / LOOKS
+    for i in range(SHOT_SAMPLES + 1):
+        t = start + duration * i / SHOT_SAMPLES
         eye = ideal_place(mission, shot, start, t)
         then = frozen(mission, t)
         x, y, z = (e - c for e, c in zip(eye, then.target(subject.target).centre, strict=True))

@@ -16,7 +16,7 @@ from shotc.ir.keyframes import PlacedSubject
 from shotc.ir.limits import Vec2
 from shotc.ir.mission import Composition, MissionIR, Shot, Subject
 from shotc.passes.place_keyframes.farther import least
-from shotc.passes.place_keyframes.faults import WIDEST
+from shotc.passes.place_keyframes.faults import WIDEST_RAD
 from shotc.planning.framing.candidates import TOUCH_M, FixedCamera, nearest_candidate, nearest_on_verticals
 from shotc.rounding import at_least
 
@@ -85,7 +85,7 @@ def _whole(mission: MissionIR, shot: Shot, setting: FixedCamera, composition: Co
     def fits(hfov: float) -> bool:
         return nearest_candidate(setting._replace(hfov=hfov), composition, MIDDLE) is not None
 
-    wide = least(fits, setting.hfov, WIDEST) if setting.hfov < WIDEST else None
+    wide = least(fits, setting.hfov, WIDEST_RAD) if setting.hfov < WIDEST_RAD else None
     if wide is None:
         return ""
     lens = at_least(degrees(wide), 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, pi
 
 from shotc.diag.model import Diagnostic
-from shotc.geom.vec import TURN, wrapped
+from shotc.geom.vec import TURN_RAD, wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Keyframe, MissionIR
 
@@ -29,7 +29,7 @@ def _lost(mission: MissionIR, keyframe: Keyframe, placed: PlacedKeyframe, follow
     assert placed.turn is not None
     assert keyframe.heading is not None
     path = (*keyframe.path, "heading")
-    direction = degrees(keyframe.heading % TURN)
+    direction = degrees(keyframe.heading % TURN_RAD)
     return Diagnostic(
         "K013",
         f"the camera cannot turn by {degrees(abs(placed.turn)):.0f} deg and follow target `{placed.target}`",

@@ -22,7 +22,7 @@ _START = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); "
     "from shotc.passes.refine_path.child import answer; answer(sys.stdin.buffer)"
 )
-_GRACE = 1.0
+_GRACE_S = 1.0
 """Seconds after its deadline at which a process without a parent ends itself."""
 
 
@@ -79,7 +79,7 @@ def answer(orders: BinaryIO) -> None:
         os.dup2(2, 1)
         order: _Order = pickle.load(orders)
         if sys.platform != "win32":
-            signal.setitimer(signal.ITIMER_REAL, order.seconds + _GRACE)
+            signal.setitimer(signal.ITIMER_REAL, order.seconds + _GRACE_S)
         data = _answer(order)
         out.write(data)
 

@@ -15,16 +15,16 @@ from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, MovingLeg, PathIR, Pat
 from shotc.ir.phases import UPRIGHT, Reference
 from shotc.ir.tolerances import AT_REST
 from shotc.passes.refine_path.finding import RefinerFinding
-from shotc.passes.refine_path.form import SAME, broken, changed_shot, jumps
+from shotc.passes.refine_path.form import SAME_PLACE_TOLERANCE, broken, changed_shot, jumps
 from shotc.planning.timing.estimate import leg_time
 
-EQUAL = 1e-9
+JOINT_TOLERANCE = 1e-9
 """Tolerance in seconds, metres, radians and their rates: a shot joins the legs around it exactly."""
 
-IN_TIME = 1e-6
+IN_TIME_S = 1e-6
 """Seconds by which the duration of a leg may change: the accuracy of a mission's clock."""
 
-_DENSE = 257
+_DENSE_SAMPLES = 257
 
 
 def on_clock(before: PathIR, after: PathIR) -> Iterator[RefinerFinding]:
@@ -52,7 +52,7 @@ def _on_path(drone: Drone, was: PathLeg, now: PathLeg) -> Iterator[RefinerFindin
     if isinstance(now, MovingLeg):
         yield from jumps(now, now.curve)
     took, takes = (leg_time(drone, leg) for leg in (was, now))
-    if abs(took - takes) > IN_TIME:
+    if abs(took - takes) > IN_TIME_S:
         note = f"it takes {takes:.6f} s instead of {took:.6f} s, and others are planned beside it"
         yield RefinerFinding(
             "R005", f"changed how long `{drone.name}` flies", (note, f"its {was.phase}"), was.shot
@@ -71,22 +71,22 @@ def _as_told(was: PathLeg, now: PathLeg) -> Iterator[str]:
         yield "its timing is another"
     elif now.phase in UPRIGHT:
         yield "its flight is another"
-    elif _moved(was, now) > SAME:
+    elif _moved(was, now) > SAME_PLACE_TOLERANCE:
         yield f"it flies {_moved(was, now):.3g} m from where it was"
 
 
 def _moved(was: MovingLeg, now: MovingLeg) -> float:
     """Return how far an unfilmed leg is from its old positions, at dense samples, metres."""
-    if abs(was.curve.start - now.curve.start) + abs(was.curve.end - now.curve.end) > SAME:
+    if abs(was.curve.start - now.curve.start) + abs(was.curve.end - now.curve.end) > SAME_PLACE_TOLERANCE:
         return inf
-    s = np.linspace(was.curve.start, was.curve.end, _DENSE)
+    s = np.linspace(was.curve.start, was.curve.end, _DENSE_SAMPLES)
     return float(np.abs(was.curve(s)[:, :3] - now.curve(s)[:, :3]).max())
 
 
 def _joints(flown: TimedPath) -> Iterator[RefinerFinding]:
     for a, b in pairwise(flown.legs):
         gap = float(np.abs(np.array(a.end_pose) - np.array(b.pose)).max())
-        if gap > SAME:
+        if gap > SAME_PLACE_TOLERANCE:
             name = b.shot or (b.phase if isinstance(b, PathLeg) else "")
             yield broken(
                 f"{flown.drone}: `{name}` begins {gap:.3g} from where the leg before ends (m or rad)"
@@ -103,7 +103,7 @@ def _shot(was: ClockLeg, now: ClockLeg) -> Iterator[RefinerFinding]:
 
 def _changed(was: ClockLeg, now: ClockLeg) -> Iterator[str]:
     """Yield the changes of a shot's data."""
-    if max(abs(was.start - now.start), abs(was.end - now.end)) > EQUAL or was.path != now.path:
+    if max(abs(was.start - now.start), abs(was.end - now.end)) > JOINT_TOLERANCE or was.path != now.path:
         yield "its first or its last frame is at another time"
     if was.keyframes != now.keyframes:
         yield "its keyframes are others, or at other times"
@@ -114,19 +114,19 @@ def _changed(was: ClockLeg, now: ClockLeg) -> Iterator[str]:
 def _same_span(a: FramingSpan | Reference, b: FramingSpan | Reference) -> bool:
     if a is b:
         return True
-    times = abs(a.start - b.start) <= EQUAL and abs(a.end - b.end) <= EQUAL
+    times = abs(a.start - b.start) <= JOINT_TOLERANCE and abs(a.end - b.end) <= JOINT_TOLERANCE
     return times and a.target == b.target and _same_curve(a.reference, b.reference)
 
 
 def _ends(was: Piecewise, now: Piecewise) -> Iterator[str]:
     """Yield how a leg deviates from the rest poses that its neighbours join."""
     off = max(abs(was.start - now.start), abs(was.end - now.end))
-    if off > EQUAL:
+    if off > JOINT_TOLERANCE:
         yield f"its way into or out of the film takes {off:.3g} s more or less"
         return
     for name, k in (("begins", 0), ("ends", -1)):
         away = float(np.abs(was.ctrl[k, k] - now.ctrl[k, k]).max())
-        if away > EQUAL:
+        if away > JOINT_TOLERANCE:
             yield f"it {name} {away:.3g} from where the guide does (m or rad)"
     ends = np.array([now.start, now.end])
     moving = max(float(np.abs(now.derivative(order)(ends)).max()) for order in (1, 2))

@@ -26,20 +26,20 @@ from shotc.ir.path import (
     TimedPath,
 )
 from shotc.ir.phases import UPRIGHT
-from shotc.ir.tolerances import OFF_LINE
+from shotc.ir.tolerances import OFF_LINE_HALF_FRAMES
 from shotc.passes.refine_path.finding import RefinerFinding
 from shotc.passes.refine_path.joints import ORDERS, largest_jump
 from shotc.passes.solver_reports import place
 
-SAME = 1e-6
+SAME_PLACE_TOLERANCE = 1e-6
 """Tolerance in metres, radians or screen units for equal places."""
 
-SMOOTH = 1e-6
+SMOOTH_JUMP_SHARE = 1e-6
 """Tolerance of a jump of value, first or second derivative, relative to the scale of its channel."""
 
 UNFILMED = ("transit", "return")
 DEGREE = 5
-_DENSE = 257
+_DENSE_SAMPLES = 257
 
 
 def structure(before: PathIR, after: object) -> Iterator[RefinerFinding]:
@@ -131,7 +131,7 @@ def _shapeless(leg: PathLeg) -> str:
         return "has stops, keyframes or framings that are nowhere"
     if isinstance(leg, HoldLeg):
         return ""
-    low, high = leg.curve.start - SAME, leg.curve.end + SAME
+    low, high = leg.curve.start - SAME_PLACE_TOLERANCE, leg.curve.end + SAME_PLACE_TOLERANCE
     places = [stop.s for stop in leg.stops], [mark.s for mark in leg.marks]
     if any(a > b for run in places for a, b in pairwise([low, *run, high])):
         return "has stops or keyframes that are out of order, or off its curve"
@@ -156,7 +156,7 @@ def _misshapen(curve: Piecewise) -> str:
 def _joints(drone: DronePath) -> Iterator[RefinerFinding]:
     for a, b in pairwise(drone.legs):
         gap = float(np.abs(np.array(a.end_pose) - np.array(b.pose)).max())
-        if gap > SAME:
+        if gap > SAME_PLACE_TOLERANCE:
             note = f"the {b.phase} begins {gap:.3g} from where the {a.phase} ends"
             yield broken(f"{drone.drone}: {note} (m or rad)")
     for leg in drone.legs:
@@ -175,7 +175,7 @@ def _pads(old: DronePath, new: DronePath) -> Iterator[RefinerFinding]:
         ends = ((was.pose, now.pose), (was.end_pose, now.end_pose))
         moved = max(_apart(old_end, new_end) for old_end, new_end in ends)
         aside = float(np.ptp(now.curve.ctrl[:, :, :2], axis=(0, 1)).max())
-        if moved > SAME or aside > SAME:
+        if moved > SAME_PLACE_TOLERANCE or aside > SAME_PLACE_TOLERANCE:
             yield RefinerFinding(
                 "R005", f"moved the {now.phase} of `{new.drone}`", (f"by {max(moved, aside):.3f} m",)
             )
@@ -189,14 +189,14 @@ def _apart(a: Pose, b: Pose) -> float:
 def jumps(leg: Leg, curve: Piecewise) -> Iterator[RefinerFinding]:
     """Yield where a leg is not smooth, for the lowest order only; at a stop it may turn."""
     stops = leg.stops if isinstance(leg, MovingLeg) else ()
-    rests = np.searchsorted(curve.breaks, [stop.s - SAME for stop in stops])
+    rests = np.searchsorted(curve.breaks, [stop.s - SAME_PLACE_TOLERANCE for stop in stops])
     cuts = sorted({0, len(curve.ctrl), *map(int, rests)})
     whole = [(0, len(curve.ctrl))]
     for order, name in enumerate(ORDERS):
         for i, j in pairwise(cuts) if order else whole:
             stretch = Piecewise(curve.breaks[i : j + 1], curve.ctrl[i:j])
             jump = largest_jump(stretch, order)
-            if jump.size > SMOOTH:
+            if jump.size > SMOOTH_JUMP_SHARE:
                 text = f"its {name} jumps by {jump.size:.3g} of its scale, {place(leg, jump.at)}"
                 yield broken(text, leg.shot)
                 return
@@ -220,7 +220,7 @@ def changed_shot(was: PathLeg, now: PathLeg) -> Iterator[str]:
         yield "its keyframes are others"
     if isinstance(was, HoldLeg) != isinstance(now, HoldLeg):
         yield "a still camera moves now, or a moving one stands still"
-    elif isinstance(was, HoldLeg) and _apart(was.pose, now.pose) > SAME:
+    elif isinstance(was, HoldLeg) and _apart(was.pose, now.pose) > SAME_PLACE_TOLERANCE:
         yield "its still camera is elsewhere"
     if [(f.target, f.reference is None) for f in was.framing] != [
         (f.target, f.reference is None) for f in now.framing
@@ -229,7 +229,7 @@ def changed_shot(was: PathLeg, now: PathLeg) -> Iterator[str]:
         return
     for old, new in zip(was.framing, now.framing, strict=True):
         off = _off(old, new)
-        if off > OFF_LINE:
+        if off > OFF_LINE_HALF_FRAMES:
             yield f"the wanted place of `{old.target}` on screen is {off:.3f} of half a frame off"
 
 
@@ -249,7 +249,10 @@ def _off(old: FramingSpan, new: FramingSpan) -> float:
     if old.reference is None or new.reference is None or old.reference is new.reference:
         return 0.0
     a, b = old.reference, new.reference
-    line, points = a(np.linspace(a.start, a.end, _DENSE)), b(np.linspace(b.start, b.end, _DENSE))
+    line, points = (
+        a(np.linspace(a.start, a.end, _DENSE_SAMPLES)),
+        b(np.linspace(b.start, b.end, _DENSE_SAMPLES)),
+    )
     ends = float(np.abs(line[[0, -1]] - points[[0, -1]]).max())
     between = np.linalg.norm(points[:, None] - line[None], axis=2).min(axis=1)
     return max(ends, float(between.max()))

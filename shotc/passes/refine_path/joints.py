@@ -9,7 +9,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 
-ROUNDING = 16 * np.finfo(float).eps
+ROUNDING_SHARE = 16 * np.finfo(float).eps
 ORDERS = ("value", "rate", "acceleration")
 
 
@@ -43,4 +43,4 @@ def _rounding(curve: Piecewise, order: int) -> Array:
     degree = curve.degree
     factor = factorial(degree) / factorial(max(degree - order, 0)) * 2**order
     size = np.abs(curve.ctrl).max(axis=(0, 1))
-    return np.asarray(ROUNDING * factor * size / shortest[:, None] ** order)
+    return np.asarray(ROUNDING_SHARE * factor * size / shortest[:, None] ** order)

@@ -37,11 +37,11 @@ from shotc.passes.solver_reports import place
 from shotc.planning.free_space import FreeSpace, breaches, shortfall
 from shotc.planning.obstacles import flight_space
 
-TOLERANCE = 2e-6
+LIMIT_TOLERANCE = 2e-6
 """Metres and radians of violation that are accepted, as for the convex path."""
 
-HALVINGS = 16
-ENOUGH = 1e-4
+BREACH_HALVINGS = 16
+BREACH_RESOLUTION_M = 1e-4
 """Accuracy of the worst violation in metres."""
 
 
@@ -71,13 +71,13 @@ def limits(path: PathIR) -> Iterator[RefinerFinding]:
 def nearest(space: FreeSpace, curve: Piecewise) -> ClearanceLack | None:
     """Return where a curve of channels x, y, z lacks the most clearance; None if nowhere."""
     bag, worst = pieces(curve), None
-    for _ in range(HALVINGS):
-        least = TOLERANCE if worst is None else worst.lack + ENOUGH
+    for _ in range(BREACH_HALVINGS):
+        least = LIMIT_TOLERANCE if worst is None else worst.lack + BREACH_RESOLUTION_M
         bag = bag.pick(shortfall(space, bag.ctrl) > least)
         if not len(bag):
             break
         near = _worst_of(space, bag)
-        if near.lack > TOLERANCE and (worst is None or near.lack > worst.lack):
+        if near.lack > LIMIT_TOLERANCE and (worst is None or near.lack > worst.lack):
             worst = near
         bag = bag.halves()
     return worst
@@ -126,7 +126,7 @@ def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Ite
     for axis, (angle, (least, most)) in axes.items():
         under, over = inf_channel(angle, 0, _fine), sup_channel(angle, 0, _fine)
         beyond, at = max((least - under.proven, under.at), (over.proven - most, over.at))
-        if beyond > TOLERANCE:
+        if beyond > LIMIT_TOLERANCE:
             yield RefinerFinding(
                 "R008",
                 f"turns the gimbal beyond its {axis} range in {_which(leg)}",
@@ -140,7 +140,7 @@ def _gimbal(mission: MissionIR, drone: Drone, leg: Leg, curve: Piecewise) -> Ite
 
 
 def _fine(_worst: float) -> float:
-    return 0.5 * TOLERANCE
+    return 0.5 * LIMIT_TOLERANCE
 
 
 def _keyframes(path: PathIR) -> Iterator[RefinerFinding]:

@@ -30,7 +30,7 @@ from shotc.rounding import at_least
 
 CONSTRAINT = "look ahead"
 AT_REST_M_S = 1e-6
-SAMPLES = 400
+SHOT_SAMPLES = 400
 """Samples of a shot at which the freedom of its heading is checked."""
 
 ROOM_SHARE = 0.9
@@ -89,7 +89,7 @@ def _least_off(drone: Drone, track: DroneTrajectory, phase: Phase) -> float:
     """Return the least possible angle between body and course, over the worst sample, rad; 0 where it
     stands.
     """
-    t = np.linspace(phase.start, phase.end, SAMPLES)
+    t = np.linspace(phase.start, phase.end, SHOT_SAMPLES)
     rate = track.curve.channels(X, Y).derivative()(t)
     moves = np.linalg.norm(rate, axis=1) > SLOW_M_S
     aside = track.curve(t)[:, CAM_YAW] - np.arctan2(rate[:, 1], rate[:, 0])
@@ -103,7 +103,7 @@ def _filmed(track: DroneTrajectory) -> list[Phase]:
         phase
         for phase in track.phases
         if phase.shot is not None
-        and np.linalg.norm(speed(np.linspace(phase.start, phase.end, SAMPLES)), axis=1).max() > SLOW_M_S
+        and np.linalg.norm(speed(np.linspace(phase.start, phase.end, SHOT_SAMPLES)), axis=1).max() > SLOW_M_S
     ]
 
 

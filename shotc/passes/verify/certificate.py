@@ -8,7 +8,7 @@ from math import inf, isfinite
 
 from shotc.ir.measures import told_apart
 from shotc.ir.trajectory import Claim
-from shotc.passes.verify.claims import TOLERANCE
+from shotc.passes.verify.claims import LIMIT_TOLERANCE
 from shotc.units import clip
 
 Key = tuple[str, str | None, str]
@@ -98,4 +98,4 @@ def _unit(unit: str) -> str:
 def _same(a: float, b: float) -> bool:
     if not (isfinite(a) and isfinite(b)):
         return a == b
-    return abs(a - b) <= TOLERANCE * max(1.0, abs(a), abs(b))
+    return abs(a - b) <= LIMIT_TOLERANCE * max(1.0, abs(a), abs(b))

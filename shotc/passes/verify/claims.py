@@ -16,7 +16,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.trajectory import Claim, DroneTrajectory, Method
 
-TOLERANCE = 1e-6
+LIMIT_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,7 +54,7 @@ class WorstValue:
 
 def slack(limit: float) -> float:
     """Return the tolerance of a limit."""
-    return TOLERANCE * max(1.0, abs(limit)) if isfinite(limit) else 0.0
+    return LIMIT_TOLERANCE * max(1.0, abs(limit)) if isfinite(limit) else 0.0
 
 
 def gap(limit: float) -> Callable[[float], float]:

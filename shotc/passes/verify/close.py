@@ -22,7 +22,7 @@ from shotc.ir.sampling import beside, projected, rate_beside, references
 from shotc.ir.target import Target
 from shotc.passes.verify.claims import JudgedFlight
 
-HALVINGS = 10
+MOST_HALVINGS = 10
 """Most halvings of the time between two samples."""
 
 
@@ -171,7 +171,7 @@ def _closes(
 ) -> bool:
     low, high = interval.ends()
     a, b = sample(low), sample(high)
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         is_open = ~closed(a, b, high - low)
         if not is_open.any():
             return True

@@ -20,8 +20,8 @@ from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
 ENERGY = "energy"
-J_WH = 3600.0
-SHARE = 1e-4
+J_PER_WH = 3600.0
+ENERGY_ERROR_SHARE = 1e-4
 """Largest relative overestimate of an energy."""
 
 
@@ -32,12 +32,12 @@ def energy(flight: JudgedFlight) -> Iterator[Claim]:
         return
     path = (*flight.drone.path, "power", "battery")
     whole = taken(flight, power, lift_off(curve), curve.end)
-    limit = Limit(ENERGY, power.usable / J_WH, "Wh", path)
-    yield claim(flight, limit, WorstValue(whole / J_WH))
+    limit = Limit(ENERGY, power.usable / J_PER_WH, "Wh", path)
+    yield claim(flight, limit, WorstValue(whole / J_PER_WH))
     for phase in flight.track.phases:
         if phase.shot is not None:
             told = Limit(ENERGY, inf, "Wh", path, hard=False, shot=phase.shot)
-            yield claim(flight, told, WorstValue(taken(flight, power, phase.start, phase.end) / J_WH))
+            yield claim(flight, told, WorstValue(taken(flight, power, phase.start, phase.end) / J_PER_WH))
 
 
 def energy_note(claim: Claim, certificate: tuple[Claim, ...]) -> str:
@@ -57,7 +57,7 @@ def taken(flight: JudgedFlight, power: Power, start: float, end: float) -> float
     """
     curve = flight.track.curve
     acceleration = cut(curve, start, end).channels(0, 1, 2).derivative().derivative()
-    hovering = power.hover * integral_convex(acceleration, hover_ratio, SHARE).high
+    hovering = power.hover * integral_convex(acceleration, hover_ratio, ENERGY_ERROR_SHARE).high
     ends = np.array([start, end])
     speed = np.linalg.norm(curve.derivative()(ends)[:, :3], axis=1)
     gained = np.diff(0.5 * speed**2 + G_M_S2 * curve(ends)[:, 2])[0]

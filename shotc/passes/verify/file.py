@@ -26,10 +26,10 @@ Lower = Callable[[MissionSource, str], Lowered]
 Digests = tuple[tuple[str, str], ...]
 """Names of files, and their SHA-256."""
 
-REPORTED = 10
+MOST_REPORTED = 10
 """Most differing claims that are reported separately."""
 
-NOTED = 3
+MOST_NOTED = 3
 """Most differing claims that are named if another version of shotc wrote the file."""
 
 
@@ -135,10 +135,10 @@ def told(
     """Return differences as diagnostics on the mission's lines: the first ones each, the others together."""
     shown = [
         Diagnostic(code, d.text, (asked.mission.origins.value(d.path),), notes, REPLAN)
-        for d in differing[:REPORTED]
+        for d in differing[:MOST_REPORTED]
     ]
-    if len(differing) > REPORTED:
-        more = f"and {len(differing) - REPORTED} more differences between the plan and its mission"
+    if len(differing) > MOST_REPORTED:
+        more = f"and {len(differing) - MOST_REPORTED} more differences between the plan and its mission"
         shown.append(Diagnostic(code, more, (asked.mission.origins.value(()),), help=REPLAN))
     return shown
 
@@ -155,10 +155,10 @@ def _against_the_file(read: ReadPlan, proved: tuple[Claim, ...], name: str) -> l
     if differing and not same_tool:
         many = f"{len(differing)} claims of the certificate differ"
         writer = f"the file was written by shotc {clip(read.tool)}, this is {__version__}"
-        notes = (writer, *differing[:NOTED])
+        notes = (writer, *differing[:MOST_NOTED])
         return [Diagnostic("V040", many, label, notes, "plan the mission again with this shotc")]
-    diagnostics = [Diagnostic("V040", text, label, help=REPLAN) for text in differing[:REPORTED]]
-    if len(differing) > REPORTED:
-        more = f"{len(differing) - REPORTED} more claims of the certificate differ"
+    diagnostics = [Diagnostic("V040", text, label, help=REPLAN) for text in differing[:MOST_REPORTED]]
+    if len(differing) > MOST_REPORTED:
+        more = f"{len(differing) - MOST_REPORTED} more claims of the certificate differ"
         diagnostics.append(Diagnostic("V040", more, label))
     return diagnostics

@@ -16,7 +16,7 @@ from shotc.ir.parked import bodies
 from shotc.ir.sampling import clock, framed
 from shotc.ir.trajectory import Claim, TrajectoryIR
 
-NAMED = 3
+MOST_NAMED = 3
 """Most buildings, or parts of a scene, that are named: those that hide the most."""
 
 
@@ -35,7 +35,7 @@ def hidden_by(ir: TrajectoryIR, claim: Claim, target: str) -> Iterator[str]:
         if len(parts) != 1:
             sort, _, name = what.partition(" ")
             told.append((f"{sort} `{name}`", share))
-        told += parts[:NAMED]
+        told += parts[:MOST_NAMED]
     for what, share in sorted(told, key=lambda by: -by[1].sum()):
         if share.any():
             often = float((share > 1.0 - HALF_SHARE).mean())

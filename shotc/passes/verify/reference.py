@@ -19,7 +19,7 @@ from shotc.ir.keyframes import PlacedKeyframe, PlacedShot
 from shotc.ir.phases import Phase
 from shotc.ir.promise import Promise
 from shotc.ir.sampling import clock, framed, references
-from shotc.ir.tolerances import OFF_LINE
+from shotc.ir.tolerances import OFF_LINE_HALF_FRAMES
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import JudgedFlight, Limit, WorstValue, claim
 
@@ -60,7 +60,12 @@ def wanted_framing(flight: JudgedFlight, placed: PlacedShot, phase: Phase) -> It
     if errors:
         worst, time = max(errors)
         limit = Limit(
-            "reference off its keyframes", OFF_LINE, "of half a frame", shot.path, hard=hard, shot=shot.id
+            "reference off its keyframes",
+            OFF_LINE_HALF_FRAMES,
+            "of half a frame",
+            shot.path,
+            hard=hard,
+            shot=shot.id,
         )
         yield claim(flight, limit, WorstValue(worst, time, "sampled"))
 
@@ -85,7 +90,7 @@ def _all_along(flight: JudgedFlight, placed: PlacedShot, phase: Phase, *, hard: 
             off, when = float(away[k]), float(t[k])
     for name, limit, worst, unit in (
         ("frames without their target", 0.0, missing, ""),
-        ("reference off its composition", OFF_LINE, off, "of half a frame"),
+        ("reference off its composition", OFF_LINE_HALF_FRAMES, off, "of half a frame"),
     ):
         found = Limit(name, limit, unit, shot.path, hard=hard, shot=shot.id)
         yield claim(flight, found, WorstValue(worst, when, "sampled"))

@@ -19,7 +19,7 @@ from shotc.ir.path import CHANNELS, Z
 from shotc.ir.phases import Phase
 from shotc.ir.tolerances import AT_REST
 from shotc.ir.trajectory import Claim, DroneTrajectory, TrajectoryIR
-from shotc.passes.verify.claims import TOLERANCE, JudgedFlight, Limit, WorstValue, claim
+from shotc.passes.verify.claims import LIMIT_TOLERANCE, JudgedFlight, Limit, WorstValue, claim
 
 AT_HOME_M = 1e-3
 """Distance from home within which a flight begins and ends, metres."""
@@ -31,7 +31,7 @@ SHORTEST_S = 1e-5
 """Shortest piece, seconds; below it rounding dominates third derivatives."""
 
 
-REPORTED = 5
+MOST_REPORTED = 5
 """Most faults of one flight's form that are reported separately."""
 
 
@@ -84,9 +84,9 @@ def first_few(faults: Iterator[str]) -> Iterator[str]:
     """Yield the first faults of a flight, and a note if there are more; a damaged plan may have any
     number.
     """
-    yield from islice(faults, REPORTED)
+    yield from islice(faults, MOST_REPORTED)
     if next(faults, None) is not None:
-        yield f"more than {REPORTED} faults of its form are not told one by one"
+        yield f"more than {MOST_REPORTED} faults of its form are not told one by one"
 
 
 def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
@@ -115,7 +115,7 @@ def _faults(track: DroneTrajectory, shots: set[str]) -> Iterator[str]:
     if any((p.name == "shot") != (p.shot is not None) for p in phases):
         yield "a phase is a shot without a name, or has one without being a shot"
     wanted = (f.reference for f in track.framing if f.reference is not None)
-    if any(joint_steps(reference, 0).sum(axis=0).max() > TOLERANCE for reference in wanted):
+    if any(joint_steps(reference, 0).sum(axis=0).max() > LIMIT_TOLERANCE for reference in wanted):
         yield "what is wanted of a target on screen jumps"
 
 

@@ -33,7 +33,7 @@ PATH = ("rules", "mutual_visibility")
 NARROW_SHARE = 1e-3
 """Share of the distance from the limit to which the worst value is bounded."""
 
-ROUNDS = 40
+MOST_HALVINGS = 40
 """Most halvings of the time between two samples."""
 
 OPEN_INTERVALS_LIMIT = 200_000
@@ -119,7 +119,7 @@ def infimum(sight: CameraAndBody, times: Array, limit: float) -> ProvedExtreme:
     k = int(np.argmin(rows[:, 0]))
     best, at, closed = float(rows[k, 0]), float(times[k]), inf
     low, high, a, b = times[:-1], times[1:], rows[:-1], rows[1:]
-    for _ in range(ROUNDS):
+    for _ in range(MOST_HALVINGS):
         lower = np.minimum(_lower(sight, fastest, a, b, high - low), np.minimum(a[:, 0], b[:, 0]))
         is_open = lower < best - _gap(best, limit)
         closed = min(closed, float(lower[~is_open].min(initial=inf)))

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import cut
 from shotc.geom.proof import ProvedExtreme, inf_tapered
 from shotc.geom.solids import Solid, distance
-from shotc.geom.taper import SLOPE, Taper
+from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
 from shotc.ir.transits import TransitClearance, TransitInterval, from_target, from_zones, ways
@@ -70,4 +70,4 @@ def taper_of(solid: Solid, curve: Piecewise, clearance: float, way: TransitInter
     """
     ends = curve(np.array([way.start, way.end]))
     gaps = np.array([distance(solid, (float(end[0]), float(end[1]), float(end[2]))) for end in ends])
-    return Taper(clearance, SLOPE, ends, gaps)
+    return Taper(clearance, TAPER_SLOPE, ends, gaps)

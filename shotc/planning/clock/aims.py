@@ -70,7 +70,7 @@ def wanted_places(subject: PlacedSubject, start: float, times: Array) -> Array:
     return np.array([subject.asked(float(t) - start).place or (0.0, 0.0) for t in times])
 
 
-ROUNDS = 12  # Gauss-Newton iterations, from a good initial guess
+MOST_ROUNDS = 12  # Gauss-Newton iterations, from a good initial guess
 NUDGE_RAD = 1e-6  # rad
 VERTICAL_SHARE = 1e-9  # horizontal share of a distance, below which a ray has no yaw
 MOST_RAD = 0.2  # rad, largest step of an iteration
@@ -96,7 +96,7 @@ def aims_at(camera_task: CameraTask, times: Array, places: Array) -> Array:
     angles = np.column_stack([yaw, each[:, :, 1].mean(axis=0)])
     offsets = np.stack([_centres(camera_task.mission, s, times) - places for s in placed])
     wanted = np.stack([wanted_places(s, camera_task.start, times) for s in placed])
-    for _ in range(ROUNDS):
+    for _ in range(MOST_ROUNDS):
         here = _errors(drone, offsets, wanted, angles)
         slopes = np.stack(
             [

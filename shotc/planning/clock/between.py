@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import distances
-from shotc.geom.taper import SLOPE, Taper
+from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.planning.clock.moving import LinearMotion, Moving, linearised, relative_to, sides
 from shotc.planning.free_space import STEEPER_RATIO, HalfSpaces
 
@@ -57,7 +57,7 @@ def _lack(
 ) -> ClearanceShortfall:
     places, worst = course(np.clip(times, course.start, course.end))[:, :3], ClearanceShortfall(0.0, 0.0)
     for motion in motions:
-        taper = _taper(motion.what, course, film, SLOPE)
+        taper = _taper(motion.what, course, film, TAPER_SLOPE)
         if taper is None:
             continue
         beside = places - motion.what.at(times)
@@ -105,7 +105,7 @@ def standing_apart(
 
 
 def _standing(motion: LinearMotion, course: Piecewise, film: float, stands: Array) -> LinearMotion:
-    taper = _taper(motion.what, course, film, STEEPER_RATIO * SLOPE)
+    taper = _taper(motion.what, course, film, STEEPER_RATIO * TAPER_SLOPE)
     if taper is None:
         return motion
     return replace(motion, wide=np.maximum(taper.needs(relative_to(motion, stands)), motion.what.clearance))
@@ -116,7 +116,7 @@ def _widened(motion: LinearMotion, course: Piecewise, parts: tuple[Span, Mask, M
     what, points = motion.what, course.ctrl[:, :, :3]
     relative, wide = relative_to(motion, points), np.full(points.shape[:2], what.clearance)
     for film, which in ((span[0], ~filmed & before), (span[1], ~filmed & ~before)):
-        taper = _taper(what, course, film, STEEPER_RATIO * SLOPE)
+        taper = _taper(what, course, film, STEEPER_RATIO * TAPER_SLOPE)
         if taper is not None and which.any():
             wide[which] = np.maximum(taper.needs(relative[which]), what.clearance)
     return replace(motion, wide=wide)

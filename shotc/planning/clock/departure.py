@@ -22,7 +22,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import Mask
 from shotc.geom.solid_arrays.points import distances
-from shotc.geom.taper import SLOPE, Taper
+from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import Owner
@@ -288,7 +288,7 @@ def _apart(what: Moving, times: Array, places: Array) -> float:
         return inf
     beside = places - what.at(times)
     ends = beside[[0, -1]]
-    taper = Taper(what.apart, SLOPE, ends, distances(what.part, ends))
+    taper = Taper(what.apart, TAPER_SLOPE, ends, distances(what.part, ends))
     return float((distances(what.part, beside) - taper.needs(beside)).min())
 
 

@@ -26,8 +26,8 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.phases import KeyframeTime, Reference
 
 STEEP_SHARE = 0.1  # horizontal share of a line of sight, below which its bearing is undefined
-CALM = 1e-4  # half frames squared per rad^2, damping of turns off the keyframes' angles there
-ROUNDS = 8  # Gauss-Newton iterations
+CALM_WEIGHT = 1e-4  # half frames squared per rad^2, damping of turns off the keyframes' angles there
+MOST_ROUNDS = 8  # Gauss-Newton iterations
 NUDGE_RAD = 1e-6  # rad
 MOST_RAD = 0.2  # rad, largest step of an iteration
 SAME_S = 1e-9  # seconds
@@ -244,7 +244,7 @@ def _joined(spans: Sequence[Reference]) -> Iterator[Reference]:
 def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array) -> Array:
     """Return the angles near ``own`` that put points at places on screen, (M, 2), by damped least squares."""
     turned = np.zeros_like(own)
-    for _ in range(ROUNDS):
+    for _ in range(MOST_ROUNDS):
         here = _off(offsets, wanted, lens, own + turned)
         slopes = np.stack(
             [
@@ -253,8 +253,8 @@ def _calmly(offsets: Array, wanted: Array, lens: tuple[Array, Array], own: Array
             ],
             axis=2,
         )
-        normal = np.einsum("mri,mrj->mij", slopes, slopes) + CALM * np.eye(2)
-        down = np.einsum("mri,mr->mi", slopes, here) + CALM * turned
+        normal = np.einsum("mri,mrj->mij", slopes, slopes) + CALM_WEIGHT * np.eye(2)
+        down = np.einsum("mri,mr->mi", slopes, here) + CALM_WEIGHT * turned
         turned = turned - np.clip(np.linalg.solve(normal, down[:, :, None])[:, :, 0], -MOST_RAD, MOST_RAD)
     return own + turned
 

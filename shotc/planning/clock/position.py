@@ -29,7 +29,7 @@ from shotc.solvers.spline_relax import Relaxation, relax
 SAMPLES_PER_PIECE = 3  # samples of the ideal
 FAINT_WEIGHT = 1e-3  # weight of the reference outside the film, over that in the film
 UNSEEN_WEIGHT = 0.005  # weight of the jerk outside the film, over that in the film
-ROUNDS = 6
+MOST_ROUNDS = 6
 PICTURE_ROUNDS = 5  # rounds for free pictures
 SAME_SHARE = 0.02  # share of the distance to the subject that an unstated clearance may cost
 NEAR_M = 0.35  # metres beyond a clearance, within which half-spaces bind a place of rest
@@ -159,7 +159,7 @@ def _fly(task: ClockTask, free: tuple[HalfSpaceRows, ...]) -> PositionResult:
     places = ideal_of(task, breaks) if task.course is None else task.course.places
     chords = np.stack([places[:-1], places[1:]], axis=1)
     now = _Round(chords)
-    while not now.ended and now.rounds < ROUNDS:
+    while not now.ended and now.rounds < MOST_ROUNDS:
         problem = _walled(task, base, now.hulls, now.reach, now.share)
         problem = replace(problem, half_spaces=(*problem.half_spaces, *task.apart, *free))
         solution = minimise(problem)

@@ -49,7 +49,7 @@ LONGER_RATIOS = (1.1, 1.25, 1.5, 2.0, 3.0)  # factors of the duration, tried if 
 ON_PLACE_M = 1e-3  # metres
 SAME_S = 1e-6  # seconds
 SEEING_ROUNDS = 3  # rounds of leading the motion to where targets are visible
-SETTLES = 2  # searches for a place of rest aside
+MOST_ASIDES = 2  # searches for a place of rest aside
 STEP_S = 0.1  # seconds between samples of the deviation
 PICTURES = "the pictures of other drones"
 
@@ -288,7 +288,7 @@ def _led(
 ) -> RunUp:
     """Return a run-up (sign -1) or a run-out (sign 1) shifted to where nothing passes its place of rest."""
     led = way
-    for _ in range(SETTLES):  # a longer shift takes longer, which moves the straight end
+    for _ in range(MOST_ASIDES):  # a longer shift takes longer, which moves the straight end
         rest = film + sign * led.seconds
         straight = led.at(np.array([sign * led.seconds]))[0] - led.aside
         # The span includes the run-up, because an obstacle that passes then would meet the drone.

@@ -25,14 +25,14 @@ from shotc.planning.free_space import FreeSpace, bounds_slack
 from shotc.planning.path.shots import Failure
 from shotc.rounding import down, up
 
-TRIES = 10
-GIVES_UP = 4  # tries, after which a drone that falls further behind is given up
+MOST_TRIES = 10
+LATE_TRIES = 4  # tries, after which a drone that falls further behind is given up
 CLOSE_S = 0.3  # seconds between a late start and one in time, at which the search ends
 SPARE_S = 0.1  # seconds by which a drone is early if the start is free
 STEEPEST_RATE = 0.95  # largest growth of the correction per second of delay
 HORIZON_S = 300.0  # longest delay of a start, seconds
 FINE_S = 0.1  # seconds between the first candidates
-COARSER = 100  # candidates after which their spacing has doubled
+TRIES_PER_SCALE = 100  # candidates after which their spacing has doubled
 SHORTEST_S = 1.0  # least seconds of track for a shot
 ROUNDING_S = 1e-6  # seconds
 SLIGHT_M = 0.02  # metres, tolerance of a deviation
@@ -157,7 +157,7 @@ def put_off(
     off: list[tuple[float, float]] = []  # starts tried, and errors of the estimate
     now: float | None = start
     reached: Reached | ClockFailure
-    for _ in range(TRIES):
+    for _ in range(MOST_TRIES):
         assert now is not None
         reached = _as_long(mission, reach, placed, now)
         if not isinstance(reached, Reached):
@@ -182,7 +182,7 @@ def _first(about: Lateness, off: list[tuple[float, float]], span: tuple[float, f
     (before, less), (last, lack) = off[-2:] if len(off) > 1 else (off[-1], off[-1])
     rate = (lack - less) / (last - before) if last != before else 0.0
     found = _soonest(about, off, span, min(max(rate, 0.0), STEEPEST_RATE))
-    return _soonest(about, off, span, 0.0) if found is None and len(off) < GIVES_UP else found
+    return _soonest(about, off, span, 0.0) if found is None and len(off) < LATE_TRIES else found
 
 
 def _soonest(
@@ -192,7 +192,7 @@ def _soonest(
     (last, lack), begin = off[-1], span[0] + FINE_S
     until = min(span[1] - CLOSE_S, off[0][0] + HORIZON_S)
     steps = 0
-    while (now := up(begin + FINE_S * steps * (1.0 + steps / COARSER))) <= until:
+    while (now := up(begin + FINE_S * steps * (1.0 + steps / TRIES_PER_SCALE))) <= until:
         if about(now) + lack + rate * (now - last) <= -SPARE_S:
             return now
         steps += 1

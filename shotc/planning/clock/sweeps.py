@@ -19,7 +19,7 @@ from shotc.planning.obstacles import FreeSpaces
 
 STEP_S = 0.5  # seconds between the samples of a hull
 STILL_M = 1e-3  # metres, below which a target stands
-CORNERS = 8  # corners of the prism around a cylinder
+PRISM_CORNERS = 8  # corners of the prism around a cylinder
 
 
 def with_sweeps(spaces: FreeSpaces, moving: Sequence[Moving], span: tuple[float, float]) -> FreeSpaces:
@@ -42,5 +42,5 @@ def _swept(what: Moving, span: tuple[float, float]) -> Solid:
     middle, bottom, top = 0.5 * (low + high), part.bottom + float(low[2]), part.top + float(high[2])
     if np.linalg.norm(high - low) < STILL_M:
         return Cylinder((float(middle[0]), float(middle[1])), part.radius + STILL_M, bottom, top)
-    corners = (at[:, None, :2] + ring(part.radius, CORNERS)).reshape(-1, 2)
+    corners = (at[:, None, :2] + ring(part.radius, PRISM_CORNERS)).reshape(-1, 2)
     return Prism(convex_hull(tuple((float(x), float(y)) for x, y in corners)), bottom, top)

@@ -16,10 +16,10 @@ from shotc.ir.mission import Composition
 
 # Metres out of the frame, or past the gimbal's stop at the target: half of verification's tolerance.
 TOUCH_M = 0.5 * ROUNDING_M
-TIE_DISTANCE = 1e-9  # a later candidate must be nearer by more than this, so ties go to the first
+TIE_M = 1e-9  # a later candidate must be nearer by more than this, so ties go to the first
 LINE_SAMPLES = 32  # samples of a line whose nearest point is no candidate
-HALVINGS = 40
-GOLDEN = (sqrt(5) - 1) / 2
+MOST_HALVINGS = 40
+GOLDEN_RATIO = (sqrt(5) - 1) / 2
 
 
 class FixedCamera(NamedTuple):
@@ -159,7 +159,7 @@ def _nearest(setting: FixedCamera, asked: Vec2, places: Iterable[Vec2 | None]) -
     for place in places:
         if place is None:
             continue
-        if best is None or setting.apart(asked, place) < setting.apart(asked, best) - TIE_DISTANCE:
+        if best is None or setting.apart(asked, place) < setting.apart(asked, best) - TIE_M:
             best = place
     return best
 
@@ -208,16 +208,16 @@ def _summit(setting: FixedCamera, line: ScreenLine, middle: float) -> float:
         return setting.slack(line.point(t))
 
     low, high = max(-1.0, middle - 2.0 / LINE_SAMPLES), min(1.0, middle + 2.0 / LINE_SAMPLES)
-    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    left, right = high - GOLDEN_RATIO * (high - low), low + GOLDEN_RATIO * (high - low)
     at_left, at_right = slack(left), slack(right)
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         if at_left >= at_right:
             high, right, at_right = right, left, at_left
-            left = high - GOLDEN * (high - low)
+            left = high - GOLDEN_RATIO * (high - low)
             at_left = slack(left)
         else:
             low, left, at_left = left, right, at_right
-            right = low + GOLDEN * (high - low)
+            right = low + GOLDEN_RATIO * (high - low)
             at_right = slack(right)
     return max(middle, (low + high) / 2, key=slack)
 
@@ -240,7 +240,7 @@ def _first(setting: FixedCamera, line: ScreenLine, way: Vec2, peaks: list[float]
 def _border(setting: FixedCamera, line: ScreenLine, outside: float, inside: float) -> float:
     """Return where candidates begin, by bisection; there the whole target is inside the frame if possible."""
     least = min(TOUCH_M, setting.slack(line.point(inside)))
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = (outside + inside) / 2
         if setting.slack(line.point(middle)) >= least:
             inside = middle

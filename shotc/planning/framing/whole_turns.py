@@ -7,7 +7,7 @@ or more states turns: the camera turns by exactly the difference from the number
 from __future__ import annotations
 
 from shotc.geom.camera import heading_of
-from shotc.geom.vec import TURN, wrapped
+from shotc.geom.vec import TURN_RAD, wrapped
 from shotc.ir.keyframes import PlacedKeyframe
 from shotc.ir.mission import Keyframe
 
@@ -25,7 +25,7 @@ def with_turns(
     done = placed[:1]
     for i in range(1, len(placed)):
         heading = keyframes[i].heading
-        if heading is None or abs(heading) < TURN - ROUNDING:
+        if heading is None or abs(heading) < TURN_RAD - ROUNDING:
             done += (placed[i],)
             continue
         before = keyframes[i - 1].heading

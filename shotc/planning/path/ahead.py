@@ -24,7 +24,7 @@ from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 
 FINER = (4, 8, 16, 32)  # pieces for each piece of the position curve
-HALVINGS = 12  # halvings of pieces on which the course turns by much of the cone
+MOST_HALVINGS = 12  # halvings of pieces on which the course turns by much of the cone
 SAMPLES_PER_PIECE = 4
 KEPT_SHARE = 0.97  # share of the half-angle that is used, because the course is sampled
 ANY_RAD = 1e3  # rad, bounds of the yaw where there is no course
@@ -76,7 +76,7 @@ def finer_course(drone: Drone, position: Piecewise, half_angle: float, room: flo
     Where the curve reverses, its course turns within a short part of its length.
     """
     breaks = subdivide(position.breaks, FINER[0])
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         course = _sampled(drone, position, half_angle, breaks)
         if course is None:
             return None

@@ -26,8 +26,8 @@ LENGTHS = (0.2, 0.45)  # lengths of bends over that of the transfer
 LONGEST_M = 30.0  # longest bend; a drone is at full speed by then
 SHARES = (0.4, 1.0)  # shares of the turn on the spot that a bend saves
 LEAST_RAD = 0.02  # least turn on the spot for which a bend is tried
-PIECES = 8  # pieces of a bend, for the proof of its clearances
-SAMPLES = 200  # samples of a transfer, for the clearances of transfers
+BEND_PIECES = 8  # pieces of a bend, for the proof of its clearances
+WAY_SAMPLES = 200  # samples of a transfer, for the clearances of transfers
 ROUNDING_M = 1e-6
 
 
@@ -48,7 +48,7 @@ def bent_starts(position: Piecewise, over: float) -> Iterator[Piecewise]:
                 np.stack(pair) for pair in zip((position(breaks[0]), first, np.zeros(3)), joint, strict=True)
             )
             bend = quintic_hermite(np.array([breaks[0], s]), *ends)
-            yield concatenate([restrict(bend, subdivide(bend.breaks, PIECES)), rest])
+            yield concatenate([restrict(bend, subdivide(bend.breaks, BEND_PIECES)), rest])
 
 
 def bent_ends(position: Piecewise, over: float) -> Iterator[Piecewise]:
@@ -80,7 +80,7 @@ def as_clear(spaces: FreeSpaces, way: Piecewise, than: Piecewise) -> bool:
 
 
 def _lack(space: FreeSpace, way: Piecewise) -> float:
-    points = way(np.linspace(way.start, way.end, SAMPLES))
+    points = way(np.linspace(way.start, way.end, WAY_SAMPLES))
     (ax, ay, az), (bx, by, bz) = points[[0, -1]].tolist()
     tapered = replace(space, ends=((ax, ay, az), (bx, by, bz)))
     lacks = [

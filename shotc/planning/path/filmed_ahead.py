@@ -22,7 +22,7 @@ from shotc.planning.path.ahead import KEPT_SHARE, CourseBounds, finer_course, ne
 from shotc.planning.path.body import BodyTask, body_line
 from shotc.solvers.conic import Status
 
-YAW = 0
+YAW_CHANNEL = 0
 ROOM_SHARES = (0.3, 0.6, 0.8)
 """Least width of the yaw bounds over the cone's opening; larger ones are tried if smaller ones fail."""
 
@@ -69,7 +69,7 @@ def faced(drone: Drone, ahead: Ahead, task: BodyTask, camera: Piecewise) -> Face
         cone = None if turned is None else _cone(drone, course, turned)
         if turned is None or cone is None:
             continue
-        within = BodyTask(position, turned.channels(YAW), task.start, task.end, task.speed, cone)
+        within = BodyTask(position, turned.channels(YAW_CHANNEL), task.start, task.end, task.speed, cone)
         status, body = body_line(drone, within)
         if status in {Status.SOLVED, Status.INACCURATE}:
             return Faced(position, turned, body)
@@ -78,10 +78,10 @@ def faced(drone: Drone, ahead: Ahead, task: BodyTask, camera: Piecewise) -> Face
 
 def _along(drone: Drone, ahead: Ahead, course: CourseBounds, camera: Piecewise) -> Piecewise | None:
     """Return the camera moved into the cone about its course, unless it is there; None if infeasible."""
-    yaw = camera.ctrl[:, :, YAW]
+    yaw = camera.ctrl[:, :, YAW_CHANNEL]
     if (yaw >= course.low[:, None]).all() and (yaw <= course.high[:, None]).all():
         return camera
-    off = wrapped(camera(course.at)[:, YAW] - course.yaw)
+    off = wrapped(camera(course.at)[:, YAW_CHANNEL] - course.yaw)
     most = KEPT_SHARE * ahead.half_angle
     line = near_course(drone, course, course.yaw + np.clip(off, -most, most), ())
     if isinstance(line, Status):
@@ -91,7 +91,7 @@ def _along(drone: Drone, ahead: Ahead, course: CourseBounds, camera: Piecewise) 
 
 def _cone(drone: Drone, course: CourseBounds, camera: Piecewise) -> tuple[Array, Array] | None:
     """Return the bounds of the body yaw on each piece, (P,), rad; None where the gimbal prevents any."""
-    yaw = camera.ctrl[:, :, YAW]
+    yaw = camera.ctrl[:, :, YAW_CHANNEL]
     if drone.body == "follow-camera":
         low, high = yaw.max(axis=1), yaw.min(axis=1)
         inside = (low <= course.high).all() and (high >= course.low).all()

@@ -18,7 +18,7 @@ from shotc.planning.obstacles import flight_space
 from shotc.planning.path.route import find_route
 from shotc.rounding import down
 
-HALVINGS = 7
+MOST_HALVINGS = 7
 OFF_M = 0.3  # metres, tolerance between a gap's lack and the loan's
 LACK_SHARE = 0.8  # largest loan over the least clearance
 
@@ -53,7 +53,7 @@ def lower_clearance(mission: MissionIR, drone: Drone, start: Array, end: Array) 
     low, high = 0.0, mission.rules.ground_clearance
     if high <= 0.0 or not opens(low):
         return None
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if opens(middle) else (low, middle)
     return down(low)
@@ -107,7 +107,7 @@ def _least_loan(space: FreeSpace, start: Array, end: Array) -> float | None:
     if most <= 0.0 or find_route(space.lent(most), start, end) is None:
         return None
     low, high = 0.0, most
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
         if find_route(space.lent(middle), start, end) is None:
             low = middle

@@ -40,9 +40,9 @@ from shotc.planning.path.transit import transit_curve
 from shotc.planning.timing.estimate import leg_time
 from shotc.solvers.conic import Status
 
-SAME_ANGLE = 1e-6
+SAME_ANGLE_RAD = 1e-6
 ROUNDING_M = 1e-9  # metres
-PIECES = 4
+LEG_PIECES = 4
 
 CurveLeg = TypeVar("CurveLeg", MovingLeg, ClockLeg)
 
@@ -209,9 +209,9 @@ def _turn(drone: Drone, start: Pose, goal: Pose, *, free_end: bool = False) -> l
     """Return the turn on the spot from one pose to another; empty where they are equal."""
     a, b = np.array(start[:3]), np.array(goal[:3])
     turn = max(abs(p - q) for p, q in zip(start[3:], goal[3:], strict=True))
-    if turn < SAME_ANGLE and np.array_equal(a, b):
+    if turn < SAME_ANGLE_RAD and np.array_equal(a, b):
         return []
-    breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE)])
+    breaks = np.array([0.0, TURN_LENGTH_M_RAD * max(turn, SAME_ANGLE_RAD)])
     curve = _with_angles(drone, Piecewise(breaks, np.linspace(a, b, 6)[None]), start, goal, free_end=free_end)
     return curve if isinstance(curve, AngleFailure) else [curve]
 
@@ -275,7 +275,9 @@ def _with_angles(
     straight = len(position.breaks) == 2 and (
         drone.body == "follow-camera" or start[BODY_YAW] == goal[BODY_YAW]
     )
-    breaks = position.breaks if straight and drone.body != "forward" else subdivide(position.breaks, PIECES)
+    breaks = (
+        position.breaks if straight and drone.body != "forward" else subdivide(position.breaks, LEG_PIECES)
+    )
     return _stacked(drone, restrict(position, breaks), start, goal, free_end=free_end)
 
 
@@ -289,7 +291,7 @@ def turned_way(
         found = headed(drone, position, course.wound(start[BODY_YAW]), ends)
         return AngleFailure("body", found) if isinstance(found, Status) else replace(leg, curve=found)
     if len(position.breaks) == 2:
-        position = restrict(position, subdivide(position.breaks, PIECES))
+        position = restrict(position, subdivide(position.breaks, LEG_PIECES))
     curve = _stacked(drone, position, start, goal, free_end=False)
     return curve if isinstance(curve, AngleFailure) else replace(leg, curve=curve)
 

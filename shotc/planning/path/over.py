@@ -13,7 +13,7 @@ from shotc.planning.profile import Section, cut, fewer, taut
 STEP_M = 1.0  # metres between samples of the ground below a path
 STRIP_M = 3.0  # metres on either side of a path in which the ground counts
 ROOM_M = 0.5  # metres kept beyond the clearance and its margin
-GROWS = 0.1  # growth of ROOM_M per metre from an end; five times that for the strip
+GROWTH_PER_M = 0.1  # growth of ROOM_M per metre from an end; five times that for the strip
 APART_M = 8.0  # metres, nearer corners are merged where there is free space
 LONGEST_M = 15.0  # metres of a leg; on short pieces ground far away does not count
 PROVED_M = 1e-6  # metres, tolerance of the proof for a straight leg
@@ -51,7 +51,7 @@ def _section(space: FreeSpace, a: Array, b: Array) -> Section:
     along = np.linspace(0.0, flat, int(np.ceil(flat / STEP_M)) + 1)
     place = a[:2] + (along / flat)[:, None] * (b[:2] - a[:2])
     left = np.array([a[1] - b[1], b[0] - a[0]]) / flat
-    room = np.minimum(ROOM_M, GROWS * np.minimum(along, flat - along))
+    room = np.minimum(ROOM_M, GROWTH_PER_M * np.minimum(along, flat - along))
     wide = np.minimum(STRIP_M, 5.0 * room)[:, None] * left
     strip, margin = [place - wide, place, place + wide], MARGIN_M + room
     low = np.max([space.terrain[0].lowest(p) for p in strip], axis=0) + margin

@@ -37,7 +37,7 @@ PIECES_PER_CHORD = 3  # pieces per segment of the polyline
 PULL_WEIGHT = 100.0  # weight of a generated keyframe that does not bind, over the energy in m^2
 SIGHT_WEIGHT = 1e4  # weight of a place that leads a way to see its target
 EXCESS_PRICE = 10.0  # price of speed and acceleration above nominal, over the energy in m^2
-ROUNDS = 4
+MOST_ROUNDS = 4
 FIRST_SHARE = 0.5  # share of its slack that a chord keeps
 LATER_SHARE = 0.95  # the same for a solved curve; less would use up the margins
 FINER = (1, 2, 4)
@@ -151,7 +151,7 @@ def _iterate(
     hulls, share = chords, FIRST_SHARE
     best: SplineSolution | None = None
     problem = base
-    for used in range(1, ROUNDS + 1):
+    for used in range(1, MOST_ROUNDS + 1):
         problem = with_corridor(base, Around(wide, breaks, hulls, reach, share))
         solution = minimise(problem)
         if solution.coef is None:

@@ -27,15 +27,15 @@ from shotc.planning.layered import VisibleSubject, led_round
 from shotc.planning.path.lines import PACE_M_S, SAME_PLACE_M
 
 STEP_M = 1.0  # least metres of path between led places
-MOST = 80  # most led places between two keyframes
-FINER = 2  # factor of their number, for the comparison of curves
+MOST_PLACES = 80  # most led places between two keyframes
+FINER_RATIO = 2  # factor of their number, for the comparison of curves
 ABOUT_M = 1.5  # metres by which a target is enlarged
 SMOOTHINGS = 6  # smoothing passes over the led places
-ROUNDS = 4  # rounds, each from the last curve
+CURVE_ROUNDS = 4  # rounds, each from the last curve
 MOST_SHARE = 1 / 3  # hidden share of a target above which a way is led
 LESS_SHARE = 0.9  # largest ratio of hidden times between a led curve and the plain one
 LONGER_RATIO = 2.0  # largest ratio of durations between a led curve and the plain one
-NO_LENGTH = 1e-9
+NO_LENGTH_M = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ class FilmedCurve:
         Where a target is hidden in part, its hidden share counts. The speed keeps limits of speed, lateral
         and tangential acceleration; jerk is ignored.
         """
-        s = [self._samples(k, FINER) for k in range(len(self.at) - 1)]
+        s = [self._samples(k, FINER_RATIO) for k in range(len(self.at) - 1)]
         every = np.concatenate(s)
         shares = np.concatenate([self._hidden.get(k, np.zeros(len(part))) for k, part in enumerate(s)])
         steps = self._steps(every)
@@ -88,7 +88,7 @@ class FilmedCurve:
         """The hidden shares of its target on each way that films one, at samples."""
         found = {}
         for k, who in self._ways():
-            s = self._samples(k, FINER)
+            s = self._samples(k, FINER_RATIO)
             found[k] = _repeated(who, len(s)).hidden(self.curve(s)[:, None])[:, 0]
         return found
 
@@ -101,15 +101,17 @@ class FilmedCurve:
 
     def _samples(self, k: int, finer: int) -> Array:
         long = float(self.at[k + 1] - self.at[k])
-        return np.linspace(self.at[k], self.at[k + 1], finer * min(MOST, max(2, round(long / STEP_M))) + 1)
+        return np.linspace(
+            self.at[k], self.at[k + 1], finer * min(MOST_PLACES, max(2, round(long / STEP_M))) + 1
+        )
 
     def _steps(self, s: Array) -> Array:
         """Return the approximate seconds between path parameters (N,), shape (N - 1,)."""
         first, second = self.curve.derivative()(s), self.curve.derivative(2)(s)
-        along = np.maximum(np.linalg.norm(first, axis=1), NO_LENGTH)
+        along = np.maximum(np.linalg.norm(first, axis=1), NO_LENGTH_M)
         bend = np.linalg.norm(np.cross(first, second), axis=1) / along**3
         most = self.limits.usable_acceleration
-        square = np.minimum(most / np.maximum(bend, NO_LENGTH), self.limits.speed**2)
+        square = np.minimum(most / np.maximum(bend, NO_LENGTH_M), self.limits.speed**2)
         long = np.linalg.norm(np.diff(self.curve(s), axis=0), axis=1)
         square[[0, -1]] = 0.0
         for i in range(1, len(s)):
@@ -117,7 +119,7 @@ class FilmedCurve:
         for i in range(len(s) - 2, -1, -1):
             square[i] = min(square[i], square[i + 1] + 2.0 * most * long[i])
         speed = self.pace * np.sqrt(square)
-        return np.asarray(2.0 * long / np.maximum(speed[1:] + speed[:-1], NO_LENGTH))
+        return np.asarray(2.0 * long / np.maximum(speed[1:] + speed[:-1], NO_LENGTH_M))
 
     def _led(self, space: FreeSpace, k: int, who: VisibleSubject) -> Array:
         """Return places of the way after a keyframe, (N, 3), led to where its target is visible."""

@@ -21,7 +21,7 @@ from shotc.planning.path.body import BodyTask, body_line
 from shotc.planning.path.filmed_ahead import Faced, ahead_in, faced
 from shotc.planning.path.lines import SAME_PLACE_M, NoWay, Polyline, TooNear, line_beside, shot_line
 from shotc.planning.path.position import PULL_WEIGHT, SIGHT_WEIGHT, PolylineTask, Solved, solve_stretch
-from shotc.planning.path.seeing import ROUNDS, FilmedCurve, is_led, watched_at, watched_at_keyframes
+from shotc.planning.path.seeing import CURVE_ROUNDS, FilmedCurve, is_led, watched_at, watched_at_keyframes
 from shotc.planning.path.swings import Swing, worst_swing
 from shotc.planning.path.unwrapping import turns_of
 from shotc.planning.timing.deadlines import has_times
@@ -30,7 +30,7 @@ from shotc.solvers.conic import Status
 from shotc.solvers.headings import DEFAULT
 
 NOTICE_M = 0.1  # metres off a generated keyframe, above which a deviation is reported
-PLACES_BETWEEN = 65  # samples between two keyframes, for the comparison with their chord
+COMPARED_PLACES = 65  # samples between two keyframes, for the comparison with their chord
 BETWEEN = "what lies between its keyframes"
 LEFT_M = 0.02  # metres off, above which a keyframe belongs to a reported run
 
@@ -235,7 +235,7 @@ def _led_to_see(
 
     plain = now = best = filmed(line, position[0])
     led: tuple[Polyline, tuple[Piecewise, list[Solved]]] | None = None
-    for _ in range(ROUNDS):
+    for _ in range(CURVE_ROUNDS):
         aside = now.beside(space)
         beside = line_beside(space, placed.keyframes, aside) if any(map(len, aside)) else None
         found = _position(space, drone, placed, beside) if isinstance(beside, Polyline) else None
@@ -369,7 +369,7 @@ def _deviations(
 
 def _bowed(keyed: KeyedPath, points: Array, k: int) -> _Away:
     """Return where the curve bows out the most from the chord after keyframe k, and by how much."""
-    s = np.linspace(keyed.s[k], keyed.s[k + 1], PLACES_BETWEEN)
+    s = np.linspace(keyed.s[k], keyed.s[k + 1], COMPARED_PLACES)
     flown, along = keyed.position(s), points[k + 1] - points[k]
     share = np.clip((flown - points[k]) @ along / max(float(along @ along), 1e-12), 0.0, 1.0)
     chord = points[k] + share[:, None] * along

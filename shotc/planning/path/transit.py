@@ -19,7 +19,7 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.pieces import Mask
 from shotc.geom.sampling import directions
 from shotc.geom.solid_arrays.points import distances
-from shotc.geom.taper import SLOPE
+from shotc.geom.taper import TAPER_SLOPE
 from shotc.geom.vec import Vec3
 from shotc.ir.drone import Drone
 from shotc.ir.owners import Owner
@@ -35,11 +35,11 @@ LONGER_RATIO, LONGER_M = (
     1.5,
     20.0,
 )  # largest length of a path over that without the clearances: factor and metres
-HALVINGS = 4  # bisection steps for the share to which clearances are reduced
+SHARE_HALVINGS = 4  # bisection steps for the share to which clearances are reduced
 STEP_M = 0.2  # metres between samples of a ray
-RAYS = 24  # rays around an end
+RAYS_PER_END = 24  # rays around an end
 RISES_RAD = (0.0, 0.6, 1.2, -0.6)  # rad, elevations of rays
-PLACES_TRIED = 60  # intermediate places tried for a short path
+MOST_PLACES = 60  # intermediate places tried for a short path
 PLAY_M = 3.0 * MARGIN_M  # metres beyond the clearances, at which the path out of an end stops
 ROUNDING_M = 1e-6  # metres
 
@@ -93,7 +93,7 @@ def _greatest(spaces: FreeSpaces, owners: frozenset[Owner], near: Array) -> floa
     low, high = 0.0, 1.0
     if not owners or _line(spaces, _lessened(spaces, owners, low), near) is None:
         return None
-    for _ in range(HALVINGS):
+    for _ in range(SHARE_HALVINGS):
         middle = 0.5 * (low + high)
         found = _line(spaces, _lessened(spaces, owners, middle), near) is not None
         low, high = (middle, high) if found else (low, middle)
@@ -139,7 +139,7 @@ def _line(spaces: FreeSpaces, wide: FreeSpace, near: Array) -> Polyline | None:
     full, wide = _settled(wide, near[[0, -1]]), replace(wide, ends=_ends(near))
     if _kept(wide, near):
         return _of(near)
-    short = length(near) <= 2.0 * max(o.clearance for o in wide.obstacles) / SLOPE
+    short = length(near) <= 2.0 * max(o.clearance for o in wide.obstacles) / TAPER_SLOPE
     bent = _bent(flight, wide, a, b) if short else None
     found = [bent] if bent is not None else []
     away, back = (_outside(flight, replace(full, ends=wide.ends), *pair) for pair in ((a, b), (b, a)))
@@ -206,8 +206,8 @@ def _outside(flight: FreeSpace, wide: FreeSpace, end: Array, goal: Array) -> Arr
     if lack <= 0.0:
         return end
     # The needed distance grows by the slope at least, until it is reached.
-    reach = np.arange(STEP_M, (lack + PLAY_M) / SLOPE + 2.0 * STEP_M, STEP_M)
-    points = end + reach[:, None] * directions(RAYS, RISES_RAD)[:, None, :]
+    reach = np.arange(STEP_M, (lack + PLAY_M) / TAPER_SLOPE + 2.0 * STEP_M, STEP_M)
+    points = end + reach[:, None] * directions(RAYS_PER_END, RISES_RAD)[:, None, :]
     fine = _keeps(wide, points)
     inside = bounds_slack(flight, points.reshape(-1, 3)).reshape(fine.shape) >= MARGIN_M
     there = np.logical_and.accumulate(fine & inside, axis=1) & _keeps(replace(wide, ends=()), points, PLAY_M)
@@ -223,10 +223,10 @@ def _bent(flight: FreeSpace, wide: FreeSpace, a: Array, b: Array) -> Array | Non
     """
     apart = float(np.linalg.norm(b - a))
     reach = np.arange(STEP_M, 0.5 * apart + 2.0 * STEP_M, STEP_M)
-    places = (0.5 * (a + b) + reach[:, None] * directions(RAYS, RISES_RAD)[:, None, :]).reshape(-1, 3)
+    places = (0.5 * (a + b) + reach[:, None] * directions(RAYS_PER_END, RISES_RAD)[:, None, :]).reshape(-1, 3)
     places = places[_keeps(wide, places) & (bounds_slack(flight, places) >= MARGIN_M)]
     order = np.argsort(np.linalg.norm(places - a, axis=1) + np.linalg.norm(places - b, axis=1), kind="stable")
-    ways = (np.stack([a, place, b]) for place in places[order[:PLACES_TRIED]])
+    ways = (np.stack([a, place, b]) for place in places[order[:MOST_PLACES]])
     return next((corners for corners in ways if _kept(wide, corners)), None)
 
 

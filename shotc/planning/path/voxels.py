@@ -26,18 +26,18 @@ from shotc.planning.free_space import MARGIN_M, FreeSpace, blocked, bounds_slack
 AROUND_M = (15.0, 45.0, 135.0)  # metres around both ends in which a route is searched, in turn
 FINEST_M = 1.0  # least side of a voxel
 MOST_VOXELS = (120_000, 600_000)  # most voxels of one search, in turn
-SEARCHES = 60  # searches in one grid, after edges that failed
+MOST_SEARCHES = 60  # searches in one grid, after edges that failed
 ROOM_M = 1.0  # metres beyond a clearance within which a route has a higher price
 NEAR_PRICE = 1.0  # additional price over length, at the clearance itself
 UNSURE_RATIO = 1.5  # price factor of an edge that its voxels do not prove
 CLIMB_PRICE = 0.3  # extra length per metre of climb or descent
-REMOVED = 1e9  # price of an edge that failed
+REMOVED_PRICE = 1e9  # price of an edge that failed
 SHORTCUTS_AT_ONCE = 16
 LONGEST_M = 15.0  # metres of a leg; short pieces need few half-spaces
 ROOMY_M, ROUTE_MARGIN_M = 0.5, 2.0 * MARGIN_M  # metres kept beyond clearances by shortcuts, in turn
 DETOUR_RATIO = 1.15  # largest ratio of lengths between a route with ROOMY_M and one without
-_IN_VOXEL = 0.5 * 3.0**0.5  # sides: largest distance of a point of a voxel from its middle
-_IN_TRIANGLE = 3.0**-0.5  # longest edges: largest distance in a triangle from the nearest corner
+_IN_VOXEL_SIDES = 0.5 * 3.0**0.5  # sides: largest distance of a point of a voxel from its middle
+_IN_TRIANGLE_EDGES = 3.0**-0.5  # longest edges: largest distance in a triangle from the nearest corner
 _STEPS = np.array(
     [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if (x, y, z) > (0, 0, 0)]
 )
@@ -114,9 +114,9 @@ class _Search:
 
     def way(self) -> Array | None:
         """Return the cheapest route whose edges are all free, shape (K, 3); None if there is none."""
-        for _ in range(SEARCHES):
+        for _ in range(MOST_SEARCHES):
             cost, before = dijkstra(self.graph, directed=False, indices=0, return_predecessors=True)
-            if not cost[1] < REMOVED:
+            if not cost[1] < REMOVED_PRICE:
                 return None
             nodes = [1]
             while nodes[-1] != 0:
@@ -132,7 +132,7 @@ class _Search:
 
     def _remove(self, a: int, b: int) -> None:
         row = slice(self.graph.indptr[a], self.graph.indptr[a + 1])
-        self.graph.data[row][self.graph.indices[row] == b] = REMOVED
+        self.graph.data[row][self.graph.indices[row] == b] = REMOVED_PRICE
 
 
 def stopped(space: FreeSpace, a: Array, b: Array, margin: float) -> Mask:
@@ -167,7 +167,7 @@ def _beside(beside: BesideMesh, grid: _Grid) -> Array:
     not enough, the distance is measured.
     """
     side, shape, surface = grid.side, grid.shape, beside.mesh.surface
-    reach = beside.clearance + ROOM_M + (_IN_VOXEL + _IN_TRIANGLE) * side
+    reach = beside.clearance + ROOM_M + (_IN_VOXEL_SIDES + _IN_TRIANGLE_EDGES) * side
     high = grid.low + side * (np.array(shape) - 1)
     near = within(surface, grid.low[None], high[None], reach)
     small = halved(surface.triangles[near.triangle], side).triangles.reshape(-1, 3)
@@ -181,8 +181,8 @@ def _beside(beside: BesideMesh, grid: _Grid) -> Array:
     empty[tuple(index.T)] = False
     rough = side * distance_transform_edt(empty)
     rough = rough[tuple(slice(pad, pad + n) for n in shape)].ravel()
-    slack = rough - (_IN_VOXEL + _IN_TRIANGLE) * side - beside.clearance
-    doubtful = np.flatnonzero((slack < ROOM_M) & (rough + _IN_VOXEL * side >= beside.clearance))
+    slack = rough - (_IN_VOXEL_SIDES + _IN_TRIANGLE_EDGES) * side - beside.clearance
+    doubtful = np.flatnonzero((slack < ROOM_M) & (rough + _IN_VOXEL_SIDES * side >= beside.clearance))
     found = nearest(surface, grid.middles(doubtful), beside.clearance + ROOM_M)
     slack[doubtful] = np.minimum(found.distance - beside.clearance, ROOM_M)
     return np.asarray(slack)

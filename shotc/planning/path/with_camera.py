@@ -17,7 +17,7 @@ from shotc.planning.path.shots import stack
 from shotc.solvers.conic import Status
 
 SAME_END = 1e-9  # metres or radians
-LENS = 5  # channel of the field of view in a refined camera
+LENS_COLUMN = 5  # channel of the field of view in a refined camera
 
 
 class NoTransit(Exception):
@@ -49,8 +49,8 @@ def with_camera(drone: Drone, leg: PathLeg, camera: Piecewise, ahead: Ahead | No
     if abs(camera.start - old.start) > SAME_END or abs(camera.end - old.end) > SAME_END:
         raise ValueError(f"the camera of shot {leg.shot} does not cover its leg")
     lens = old.channels(HFOV)
-    if camera.ctrl.shape[2] > LENS:
-        lens, camera = camera.channels(LENS), camera.channels(*range(LENS))
+    if camera.ctrl.shape[2] > LENS_COLUMN:
+        lens, camera = camera.channels(LENS_COLUMN), camera.channels(*range(LENS_COLUMN))
     kept = same(old.ctrl[0, 0, :5], camera.ctrl[0, 0]) and same(old.ctrl[-1, -1, :5], camera.ctrl[-1, -1])
     if ahead is not None and (turned := _facing(drone, leg, camera, ahead)) is not None:
         whole = stack(turned.position, turned.camera, turned.body, restrict(lens, turned.position.breaks))

@@ -18,7 +18,7 @@ from shotc.ir.path import Mark, PathLeg
 from shotc.planning.timing.leg import StopPlan, plan_of
 from shotc.planning.timing.limits import Ceiling
 from shotc.planning.timing.move import TimedMove
-from shotc.planning.timing.profile import SAME
+from shotc.planning.timing.profile import SAME_PLACE_M
 from shotc.planning.timing.windows import windowed_move
 
 # Least relative lateness of a flight that no single interval makes late; seconds taken as none.
@@ -152,7 +152,7 @@ def _anchors(leg: PathLeg, plan: StopPlan) -> list[_Anchor]:
             continue
         last = anchors[-1]
         held = plan.hold_at(mark.s)
-        if mark.s - last.s > SAME:
+        if mark.s - last.s > SAME_PLACE_M:
             anchors.append(_Anchor(mark.s, mark.time, mark.time + held, mark))
         elif last.mark is None:
             anchors[-1] = _Anchor(last.s, 0.0, mark.time + held, mark)
@@ -160,7 +160,7 @@ def _anchors(leg: PathLeg, plan: StopPlan) -> list[_Anchor]:
             anchors[-1] = replace(last, leaves=max(last.leaves, mark.time))
     if leg.duration is not None:
         end, last = plan.stops[-1], anchors[-1]
-        if end.s - last.s > SAME:
+        if end.s - last.s > SAME_PLACE_M:
             anchors.append(_Anchor(end.s, leg.duration - end.hold, leg.duration))
         else:
             anchors[-1] = replace(last, leaves=max(last.leaves, leg.duration))
@@ -211,7 +211,7 @@ def _parts(plan: StopPlan, moves: tuple[TimedMove, ...], start: float, end: floa
     parts = []
     for m, ((s0, s1), move) in enumerate(zip(plan.spans, moves, strict=True)):
         low, high = max(s0, start), min(s1, end)
-        if high - low > SAME:
+        if high - low > SAME_PLACE_M:
             seconds = move.profile.arrival(high) - move.profile.departure(low)
             parts.append(_FlownPart(m, high, seconds))
     return parts

@@ -11,14 +11,14 @@ from shotc.geom.bernstein import Piecewise, concatenate, quintic_hermite
 from shotc.ir.path import ClockLeg, FramingSpan, HoldLeg, PathLeg
 from shotc.ir.phases import KeyframeTime, Phase, Reference
 from shotc.ir.trajectory import DroneTrajectory
-from shotc.planning.timing.leg import TINY, LegMotion, rest
+from shotc.planning.timing.leg import SHORTEST_HOLD_S, LegMotion, rest
 from shotc.planning.timing.profile import Profile
 
 Array = NDArray[np.float64]
 
 # Error of a reference over time against the one over the path, half frames, above which it gets more knots.
-OFF = 2e-5
-SPLITS = 8
+OFF_HALF_FRAMES = 2e-5
+MOST_SPLITS = 8
 
 
 @dataclass(slots=True)
@@ -37,7 +37,7 @@ class TrajectoryBuilder:
 
         A drone that has not taken off waits on its pad.
         """
-        if time - self.clock < TINY:
+        if time - self.clock < SHORTEST_HOLD_S:
             return
         here = self.curves[-1].ctrl[-1, -1] if self.curves else np.array(pose)
         self.curves.append(rest(here, np.array([self.clock, time])))
@@ -102,7 +102,7 @@ def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, cl
         start = motion.profile.arrival(span.start) if first else motion.profile.departure(span.start)
         end = motion.profile.departure(span.end)
     wanted = None
-    if span.reference is not None and end - start >= TINY:
+    if span.reference is not None and end - start >= SHORTEST_HOLD_S:
         wanted = _over_time(span.reference, motion.profile, start, end)
         wanted = Piecewise(clock + wanted.breaks, wanted.ctrl)
     return Reference(shot, span.target, clock + start, clock + end, wanted)
@@ -110,21 +110,21 @@ def _reference(shot: str, span: FramingSpan, leg: PathLeg, motion: LegMotion, cl
 
 def _over_time(reference: Piecewise, profile: Profile, start: float, end: float) -> Piecewise:
     """Return reference(s(t)) as quintics between two times, by the chain rule at sufficiently many knots."""
-    inside = (profile.t > start + TINY) & (profile.t < end - TINY)
+    inside = (profile.t > start + SHORTEST_HOLD_S) & (profile.t < end - SHORTEST_HOLD_S)
     t = np.concatenate([[start], profile.t[inside], [end]])
     motion = profile.curve()
 
     def place(times: Array) -> Array:
         return np.clip(motion(times)[:, 0], reference.start, reference.end)
 
-    for _ in range(SPLITS):
+    for _ in range(MOST_SPLITS):
         s = place(t)
         sd, sdd = (motion.derivative(k)(t)[:, :1] for k in (1, 2))
         d1, d2 = reference.derivative(1)(s), reference.derivative(2)(s)
         found = quintic_hermite(t, reference(s), d1 * sd, d2 * sd**2 + d1 * sdd)
         between = (t[:-1, None] + np.diff(t)[:, None] * np.array([0.25, 0.5, 0.75])).ravel()
         off = np.abs(found(between) - reference(place(between))).max(axis=1).reshape(-1, 3).max(axis=1)
-        if (off <= OFF).all():
+        if (off <= OFF_HALF_FRAMES).all():
             break
-        t = np.sort(np.concatenate([t, 0.5 * (t[1:] + t[:-1])[off > OFF]]))
+        t = np.sort(np.concatenate([t, 0.5 * (t[1:] + t[:-1])[off > OFF_HALF_FRAMES]]))
     return found

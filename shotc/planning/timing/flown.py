@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from shotc.geom.bernstein import Piecewise, split_half
 from shotc.ir.path import BODY_YAW, CAM_PITCH, CAM_YAW
-from shotc.planning.timing.limits import SHARE, Ceiling, LimitedNorm
+from shotc.planning.timing.limits import LIMIT_SHARE, Ceiling, LimitedNorm
 from shotc.planning.timing.profile import Profile, fly
 
 Array = NDArray[np.float64]
 
 # Halvings of each piece before its hull is taken; the bound is then tight to about 1e-4.
-HALVINGS = 3
+HULL_HALVINGS = 3
 # Quintics whose error from the path exceeds the first (metres or rad) get more knots, as do those that leave
 # a gimbal's range by more than the second; at most this many times.
 STRAY, AT_END = 5e-4, 1e-7
-SPLITS = 5
+MOST_SPLITS = 5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -58,13 +58,13 @@ def usages(curve: Piecewise, limits: tuple[LimitedNorm, ...]) -> tuple[Usage, ..
 
 def needed_scale(usage: tuple[Usage, ...]) -> Array:
     """Return the slowdown of each piece (P,) that keeps every limit with a small margin; may be below 1."""
-    return np.asarray(np.max([u.slowdown for u in usage], axis=0) / SHARE)
+    return np.asarray(np.max([u.slowdown for u in usage], axis=0) / LIMIT_SHARE)
 
 
 def on_path(path: Piecewise, profile: Profile, ceiling: Ceiling) -> tuple[Profile, Piecewise]:
     """Return the profile and its quintics, with more knots where these leave the path or a range."""
     flown = fly(path, profile)
-    for _ in range(SPLITS):
+    for _ in range(MOST_SPLITS):
         strays = straying(path, profile, flown, ceiling)
         if not strays.any():
             break
@@ -102,7 +102,7 @@ def _peak(ctrl: Array, size: Callable[[Array], Array]) -> Array:
     """Return an upper bound of a convex function on every piece, at least 0; shape (P,)."""
     pieces = len(ctrl)
     parts = ctrl
-    for _ in range(HALVINGS):
+    for _ in range(HULL_HALVINGS):
         left, right = split_half(parts)
         parts = np.concatenate([left, right])
     sizes = np.maximum(size(parts), 0.0)

@@ -16,17 +16,17 @@ Array = NDArray[np.float64]
 
 # Seconds of motion per cell; bounds of the number of cells, the upper one growing with the pieces of a path
 # that bends often.
-CELL_TIME = 0.12
+CELL_S = 0.12
 FEWEST, MOST, PER_PIECE = 36, 100, 2
 # Shares of the cells distributed evenly over the length and over changes of speed; the rest is distributed
 # over the time.
 OVER_LENGTH, OVER_CHANGE = 0.15, 0.25
 # Largest jump of the third derivative over its maximum, for a break that counts as smooth.
-KINK = 1e-2
+KINK_SHARE = 1e-2
 # Smoothing rounds of a rough profile: with them it loses a third against the best, without 70 %.
-EVENINGS = 8
+EVENING_ROUNDS = 8
 # sdot^2 where nothing else binds: paths are parametrised in metres, and nothing flies at 1000 m/s.
-FASTEST = 1e6
+FASTEST_M2_S2 = 1e6
 
 
 class Derivatives(NamedTuple):
@@ -83,12 +83,12 @@ def kinks(curve: Piecewise) -> Array:
     """Return the breaks, shape (K,), where the third derivative jumps; no cell may contain one."""
     third = curve.derivative(3).ctrl[:, :, :HFOV]
     jump = np.abs(third[1:, 0] - third[:-1, -1]).max(axis=1)
-    return np.asarray(curve.breaks[1:-1][jump > KINK * max(float(np.abs(third).max()), 1e-12)])
+    return np.asarray(curve.breaks[1:-1][jump > KINK_SHARE * max(float(np.abs(third).max()), 1e-12)])
 
 
 def rate_cap(d1: Array, limits: tuple[LimitedNorm, ...]) -> Array:
     """Return the largest b that the rate limits allow for a derivative d1; shape (..., 7) to (...)."""
-    cap = np.full(d1.shape[:-1], FASTEST)
+    cap = np.full(d1.shape[:-1], FASTEST_M2_S2)
     for axis in limits:
         if axis.rate is not None:
             size = np.maximum(axis.rate_used(d1 @ axis.pick.T), 1e-12)
@@ -122,7 +122,7 @@ def rough_profile(
             push = np.minimum(push, axis.acceleration[1] / along)
         if axis.jerk is not None:
             rush = np.minimum(rush, axis.jerk[1] / along)
-    push, rush = np.minimum(push, FASTEST), np.minimum(rush, FASTEST)
+    push, rush = np.minimum(push, FASTEST_M2_S2), np.minimum(rush, FASTEST_M2_S2)
     b = np.minimum(b, (4.5 * rush * (s - s0) ** 2) ** (2 / 3))
     b = np.minimum(b, (4.5 * rush * (s1 - s) ** 2) ** (2 / 3))
     gain = (push[1:] + push[:-1]) * np.diff(s)
@@ -135,7 +135,7 @@ def rough_profile(
 
 def evened(b: Array) -> Array:
     """Return the guess (N + 1,) without sharp maxima, where the acceleration jumps; nowhere higher."""
-    for _ in range(EVENINGS):
+    for _ in range(EVENING_ROUNDS):
         b = np.concatenate([b[:1], np.minimum(b[1:-1], (b[:-2] + 2 * b[1:-1] + b[2:]) / 4), b[-1:]])
     return b
 
@@ -152,7 +152,7 @@ def lay_grid(curve: Piecewise, s: Array, b: Array, nodes: Array) -> Array:
     step[[0, -1]] *= 1.5
     time = np.concatenate([[0.0], np.cumsum(step)])
     pieces = int(np.sum((curve.breaks > s[0]) & (curve.breaks < s[-1]))) + 1
-    count = int(np.clip(np.ceil(time[-1] / CELL_TIME), FEWEST, max(MOST, PER_PIECE * pieces)))
+    count = int(np.clip(np.ceil(time[-1] / CELL_S), FEWEST, max(MOST, PER_PIECE * pieces)))
     change = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(sd)))])
     mass = (1 - OVER_LENGTH - OVER_CHANGE) * time / time[-1]
     mass += OVER_LENGTH * (s - s[0]) / (s[-1] - s[0]) + OVER_CHANGE * change / change[-1]

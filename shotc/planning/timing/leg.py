@@ -12,12 +12,12 @@ from shotc.geom.bernstein import Piecewise, concatenate
 from shotc.ir.path import HoldLeg, PathLeg, Stop
 from shotc.planning.timing.limits import Ceiling
 from shotc.planning.timing.move import TimedMove, time_move
-from shotc.planning.timing.profile import SAME, Profile
+from shotc.planning.timing.profile import SAME_PLACE_M, Profile
 
 Array = NDArray[np.float64]
 
 # Seconds below which a hold is ignored.
-TINY = 1e-6
+SHORTEST_HOLD_S = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,21 +52,21 @@ class StopPlan:
 
     def hold_at(self, s: float) -> float:
         """Return the seconds that it rests at a place, 0 where it does not stop."""
-        return sum(stop.hold for stop in self.stops if abs(stop.s - s) <= SAME)
+        return sum(stop.hold for stop in self.stops if abs(stop.s - s) <= SAME_PLACE_M)
 
     def holds_between(self, start: float, end: float) -> float:
         """Return the seconds that it rests strictly between two places."""
-        return sum(stop.hold for stop in self.stops if start + SAME < stop.s < end - SAME)
+        return sum(stop.hold for stop in self.stops if start + SAME_PLACE_M < stop.s < end - SAME_PLACE_M)
 
     def rests_at(self, s: float) -> bool:
         """Return whether there is a stop at a place."""
-        return any(abs(stop.s - s) <= SAME for stop in self.stops)
+        return any(abs(stop.s - s) <= SAME_PLACE_M for stop in self.stops)
 
     def leaving(self, holds: dict[float, float]) -> StopPlan:
         """Return the plan with other holds at some of its stops, given by place."""
         stops = self.stops
         for s, hold in holds.items():
-            stops = tuple(replace(p, hold=hold) if abs(p.s - s) <= SAME else p for p in stops)
+            stops = tuple(replace(p, hold=hold) if abs(p.s - s) <= SAME_PLACE_M else p for p in stops)
         return StopPlan(stops)
 
 
@@ -76,7 +76,7 @@ def plan_of(leg: PathLeg) -> StopPlan:
         return StopPlan((Stop(0.0, leg.hold if leg.duration is None else leg.duration),))
     merged: list[Stop] = []
     for stop in leg.stops:
-        if merged and stop.s - merged[-1].s < SAME:
+        if merged and stop.s - merged[-1].s < SAME_PLACE_M:
             merged[-1] = Stop(merged[-1].s, merged[-1].hold + stop.hold)
         else:
             merged.append(stop)
@@ -128,7 +128,7 @@ def assemble(
     clock = 0.0
     pose = np.array(leg.pose)
     for i, stop in enumerate(plan.stops):
-        if stop.hold >= TINY:
+        if stop.hold >= SHORTEST_HOLD_S:
             ends = np.array([clock, clock + stop.hold])
             parts.append((Profile(ends, np.full(2, stop.s), np.zeros(2), np.zeros(2)), rest(pose, ends)))
             clock = float(ends[1])

@@ -19,12 +19,12 @@ Array = NDArray[np.float64]
 
 # Seconds over which angular accelerations build up. The mission sets no angular jerk, but the picture shows a
 # turn that starts abruptly.
-EASE = 0.2
+EASE_S = 0.2
 
 # Share of a limit that a motion may use, as a margin for rounding in proofs.
-SHARE = 1.0 - 1e-6
+LIMIT_SHARE = 1.0 - 1e-6
 
-NEVER = 1e-300  # m/s, replaces zero in a division
+NO_SPEED_M_S = 1e-300  # m/s, replaces zero in a division
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Ceiling:
     """Of the field of view, rad/s."""
     wind: tuple[float, float] = (0.0, 0.0)
     """Velocity of the air relative to the ground, m/s, where it is known."""
-    ease: float = EASE
+    ease: float = EASE_S
     """Seconds over which angular accelerations build up."""
 
     def scaled(self, share: float) -> Ceiling:
@@ -104,7 +104,7 @@ class LimitedNorm:
         left = most**2 - float(drift @ drift)
         root = np.sqrt(with_it**2 + left * square)
         # The one of two equal forms that has no cancellation.
-        ahead = square / np.maximum(root + with_it, NEVER)
+        ahead = square / np.maximum(root + with_it, NO_SPEED_M_S)
         return np.asarray(most * np.where(with_it > 0.0, ahead, (root - with_it) / left))
 
 

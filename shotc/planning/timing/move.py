@@ -38,22 +38,22 @@ from shotc.solvers.topp_problem import LinearLimits
 Array = NDArray[np.float64]
 
 # The convex steps stop when one changes the duration by less than this share, or after this many.
-CHANGE = 5e-3
-STEPS = 6
+CHANGE_SHARE = 5e-3
+MOST_STEPS = 6
 # Least sdot^2 of the initial guess inside the move, over its maximum.
-SLOWEST = 1e-9
+SLOWEST_SHARE = 1e-9
 # Share of the last iterate in the next one. It provides the speed inside cells, which would otherwise
 # oscillate by about 0.4 (measured); the initial guess has a smaller share.
 KEEP_FIRST, KEEP = 0.15, 0.3
 # A grid is refined where the flown quintics lose more than this share of time to scaling, or everywhere if
 # the solver failed; at most so often, and up to so many cells.
-LOSS = 0.015
-REFINEMENTS = 8
+LOSS_SHARE = 0.015
+MOST_REFINEMENTS = 8
 MOST_CELLS = 20000
 # An inaccurate profile is accepted, because the flown quintics are checked.
 USABLE = (Status.SOLVED, Status.INACCURATE)
 # Corners of the polygon that replaces the disc of accelerations in TOPP; costs 0.1 % of time.
-CORNERS = 32
+DISC_CORNERS = 32
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,7 +112,7 @@ def time_move(
     samples, start, topp_time = _opening(path, span, limits, through)
     first = samples, start
     steps, best, last = 0, None, np.inf
-    for _ in range(REFINEMENTS + 1):
+    for _ in range(MOST_REFINEMENTS + 1):
         bounded, used = bounded_profile(samples, limits, start, last)
         steps += used
         if bounded is None and best is not None:
@@ -159,7 +159,7 @@ def _opening(
     around = np.interp(grid, rough_s, rough_b)
     if quickest.status is Status.SOLVED:
         around = np.minimum(around, quickest.b)
-    start = start_from(samples.widths, np.maximum(around, SLOWEST * around.max()))
+    start = start_from(samples.widths, np.maximum(around, SLOWEST_SHARE * around.max()))
     return _Opening(samples, start, quickest.time)
 
 
@@ -186,7 +186,7 @@ class _Tried:
         self.held = max(used, key=lambda u: float(u.slowdown.max())).name
         self.coarse: NDArray[np.bool_] = np.zeros(len(grid) - 1, dtype=np.bool_)
         cell = np.searchsorted(grid, self.profile.s[:-1], side="right") - 1
-        self.coarse[np.clip(cell[scale > 1 + LOSS], 0, len(grid) - 2)] = True
+        self.coarse[np.clip(cell[scale > 1 + LOSS_SHARE], 0, len(grid) - 2)] = True
 
     @property
     def seconds(self) -> float:
@@ -215,8 +215,8 @@ def topp_limits(samples: Samples, limits: tuple[LimitedNorm, ...]) -> LinearLimi
             on_b += [second, -second]
         else:
             frame = np.asarray(np.linalg.qr(np.stack([first, second], axis=-1), mode="r"))
-            angle = 2 * np.pi * np.arange(CORNERS) / CORNERS
-            normal = np.stack([np.cos(angle), np.sin(angle)]) / np.cos(np.pi / CORNERS)
+            angle = 2 * np.pi * np.arange(DISC_CORNERS) / DISC_CORNERS
+            normal = np.stack([np.cos(angle), np.sin(angle)]) / np.cos(np.pi / DISC_CORNERS)
             on_a.append(frame[:, :2, 0] @ normal)
             on_b.append(frame[:, :2, 1] @ normal)
     return LinearLimits(
@@ -238,7 +238,7 @@ def bounded_profile(
     problem = retiming_problem(samples, limits)
     best: Iterate | None = None
     current, steps = start, 0
-    while steps < STEPS:
+    while steps < MOST_STEPS:
         status, found = retime(problem, current)
         steps += 1
         if status not in USABLE and best is not None:
@@ -249,7 +249,7 @@ def bounded_profile(
             continue
         best = found
         time = float(cell_times(problem.widths, found.b, found.a).sum())
-        if abs(last - time) < CHANGE * time:
+        if abs(last - time) < CHANGE_SHARE * time:
             break
         current = current.blend(found, KEEP_FIRST if last == np.inf else KEEP)
         last = time

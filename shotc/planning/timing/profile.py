@@ -13,7 +13,7 @@ from shotc.solvers.retiming_socp import cell_times
 Array = NDArray[np.float64]
 
 # Path parameters, metres, that count as one place.
-SAME = 1e-9
+SAME_PLACE_M = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,13 +55,15 @@ class Profile:
 
     def arrival(self, s: float) -> float:
         """Return when path parameter ``s`` is first reached."""
-        k = int(np.searchsorted(self.s, s - SAME))
-        return self._between(k - 1, s) if k == len(self.s) or self.s[k] - s > SAME else float(self.t[k])
+        k = int(np.searchsorted(self.s, s - SAME_PLACE_M))
+        return (
+            self._between(k - 1, s) if k == len(self.s) or self.s[k] - s > SAME_PLACE_M else float(self.t[k])
+        )
 
     def departure(self, s: float) -> float:
         """Return when path parameter ``s`` is left; later than its arrival only where there is a hold."""
-        k = int(np.searchsorted(self.s, s + SAME)) - 1
-        return self._between(k, s) if k < 0 or s - self.s[k] > SAME else float(self.t[k])
+        k = int(np.searchsorted(self.s, s + SAME_PLACE_M)) - 1
+        return self._between(k, s) if k < 0 or s - self.s[k] > SAME_PLACE_M else float(self.t[k])
 
     def _between(self, knot: int, s: float) -> float:
         """Return t at s after a knot, by bisection, since s(t) increases."""

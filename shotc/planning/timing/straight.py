@@ -17,8 +17,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.planning.timing.limits import LimitedNorm
 from shotc.planning.timing.profile import Profile
 
-STEADY = 1e-9  # largest change of the rate of a straight path, over its largest rate
-NO_TIME = 1e-9  # share of the time to the peak, below which a phase is left out
+STEADY_SHARE = 1e-9  # largest change of the rate of a straight path, over its largest rate
+NO_TIME_SHARE = 1e-9  # share of the time to the peak, below which a phase is left out
 
 
 class LineLimits(NamedTuple):
@@ -60,7 +60,7 @@ class LineLimits(NamedTuple):
         jerks = (self.jerk, 0.0, -self.jerk, 0.0, -self.jerk, 0.0, self.jerk)
         knots = [(0.0, start, 0.0, 0.0)]
         for h, j in zip(lengths, jerks, strict=True):
-            if h <= NO_TIME * turn:
+            if h <= NO_TIME_SHARE * turn:
                 continue
             t, s, v, a = knots[-1]
             knots.append(
@@ -78,7 +78,7 @@ def rate_of_line(path: Piecewise, span: tuple[float, float]) -> Array | None:
     inside = (path.breaks[1:] > span[0]) & (path.breaks[:-1] < span[1])
     ctrl = rates.ctrl[inside].reshape(-1, rates.ctrl.shape[-1])
     size = float(np.abs(ctrl).max(initial=0.0))
-    return np.asarray(ctrl[0]) if size > 0.0 and np.abs(ctrl - ctrl[0]).max() <= STEADY * size else None
+    return np.asarray(ctrl[0]) if size > 0.0 and np.abs(ctrl - ctrl[0]).max() <= STEADY_SHARE * size else None
 
 
 def bounds_along(rate: Array, limits: tuple[LimitedNorm, ...]) -> LineLimits | None:

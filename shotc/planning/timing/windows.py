@@ -19,9 +19,9 @@ Array = NDArray[np.float64]
 # Cells of the time law for the whole move, and at least for each interval.
 CELLS, LEAST_CELLS = 72, 12
 # Rounds, each with the limits evaluated along the last law.
-ROUNDS = 8
+LIMIT_ROUNDS = 8
 # The law keeps this share of the limits, as a margin for the motion inside cells.
-MARGIN = 0.985
+MARGIN_SHARE = 0.985
 # After so many rounds the search fails if a law violates limits by more than the second, and by hardly less
 # than the law before.
 SETTLED, LEFT = 3, 1e-3
@@ -39,10 +39,10 @@ def windowed_move(
     ends, seconds : shape (W,); the last end is that of the whole interval
     """
     limits = axes_of(path, span, ceiling)
-    inner = axes_of(path, span, ceiling.scaled(MARGIN))
+    inner = axes_of(path, span, ceiling.scaled(MARGIN_SHARE))
     t, places = _knots(span[0], ends, seconds)
     law = time_law(t, places, None, None)
-    for steps in range(1, ROUNDS + 1):
+    for steps in range(1, LIMIT_ROUNDS + 1):
         if law.status not in USABLE:
             return None
         profile, flown = on_path(path, _profile(law), ceiling)

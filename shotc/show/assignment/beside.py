@@ -38,13 +38,13 @@ from shotc.show.assignment.changed import (
 from shotc.show.assignment.director import Director
 from shotc.show.geom.windows import stops, windows
 
-ROUNDS = 24
+MOST_CHANGES = 24
 """Changes at most."""
 SHIFTS_S = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0, 100.0)
 """By how much a way is flown earlier or later."""
 LEAST_S = 0.05
 """Seconds that a fleet stands at least where it stood before."""
-PARTS = 4
+MOTION_BOXES = 4
 """Boxes that hold the ways of a fleet that moves."""
 SLACK_M = 1e-6
 """Metres that rounding may take."""
@@ -90,7 +90,7 @@ class _Sky:
 
     def cleared(self) -> list[tuple[str, float | str]]:
         """Resolve meeting after meeting, in the order of time, as long as there is a way."""
-        for _ in range(ROUNDS):
+        for _ in range(MOST_CHANGES):
             found = [m for m in self.met.values() if m is not None]
             if not found:
                 break
@@ -227,7 +227,7 @@ def _filled(
     more = np.array([apart.across, apart.across, apart.upright]) - metres
     places = np.concatenate(ends)
     owner = Owner("fleet", track.fleet, ())
-    for part in np.array_split(which, min(PARTS, len(which))):
+    for part in np.array_split(which, min(MOTION_BOXES, len(which))):
         held = ctrl[:, part].reshape(-1, 3)
         low, high = held.min(axis=0) - more, held.max(axis=0) + more
         if ((places > low - metres) & (places < high + metres)).all(axis=1).any():

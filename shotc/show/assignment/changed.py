@@ -14,7 +14,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
 from shotc.ir.fleet import FleetTrajectory
-from shotc.show.assignment.order import DIGITS
+from shotc.show.assignment.order import CONTROL_DECIMALS
 from shotc.show.geom.windows import Window, at_rest, windows
 from shotc.show.solvers.arc_move import ArcMove
 
@@ -97,7 +97,7 @@ def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> Fleet
     way = block.way
     low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
     here, there = flight.coef[:, way.first], flight.coef[:, way.last]
-    between = [np.round(points, DIGITS) for points in move.between(here, there)]
+    between = [np.round(points, CONTROL_DECIMALS) for points in move.between(here, there)]
     points = np.stack(between, axis=1)
     coef = np.concatenate([flight.coef[:, : way.first + DEGREE], points, flight.coef[:, way.last :]], axis=1)
     longer = move.duration - (high - low)

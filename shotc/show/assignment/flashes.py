@@ -15,7 +15,7 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
-from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.effects import LIGHT_RATE_HZ
 from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.light_colors import tick_colors
 from shotc.ir.mission import MissionIR
@@ -24,11 +24,11 @@ from shotc.rounding import as_minutes
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 """Of red, green and blue light."""
 CHANGE, BRIGHT = 0.1, 0.8
-MOST = 3
+MOST_FLASHES_PER_S = 3
 """Flashes in any second."""
-LIGHTS = 200
+SAMPLED_LIGHTS = 200
 """Lights of a fleet that are looked at, evenly by their numbers, at least; all of fewer."""
-MOMENTS = 500
+BATCH_TIMES = 500
 """Evaluated at once."""
 
 
@@ -44,7 +44,7 @@ def flashing(mission: MissionIR, flight: FleetTrajectory) -> list[Diagnostic]:
     if not flight.lights.looks:
         return []
     worst = most_flashes(luminance(flight))
-    if worst.number <= MOST:
+    if worst.number <= MOST_FLASHES_PER_S:
         return []
     shots = (p.shot for p in flight.phases if p.shot is not None and p.end > worst.time)
     display = mission.display(next(shots, flight.shown[-1].display))
@@ -55,19 +55,21 @@ def flashing(mission: MissionIR, flight: FleetTrajectory) -> list[Diagnostic]:
             (mission.origins.value((*display.path, "id")),),
             (
                 f"the second begins at {as_minutes(worst.time)}; all lights together are judged",
-                f"more than {MOST} flashes in a second can set off seizures (WCAG 2.3.1)",
+                f"more than {MOST_FLASHES_PER_S} flashes in a second can set off seizures (WCAG 2.3.1)",
             ),
-            f"slow the effect to a period of {1.0 / MOST + 0.005:.2f} s or more, or lower its `opacity`",
+            f"slow the effect to a period of {1.0 / MOST_FLASHES_PER_S + 0.005:.2f} s or more, "
+            "or lower its `opacity`",
         )
     ]
 
 
 def luminance(flight: FleetTrajectory) -> Array:
     """Return the mean relative luminance of a fleet's lights moment by moment, 0 to 1."""
-    some = slice(None, None, max(1, len(flight.coef) // LIGHTS))
-    ticks = np.arange(ceil(float(flight.breaks[-1]) * LIGHT_RATE) + 1)
+    some = slice(None, None, max(1, len(flight.coef) // SAMPLED_LIGHTS))
+    ticks = np.arange(ceil(float(flight.breaks[-1]) * LIGHT_RATE_HZ) + 1)
     parts = [
-        tick_colors(flight, ticks[k : k + MOMENTS], some).mean(axis=0) for k in range(0, len(ticks), MOMENTS)
+        tick_colors(flight, ticks[k : k + BATCH_TIMES], some).mean(axis=0)
+        for k in range(0, len(ticks), BATCH_TIMES)
     ]
     return np.asarray(np.concatenate(parts) @ np.array(LUMINANCE) / 255.0)
 
@@ -77,9 +79,9 @@ def most_flashes(levels: Array) -> Flashes:
     changes = _changes(levels)
     best = Flashes(0, 0.0)
     for k, first in enumerate(changes):
-        inside = bisect_left(changes, first + LIGHT_RATE) - k
+        inside = bisect_left(changes, first + LIGHT_RATE_HZ) - k
         if inside // 2 > best.number:
-            best = Flashes(inside // 2, first / LIGHT_RATE)
+            best = Flashes(inside // 2, first / LIGHT_RATE_HZ)
     return best
 
 

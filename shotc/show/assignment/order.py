@@ -14,7 +14,7 @@ from shotc.ir.show import Fleet
 from shotc.planning.take_off import take_off_of
 from shotc.show.solvers.match import Index, matched
 
-DIGITS = 6
+CONTROL_DECIMALS = 6
 """Decimals of a metre that control points keep, so that a plan stays short."""
 
 
@@ -72,7 +72,7 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> DroneOrder:
         if flight is not None and frame.index == 0:
             # Who has come to a track stays on it to its end; from its pad everybody is on its own.
             recorded.append(_in_order(flight, order))
-        places = np.round(frame.points[order], DIGITS)
+        places = np.round(frame.points[order], CONTROL_DECIMALS)
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
         scenes.append(OrderedFrame(frame, places, frame.colors[order], tuple(spare)))
         last = places
@@ -86,7 +86,7 @@ def _in_order(flight: Recorded, order: Index) -> Recorded:
 
 def pads_of(fleet: Fleet) -> Array:
     """Return the pads of a fleet, shape (n, 3)."""
-    return np.round(np.array(fleet.pads), DIGITS)
+    return np.round(np.array(fleet.pads), CONTROL_DECIMALS)
 
 
 def columns_of(fleet: Fleet) -> RiseColumns:
@@ -96,7 +96,7 @@ def columns_of(fleet: Fleet) -> RiseColumns:
     pads = pads_of(fleet)
     heights = np.array(take_off.heights)[layer]
     above = pads + np.stack([np.zeros_like(heights), np.zeros_like(heights), heights], axis=1)
-    return RiseColumns(pads, np.round(above, DIGITS), layer)
+    return RiseColumns(pads, np.round(above, CONTROL_DECIMALS), layer)
 
 
 def way_down(fleet: Fleet, places: Array) -> RiseColumns:

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from shotc.geom.apart import ROOMIER, stretch
+from shotc.geom.apart import ROUNDING_RATIO, stretch
 from shotc.geom.bernstein import Array
 from shotc.ir.show import Fleet
-from shotc.show.assignment.order import DIGITS, RiseColumns, pads_of
+from shotc.show.assignment.order import CONTROL_DECIMALS, RiseColumns, pads_of
 from shotc.show.solvers.match import matched
 
 ROUNDING_M = 1e-7
@@ -48,11 +48,11 @@ def way_to_own(fleet: Fleet, places: Array) -> WayToOwn:
     columns = columns[matched(places * scale, columns * scale)]
     level = levels(columns[:, :2], pads[:, :2], fleet.apart.across)
     count = int(level.max()) + 1
-    step = ROOMIER * (fleet.apart.upright + float(np.ptp(pads[:, 2])))
+    step = ROUNDING_RATIO * (fleet.apart.upright + float(np.ptp(pads[:, 2])))
     heights = fleet.rise + step * np.arange(count)[::-1]
     layer = count - 1 - level
     above = pads.copy()
-    above[:, 2] = np.round(pads[:, 2] + heights[layer], DIGITS)
+    above[:, 2] = np.round(pads[:, 2] + heights[layer], CONTROL_DECIMALS)
     raised = np.concatenate([columns[:, :2], above[:, 2:]], axis=1)
     return WayToOwn(columns, raised, RiseColumns(pads, above, layer), tuple(heights.tolist()), step)
 
@@ -87,7 +87,9 @@ def _columns(fleet: Fleet, pads: Array) -> Array:
     """Return the places over the pads, drawn out about their middle as far as the separation asks for."""
     level = pads[:, :2]
     nearest = cKDTree(level).query(level, k=2)[0][:, 1].min() if len(pads) > 1 else np.inf
-    wide = 1.0 if nearest >= fleet.apart.across - ROUNDING_M else ROOMIER * fleet.apart.across / nearest
+    wide = (
+        1.0 if nearest >= fleet.apart.across - ROUNDING_M else ROUNDING_RATIO * fleet.apart.across / nearest
+    )
     middle = 0.5 * (level.min(axis=0) + level.max(axis=0))
     over = np.full(len(pads), pads[:, 2].max() + fleet.rise)
-    return np.round(np.column_stack([middle + wide * (level - middle), over]), DIGITS)
+    return np.round(np.column_stack([middle + wide * (level - middle), over]), CONTROL_DECIMALS)

@@ -15,7 +15,7 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE
 from shotc.ir.fleet import FleetTrajectory, FrameTimes, Lights
 from shotc.ir.phases import Phase, PhaseName
-from shotc.show.assignment.order import DIGITS
+from shotc.show.assignment.order import CONTROL_DECIMALS
 from shotc.show.solvers.arc_move import ArcMove
 from shotc.show.solvers.layered_move import LayeredMove
 from shotc.show.solvers.move import CommonMove
@@ -57,7 +57,7 @@ class FlightScore:
 
     def move(self, places: Array, move: Motion | LayeredMove, duration: float | None = None) -> None:
         """Go from stop to stop, in so many seconds if they are given."""
-        between = [np.round(points, DIGITS) for points in move.between(self.places, places)]
+        between = [np.round(points, CONTROL_DECIMALS) for points in move.between(self.places, places)]
         self._add([*between, places, places, places], (duration or move.duration) / move.pieces)
         self.places = places
         self.arcs += isinstance(move, ArcMove)

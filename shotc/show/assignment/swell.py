@@ -27,11 +27,11 @@ GAP_M = 1e-3
 """How sharp the bounds are that tell whether somebody comes too near, metres."""
 BEYOND_M = 0.05
 """By how much more than is missing the fleet is led aside, metres."""
-WIDEST = 0.41
+WIDEST_SHARE = 0.41
 """Share of a shift of c by which the fleet passes farther half-way, the other way: root two less one."""
-SAFE = 0.95
+SAFE_SHARE = 0.95
 """Share of the way from the height of c that is safe to the one that just does."""
-LEVELS = 8
+HEIGHT_LEVELS = 8
 """Heights of c that are tried one after another."""
 FARTHEST_M = 1000.0
 """Metres beyond which c is not taken: arcs that are so wide take longer than any show."""
@@ -73,8 +73,8 @@ class Heights:
         most = float(((low - ctrl @ [l0, l1])[out] / swell[out]).min(initial=np.inf))
         least = float(((high - ctrl @ [h0, h1])[out] / swell[out]).max(initial=-np.inf))
         # Nearer to what is safe whatever the control points, for those of another c are others.
-        most = most if most == np.inf else SAFE * most + (1.0 - SAFE) * min(l0, l1)
-        least = least if least == -np.inf else SAFE * least + (1.0 - SAFE) * max(h0, h1)
+        most = most if most == np.inf else SAFE_SHARE * most + (1.0 - SAFE_SHARE) * min(l0, l1)
+        least = least if least == -np.inf else SAFE_SHARE * least + (1.0 - SAFE_SHARE) * max(h0, h1)
         return min(max(wanted, least), most)
 
     def _of(self, ends: Ends) -> tuple[float, float]:
@@ -123,7 +123,7 @@ def _shifts(ends: Ends, move: ArcMove, lack: SwellLack) -> Iterator[Array]:
     room = lack.of.metres + BEYOND_M
     for axis, side in product(range(3), (1.0, -1.0)):
         if lack.of.inside:
-            far = (lack.metres + BEYOND_M) / WIDEST
+            far = (lack.metres + BEYOND_M) / WIDEST_SHARE
         else:
             near = (boxes[:, 0] < high + room).all(axis=1) & (boxes[:, 1] > low - room).all(axis=1)
             reach = high[axis] - boxes[near, 0, axis] if side > 0 else boxes[near, 1, axis] - low[axis]
@@ -136,7 +136,7 @@ def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pi
     """Return the move about a point, or above or below it, whichever of those tried lacks least height."""
     move = best = fastest(pivot)
     lack = least = heights.lack(ends, move.ctrl, move.pivot)
-    for _ in range(LEVELS):
+    for _ in range(HEIGHT_LEVELS):
         if lack <= ROUNDING_M:
             return move
         # Arcs about another point are others, and may need it lower or higher still.

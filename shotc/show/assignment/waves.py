@@ -29,7 +29,7 @@ from shotc.show.assignment.score import FlightScore
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.wave_move import WaveMove, fastest_wave
 
-HALVINGS = 6
+MOST_HALVINGS = 6
 """Waves, and spacings, that are tried between what is not enough and what is."""
 FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0)
 """By which places are farther apart, in turn, until that is enough; the last one not being enough, nothing
@@ -136,7 +136,7 @@ def _closed_in(
 ) -> float:
     """Return what is enough and nearer to what is not; ends : the one and the other."""
     good, bad = ends
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = rounded(0.5 * (good + bad))
         if middle in (good, bad):
             break

@@ -18,11 +18,11 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import kept_from_cameras
 
-LAYERS = 6
+HEIGHT_LAYERS = 6
 """Layers of height in which the ways of a fleet are held, each by a prism of its own."""
 THINNEST_M = 4.0
 """Metres that a layer is high at least."""
-SIDES = 16
+PRISM_SIDES = 16
 """Sides of a prism."""
 
 
@@ -31,7 +31,7 @@ def airspace(mission: MissionIR, fleet: FleetTrajectory) -> Iterator[Zone]:
     own = mission.fleet(fleet.fleet)
     ctrl = pieces(fleet.breaks, fleet.coef).reshape(-1, 4, 3)
     low, high = ctrl[..., 2].min(axis=1), ctrl[..., 2].max(axis=1)
-    number = int(np.clip((high.max() - low.min()) / THINNEST_M, 1, LAYERS))
+    number = int(np.clip((high.max() - low.min()) / THINNEST_M, 1, HEIGHT_LAYERS))
     room = kept_from_cameras(mission.rules.separation, own)
     for bottom, top in pairwise(np.linspace(low.min(), high.max(), number + 1).tolist()):
         inside = (high >= bottom) & (low <= top)
@@ -43,12 +43,12 @@ def airspace(mission: MissionIR, fleet: FleetTrajectory) -> Iterator[Zone]:
 
 def _about(points: Array, room: float) -> tuple[tuple[float, float], ...]:
     """Return the corners of a polygon about points (N, 2), so far away, counter-clockwise, (SIDES, 2)."""
-    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
+    turn = 2.0 * np.pi * np.arange(PRISM_SIDES) / PRISM_SIDES
     sides = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     reach = np.array([(points @ side).max() for side in sides]) + room
     corners = []
-    for k in range(SIDES):
-        pair = sides[[k, (k + 1) % SIDES]]
-        x, y = np.linalg.solve(pair, reach[[k, (k + 1) % SIDES]]).tolist()
+    for k in range(PRISM_SIDES):
+        pair = sides[[k, (k + 1) % PRISM_SIDES]]
+        x, y = np.linalg.solve(pair, reach[[k, (k + 1) % PRISM_SIDES]]).tolist()
         corners.append((x, y))
     return tuple(corners)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from shotc.emit.fleet_rows import BATCH
+from shotc.emit.fleet_rows import BATCH_DRONES
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import Colors, FleetTrajectory
@@ -43,8 +43,8 @@ def sampled(plan: VerifiedIR, times: Array, lit: Array) -> Iterator[Sampled]:
 def _sampled(mission: MissionIR, flight: FleetTrajectory, times: Array, lit: Array) -> Iterator[Sampled]:
     fleet = mission.fleet(flight.fleet)
     names, fired = drone_names(fleet), carried(mission.displays, fleet)
-    for first in range(0, len(names), BATCH):
-        some = slice(first, first + BATCH)
+    for first in range(0, len(names), BATCH_DRONES):
+        some = slice(first, first + BATCH_DRONES)
         at = places(flight.breaks, flight.coef[some], times)
         shone = light_colors(flight, lit, some)
         for name, there, colors, cues in zip(names[some], at, shone, fired[some], strict=True):

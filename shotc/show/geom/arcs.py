@@ -22,7 +22,7 @@ import numpy as np
 
 from shotc.geom.bernstein import Array
 
-STEPS = 1500
+WAY_POINTS = 1500
 """Points of a way; an arc is off them by a ten-millionth of its radius, which ``pushed_out`` makes good."""
 WIDEST_RAD = pi / 4
 """Angle beyond which control points are not pushed out further: no way that is flown has such steps."""
@@ -67,7 +67,7 @@ class Gaps(NamedTuple):
         """Yield (a, b) along the shortest way alone, which has no corners, shape (STEPS + 1, 2)."""
         corners = np.array([[self.before, 0.0], [0.0, self.after]])
         if not self.straight:
-            angles = np.linspace(acos(1.0 / self.before), pi / 2.0 - acos(1.0 / self.after), STEPS)
+            angles = np.linspace(acos(1.0 / self.before), pi / 2.0 - acos(1.0 / self.after), WAY_POINTS)
             corners = np.insert(corners, 1, np.column_stack([np.cos(angles), np.sin(angles)]), axis=0)
         yield np.asarray(evenly(corners) / np.array(self))
 
@@ -99,7 +99,7 @@ class Gaps(NamedTuple):
 def evenly(line: Array) -> Array:
     """Return points evenly along a polygon (M, 2), shape (STEPS + 1, 2)."""
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
-    at = np.linspace(0.0, length[-1], STEPS + 1)
+    at = np.linspace(0.0, length[-1], WAY_POINTS + 1)
     return np.column_stack([np.interp(at, length, line[:, k]) for k in range(2)])
 
 

@@ -22,13 +22,13 @@ MOST_STEPS = 100
 GAIN, LARGEST, PATIENCE = 3e-6, 3e-3, 3
 """Share of the cost, for every goal and at most, that so many steps have to gain, or else they end. Of many
 goals the rest is less than points drawn at random tell; of few each one is seen, and steps are cheap."""
-BOLDNESS = 1.6
+STEP_RATIO = 1.6
 """Factor on the steps of the tessellation in space. A goal's share of the cost is quadratic about its
 centroid, so that any factor up to 2 lowers it; this one ends 1 to 2 per cent lower than 1, as fast."""
-MOMENTUM = 0.5
+MOMENTUM_SHARE = 0.5
 """Share of the last step that the next one goes on by. It takes a third of the steps to the same cost, and
 ends about 1 per cent below. Where it goes too far and the cost rises, the step is taken back."""
-NEIGHBOURS = 12
+NEIGHBOUR_COUNT = 12
 """Goals about each one whose moves are told from those of all others."""
 
 
@@ -53,7 +53,7 @@ def centroids(points: Array, n: int, start: Array | None = None) -> Clusters:
     if n < 1 or n > len(points):
         raise ValueError(f"{len(points)} points cannot have {n} centroids")
     first = halved(points, n) if start is None else start
-    return _lloyd(points, first, 0.0, BOLDNESS)
+    return _lloyd(points, first, 0.0, STEP_RATIO)
 
 
 def viewpoint_centroids(points: Array, goals: Array, viewpoint: Array, weight: float) -> Clusters:
@@ -125,7 +125,7 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
         if len(costs) > PATIENCE and costs[-1 - PATIENCE] - costs[-1] <= enough * costs[-1]:
             break
         moved = _step(near.points, near.labels, goals, (start, anchor))
-        way = boldness * moved + MOMENTUM * way
+        way = boldness * moved + MOMENTUM_SHARE * way
         goals = near.follow(goals, way)
     return Clusters(goals, near.in_order(), tuple(costs))
 
@@ -182,5 +182,5 @@ class _Nearest:
     def _look(self, goals: Array) -> None:
         """Find each goal's neighbours, itself among them, and how far the first and the next are off."""
         self._tree = cKDTree(goals)
-        distances, who = self._tree.query(goals, k=NEIGHBOURS + 2)
+        distances, who = self._tree.query(goals, k=NEIGHBOUR_COUNT + 2)
         self._gap, self._far, self._who = distances[:, 1], distances[:, -1], who[:, :-1]

@@ -15,12 +15,12 @@ from shotc.show.geom.sizes import resized
 
 MOST_DARK_SHARE = 0.95
 """Share of a fleet that may stay dark in a picture, since it has no room for more."""
-ROGERS = 0.7797
+ROGERS_SHARE = 0.7797
 """Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
 TRUNCATED = sqrt(1.5)
 """Radius at which the cells are truncated in that theorem, in radii of the ball."""
 ROUNDING = 1e-9
-GROWTH_STEP = 0.01  # to which a growth is found
+GROWTH_STEP_SHARE = 0.01  # to which a growth is found
 
 
 def most_drones(picture: Picture, apart: Apart) -> float:
@@ -39,7 +39,7 @@ def growth(picture: Picture, apart: Apart, count: int) -> float:
     low, high = 1.0, 2.0
     while most_drones(_scaled(picture, high), apart) < count:
         low, high = high, 2.0 * high
-    while high - low > GROWTH_STEP:
+    while high - low > GROWTH_STEP_SHARE:
         middle = 0.5 * (low + high)
         fits = most_drones(_scaled(picture, middle), apart) >= count
         low, high = (low, middle) if fits else (middle, high)
@@ -60,7 +60,7 @@ def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> floa
         room = stretch * 2 * pi**2 * source.radius * (source.tube + wide) ** 2  # Pappus
     else:
         room = _round_box(source.size[0], source.size[1], source.size[2] * stretch, reach)
-    return ROGERS * room / (pi / 6 * gap**3)
+    return ROGERS_SHARE * room / (pi / 6 * gap**3)
 
 
 def _round_box(a: float, b: float, c: float, r: float) -> float:

@@ -17,7 +17,7 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 
-BISECTIONS = 10
+MOST_BISECTIONS = 10
 """Halvings by which the widest lattice is found that has points enough."""
 MOST_POINTS = 4_000_000
 """Points of a lattice round a shape beyond which the shape is too thin for one to be laid."""
@@ -98,7 +98,7 @@ def widest(mould: Mould, number: int, least: float) -> Array | None:
     if len(best) < number:
         return None
     low, high = least, 1.1 * least * (len(best) / number) ** (1.0 / best.shape[1])
-    for _ in range(BISECTIONS):
+    for _ in range(MOST_BISECTIONS):
         middle = 0.5 * (low + high)
         found = laid(mould, middle)
         if len(found) >= number:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from shotc.geom.bernstein import Array
-from shotc.show.geom.lattice import BISECTIONS, MOST_POINTS, Mould, rows_of
+from shotc.show.geom.lattice import MOST_BISECTIONS, MOST_POINTS, Mould, rows_of
 
 MOST_LAYERS = 4
 _SQUARE = {
@@ -71,7 +71,7 @@ def widest_layers(mould: Mould, layers: Layers, number: int, least: float) -> tu
     if len(best[0]) < number:
         return best
     low, high = least, 1.1 * least * sqrt(len(best[0]) / number)
-    for _ in range(BISECTIONS):
+    for _ in range(MOST_BISECTIONS):
         middle = 0.5 * (low + high)
         found = layered(mould, layers, middle)
         if len(found[0]) >= number:

@@ -10,9 +10,9 @@ from scipy.spatial import cKDTree
 from shotc.geom.bernstein import Array
 from shotc.show.geom.push_apart import Hold, Leash, Numbers, close_pairs, grain, leashed, settled
 
-FELL = 0.5
+FALL_SHARE = 0.5
 """Goals that go at a time, for each least distance that all pairs lack together; the rest may part then."""
-ASUNDER = 4.0
+ASUNDER_RATIO = 4.0
 """How far apart those are, in least distances: what they leave is shared by all around."""
 
 
@@ -55,11 +55,11 @@ def _in_the_way(goals: Array, least: float, upright: bool) -> Numbers:
     close = close_pairs(goals, least, upright)
     lack = least - close.distance
     lacks = np.bincount(np.concatenate([close.first, close.second]), np.tile(lack, 2), len(goals))
-    most = int(np.ceil(FELL * float(lack.sum()) / least))
+    most = int(np.ceil(FALL_SHARE * float(lack.sum()) / least))
     found: list[int] = []
     for k in np.argsort(-lacks, kind="stable")[: int((lacks > 0).sum())]:
         if len(found) == most:
             break
-        if (np.linalg.norm(goals[found] - goals[k], axis=1) >= ASUNDER * least).all():
+        if (np.linalg.norm(goals[found] - goals[k], axis=1) >= ASUNDER_RATIO * least).all():
             found.append(int(k))
     return np.array(found, dtype=np.intp)

@@ -12,15 +12,15 @@ from scipy.spatial import cKDTree
 
 from shotc.geom.bernstein import Array
 
-ROUNDS = 400
+MOST_ROUNDS = 400
 """Rounds after which goals count as too many; those that fit are apart after 5 to 100."""
-BEYOND = 1e-3
+BEYOND_SHARE = 1e-3
 """Share of the distance that a push aims beyond it, so that the last pairs are apart after finite rounds."""
-SLACK = 0.25
+SLACK_SHARE = 0.25
 """Share of the distance by which a goal may stand off the shape: less than is seen between two lights."""
-LOOSER = 0.2
+LOOSER_SHARE = 0.2
 """Share by which that grows up to the last round: one pair at its end would ground a thousand drones."""
-PATIENCE = 25
+STALLED_ROUNDS = 25
 """Rounds in which what is missing has to fall by a twentieth, or else so many goals do not fit."""
 
 Numbers = NDArray[np.intp]
@@ -36,12 +36,12 @@ def push_apart(
     goals : shape (n, 3); shape : points (M, 3) that are to be shown, as dense as k-means had them; in the
     metric of the fleet, both; upright : whether distances are those of ``Close``. Every pair that is too
     near parts along its own line, all pairs at once, each goal by half of what is missing; none goes farther
-    than ``SLACK`` from the shape, or where ``hold`` does not let it.
+    than ``SLACK_SHARE`` from the shape, or where ``hold`` does not let it.
     """
     tree = cKDTree(shape)
     # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
-    leash = np.maximum(SLACK * least + grain(tree), tree.query(goals)[0])
-    goals, apart = settled(goals, Leash(tree, leash, LOOSER), least, hold, upright=upright)
+    leash = np.maximum(SLACK_SHARE * least + grain(tree), tree.query(goals)[0])
+    goals, apart = settled(goals, Leash(tree, leash, LOOSER_SHARE), least, hold, upright=upright)
     return goals if apart else None
 
 
@@ -59,7 +59,7 @@ class Leash:
 
     def drawn(self, goals: Array, which: Numbers, done: int) -> Array:
         """Draw goals of those numbers back that are farther off, after so many rounds."""
-        return leashed(goals, self.shape, self.lengths[which] * (1.0 + self.looser * done / ROUNDS))
+        return leashed(goals, self.shape, self.lengths[which] * (1.0 + self.looser * done / MOST_ROUNDS))
 
 
 def settled(
@@ -67,11 +67,11 @@ def settled(
 ) -> tuple[Array, bool]:
     """Push goals apart until they are, or until that leads no further; return them, and whether they are."""
     missing = float("inf")
-    for done in range(ROUNDS):
-        push, lacking = _pushes(goals, least, BEYOND * (1.0 + done / 20), upright)
+    for done in range(MOST_ROUNDS):
+        push, lacking = _pushes(goals, least, BEYOND_SHARE * (1.0 + done / 20), upright)
         if not lacking:
             return goals, True
-        if done % PATIENCE == 0:
+        if done % STALLED_ROUNDS == 0:
             if lacking > 0.95 * missing:
                 return goals, False
             missing = lacking
@@ -79,7 +79,7 @@ def settled(
         wanted = leash.drawn(goals[moving] + push[moving], moving, done)
         goals = goals.copy()
         goals[moving] = hold(goals[moving], wanted)
-    return goals, not _pushes(goals, least, BEYOND, upright)[1]
+    return goals, not _pushes(goals, least, BEYOND_SHARE, upright)[1]
 
 
 def nearest_pair(goals: Array) -> float:

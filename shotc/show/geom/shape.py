@@ -11,9 +11,9 @@ from shotc.geom.solids import box, signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, RecordedFlight, Source, Sphere, Torus
 
-NARROW = 0.3  # share of a capital's height that a letter is wide at least
-SMALL = 0.5  # share of it that small letters are high at least
-ROUND = 24  # balls in a ring
+NARROW_SHARE = 0.3  # share of a capital's height that a letter is wide at least
+SMALL_LETTER_SHARE = 0.5  # share of it that small letters are high at least
+RING_BALLS = 24  # balls in a ring
 ALONG = (-1.0, -0.5, 0.0, 0.5, 1.0)
 
 
@@ -112,8 +112,8 @@ def _of_ring(source: Torus) -> Iterator[Ball]:
     n = _axis(source)
     # level x n, which points as far up as the ring does
     steep = (level[1] * n[2], -level[0] * n[2], level[0] * n[1] - level[1] * n[0])
-    for i in range(ROUND):
-        a, b = source.radius * cos(2 * pi * i / ROUND), source.radius * sin(2 * pi * i / ROUND)
+    for i in range(RING_BALLS):
+        a, b = source.radius * cos(2 * pi * i / RING_BALLS), source.radius * sin(2 * pi * i / RING_BALLS)
         x, y, z = (o + a * u + b * v for o, u, v in zip(source.centre, level, steep, strict=True))
         yield Ball((x, y, z), source.tube)
 
@@ -147,9 +147,9 @@ def _of_text(source: Lettering) -> Iterator[Ball]:
 
 
 def _width(source: Lettering) -> float:
-    return NARROW * source.height * sum(not letter.isspace() for letter in source.text)
+    return NARROW_SHARE * source.height * sum(not letter.isspace() for letter in source.text)
 
 
 def _tall(source: Lettering) -> float:
     capitals = any(letter.isupper() or letter.isdigit() for letter in source.text)
-    return source.height if capitals else SMALL * source.height
+    return source.height if capitals else SMALL_LETTER_SHARE * source.height

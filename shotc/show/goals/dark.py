@@ -15,9 +15,9 @@ import numpy as np
 from shotc.geom.bernstein import Array
 from shotc.show.goals.spaced import SpacingTask
 
-BEHIND = 1.001
+BEHIND_SPACINGS = 1.001
 """Distance of dark drones from the picture and from each other, in spacings."""
-LAYERS = 100
+MOST_LAYERS = 100
 """Layers of the block behind which no place is looked for."""
 NORTH = np.array([0.0, 1.0, 0.0])
 
@@ -40,7 +40,7 @@ def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = 
 def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
     """Yield the free places of one layer after another, in the order in which they are taken."""
     across = np.array([-away[1], away[0], 0.0])
-    step = BEHIND * setting.least
+    step = BEHIND_SPACINGS * setting.least
     middle = shown.mean(axis=0)
     columns = _steps((shown - middle) @ across, step)
     rows = _steps(shown[:, 2] - middle[2], step / setting.stretch)
@@ -52,7 +52,7 @@ def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
         return np.asarray(places[setting.room.lack(places) <= 0])
 
     blocked = False
-    for layer in range(1, LAYERS + 1):
+    for layer in range(1, MOST_LAYERS + 1):
         behind = free(layer, away)
         if not len(behind) and not blocked:
             blocked = True

@@ -17,18 +17,18 @@ from shotc.ir.show import Drawing
 from shotc.show.goals.body import SourceFault
 from shotc.show.goals.flat import FlatBody, FlatPart, chain, standing
 
-CURVE = 16
+CURVE_LINES = 16
 """Lines that a Bezier curve becomes."""
-ARC = 48
+ARC_LINES = 48
 """Lines that an elliptic arc becomes: a circle is off by a five-hundredth of its radius at most."""
 MOST_ELEMENTS = 100_000
 """Elements, with those that `use` repeats, and lines in all."""
 
-DARK = 32
+DARK_LEVEL = 32
 """Largest part of a colour, of 255, below which a light that shows it would not be seen."""
 
 _FOREIGN = re.compile(r"url\(\s*['\"]?\s*(?![#'\"\s])|@import", re.IGNORECASE)
-_DEEPEST = 200  # elements in elements, with those that `use` puts there
+_DEEPEST_LEVEL = 200  # elements in elements, with those that `use` puts there
 _REFUSED = {
     "script": ("a script", "remove the script"),
     "foreignObject": ("a foreign object", "remove it"),
@@ -104,7 +104,7 @@ def _repeated(root: Node) -> tuple[str, str] | None:
     sizes: dict[int, int | None] = {}
 
     def size(node: Node, depth: int) -> int:
-        if depth > _DEEPEST:
+        if depth > _DEEPEST_LEVEL:
             return MOST_ELEMENTS + 1
         if id(node) in sizes:
             known = sizes[id(node)]
@@ -155,7 +155,7 @@ def _color(paint: Any) -> Color | None:
     if paint is None or paint.value is None or paint.alpha == 0:
         return None
     color = (int(paint.red), int(paint.green), int(paint.blue))
-    return color if max(color) >= DARK else None
+    return color if max(color) >= DARK_LEVEL else None
 
 
 def _hidden(values: dict[str, Any]) -> bool:
@@ -180,7 +180,7 @@ def _corners(sub: Any) -> Array:
     corners: list[tuple[float, float]] = []
     for segment in sub:
         curved = isinstance(segment, CubicBezier | QuadraticBezier)
-        steps = ARC if isinstance(segment, Arc) else CURVE if curved else 1
+        steps = ARC_LINES if isinstance(segment, Arc) else CURVE_LINES if curved else 1
         places = [segment.end] if steps == 1 else [segment.point(k / steps) for k in range(1, steps + 1)]
         corners += [(float(p.x), float(p.y)) for p in places if p is not None]
     return np.array(corners) if corners else np.zeros((0, 2))

@@ -14,7 +14,7 @@ from shotc.geom.vec import wrapped
 
 CORNER_RAD = np.radians(40.0)
 """Change of direction from which a place is a corner, which a letter without a light there loses."""
-RING = 3
+RING_LIGHTS = 3
 """Lights that a closed line without corners takes at least."""
 
 
@@ -30,7 +30,7 @@ class _Part(NamedTuple):
 
     @property
     def fewest(self) -> int:
-        return RING if _closed(self.line) else 1 + self.open
+        return RING_LIGHTS if _closed(self.line) else 1 + self.open
 
 
 def along_edges(edges: Sequence[Array], count: int, least: float, metric: Array) -> Array:

@@ -20,7 +20,7 @@ from shotc.show.labels import word_of
 
 BETWEEN = (0.0, 0.25, 0.5, 0.75)
 """Shares of the way from the middle of a picture to its goals at which places within it are looked at."""
-FEWEST = 8
+FEWEST_DRONES = 8
 """Drones below which no solid can be told from a box: they are its corners."""
 
 
@@ -127,13 +127,15 @@ def _ways(fleet: Fleet, ways: PictureRemedies, otherwise: str) -> str:
 def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
     """Warn of a fleet too small to show anything."""
     number = len(fleet.pads)
-    if number >= FEWEST:
+    if number >= FEWEST_DRONES:
         return None
-    note = f"fewer than {FEWEST} lights look alike, whatever they show"
+    note = f"fewer than {FEWEST_DRONES} lights look alike, whatever they show"
     drones = "drone is" if number == 1 else "drones are"
     message = f"{number} {drones} too few to show a shape"
     label = (place_of(mission, picture),)
-    return Diagnostic("D057", message, label, (note,), f"use {FEWEST} drones (`count: {FEWEST}`) or more")
+    return Diagnostic(
+        "D057", message, label, (note,), f"use {FEWEST_DRONES} drones (`count: {FEWEST_DRONES}`) or more"
+    )
 
 
 def in_the_way(

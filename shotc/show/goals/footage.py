@@ -14,9 +14,9 @@ from PIL import Image, ImageSequence
 
 from shotc.kinds.files import FileFault
 
-PER_LIGHT = 4
+PIXELS_PER_LIGHT = 4
 """Pixels of a frame for every light: a light then shows the mean of what is about it."""
-MOST_KEPT = 4_000_000
+MOST_KEPT_PIXELS = 4_000_000
 """Pixels of all frames of an image that a plan holds."""
 SLOW_S = 0.1
 """Seconds of a frame of a GIF that says none: what browsers do."""
@@ -39,7 +39,7 @@ def read_frames(data: bytes, lights: int) -> ImageFrames | FileFault:
     try:
         with Image.open(BytesIO(data), formats=("PNG", "GIF")) as image:
             count = int(getattr(image, "n_frames", 1))
-            columns, rows = _size(image.size, min(PER_LIGHT * lights, MOST_KEPT // count))
+            columns, rows = _size(image.size, min(PIXELS_PER_LIGHT * lights, MOST_KEPT_PIXELS // count))
             wide = (image.width / columns) / (image.height / rows)
             for frame in ImageSequence.Iterator(image):
                 whole = frame.convert("RGBA")

@@ -15,10 +15,10 @@ from shotc.show.geom.push_apart import grain
 from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.lit import LEAST_FLAT, SLACK_SHARES, Lit
+from shotc.show.goals.lit import LEAST_FLAT_POINTS, SLACK_SHARES, Lit
 from shotc.show.goals.spaced import Draw, SpacingTask
 
-POINTS_EACH = 20
+POINTS_PER_PLACE = 20
 """Points of the picture for each place of its layers."""
 ASIDE_M, AWAY_M = 20.0, 100.0
 """How far off the axis a seat is of which it is told, and how far away it is without a viewpoint, metres."""
@@ -33,12 +33,12 @@ def in_layers(body: FlatBody, setting: SpacingTask, draw: Draw, count: int) -> L
     scale = np.array([1.0, setting.stretch])
 
     def mould(number: int) -> Mould:
-        tree = cKDTree(body.flat(draw(max(LEAST_FLAT, number))) * scale)
+        tree = cKDTree(body.flat(draw(max(LEAST_FLAT_POINTS, number))) * scale)
         return Mould(tree, SLACK_SHARES[0] * layers.seen * setting.least + grain(tree), setting.upright)
 
     # Points as dense as the places can be, however many drones there are.
     first, _ = widest_layers(mould(0), layers, 2**31, setting.least)
-    places, layer = widest_layers(mould(POINTS_EACH * len(first)), layers, setting.number, setting.least)
+    places, layer = widest_layers(mould(POINTS_PER_PLACE * len(first)), layers, setting.number, setting.least)
     back = (layer - 0.5 * (count - 1)) * layers.depth * setting.least
     goals = body.standing(places / scale) + back[:, None] * body.axes[1]
     goals = goals[setting.room.lack(goals) <= 0.0] if len(goals) else goals

@@ -20,12 +20,12 @@ from shotc.show.goals.faults import no_points, too_few_points, viewpoint_inside
 from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.in_layers import filled_in_layers, in_layers
 from shotc.show.goals.letters import lights_needed
-from shotc.show.goals.lit import LEAST_FLAT, Lit, Strokes, all_lit, lit, on_strokes
+from shotc.show.goals.lit import LEAST_FLAT_POINTS, Lit, Strokes, all_lit, lit, on_strokes
 from shotc.show.goals.model import CloudBody, MeshBody
 from shotc.show.goals.remedies import GoalCapacity
 from shotc.show.goals.solids import SolidBody
 from shotc.show.goals.spaced import (
-    TRIED,
+    TRIED_DRONES,
     Draw,
     PlacedGoals,
     SpacingTask,
@@ -39,15 +39,15 @@ from shotc.show.goals.spaced import (
 )
 
 DENSE, THIN = 40, 20
-"""Points a goal: of few goals, and of more than ``MANY``, where the tessellation costs most."""
-MANY = 2000
+"""Points a goal: of few goals, and of more than ``MANY_DRONES``, where the tessellation costs most."""
+MANY_DRONES = 2000
 LEAST_POINTS = 2000
 """Points of any picture that is not flat."""
-FEWER = 1.06
+FEWER_RATIO = 1.06
 """Factor from one number of lights that is tried to the next."""
 CROWDED_SHARE = 0.58
 """Share of the places of a lattice in a solid beyond which the centroids of a large fleet do not part."""
-AS_MANY = 0.9
+AS_MANY_SHARE = 0.9
 """Share of the lights that the inside of a text holds with which its outline reads better."""
 
 
@@ -148,7 +148,7 @@ class _Layouts:
         outline = self._filled(setting, "outline", dark=dark and inside.bright < setting.number)
         if isinstance(outline, Diagnostic):
             return inside
-        few = inside.bright == setting.number or outline.bright < AS_MANY * max(1, inside.bright)
+        few = inside.bright == setting.number or outline.bright < AS_MANY_SHARE * max(1, inside.bright)
         return inside if few and outline.bright < setting.number else outline
 
     def _filled(self, setting: SpacingTask, fill: Fill, *, dark: bool) -> GoalLayout | Diagnostic:
@@ -156,11 +156,11 @@ class _Layouts:
         need be.
         """
         flat = self.bodies[0]
-        if setting.number > TRIED and isinstance(flat, FlatBody):
+        if setting.number > TRIED_DRONES and isinstance(flat, FlatBody):
             layout = self._crowded_strokes(setting, fill, flat, dark=dark)
             if layout is not None:
                 return layout
-        if setting.number > TRIED and self._is_solid(fill):
+        if setting.number > TRIED_DRONES and self._is_solid(fill):
             points = self.bodies[0].draw(fill, LEAST_POINTS, np.random.default_rng(list(self.task.seed)))
             wrong = _wrong(self.task, setting, self.bodies[0], points)
             if wrong is not None:
@@ -185,7 +185,7 @@ class _Layouts:
         """Return how a flat picture shows a large fleet that has too little room to be spread evenly, if
         so.
         """
-        points = body.draw(fill, LEAST_FLAT, np.random.default_rng(list(self.task.seed)))
+        points = body.draw(fill, LEAST_FLAT_POINTS, np.random.default_rng(list(self.task.seed)))
         wrong = _wrong(self.task, setting, body, points)
         if points is None or wrong is not None:
             return wrong
@@ -202,7 +202,7 @@ class _Layouts:
         """Return a flat picture in layers, one behind the other."""
         (body,) = self.bodies
         assert isinstance(body, FlatBody)
-        points = body.draw(fill, LEAST_FLAT, np.random.default_rng(list(self.task.seed)))
+        points = body.draw(fill, LEAST_FLAT_POINTS, np.random.default_rng(list(self.task.seed)))
         wrong = _wrong(self.task, setting, body, points)
         if points is None or wrong is not None:
             return wrong or no_points(self.task.mission, self.task.picture)
@@ -268,7 +268,7 @@ class _Layouts:
             if layout is not None and None not in layout.spaced:
                 frames = [_with_dark(frame, setting) for frame in layout.spaced if frame is not None]
                 return None if None in frames else layout._replace(spaced=tuple(frames), setting=setting)
-            number = int(number / FEWER)
+            number = int(number / FEWER_RATIO)
         return None
 
     def _draw(self, fill: Fill) -> Draw:
@@ -322,7 +322,7 @@ def _placed(
     found: list[PlacedGoals] = []
     for body in bodies:
         flat = isinstance(body, FlatBody)
-        count = max(LEAST_FLAT if flat else LEAST_POINTS, n * (DENSE if n <= MANY else THIN))
+        count = max(LEAST_FLAT_POINTS if flat else LEAST_POINTS, n * (DENSE if n <= MANY_DRONES else THIN))
         points = body.draw(fill, count, np.random.default_rng(list(task.seed)))
         wrong = _wrong(task, setting, body, points)
         if points is None or wrong is not None:

@@ -14,11 +14,11 @@ from shotc.show.goals.faults import apart, place_of
 from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.spaced import SpacingTask
 
-DOTS = 5
+LETTER_LIGHTS = 5
 """Lights in the height of a letter, fewer of which make none: the smallest fonts have five."""
-SMALL = 0.7
+SMALL_LETTER_RATIO = 0.7
 """Height of small letters, in capitals, of most fonts."""
-RESOLVED = 1.5
+RESOLVED_RATIO = 1.5
 """Distance of lights on an outline, in widths of its strokes, at which both sides of a stroke are seen."""
 
 
@@ -63,11 +63,14 @@ def too_small(
     source = picture.source
     if not isinstance(source, Lettering):
         return None
-    share = SMALL if any(letter.islower() for letter in source.text) else 1.0
-    needed = (DOTS - 1) * seen / setting.stretch / share
+    share = SMALL_LETTER_RATIO if any(letter.islower() for letter in source.text) else 1.0
+    needed = (LETTER_LIGHTS - 1) * seen / setting.stretch / share
     if source.height >= needed * (1.0 - 1e-9):
         return None
-    notes = (apart(setting), f"{'small ' if share < 1.0 else ''}letters need {DOTS} lights in their height")
+    notes = (
+        apart(setting),
+        f"{'small ' if share < 1.0 else ''}letters need {LETTER_LIGHTS} lights in their height",
+    )
     larger = enlarged(picture, needed / source.height, mission.rules.over_ground(fleet.radius))
     message = f"letters {source.height:.4g} m high are too small to be read"
     help_ = f"make them larger (`{size_words(source, larger.source)}`)"
@@ -79,8 +82,8 @@ def too_small(
 
 def _step(source: Lettering, body: FlatBody, fill: Fill) -> float:
     """Return how far apart lights may be along what they stand on, metres."""
-    step = source.height / (DOTS - 1)
-    return min(step, RESOLVED * body.stroke) if fill == "outline" else step
+    step = source.height / (LETTER_LIGHTS - 1)
+    return min(step, RESOLVED_RATIO * body.stroke) if fill == "outline" else step
 
 
 def _strokes(body: FlatBody, fill: Fill) -> float:

@@ -19,9 +19,9 @@ from shotc.show.goals.body import Fill
 from shotc.show.goals.dark import dark_places
 from shotc.show.goals.edges import along_edges
 from shotc.show.goals.flat import FlatBody
-from shotc.show.goals.spaced import TRIED, Draw, PlacedGoals, SpacingTask, evenly
+from shotc.show.goals.spaced import TRIED_DRONES, Draw, PlacedGoals, SpacingTask, evenly
 
-LEAST_FLAT = 10_000
+LEAST_FLAT_POINTS = 10_000
 """Points of any flat picture, where a light beside a stroke is seen."""
 SLACK_SHARES = (0.1, 0.2)
 """Shares of the spacing by which a light may be off its stroke. The second, at which letters look uneven,
@@ -31,11 +31,11 @@ CROWDED_SHARE = 0.8
 WORTH_SHARE = 0.8
 """Share of the lights that strokes could hold at most with which a lattice of a large fleet is taken at
 once."""
-SPARE = 1.1
+SPARE_RATIO = 1.1
 """Lights with which thinning begins, for each that strokes of their area and length could hold at most."""
 ONE_IN = 20
 """One in so many lights more has a lattice to hold to be taken: it looks regular, and strokes do not."""
-DENSE = 20
+DENSE_POINTS = 20
 """Points a light of what is drawn to find how many lights strokes hold."""
 
 
@@ -128,7 +128,7 @@ class Strokes:
         room.
         """
         number = self.setting.number
-        return number > TRIED and number > CROWDED_SHARE * sum(self._by_area_and_edges())
+        return number > TRIED_DRONES and number > CROWDED_SHARE * sum(self._by_area_and_edges())
 
     def in_lattice(self) -> Lit | None:
         """Return a large fleet in the widest lattice that has a place for each, or None where there is
@@ -155,7 +155,7 @@ class Strokes:
             places = self._in_lattice(self._points(self.setting.number))
             if len(places) > WORTH_SHARE * sum(self._by_area_and_edges()):
                 return evenly(places, self.setting.number), True
-        first = self.draw(LEAST_FLAT)
+        first = self.draw(LEAST_FLAT_POINTS)
         start = self._started(first, self._held_at_most())
         points = self._points(len(start))
         found = thinned(start, points, self.setting.least, slack, self._held, upright=self.setting.upright)
@@ -164,7 +164,9 @@ class Strokes:
         return evenly(places if dense else found, self.setting.number), dense
 
     def _points(self, number: int) -> Array:
-        return np.asarray(self.body.flat(self.draw(max(LEAST_FLAT, DENSE * number))) * self.scale)
+        return np.asarray(
+            self.body.flat(self.draw(max(LEAST_FLAT_POINTS, DENSE_POINTS * number))) * self.scale
+        )
 
     def _mould(self, points: Array) -> Mould:
         tree = cKDTree(points)
@@ -184,7 +186,7 @@ class Strokes:
         """Return a number of goals that strokes can hardly hold: by their area and their edges (Oler
         1961).
         """
-        return ceil(SPARE * sum(self._by_area_and_edges())) + 1
+        return ceil(SPARE_RATIO * sum(self._by_area_and_edges())) + 1
 
     @property
     def edges_share(self) -> float:

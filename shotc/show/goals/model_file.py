@@ -18,7 +18,7 @@ UP: dict[str, Axis] = {"ply": "z", "obj": "y", "stl": "z", "glb": "y"}
 """The axis that points up in each format that is read, as modellers write it."""
 TURNED: dict[Axis, list[int]] = {"x": [1, 2, 0], "y": [0, 2, 1], "z": [0, 1, 2]}
 """Which axis of a file becomes East, North and Up; where y is up, North is turned round."""
-FARTHEST = 1e9
+LARGEST_COORDINATE = 1e9
 """Coordinates beyond which a file is broken whatever its unit."""
 
 
@@ -51,7 +51,7 @@ def read_model(name: str, data: bytes, up: Axis | None = None) -> ModelMesh | Un
         )
     parts = read_mesh(kind, data)
     if isinstance(parts, list):
-        wrong = wrong_corners(parts, FARTHEST)
+        wrong = wrong_corners(parts, LARGEST_COORDINATE)
         return _checked(_upright(_together(parts), up or UP[kind])) if wrong is None else _unreadable(wrong)
     return _unreadable(parts)
 

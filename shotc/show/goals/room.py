@@ -15,7 +15,7 @@ from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, outw
 FAR_M = 1000.0
 """Metres beyond which no shift is looked for."""
 SHIFT_ROUNDS = 60
-DIRECTIONS = 16
+DIRECTION_COUNT = 16
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,7 +81,7 @@ def _along(goals: Array, room: DisplaySurroundings, way: Array, most: float) -> 
 
 def _ways() -> Array:
     """Return unit vectors: up and down, level all round, and half-way up and down between."""
-    turns = 2.0 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
-    level = np.round(np.column_stack([np.sin(turns), np.cos(turns), np.zeros(DIRECTIONS)]), 12)
+    turns = 2.0 * np.pi * np.arange(DIRECTION_COUNT) / DIRECTION_COUNT
+    level = np.round(np.column_stack([np.sin(turns), np.cos(turns), np.zeros(DIRECTION_COUNT)]), 12)
     slanted = [(level + np.array([0.0, 0.0, side])) / np.sqrt(2.0) for side in (1.0, -1.0)]
     return np.concatenate([np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]), level, *slanted])

@@ -14,16 +14,16 @@ from shotc.geom.bernstein import Array
 from shotc.show.geom.centroids import centroids, viewpoint_centroids
 from shotc.show.geom.lattice import Mould, laid, widest
 from shotc.show.geom.push_along import thinned
-from shotc.show.geom.push_apart import SLACK, Hold, grain, push_apart
+from shotc.show.geom.push_apart import SLACK_SHARE, Hold, grain, push_apart
 from shotc.show.goals.room import DisplaySurroundings
 
-NEIGHBOURS = 12
+NEIGHBOUR_COUNT = 12
 """Points that tell how a surface lies near a goal."""
 CROWDED_SHARE = 0.9
 """Mean distance of centroids, in the distance to be kept, below which pushing them apart is not tried."""
-TRIED = 300
+TRIED_DRONES = 300
 """Drones up to which it is tried all the same: some fit where the shape is small."""
-SPARE = 1.15
+SPARE_RATIO = 1.15
 """Goals with which thinning begins, for each that a shape should hold."""
 FEW_GOALS, FEW_POINTS, POINTS_EACH = 48, 4000, 20
 """Centroids by which it is told how many a shape should hold, points of it for these, and for each it
@@ -98,7 +98,7 @@ def spaced(setting: SpacingTask, goals: PlacedGoals) -> Array | None:
     scale = setting.scale
     shape = goals.points * scale
     start = goals.shown * scale
-    if len(start) > TRIED and _mean_gap(goals.centroids * scale) < CROWDED_SHARE * setting.least:
+    if len(start) > TRIED_DRONES and _mean_gap(goals.centroids * scale) < CROWDED_SHARE * setting.least:
         return None
     hold = _held(setting)
     apart = push_apart(start, shape, setting.least, hold, upright=setting.upright)
@@ -131,7 +131,7 @@ def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
     scale = setting.scale
     shape = drawn(setting, draw, power) * scale
     start = centroids(shape, min(_held_about(setting, shape, power), len(shape))).goals
-    slack = SLACK * setting.least
+    slack = SLACK_SHARE * setting.least
     found = thinned(start, shape, setting.least, slack, _held(setting), upright=setting.upright)
     return evenly(found, setting.number) / scale
 
@@ -167,12 +167,12 @@ def _held_about(setting: SpacingTask, shape: Array, power: int) -> int:
     are.
     """
     gap = _mean_gap(centroids(shape, FEW_GOALS).goals)
-    return ceil(SPARE * FEW_GOALS * (gap / setting.least) ** power) + 1
+    return ceil(SPARE_RATIO * FEW_GOALS * (gap / setting.least) ** power) + 1
 
 
 def _mould(setting: SpacingTask, points: Array) -> Mould:
     tree = cKDTree(points * setting.scale)
-    return Mould(tree, SLACK * setting.least + grain(tree), setting.upright)
+    return Mould(tree, SLACK_SHARE * setting.least + grain(tree), setting.upright)
 
 
 def _held(setting: SpacingTask) -> Hold:
@@ -190,9 +190,9 @@ def _mean_gap(goals: Array) -> float:
 
 def _onto(points: Array, goals: Array) -> Array:
     """Draw goals along its normal into the surface of which points (M, 3) are given."""
-    if len(points) < NEIGHBOURS:
+    if len(points) < NEIGHBOUR_COUNT:
         return goals
-    near = points[cKDTree(points).query(goals, k=NEIGHBOURS)[1]]
+    near = points[cKDTree(points).query(goals, k=NEIGHBOUR_COUNT)[1]]
     middle = near.mean(axis=1)
     away = near - middle[:, None]
     normal = np.linalg.eigh(np.einsum("nki,nkj->nij", away, away))[1][:, :, 0]

@@ -3,8 +3,8 @@
 The control points stay, and the time from break to break grows. A piece grows by what the drones that count
 on it need: a velocity's control point by its share of the limit, an acceleration's by the root of its own, a
 jerk's by the cube root, for so they fall with time. Where the clock slows down and comes back its logarithm
-changes by 1 in ``EASE`` times the time that braking from full speed takes, evenly, corners rounded: so the
-clock's own acceleration is small, and what it adds falls as the pieces grow. That is repeated until no
+changes by 1 in ``EASE_RATIO`` times the time that braking from full speed takes, evenly, corners rounded:
+so the clock's own acceleration is small, and what it adds falls as the pieces grow. That is repeated until no
 control point of any derivative breaks a limit, which proves all limits for all times. Stretching all pieces
 alike needs no repetition; the shorter of both is taken, so that the result is never longer than that.
 """
@@ -19,11 +19,11 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import DEGREE, knots
 from shotc.ir.limits import Limits
 
-EASE = 0.5
+EASE_RATIO = 0.5
 """Times that braking from full speed takes, in which the clock's rate changes by a factor of e."""
-SMOOTHED = 2
+SMOOTHED_PIECES = 2
 """Pieces to either side over which the logarithm of a stretch is averaged."""
-ROUNDS = 200
+MOST_ROUNDS = 200
 SLACK_SHARE = 1e-9
 """Share of a limit by which rounding may break it."""
 OVER_SHARE = 1e-4
@@ -92,9 +92,9 @@ def _granted(limits: Limits, step: float, rounding: float) -> Limits:
 
 def _stretched(widths: Array, coef: Array, limits: Limits) -> Array | None:
     """Return the pieces' widths, stretched here and there, or None where that does not come to an end."""
-    slope = widths[0] / (EASE * limits.speed / limits.usable_acceleration)
+    slope = widths[0] / (EASE_RATIO * limits.speed / limits.usable_acceleration)
     grown = np.zeros(len(widths))
-    for _ in range(ROUNDS):
+    for _ in range(MOST_ROUNDS):
         lacks = needs(widths * np.exp(grown), coef, limits)
         if lacks.max() <= 1.0 + SLACK_SHARE:
             return np.asarray(widths * np.exp(grown))
@@ -111,9 +111,11 @@ def _eased(aim: Array, slope: float) -> Array:
     index = np.arange(len(aim)) * slope
     rising = np.maximum.accumulate(aim + index) - index
     falling = np.maximum.accumulate((aim - index)[::-1])[::-1] + index
-    hull = np.pad(np.maximum(rising, falling), 2 * SMOOTHED, mode="edge")
-    window = np.lib.stride_tricks.sliding_window_view(hull, 2 * SMOOTHED + 1).max(axis=1)
-    return np.asarray(np.convolve(window, np.full(2 * SMOOTHED + 1, 1.0 / (2 * SMOOTHED + 1)), "valid"))
+    hull = np.pad(np.maximum(rising, falling), 2 * SMOOTHED_PIECES, mode="edge")
+    window = np.lib.stride_tricks.sliding_window_view(hull, 2 * SMOOTHED_PIECES + 1).max(axis=1)
+    return np.asarray(
+        np.convolve(window, np.full(2 * SMOOTHED_PIECES + 1, 1.0 / (2 * SMOOTHED_PIECES + 1)), "valid")
+    )
 
 
 def needs(widths: Array, coef: Array, limits: Limits) -> Array:

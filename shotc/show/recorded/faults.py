@@ -13,7 +13,7 @@ from shotc.show.recorded.clock import Need
 from shotc.show.recorded.stage import FitRequirements, Grounded, Leaned, Staged
 from shotc.show.recorded.tracks import RecordedTracks, UnreadableFlight
 
-MOST_FACTOR = 20.0
+LARGEST_RATIO = 20.0
 """By which a piece may be too fast: beyond it a drone jumps, and the file is wrong."""
 UNITS = {"acceleration": "m/s^2", "jerk": "m/s^3"}
 LEAST_TOLD_S = 0.05
@@ -66,7 +66,7 @@ def grounded(
 def jumps(mission: MissionIR, display: Display, tracks: RecordedTracks, found: Staged) -> Diagnostic | None:
     """Return D153 if a drone jumps: no clock makes that a flight."""
     need = found.need
-    if need is None or need.factor <= MOST_FACTOR:
+    if need is None or need.factor <= LARGEST_RATIO:
         return None
     file, label = _file(mission, display)
     who = tracks.tracks[found.order[need.drone]].where

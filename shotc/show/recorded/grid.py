@@ -29,7 +29,7 @@ from shotc.show.recorded.tracks import RecordedTrack
 
 PIECE_S = 0.25
 """Seconds of the file's clock from control point to control point, at least."""
-SPANS = 64
+PIECE_SPANS = 64
 """Of a piece, in which the distance from the polyline is bounded."""
 TINY_S = 1e-9
 
@@ -95,7 +95,7 @@ def _apart(marks: Array) -> Array:
 
 def _from_polyline(times: Array, breaks: Array, coef: Array) -> Array:
     """Return how far every drone is from its polyline at the same time of the file, at most, (n,), metres."""
-    share = np.linspace(0.0, 1.0, SPANS + 1)
+    share = np.linspace(0.0, 1.0, PIECE_SPANS + 1)
     at = breaks[:-1, None] + share * np.diff(breaks)[:, None]
     clock = _scalar(breaks, times, at)
     bends = [_excess(breaks, times, (at, clock), m) for m in (1, 2)]
@@ -105,7 +105,7 @@ def _from_polyline(times: Array, breaks: Array, coef: Array) -> Array:
     steps = norm(np.diff(slopes, axis=1))
     one, other = steps[:, :-1], steps[:, 1:]
     worst = np.zeros(len(coef))
-    for k in range(SPANS):
+    for k in range(PIECE_SPANS):
         worst = np.maximum(worst, (one * bends[0][:, k] + other * bends[1][:, k]).max(axis=1))
     return worst
 

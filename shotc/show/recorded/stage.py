@@ -29,11 +29,11 @@ STILL_M = 2e-3
 """Metres within which all drones stand: what a file's rounding makes of a stop."""
 STOP_POINTS = 4
 """Control points in a row that are a stop."""
-DIGITS = 6
+CONTROL_DECIMALS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
-MOST_FINER = 8.0
+FINEST_RATIO = 8.0
 """By how much control points may be nearer to each other in the file."""
-SHOWN = 9
+SHOWN_TIMES = 9
 """Moments of a recorded flight that stand for it, where pictures are shown."""
 
 
@@ -107,7 +107,7 @@ def staged(display: str, tracks: RecordedTracks, asked: FitRequirements) -> Stag
     if isinstance(found, Grounded) or found.longer <= 0.0:
         return found
     start, end = found.part
-    slower = min(1.0 + found.longer / (end - start), MOST_FINER)
+    slower = min(1.0 + found.longer / (end - start), FINEST_RATIO)
     finer = step_of(tracks.step, slower)
     return found if finer >= step_of(tracks.step) else _staged(display, tracks, asked, finer)
 
@@ -140,7 +140,7 @@ def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: 
         _over(coef[:, : rise + DEGREE], asked.pads, 0)
     if fall is not None and ends is not None:
         _over(coef[:, fall:], ends, -1)
-    coef = np.round(coef, DIGITS)
+    coef = np.round(coef, CONTROL_DECIMALS)
     clock = clocked(coef, step, asked.limits, tracks.rounding)
     off, whose = bound(tracks.tracks, times, clock.breaks, coef)
     flight = Recorded(
@@ -233,5 +233,5 @@ def _lights(tracks: RecordedTracks, times: Array, breaks: Array) -> Lights:
 
 
 def _shown(breaks: Array, first: int, last: int) -> tuple[float, ...]:
-    chosen = np.unique(np.round(np.linspace(first, last, SHOWN)).astype(int))
+    chosen = np.unique(np.round(np.linspace(first, last, SHOWN_TIMES)).astype(int))
     return tuple(float(breaks[k]) for k in chosen)

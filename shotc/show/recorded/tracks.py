@@ -27,7 +27,7 @@ TABLE_ROUNDING_M = 5e-4
 MOST_COLORS = 30_000_000
 """Colours of all lights at all times that a plan holds: 90 MB. 1000 lights of five minutes change at 100 Hz,
 20,000 of them at 5 Hz."""
-LEVELS = 2.0
+TOLERANCE_LEVELS = 2.0
 """Levels, of 255, by which a light may be off for its times to be fewer."""
 
 
@@ -120,7 +120,7 @@ def colors_at(tracks: RecordedTracks, start: float, end: float) -> tuple[Array, 
     """Return times of the file's clock, (T,), and the colours of all lights, (n, T, 3), between two times.
 
     The times are all those at which a light changes its course, but for those without which no light is more
-    than ``LEVELS`` off; of more than ``MOST_COLORS`` they are even, as many as that leaves.
+    than ``TOLERANCE_LEVELS`` off; of more than ``MOST_COLORS`` they are even, as many as that leaves.
     """
     lights = [track.light or KeyedLight((0.0,), ((0, 0, 0),)) for track in tracks.tracks]
     every = np.unique(np.round(np.concatenate([light.times for light in lights]), 6))
@@ -149,7 +149,10 @@ def _kept(times: Array, levels: NDArray[np.float32]) -> list[int]:
             span = times[k] - times[k - 1]
             slope = (levels[:, k] - levels[:, k - 1]) / span
             low, high = np.full(low.shape, -np.inf), np.full(high.shape, np.inf)
-        low, high = np.maximum(low, slope - LEVELS / span), np.minimum(high, slope + LEVELS / span)
+        low, high = (
+            np.maximum(low, slope - TOLERANCE_LEVELS / span),
+            np.minimum(high, slope + TOLERANCE_LEVELS / span),
+        )
     if len(times) > 1:
         kept.append(len(times) - 1)
     return kept

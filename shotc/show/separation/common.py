@@ -18,11 +18,11 @@ from shotc.geom.bernstein import Array
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import crossing
 
-PARTS = 16
+PIECE_PARTS = 16
 """Parts of a piece in each of which the least of a square is bounded by its control points."""
 TOGETHER_M = 1e-3
 """Metres that drones go relative to each other at most where all go alike, as straight up."""
-NEGATIVE = -1e-9
+NEGATIVE_TOLERANCE = -1e-9
 """A scalar below zero by less is rounding."""
 
 
@@ -56,10 +56,10 @@ def _least(scalars: Array) -> float:
     """Return a bound on how near (a d0, b d1) comes to 0; its control points, shape (2, K), are not
     negative.
     """
-    if (scalars < NEGATIVE).any():
+    if (scalars < NEGATIVE_TOLERANCE).any():
         return 0.0
     windows = np.lib.stride_tricks.sliding_window_view(scalars, 4, axis=1)
-    ends = np.linspace(0.0, 1.0, PARTS + 1)
+    ends = np.linspace(0.0, 1.0, PIECE_PARTS + 1)
     least = np.inf
     for low, high in pairwise(ends.tolist()):
         # A polynomial of degree three by its blossom: control points on a part, from those of the spline.

@@ -19,13 +19,13 @@ from shotc.ir.fleet import FleetTrajectory, FrameTimes
 from shotc.ir.passes import PassContext
 from shotc.ir.show import Fleet
 from shotc.rounding import up
-from shotc.show.separation.pushed import DIGITS, ROUNDS, pushed
+from shotc.show.separation.pushed import CONTROL_DECIMALS, ROUNDS, pushed
 from shotc.show.solvers.qcqp import DerivativeBounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)
 """By which the time is stretched until it is enough; the last one not being enough, nothing is."""
 
-HALVINGS = 4
+MOST_HALVINGS = 4
 """Times that are tried between one that is not enough and one that is."""
 
 MOST_ROUNDS = 3 * ROUNDS
@@ -85,7 +85,7 @@ def longer(stretch: MoveBetweenStops, fleet: Fleet, ctx: PassContext) -> float |
         low = high
     else:
         return None
-    for _ in range(HALVINGS):
+    for _ in range(MOST_HALVINGS):
         middle = up(sqrt(low * high))
         if middle >= high or trial.left <= 0:
             break
@@ -108,7 +108,7 @@ class _Trial:
         done = bounded(breaks, stretch.wanted, bounds)
         if len(done.failed):
             return False
-        coef = short(breaks, done.coef, bounds, DIGITS)
+        coef = short(breaks, done.coef, bounds, CONTROL_DECIMALS)
         if kept(closest(breaks, coef, fleet.apart).proven, fleet.apart.across):
             return True
         tried = pushed(breaks, coef, fleet, ctx.seed, min(ROUNDS, self.left))

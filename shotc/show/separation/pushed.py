@@ -14,17 +14,17 @@ from shotc.show.solvers.pusher import Index, Push, Pusher
 from shotc.show.solvers.qcqp import INNER, DerivativeBounds, bounded
 
 ROUNDS = 25
-GROWTH = 1.8
+WEIGHT_RATIO = 1.8
 """By which the weight of being apart grows from round to round."""
 
-WEIGHT = 10.0
+APART_WEIGHT = 10.0
 MARGIN_SHARES = (0.02, 0.004)
 """Share of the distance that is asked for beyond it: in the first round, and more in each that follows."""
 
 NOISE_M = 0.01
 """Shift by which two that fly at each other head-on are given a side, metres."""
 
-DIGITS = 6
+CONTROL_DECIMALS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
 
 HOPELESS_SHARE = 0.05
@@ -61,10 +61,10 @@ def pushed(
         distance = fleet.apart.across * (1.0 + MARGIN_SHARES[0] + k * MARGIN_SHARES[1])
         crowded = np.setdiff1d(pusher.crowded(coef, distance), movable)
         coef, movable = _shaken(coef, crowded, free, rng), np.union1d(movable, crowded)
-        coef = pusher.push(coef, wanted, movable, Push(distance, WEIGHT * GROWTH**k))
+        coef = pusher.push(coef, wanted, movable, Push(distance, APART_WEIGHT * WEIGHT_RATIO**k))
         if len(pusher.crowded(coef, (1.0 - HOPELESS_SHARE) * fleet.apart.across)):
             continue
-        done = bounded(breaks, np.round(coef, DIGITS), bounds, free)
+        done = bounded(breaks, np.round(coef, CONTROL_DECIMALS), bounds, free)
         if len(done.failed):
             continue
         reached = max(reached, closest(breaks, done.coef, fleet.apart).proven)

@@ -23,7 +23,7 @@ from shotc.show.separation.faults import Tried, recorded_in, recorded_too_near, 
 from shotc.show.separation.longer import MoveBetweenStops, longer
 from shotc.show.separation.pushed import Pushed, pushed
 
-MANY = 1000
+MANY_DRONES = 1000
 """Drones beyond which moves that all make alike are proved in closed form; verification searches all
 pairs."""
 
@@ -61,7 +61,7 @@ class Keeper:
 
     def _alike(self) -> float:
         """Return the separation of a large fleet that moves alike all the time, proved; 0 where it is not."""
-        if len(self.coef) <= MANY:
+        if len(self.coef) <= MANY_DRONES:
             return 0.0
         return min(map(self._apart_in, windows(self.coef)), default=0.0)
 

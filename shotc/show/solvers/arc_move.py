@@ -24,13 +24,13 @@ from shotc.show.solvers.move import LEAST_PIECE_S, LIMIT_SHARE, TICK_S, WORTH_RA
 
 PIECES = (12, 16, 20, 24, 32, 40)
 """Numbers of pieces that a move may have."""
-EVERY = 3
+PROFILE_STRIDE = 3
 """Profiles of the family that are tried, one in so many."""
 ASKED_SHARE = 1.5
 """Acceleration that a place on the way is given, in shares of the limit: the profile has the rest."""
 SMOOTHED_SHARE = 0.04
 """Share of the way over which what is needed is smoothed, so that corners of it are not met in jerks."""
-DIRECTIONS = 16
+DIRECTION_COUNT = 16
 """Directions of (a, b) by which the busiest drones are told from the others."""
 LACK_SHARE = 1e-4
 """Share of the distance that a spline may lack: a fifth of the margin with which moves are asked for."""
@@ -99,7 +99,7 @@ def _shortest(busy: _Drones, free: Free, easing: Easing) -> Array:
         at = _when(busy, line)
         share = np.linspace(0.0, 1.0, len(line))
         for pieces in PIECES:
-            shapes = family(pieces, easing)[0][::EVERY]
+            shapes = family(pieces, easing)[0][::PROFILE_STRIDE]
             if not len(shapes):
                 continue
             along = np.interp(shapes, at, share)
@@ -147,7 +147,7 @@ class _Drones:
     def busiest(self) -> _Drones:
         """Return those of whom one has the most to do, whatever the way: the others bind nothing."""
         kept: set[int] = set()
-        for a, b in angles(DIRECTIONS):
+        for a, b in angles(DIRECTION_COUNT):
             rates = a * self.away + b * self.there
             level = np.einsum("nd,nd->n", rates[:, :2], rates[:, :2])
             whole = level + rates[:, 2] ** 2

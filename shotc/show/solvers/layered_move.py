@@ -23,7 +23,7 @@ from shotc.show.solvers.move import LIMIT_SHARE
 
 PIECE_S = 0.5
 """Seconds of a piece. A layer leaves that long after it might, or more, which files of 4 Hz show."""
-FIRST = 2
+FIRST_POINT = 2
 """The control point that stands for the beginning of a move, three being a stop."""
 
 
@@ -71,21 +71,23 @@ def _bounds(limits: Limits, speed: float) -> LineLimits:
 def _shares(heights: Sequence[float], step: float, bounds: LineLimits) -> Array:
     """Return shares of the ways up, shape (K, P + 3)."""
     needed = [ceil(bounds.rest_to_rest(height) / PIECE_S) for height in heights]
-    length = FIRST + sum(needed) + len(needed) + 1
+    length = FIRST_POINT + sum(needed) + len(needed) + 1
     paths: list[Array] = []
     start = last = 0
     for height, pieces in zip(heights, needed, strict=True):
         own = _climb(height, pieces, bounds)
         while True:
             path = np.zeros(length)
-            path[FIRST + start : FIRST + start + len(own)] = own
-            path[FIRST + start + len(own) :] = height
+            path[FIRST_POINT + start : FIRST_POINT + start + len(own)] = own
+            path[FIRST_POINT + start + len(own) :] = height
             if not paths or (paths[-1] - path)[start:].min() >= step - 1e-9:
                 break
             start += 1
         paths.append(path)
         last = max(last, start + pieces)
-    return np.asarray(np.stack([path[: FIRST + last + 3] for path in paths]) / np.array(heights)[:, None])
+    return np.asarray(
+        np.stack([path[: FIRST_POINT + last + 3] for path in paths]) / np.array(heights)[:, None]
+    )
 
 
 def _climb(height: float, pieces: int, bounds: LineLimits) -> Array:

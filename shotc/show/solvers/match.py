@@ -35,7 +35,7 @@ PART_DRONES = 100
 BLOCK_DRONES = 256
 """Drones whose pairs with all others are looked at together."""
 
-TOLERANCE = 1e-9
+TOLERANCE_SHARE = 1e-9
 """Products above minus this share of the fleet's size squared count as rounding."""
 
 
@@ -100,7 +100,7 @@ def _untangled(starts: Array, goals: Array, order: Index) -> Index:
     Each swap makes the sum of squares less, so there is an end.
     """
     order = order.copy()
-    scale = TOLERANCE * float(np.ptp(starts, axis=0).max() * np.ptp(goals, axis=0).max() + 1e-9)
+    scale = TOLERANCE_SHARE * float(np.ptp(starts, axis=0).max() * np.ptp(goals, axis=0).max() + 1e-9)
     own = np.einsum("nd,nd->n", starts, goals[order])
     both = np.concatenate([starts.T, goals[order].T])  # one product a row
     waiting, queued = deque(range(len(starts))), np.ones(len(starts), dtype=bool)

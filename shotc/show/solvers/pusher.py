@@ -33,7 +33,7 @@ LONGEST_S = 0.25
 NEAR_SHARE = 0.15
 """Pairs that are no nearer than this beyond what is wanted are not looked at, as a share of the distance."""
 
-ITERATIONS = 60
+MOST_ITERATIONS = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,11 @@ class Pusher:
         """
         cost = _Cost(self, start, wanted, movable, push)
         found = minimize(
-            cost, cost.begin(), jac=True, method="L-BFGS-B", options={"maxiter": ITERATIONS, "maxcor": 12}
+            cost,
+            cost.begin(),
+            jac=True,
+            method="L-BFGS-B",
+            options={"maxiter": MOST_ITERATIONS, "maxcor": 12},
         )
         result = start.copy()
         inner = found.x.reshape(-1, len(movable), 3)

@@ -28,10 +28,10 @@ from shotc.solvers.conic import Status
 
 Index = NDArray[np.intp]
 
-FIXED = 3
+FIXED_POINTS = 3
 """Control points at each end that stay."""
 
-INNER = slice(FIXED, -FIXED)
+INNER = slice(FIXED_POINTS, -FIXED_POINTS)
 """All others, which are free where nothing else is said."""
 
 LIMIT_SHARE = 0.9998
@@ -41,14 +41,14 @@ EXACT_SHARE = 1.5e-4
 STATIONARY_SHARE = 5e-4
 """Largest share of the objective's slope that may be left."""
 
-RELAXATION = 1.7
+RELAXATION_RATIO = 1.7
 STEP_RATIOS = 4.0 ** np.arange(-5, 6)
 """Step lengths relative to the mean curvature of the objective over that of the rows."""
 
-ROUND = 20
+ROUND_ITERATIONS = 20
 """Iterations between two looks at the residuals."""
 
-ROUNDS = 60
+MOST_ROUNDS = 60
 BLOCK_DRONES = 128
 """Drones solved together: their rows fit the processor's cache."""
 
@@ -206,7 +206,7 @@ class FleetProgramme:
         done = np.zeros(len(wanted), dtype=bool)
         result, active, rounds = wanted.copy(), np.arange(len(wanted)), 0
         levels = np.full(len(wanted), len(STEP_RATIOS) // 2)
-        while len(active) and rounds < ROUNDS:
+        while len(active) and rounds < MOST_ROUNDS:
             rounds += 1
             for level in np.unique(levels[active]):
                 some = active[levels[active] == level]
@@ -218,7 +218,7 @@ class FleetProgramme:
                 levels[some] = np.clip(level + change, 0, len(STEP_RATIOS) - 1)
             active = np.flatnonzero(~done)
         result[:, self.within] = state.points()
-        return Optimum(result, done, rounds * ROUND)
+        return Optimum(result, done, rounds * ROUND_ITERATIONS)
 
     def solve_exactly(self, wanted: Array) -> Array | None:
         """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""
@@ -326,11 +326,11 @@ class _State:
         base, pull, z = self.base[:, some], self.pull[:, some], self.z[:, some]
         u = self.u[:, some] / step
         shape, flat = pull.shape, (len(pull), -1)
-        for _ in range(ROUND):
+        for _ in range(ROUND_ITERATIONS):
             right = (p.back @ (z - u - base).reshape(len(z), -1)).reshape(shape)
             x = (inverse @ (pull + step * right).reshape(flat)).reshape(shape)
             rows = (p.free @ x.reshape(flat)).reshape(base.shape) + base
-            relaxed = RELAXATION * rows + (1.0 - RELAXATION) * z
+            relaxed = RELAXATION_RATIO * rows + (1.0 - RELAXATION_RATIO) * z
             z = p.project(relaxed + u)
             u += relaxed - z
         self.x[:, some], self.z[:, some], self.u[:, some] = x, z, u * step

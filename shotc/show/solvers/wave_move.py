@@ -20,7 +20,7 @@ from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
 from shotc.show.solvers.move import LEAST_PIECE_S, TICK_S, Ceilings, Ramps, profile, ramps_of
 
-PIECES_A_MOVE = 24
+PIECES_PER_MOVE = 24
 """Pieces that the move of one drone has."""
 LEAST_PIECES = 12
 MOST_PIECES = 500
@@ -82,7 +82,7 @@ def fastest_wave(ways: Array, departs: Array, limits: Limits, pace: float, easin
     k = int(np.where(least <= 1.001 * least.min(), peaks[:, 2], np.inf).argmin())
     own = float(least[k])
     whole = own + float(departs.max())
-    pieces = ceil(min(PIECES_A_MOVE * whole / own, whole / LEAST_PIECE_S, MOST_PIECES))
+    pieces = ceil(min(PIECES_PER_MOVE * whole / own, whole / LEAST_PIECE_S, MOST_PIECES))
     pieces = max(pieces, LEAST_PIECES)
     seconds = max(whole / (1.0 - 2.0 / pieces), pieces * LEAST_PIECE_S)
     return WaveMove(

@@ -25,7 +25,7 @@ from shotc.show.solvers.move import least_piece, least_pieces
 from shotc.show.solvers.qcqp import Bounded, DerivativeBounds, bounded, overdraft, short
 from shotc.show.splines.faults import too_quick
 
-DIGITS = 6
+CONTROL_DECIMALS = 6
 """Decimals of a metre that control points keep, as in ``assign-goals``."""
 
 
@@ -77,7 +77,7 @@ class _Fitter:
         if len(done.failed):
             self.faults.append(self._too_quick(breaks, wanted, int(done.failed[0])))
             return
-        self.coef[:, window.points] = short(breaks, done.coef, self.bounds, DIGITS)
+        self.coef[:, window.points] = short(breaks, done.coef, self.bounds, CONTROL_DECIMALS)
 
     def _slowest(self, breaks: Array, wanted: Array) -> int | None:
         """Return who could not even go straight from the first to the last place in time, if anybody."""

@@ -16,7 +16,7 @@ from rvo23d import PyRVOSimulator
 from shotc.geom.apart import Distances, ball, stretch
 from shotc.geom.bernstein import Array
 
-NEIGHBOURS = 15
+NEIGHBOUR_COUNT = 15
 """Nearest drones that one looks at."""
 SIGHT_M = 8.0
 """Metres within which it looks for them: two at 3.5 m/s close 7 m within the horizon."""
@@ -55,7 +55,7 @@ class Avoidance:
 
     def _filled(self, position: Array) -> Any:
         radius = 0.5 * ball(self.apart)
-        world = PyRVOSimulator(self.period, SIGHT_M, NEIGHBOURS, HORIZON_S, radius, self.speed)
+        world = PyRVOSimulator(self.period, SIGHT_M, NEIGHBOUR_COUNT, HORIZON_S, radius, self.speed)
         for at in position.tolist():
             world.addAgent(tuple(at))
         return world

@@ -18,7 +18,7 @@ from shotc.geom.bernstein import Array
 Pairs = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
-NARROWINGS = 30
+MOST_NARROWINGS = 30
 """Times that two thirds of an interval are kept; the distance of two drones is convex over it."""
 
 
@@ -150,7 +150,7 @@ def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:
 def _least(one: Array, other: Array, upright: bool) -> tuple[Array, Array]:
     """Return the least distance between straight moves and at which share of them, shape (K,) each."""
     low, high = np.zeros(len(one)), np.ones(len(one))
-    for _ in range(NARROWINGS):
+    for _ in range(MOST_NARROWINGS):
         left, right = low + (high - low) / 3.0, high - (high - low) / 3.0
         nearer = _size(one, other, left, upright) < _size(one, other, right, upright)
         low, high = np.where(nearer, low, left), np.where(nearer, right, high)

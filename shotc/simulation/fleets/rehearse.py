@@ -17,7 +17,7 @@ from shotc.simulation.fleets.fly import FleetConditions, FleetSample, flying
 from shotc.simulation.fleets.near import NearestPair, NearestSearch
 from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 
-HEADROOM = 2.0
+HEADROOM_RATIO = 2.0
 """Acceleration that drones have over what plans may ask of them, as in the paper's simulation."""
 
 
@@ -92,5 +92,5 @@ def moments(
     """Fly a fleet with lag and gusts; the same seed gives the same flight."""
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))
-    vehicle = FleetVehicle(acceleration=HEADROOM * limits.acceleration, speed=fastest)
+    vehicle = FleetVehicle(acceleration=HEADROOM_RATIO * limits.acceleration, speed=fastest)
     return flying(flight.breaks, flight.coef, FleetConditions(vehicle, gusts=gusts, seed=seed))

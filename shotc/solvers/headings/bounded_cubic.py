@@ -14,9 +14,9 @@ from shotc.solvers.conic import Status
 from shotc.solvers.headings.energy import Energy, cubic
 from shotc.solvers.headings.task import HeadingTask
 
-PARTS = 4  # parts of a piece, for its rate; the hull exceeds the parabola by 1/16 of its curvature term
-INSIDE = 1e-7  # share of the limits that is reserved for the solver's tolerance
-TOLERANCE = 1e-9
+PIECE_PARTS = 4  # parts of a piece, for its rate; the hull exceeds the parabola by 1/16 of its curvature term
+INSIDE_SHARE = 1e-7  # share of the limits that is reserved for the solver's tolerance
+SOLVER_TOLERANCE = 1e-9
 
 
 def bounded_cubic(task: HeadingTask, energy: Energy, angles: Array) -> Piecewise | None:
@@ -33,7 +33,7 @@ def bounded_cubic(task: HeadingTask, energy: Energy, angles: Array) -> Piecewise
     root = np.linalg.inv(np.linalg.cholesky(energy.hessian[np.ix_(free, free)])).T
     base = rows @ np.concatenate([angles, slope])
     spread = rows[:, free] @ root
-    steps = _least(base, spread, limits * (1 - INSIDE))
+    steps = _least(base, spread, limits * (1 - INSIDE_SHARE))
     if steps is None:
         return None
     slope = slope.copy()
@@ -68,8 +68,8 @@ def _rows(task: HeadingTask) -> tuple[Array, Array]:
         quadratic[0, count + i] = quadratic[2, count + i + 1] = 1.0
         quadratic[1, [i, i + 1, count + i, count + i + 1]] = [-3 / h, 3 / h, -1.0, -1.0]
         if np.isfinite(task.rate):
-            for k in range(PARTS):
-                rows += list(_blossom(quadratic, k / PARTS, (k + 1) / PARTS))
+            for k in range(PIECE_PARTS):
+                rows += list(_blossom(quadratic, k / PIECE_PARTS, (k + 1) / PIECE_PARTS))
                 limits += [task.rate] * 3
         if np.isfinite(task.acceleration):
             rows += list(np.diff(quadratic, axis=0) * 2 / h)
@@ -90,5 +90,5 @@ def _least(base: Array, spread: Array, limits: Array) -> Array | None:
     for sign in (1.0, -1.0):
         terms = [(np.full(len(base), j), -sign * spread[:, j] / limits) for j in range(size)]
         problem.positive(1.0 - sign * base / limits, terms)
-    status, y = problem.solve(np.zeros(size), TOLERANCE, np.ones(size))
+    status, y = problem.solve(np.zeros(size), SOLVER_TOLERANCE, np.ones(size))
     return y if status in {Status.SOLVED, Status.INACCURATE} else None

@@ -16,7 +16,7 @@ import numpy as np
 from shotc.geom.bernstein import Array
 
 MOST_NODES = 50_000
-SLACK = 1e-12  # relative tolerance of the radius, for rounding
+RADIUS_SLACK_SHARE = 1e-12  # relative tolerance of the radius, for rounding
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ def decode(gram: Array, centre: Array, count: int, most_nodes: int = MOST_NODES)
         nodes += 1
         point[level] = zigzag[level].value
         total = spent[level + 1] + (rows[level][level] * (point[level] - zigzag[level].centre)) ** 2
-        if len(best) == count and total > best[-1][0] * (1 + SLACK):
+        if len(best) == count and total > best[-1][0] * (1 + RADIUS_SLACK_SHARE):
             level += 1
             if level < size:
                 zigzag[level].step()

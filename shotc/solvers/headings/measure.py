@@ -9,7 +9,7 @@ import numpy as np
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.bspline import subdivide
 
-SAMPLES = 64  # samples of a piece, for the distance
+SAMPLES_PER_PIECE = 64  # samples of a piece, for the distance
 
 
 def effort(curve: Piecewise) -> float:
@@ -26,5 +26,5 @@ def effort(curve: Piecewise) -> float:
 
 def distance(curve: Piecewise) -> float:
     """Return the total rotation of the heading, rad: the sum of steps between close samples."""
-    values: Array = curve(subdivide(curve.breaks, SAMPLES))
+    values: Array = curve(subdivide(curve.breaks, SAMPLES_PER_PIECE))
     return float(np.abs(np.diff(values, axis=0)).sum())

@@ -11,8 +11,8 @@ from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.vec import wrapped
 from shotc.solvers.conic import Status
 
-EDGE = 1e-9  # rad, tolerance of half a turn, for which both directions are equally long
-WHOLE = 1e-6  # rad, tolerance of a stated turn at its keyframe
+HALF_TURN_RAD = 1e-9  # rad, tolerance of half a turn, for which both directions are equally long
+TURN_TOLERANCE_RAD = 1e-6  # rad, tolerance of a stated turn at its keyframe
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,7 +52,7 @@ class HeadingTask:
         if len(stated) != len(at) - 1:
             raise ValueError(f"{len(stated)} stated turns for {len(at) - 1} intervals")
         for turn, least in zip(stated, nearest_turns(yaw), strict=True):
-            if turn is not None and abs(wrapped(turn - float(least))) > WHOLE:
+            if turn is not None and abs(wrapped(turn - float(least))) > TURN_TOLERANCE_RAD:
                 raise ValueError("a stated turn does not lead to its keyframe's yaw")
         at.setflags(write=False)
         yaw.setflags(write=False)
@@ -89,7 +89,7 @@ def nearest_turns(yaw: Array) -> Array:
     """Return the shorter turn from each yaw to the next, shape (K - 1,), in (-pi, pi]; half a turn is +pi."""
     step = np.diff(yaw)
     # Half a turn is equally far in both directions; rounding must not decide.
-    return np.asarray(EDGE - wrapped(EDGE - step))
+    return np.asarray(HALF_TURN_RAD - wrapped(HALF_TURN_RAD - step))
 
 
 def raw_turns(yaw: Array) -> Array:

@@ -27,11 +27,11 @@ from shotc.solvers.headings.energy import cubic, energy
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, turned
 
 NEAREST, FARTHEST = 0.5, 4.0  # radii of inner keyframes
-CLEAR = 0.3  # r_min of the half-planes
-WIDE = 8.0  # factor on the limits, for s' and s''
-SAMPLES = 4  # samples of a piece
-FINER = 4  # quintic pieces for each cubic piece
-TOLERANCE = 1e-8
+CLEAR_RADIUS = 0.3  # r_min of the half-planes
+WIDE_LIMIT_RATIO = 8.0  # factor on the limits, for s' and s''
+SAMPLES_PER_PIECE = 4  # samples of a piece
+FINER_PIECES = 4  # quintic pieces for each cubic piece
+SOLVER_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,7 +67,7 @@ def by_virtual(task: HeadingTask) -> Headings:
 
 def _grid(task: HeadingTask, near: Piecewise) -> _Grid:
     knots = subdivide(task.at, 2)
-    at = subdivide(knots, SAMPLES)
+    at = subdivide(knots, SAMPLES_PER_PIECE)
     piece = np.clip(np.searchsorted(knots, at, side="right") - 1, 0, len(knots) - 2)
     x = (at - knots[piece]) / np.diff(knots)[piece]
     psi = near(at)[:, 0]
@@ -93,7 +93,7 @@ def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> _Solved:
     _keyframes(problem, task, angles, (knots, radii))
     _bends(problem, grid, bends)
     value, rate, acceleration = (_samples(grid, order) for order in range(3))
-    every = np.full(len(grid.at), CLEAR)
+    every = np.full(len(grid.at), CLEAR_RADIUS)
     problem.positive(-every, _dot(value, grid.along, knots))
     if np.isfinite(task.rate):
         limit = _dot(value, task.rate * grid.along, knots)
@@ -102,10 +102,10 @@ def _programme(task: HeadingTask, angles: Array, grid: _Grid) -> _Solved:
     for rows, bound in ((rate, task.rate), (acceleration, task.acceleration)):
         if np.isfinite(bound):
             axes = [_dot(rows, np.tile(axis, (len(grid.at), 1)), knots) for axis in np.eye(2)]
-            problem.second_order(np.full(len(grid.at), WIDE * bound), [[], *axes])
+            problem.second_order(np.full(len(grid.at), WIDE_LIMIT_RATIO * bound), [[], *axes])
     squares = np.zeros(problem.unknowns)
     squares[bends:] = 1.0
-    status, z = problem.solve(np.zeros(problem.unknowns), TOLERANCE, squares)
+    status, z = problem.solve(np.zeros(problem.unknowns), SOLVER_TOLERANCE, squares)
     return _Solved(status, z[: 2 * knots].reshape(2, knots).T, z[2 * knots : 4 * knots].reshape(2, knots).T)
 
 
@@ -188,9 +188,11 @@ def _real(task: HeadingTask, angles: Array, near: Piecewise, point: Piecewise) -
 
     It is C2 except at knots where a limit causes a jump of s''.
     """
-    breaks = subdivide(point.breaks, FINER)
+    breaks = subdivide(point.breaks, FINER_PIECES)
     ctrl = []
-    for low, high, piece in zip(breaks[:-1], breaks[1:], np.repeat(point.ctrl, FINER, axis=0), strict=True):
+    for low, high, piece in zip(
+        breaks[:-1], breaks[1:], np.repeat(point.ctrl, FINER_PIECES, axis=0), strict=True
+    ):
         knot = np.searchsorted(point.breaks, 0.5 * (low + high)) - 1
         own = Piecewise(point.breaks[knot : knot + 2], piece[None])
         ends = np.array([low, high])
@@ -204,7 +206,7 @@ def _real(task: HeadingTask, angles: Array, near: Piecewise, point: Piecewise) -
         acceleration = _cross(s, dds) / square - 2 * rate * (s * ds).sum(axis=1) / square
         ctrl.append(quintic_hermite(ends, psi[:, None], rate[:, None], acceleration[:, None]).ctrl[0])
     whole = np.array(ctrl)
-    step = 2 * FINER
+    step = 2 * FINER_PIECES
     # Keyframes are met to the last bit; both sides of each break already agree but for rounding.
     whole[0, 0], whole[step - 1 :: step, -1, 0] = angles[0], angles[1:]
     whole[1:, 0] = whole[:-1, -1]

@@ -19,8 +19,8 @@ from shotc.solvers.headings.decoder import Decoded, decode
 from shotc.solvers.headings.energy import Energy, energy
 from shotc.solvers.headings.task import Headings, HeadingTask, nearest_turns, turned
 
-LIST = 12  # choices that are tried
-SAME = 1e-9  # relative tolerance of equal energies
+MOST_CHOICES = 12  # choices that are tried
+SAME_ENERGY_SHARE = 1e-9  # relative tolerance of equal energies
 
 
 def by_winding(task: HeadingTask) -> Headings:
@@ -42,7 +42,7 @@ def _decoded(cost: Energy, shorter: Array, extra: Array) -> Decoded:
     matrix, linear, _ = cost.reduced()
     gram = extra.T @ matrix @ extra
     centre = np.linalg.solve(gram, -extra.T @ (matrix @ shorter + linear))
-    return decode(gram, np.asarray(centre, dtype=np.float64), LIST)
+    return decode(gram, np.asarray(centre, dtype=np.float64), MOST_CHOICES)
 
 
 def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Decoded) -> Headings:
@@ -53,14 +53,14 @@ def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Deco
     best: tuple[float, Array, Piecewise] | None = None
     certain = not decoded.points or len(choices) == 1
     for k in sorted(range(len(choices)), key=lambda k: least[k]):
-        if best is not None and least[k] >= best[0] * (1 - SAME):
+        if best is not None and least[k] >= best[0] * (1 - SAME_ENERGY_SHARE):
             certain = True
             break
         curve = bounded_cubic(task, cost, choices[k])
         if curve is None:
             continue
         spent = cost.of(choices[k], _slopes(curve))
-        if best is None or spent < best[0] * (1 - SAME):
+        if best is None or spent < best[0] * (1 - SAME_ENERGY_SHARE):
             best = (spent, choices[k], curve)
     complete = certain and not decoded.capped
     if best is None:

@@ -16,7 +16,7 @@ import numpy as np
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.derivatives import differentiated
 from shotc_casadi.horizon import built
-from shotc_casadi.program import TOLERANCE
+from shotc_casadi.program import SOLVER_TOLERANCE
 from shotc_casadi.symbols import StageSymbols
 
 from shotc.geom.bernstein import Array
@@ -90,7 +90,7 @@ def _stage() -> StageSymbols:
 @cache
 def programme(steps: int, solver: str) -> Any:
     """Return the solver of all problems with so many steps."""
-    return built(differentiated(_stage()), steps, solver, TOLERANCE, b"")  # type: ignore[arg-type]
+    return built(differentiated(_stage()), steps, solver, SOLVER_TOLERANCE, b"")  # type: ignore[arg-type]
 
 
 def solve(task: Chase, solver: str = "fatrop") -> Flight:

@@ -18,7 +18,7 @@ from shotc.identify.cylinders import Upright, outside, printed
 from shotc.identify.find import Clustered, Glance, SearchResult, find
 from shotc.identify.pictures import picture
 from shotc.identify.saliency import SALIENCY
-from shotc.identify.tasks import DOUBTFUL
+from shotc.identify.tasks import DOUBTFUL_SHARE
 from tests.experiments.papers.identified_films import Filmed, films
 from tests.experiments.papers.report import Section, Table
 from tests.support.cities import SHOWN, City, Drawn, one_surface, random_city, sloppy, some_keyframes
@@ -207,7 +207,7 @@ def section(say: Callable[[str], None], count: int = CITIES) -> Section:
     rows = [row(name, "own rays", of) for name, of in ours.items()]
     rows += [row(name, "as printed", of) for name, of in paper.items()]
     hand = ours["edges off by 10 % (SD)"]
-    doubtful = [t for t in hand.trials if t.share < DOUBTFUL]
+    doubtful = [t for t in hand.trials if t.share < DOUBTFUL_SHARE]
     wrong = [t for t in hand.trials if not t.right]
     say("identification: films")
     takes = filmed(made, hand.trials)

@@ -16,7 +16,7 @@ from shotc.emit.dji import EMITTER, FORMAT
 from shotc.emit.dji.kmz import read_kmz, write_kmz
 from shotc.emit.mavlink import EMITTER as MAVLINK
 from shotc.emit.waypoints.machine_files import joined, split
-from shotc.emit.waypoints.stations import LEG_LEAST
+from shotc.emit.waypoints.stations import SHORTEST_LEG_M
 from shotc.geom.bernstein import Piecewise, quintic_hermite
 from shotc.geom.solids import Cylinder
 from shotc.geom.track import Track
@@ -210,7 +210,7 @@ def test_points_are_never_nearer_to_each_other_than_machines_take():
     east = np.array([p.place.lon for p in points]) * 111320 * np.cos(np.radians(47.3769))
     north = np.array([p.place.lat for p in points]) * 110574 * 1.0055
     up = np.array([p.place.alt for p in points])
-    assert np.linalg.norm(np.diff([east, north, up]), axis=0).min() > LEG_LEAST - 0.03
+    assert np.linalg.norm(np.diff([east, north, up]), axis=0).min() > SHORTEST_LEG_M - 0.03
 
 
 def test_a_camera_that_turns_while_the_drone_stands_is_told_with_its_error():

@@ -8,7 +8,7 @@ import pytest
 from shotc.emit.mavlink import EMITTER
 from shotc.emit.mavlink.plan_file import read_plan
 from shotc.emit.mavlink.speed import DEFAULTS, Speeds, adapted, is_steep, seconds
-from shotc.emit.mavlink.steps import CORNER_ACCELERATION, CORNER_CUT, WaypointStep, _radius, whole_seconds
+from shotc.emit.mavlink.steps import CORNER_CUT_M, CORNER_M_S2, WaypointStep, _radius, whole_seconds
 from shotc.emit.mavlink.style import Command
 from shotc.emit.mavlink.thin import StraightLeg
 from shotc.ir.limits import Limits
@@ -97,9 +97,9 @@ def test_the_acceptance_radius_keeps_speed_and_corner() -> None:
         return np.zeros(3), corner, corner + length * np.array([cos(a), sin(a), 0.0])
 
     gentle = _radius(*turn(10.0, 9.0), 9.0 / 8.0)
-    assert gentle == pytest.approx(8.0**2 * np.tan(radians(5)) / CORNER_ACCELERATION)
-    assert gentle * np.tan(radians(2.5)) < CORNER_CUT
+    assert gentle == pytest.approx(8.0**2 * np.tan(radians(5)) / CORNER_M_S2)
+    assert gentle * np.tan(radians(2.5)) < CORNER_CUT_M
     sharp = _radius(*turn(90.0, 30.0), 30.0 / 8.0)
-    assert sharp * np.tan(radians(22.5)) == pytest.approx(CORNER_CUT)
+    assert sharp * np.tan(radians(22.5)) == pytest.approx(CORNER_CUT_M)
     assert _radius(*turn(10.0, 1.0), 1.0 / 8.0) <= 0.5
     assert _radius(*turn(180.0, 30.0), 30.0 / 8.0) >= 0.3

@@ -11,7 +11,7 @@ import pytest
 from shotc.emit.storyboard import EMITTER, frame, map, page
 from shotc.emit.storyboard.canvas import Canvas, PageRectangle, house_style
 from shotc.emit.storyboard.labels import MAP_SIDES, MapLabel, nearest_room, write_labels
-from shotc.emit.storyboard.map import NUMBER
+from shotc.emit.storyboard.map import NUMBER_RADIUS_IN
 from shotc.geom.bernstein import Piecewise
 from shotc.geom.shapes import CylinderShape
 from shotc.ir.path import CAM_PITCH, CAM_YAW
@@ -66,7 +66,12 @@ def inner(text: Written) -> PageRectangle:
     """Return the rectangle of a text; that of a number is its disc's."""
     if text.text.isdigit() or text.text == "W":
         x, y = text.box.x + text.box.width / 2, text.box.y + text.box.height / 2
-        return PageRectangle(x - NUMBER + 0.001, y - NUMBER + 0.001, 2 * NUMBER - 0.002, 2 * NUMBER - 0.002)
+        return PageRectangle(
+            x - NUMBER_RADIUS_IN + 0.001,
+            y - NUMBER_RADIUS_IN + 0.001,
+            2 * NUMBER_RADIUS_IN - 0.002,
+            2 * NUMBER_RADIUS_IN - 0.002,
+        )
     return text.box
 
 

@@ -12,7 +12,7 @@ from shotc.emit.ground_mesh import mesh_of
 from shotc.emit.hillshade import before
 from shotc.emit.rerun_log.layout import camera_view
 from shotc.emit.rerun_log.motion import camera_entity
-from shotc.emit.rerun_log.opening import OVER_GROUND, first_stand
+from shotc.emit.rerun_log.opening import OVER_GROUND_M, first_stand
 from shotc.emit.rerun_log.world import log_scene
 from shotc.geom.surface.ground import Ground, ground_of, height_at
 from shotc.ir.terrain import Terrain
@@ -100,7 +100,7 @@ def test_a_recording_opens_above_hills_with_the_camera_and_its_subject_in_view()
     stand = first_stand(plan)
     assert stand is not None
     eye = np.array(stand.eye)
-    assert eye[2] >= height_at(shape, eye[None, :2])[0] + OVER_GROUND
+    assert eye[2] >= height_at(shape, eye[None, :2])[0] + OVER_GROUND_M
     camera = plan.trajectory.drones[0].curve(22.0)[:3]
     assert not before(shape, eye, np.array([camera, [0.0, 0.0, 12.0]])).any()
     assert first_stand(over(ground(np.zeros((SIDE, SIDE))))) == level

@@ -7,7 +7,7 @@ from shotc.geom.bernstein import Piecewise
 from shotc.geom.pieces import pieces
 from shotc.geom.proof import inf_tapered
 from shotc.geom.solids import Cylinder, Prism, Solid, distance
-from shotc.geom.taper import SLOPE, Taper
+from shotc.geom.taper import TAPER_SLOPE, Taper
 
 MAST = Cylinder((0.0, 0.0), 2.0, 0.0, 10.0)
 CORNER = Prism(((0.0, 0.0), (8.0, 0.0), (8.0, 2.0), (2.0, 2.0), (2.0, 8.0), (0.0, 8.0)), 0.0, 6.0)
@@ -21,7 +21,7 @@ def curve(seed: int) -> Piecewise:
 
 def taper_at_ends(of: Piecewise, solid: Solid) -> Taper:
     ends = of(np.array([of.start, of.end]))
-    return Taper(5.0, SLOPE, ends, np.array([distance(solid, tuple(map(float, end))) for end in ends]))
+    return Taper(5.0, TAPER_SLOPE, ends, np.array([distance(solid, tuple(map(float, end))) for end in ends]))
 
 
 @pytest.mark.parametrize("solid", [MAST, CORNER], ids=["convex", "not convex"])
@@ -39,7 +39,7 @@ def test_the_bound_is_below_every_value_and_attained(seed: int, solid: Solid) ->
 
 
 def test_what_is_needed_grows_by_half_a_metre_with_each_from_an_end_up_to_the_clearance() -> None:
-    taper = Taper(5.0, SLOPE, np.array([[4.0, 0.0, 5.0], [30.0, 0.0, 5.0]]), np.array([2.0, 28.0]))
+    taper = Taper(5.0, TAPER_SLOPE, np.array([[4.0, 0.0, 5.0], [30.0, 0.0, 5.0]]), np.array([2.0, 28.0]))
     needs = taper.needs(np.array([[4.0, 0.0, 5.0], [6.0, 0.0, 5.0], [4.0, 0.0, 9.0], [20.0, 0.0, 5.0]]))
     assert needs == pytest.approx([2.0, 3.0, 4.0, 5.0])
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shotc.geom.vec import TURN, direction, minus, plus, wrapped
+from shotc.geom.vec import TURN_RAD, direction, minus, plus, wrapped
 
 angles = st.floats(-50, 50)
 
@@ -27,8 +27,8 @@ def test_arrays_are_wrapped_to_the_bit_as_floats_are(some):
 
 @pytest.mark.parametrize("turns", [-2, -1, 0, 1, 2])
 def test_half_a_turn_is_at_the_end_that_each_convention_says(turns):
-    assert wrapped(pi + turns * TURN) == -pi
-    assert direction(pi + turns * TURN) == direction(-pi + turns * TURN) == pi
+    assert wrapped(pi + turns * TURN_RAD) == -pi
+    assert direction(pi + turns * TURN_RAD) == direction(-pi + turns * TURN_RAD) == pi
 
 
 def test_sums_and_differences_are_taken_axis_by_axis():

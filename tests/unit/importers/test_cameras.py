@@ -19,7 +19,7 @@ from shotc.diag.registry import has_errors
 from shotc.emit import kml as kml_emitter
 from shotc.emit.mavlink import EMITTER as MAVLINK
 from shotc.geom.camera import view
-from shotc.importers.cameras.thin import PICTURE
+from shotc.importers.cameras.thin import PICTURE_ERROR_HALF_FRAMES
 from shotc.ir.path import CAM_PITCH, CAM_YAW, HFOV
 from tests.support.camera_files import (
     GOOD,
@@ -154,7 +154,7 @@ def test_cameras_that_are_left_out_are_implied_by_those_that_stay(plan) -> None:
         own = screen(row[:3], row[3:], points)
         between = kept[segment] + shares * (kept[segment + 1] - kept[segment])
         changes = [np.linalg.norm(screen(b[:3], b[3:], points) - own, axis=1).max() for b in between]
-        assert min(changes) < PICTURE * 1.05
+        assert min(changes) < PICTURE_ERROR_HALF_FRAMES * 1.05
     assert segment == len(kept) - 1
 
 

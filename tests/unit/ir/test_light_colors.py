@@ -8,7 +8,7 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
-from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.effects import LIGHT_RATE_HZ
 from shotc.ir.light_colors import light_colors, lit_drones, tick_colors
 from shotc.ir.light_layers import Axis, Band, Footage, Glints, Gradient, Order, Radius, Screen, Tint
 from shotc.ir.light_paints import pixels
@@ -122,7 +122,7 @@ def test_nothing_shines_on_the_pads_whatever_lies_over_it() -> None:
 def test_lights_change_evenly_between_moments() -> None:
     flight = lit(line(50), layer(Glints(WHITE, 0.5, 0.3, 1)))
     one, other = tick_colors(flight, np.array([100, 101])).astype(float).transpose(1, 0, 2)
-    found = at(flight, (100 + 0.25) / LIGHT_RATE)[:, 0]
+    found = at(flight, (100 + 0.25) / LIGHT_RATE_HZ)[:, 0]
     assert np.abs(found - (0.75 * one + 0.25 * other)).max() <= 0.51
 
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shotc.ir.mission import Keyframe
-from shotc.kinds.rounds import ARC, bearing, line, ring
+from shotc.kinds.rounds import LARGEST_ARC_RAD, bearing, line, ring
 from tests.support.front_passes import resolved
 
 HEAD = """\
@@ -139,7 +139,7 @@ def test_rings_turn_by_their_sweep_in_small_even_steps(
 ) -> None:
     points = ring((0.0, 0.0, 0.0), start, sweep, (r0, r1), (5.0, 9.0))
     n = len(points) - 1
-    assert abs(sweep) / n <= ARC + 1e-9
+    assert abs(sweep) / n <= LARGEST_ARC_RAD + 1e-9
     for i, p in enumerate(points):
         a = start - sweep * i / n
         r = r0 + (r1 - r0) * i / n

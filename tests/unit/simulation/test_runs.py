@@ -26,7 +26,7 @@ WINDY = Conditions(wind=WindField(2.0, None, 0.5))
 
 @pytest.fixture(autouse=True)
 def _small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(runs, "BLOCK", 2)
+    monkeypatch.setattr(runs, "BLOCK_RUNS", 2)
 
 
 @pytest.fixture(scope="module")

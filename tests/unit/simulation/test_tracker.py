@@ -9,7 +9,7 @@ from shotc.geom.track import Track
 from shotc.simulation.gimbal import axes_of
 from shotc.simulation.kalman import (
     BIAS,
-    GATE,
+    GATE_CHI2,
     Estimate,
     MotionModel,
     PictureFix,
@@ -188,7 +188,7 @@ def test_a_detection_of_something_else_is_left_out():
     before = under_test.now(1.0).mean
     under_test.take(picture((0.9, 0.9)))
     assert under_test.now(1.0).mean == pytest.approx(before)
-    assert pytest.approx(-2 * np.log(0.01), abs=0.01) == GATE
+    assert pytest.approx(-2 * np.log(0.01), abs=0.01) == GATE_CHI2
 
 
 def test_a_detection_from_a_camera_that_has_its_target_behind_it_changes_nothing():

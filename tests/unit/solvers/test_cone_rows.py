@@ -55,7 +55,7 @@ def test_few_cones_are_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     status, x = rows.solve(-wanted, TOLERANCE, one, near=WarmStart(np.zeros(100), 1.0))
     assert status is Status.SOLVED
     assert np.abs(x - np.minimum(wanted, 1.0)).max() < 1e-6
-    assert asked == [0, 2 * cone_rows.BESIDE + 1]
+    assert asked == [0, 2 * cone_rows.BESIDE_CONES + 1]
 
 
 def test_what_no_place_keeps_is_infeasible_however_few_cones_are_asked() -> None:

@@ -15,7 +15,7 @@ from shotc.planning.path.turns import steady
 from shotc.planning.timing import move as move_module
 from shotc.planning.timing.flown import straying, usages
 from shotc.planning.timing.grid import sample
-from shotc.planning.timing.limits import EASE, Ceiling
+from shotc.planning.timing.limits import EASE_S, Ceiling
 from shotc.planning.timing.move import axes_of, time_move, topp_limits
 from shotc.planning.timing.profile import fly
 from shotc.solvers.conic import Status
@@ -79,7 +79,7 @@ def test_a_turn_in_place_is_bound_by_the_body_and_eased():
     ceiling = replace(CEILING, gimbal_rate=9.0, gimbal_acceleration=9.0)
     move = time_move(line(HERE, at(yaw=angle)), (0.0, angle), ceiling)
     most = CEILING.yaw_acceleration
-    best = s_curve_time(angle, CEILING.yaw_rate, most, most / EASE)
+    best = s_curve_time(angle, CEILING.yaw_rate, most, most / EASE_S)
     assert best * (1 - 0.01) <= move.duration <= 1.02 * best
     assert uses(move.curve, CEILING)["yaw_rate"] == pytest.approx(1.0, abs=0.01)
 

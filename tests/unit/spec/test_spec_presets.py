@@ -36,4 +36,4 @@ def test_silence_means_the_defaults():
     assert (rules.separation, rules.ground_clearance, rules.target_clearance) == (3.0, 2.0, 1.0)
     assert (rules.pace, rules.composition.name) == (0.75, presets.COMPOSITION)
     assert OutputSpec.model_validate({}).emit is None
-    assert (presets.RATE, presets.SHOW_RATE) == (50.0, 5.0)
+    assert (presets.RATE_HZ, presets.SHOW_RATE_HZ) == (50.0, 5.0)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from shotc.ir.phases import Phase
 from shotc.stream.pilot import RecordingTick
-from shotc.stream.session import BETWEEN_CUTS, cuts_of
+from shotc.stream.session import CUT_TICKS, cuts_of
 from tests.support.stream.plans import hop_plan
 
 
@@ -23,7 +23,7 @@ def test_a_shot_is_recorded_from_its_first_frame_to_its_last():
 def test_between_shots_that_follow_each_other_the_camera_stops():
     first, second = cuts_of(track(("shot", "a", 2.0, 4.0), ("shot", "b", 4.0, 6.0)))[1:3]
     assert (first.on, second.on) == (False, True)
-    assert second.tick - first.tick == BETWEEN_CUTS
+    assert second.tick - first.tick == CUT_TICKS
 
 
 def test_a_flight_without_a_shot_records_nothing():

@@ -19,11 +19,11 @@ from shotc.plugin_api.refiner import Array, Cylinder, Solid, Surroundings, bound
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.occluders import ellipse
 from shotc_casadi.clock.references import ClockReferences
-from shotc_casadi.clock.symbols import BODY
+from shotc_casadi.clock.symbols import BODY_PARAMETERS
 
 NEAR_M = 1.0
 COUNTS = (0, 1, 2, 4, 8)  # possible numbers of ellipsoids, so that few programmes are built
-NONE = 1e2  # added to the squared distance where there is no ellipsoid
+NO_BODY_M2 = 1e2  # added to the squared distance where there is no ellipsoid
 ENDLESS_M = 1e3  # a longer half-height counts as infinite, metres
 
 
@@ -61,7 +61,7 @@ def bodies_of(around: Surroundings, breaks: Array) -> tuple[MovingEllipsoid, ...
         longest = float(longer[:2].max() if longer[2] > ENDLESS_M else longer.max())
         scale = (axes / longer).T
         bodies.append(
-            MovingEllipsoid(scale, what.at(breaks) + middle, 1.0 + weights.RANGE / longest, longest)
+            MovingEllipsoid(scale, what.at(breaks) + middle, 1.0 + weights.RANGE_M / longest, longest)
         )
     return tuple(bodies)
 
@@ -108,8 +108,8 @@ def kept_from(bodies: Sequence[MovingEllipsoid], references: ClockReferences, ey
         beside |= references.beside
     most = int(beside.sum(axis=0).max(initial=0))
     count = next((c for c in COUNTS if c >= most), most)
-    table = np.zeros((len(eyes), count, BODY))
-    table[:, :, 12], table[:, :, 13] = NONE, 1.0
+    table = np.zeros((len(eyes), count, BODY_PARAMETERS))
+    table[:, :, 12], table[:, :, 13] = NO_BODY_M2, 1.0
     for k in range(len(eyes)):
         for i, j in enumerate(np.flatnonzero(beside[:, k])):
             body = bodies[int(j)]

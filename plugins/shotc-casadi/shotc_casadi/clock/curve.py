@@ -22,7 +22,7 @@ from shotc.plugin_api.refiner import (
 )
 from shotc_casadi.clock.problem import guess
 from shotc_casadi.clock.references import ClockSubject
-from shotc_casadi.clock.symbols import PLACED
+from shotc_casadi.clock.symbols import PLACE_STATES
 from shotc_casadi.solving import Solution
 
 
@@ -31,7 +31,7 @@ def curve_of(subject: ClockSubject, breaks: Array, solution: Solution) -> Piecew
 
     The run-up and the run-out absorb the deviation of the solution at both ends.
     """
-    states = solution.states[:, :PLACED].copy()
+    states = solution.states[:, :PLACE_STATES].copy()
     leg = subject.leg
     rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]])[0]
     for k, edge in ((0, leg.start), (-1, leg.end)):

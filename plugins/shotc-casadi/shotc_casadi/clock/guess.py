@@ -14,8 +14,8 @@ from shotc.plugin_api.refiner import Array, IntArray, Mask, quintic_hermite
 from shotc_casadi.clock.occluders import Occluder, occlusion_at
 from shotc_casadi.clock.references import ClockReferences
 
-CLEAR = -0.1  # of d_v, which a guess reaches if it can
-TRIES = 20  # steps to each side, up to the usual distance to the subject
+CLEAR_DV = -0.1  # of d_v, which a guess reaches if it can
+TRIES_PER_SIDE = 20  # steps to each side, up to the usual distance to the subject
 BRIDGED_S = 1.0  # hidden intervals with a shorter gap between them are passed on one side, seconds
 SPREAD_S = 3.0  # seconds before and after such an interval in which the guess moves aside
 
@@ -43,12 +43,12 @@ def _way_out(eyes: Array, references: ClockReferences, occluders: Sequence[Occlu
     ray = (references.target[run, :3] - eyes[run]).mean(axis=0)
     side = np.array([-ray[1], ray[0], 0.0]) / max(float(np.hypot(ray[0], ray[1])), 1e-6)
     best, least = np.zeros(3), float(occlusion_at(occluders, references, eyes)[run].max())
-    for far in references.usual * np.arange(1, TRIES + 1) / TRIES:
+    for far in references.usual * np.arange(1, TRIES_PER_SIDE + 1) / TRIES_PER_SIDE:
         for way in (far * np.array([0.0, 0.0, 1.0]), far * side, -far * side):
             occlusion = float(occlusion_at(occluders, references, eyes + way)[run].max())
             if occlusion < least:
                 best, least = way, occlusion
-        if least < CLEAR:
+        if least < CLEAR_DV:
             break
     return best
 

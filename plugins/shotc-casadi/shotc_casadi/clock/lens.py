@@ -35,14 +35,14 @@ from shotc_casadi.clock.shown import cropped_on_purpose
 from shotc_casadi.lens import SAME_SHARE, lens_bounds
 
 # Weights of mean squares over the film, of shares of the field of view.
-WHOLE = 300.0  # of a share by which it is too narrow for a subject; the same in the framing of paths
+WHOLE_WEIGHT = 300.0  # of a share by which it is too narrow for a subject; the same in the framing of paths
 SMOOTH_S = 1.0  # shorter wiggles vanish with normal smoothing, seconds
-FAINT = 1e-3  # on run-up and run-out, relative to the film
+FAINT_SHARE = 1e-3  # on run-up and run-out, relative to the film
 NEARLY_SHARE = 0.999  # of its rate that is used
 SIZED_SHARE = 0.05  # of a size that is asked for: the position corrects smaller errors
 NARROW_SHARE = 1e-3  # of a field of view: a zoom is worth it from this lack on
 SAME_S = 1e-6  # seconds
-TOLERANCE = 1e-9  # of the solver
+SOLVER_TOLERANCE = 1e-9  # of the solver
 VALUE, RATE, BEND = range(3)  # indices of the states of a node
 
 
@@ -96,7 +96,7 @@ def _task(subject: ClockSubject, leg: ClockLeg, t: Array) -> _Lens | None:
     if (wanted == given).all() and (least <= given * (1.0 + NARROW_SHARE)).all():
         return None
     length = np.diff(t)
-    weight = 0.5 * (np.append(length, 0.0) + np.append(0.0, length)) * np.where(film, 1.0, FAINT)
+    weight = 0.5 * (np.append(length, 0.0) + np.append(0.0, length)) * np.where(film, 1.0, FAINT_SHARE)
     return _Lens(wanted, least, weight / (leg.end - leg.start), given, _bound(subject, t))
 
 
@@ -198,7 +198,7 @@ def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
     """Return field of view, rate and acceleration at the nodes, (N + 1, 3), None if infeasible."""
     n, h, smoother = len(t) - 1, np.diff(t), subject.placed.shot.smoother
     scale = 1.0 / np.sin(task.wanted)
-    drawn, narrow = 2.0 * task.weight * scale**2, 2.0 * WHOLE * task.weight * scale**2
+    drawn, narrow = 2.0 * task.weight * scale**2, 2.0 * WHOLE_WEIGHT * task.weight * scale**2
     bend = 2.0 * (SMOOTH_S * smoother) ** 6 * h / (t[-1] - t[0]) * scale[:-1] ** 2
     states = np.zeros((n + 1, 3))
     states[:, VALUE] = drawn
@@ -230,7 +230,7 @@ def _solved(subject: ClockSubject, t: Array, task: _Lens) -> Array | None:
     equal = sparse.vstack([rows.motion(h), value[held], first[ends], second[ends]]).tocsc()
     right = np.concatenate([np.zeros(3 * n), task.given[held], np.zeros(4)])
     solver = piqp.SparseSolver()
-    solver.settings.eps_abs, solver.settings.eps_rel = TOLERANCE, TOLERANCE
+    solver.settings.eps_abs, solver.settings.eps_rel = SOLVER_TOLERANCE, SOLVER_TOLERANCE
     solver.setup(sparse.diags(square).tocsc(), linear, equal, right, bounded, least, most)
     if solver.solve() != piqp.PIQP_SOLVED:
         return None

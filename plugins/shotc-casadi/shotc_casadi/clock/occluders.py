@@ -26,14 +26,14 @@ from shotc.plugin_api.refiner import (
     parts_of_one,
 )
 from shotc_casadi.clock.references import ClockReferences, ClockSubject
-from shotc_casadi.clock.symbols import LINE
+from shotc_casadi.clock.symbols import SIGHT_LINE_PARAMETERS
 
 ENCLOSES = sqrt(2.0)  # semi-axes of an ellipsoid over those of the upright cylinder that it encloses
-WIDER = 1.2  # for balls and infinite solids: wider, so that they count before they hide
+WIDER_RATIO = 1.2  # for balls and infinite solids: wider, so that they count before they hide
 KHACHIYAN_STEPS = 200  # of Khachiyan's method
 NEAR_DV = 3.0  # of -d_v: lines of sight within twice the ellipsoid count
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12)  # possible numbers of ellipsoids, so that few programmes are built
-NONE = -1e2  # of d_v, where there is no ellipsoid
+NO_OCCLUDER_DV = -1e2  # of d_v, where there is no ellipsoid
 ROOM_DV = 0.1  # of d_v: an ellipsoid that contains the camera or the subject, or almost, does not count
 
 
@@ -91,7 +91,7 @@ def _occluders(subject: ClockSubject, name: str, breaks: Array) -> Iterator[Occl
             yield Occluder(scale, centre + moved(other, breaks), apart=apart)
     for drone, flight in flights(subject.path).items():
         if drone != subject.drone.name:
-            radius = WIDER * mission.drone(drone).radius
+            radius = WIDER_RATIO * mission.drone(drone).radius
             yield Occluder(np.eye(3) / radius, flying(flight.curve, breaks))
 
 
@@ -113,8 +113,8 @@ def with_occluders(
         near |= references.near
     most = int(near.sum(axis=0).max(initial=0))
     count = next((c for c in COUNTS if c >= most), most)
-    sight_lines = np.zeros((len(eyes), count, LINE))
-    sight_lines[:, :, 12] = NONE
+    sight_lines = np.zeros((len(eyes), count, SIGHT_LINE_PARAMETERS))
+    sight_lines[:, :, 12] = NO_OCCLUDER_DV
     for k in range(len(eyes)):
         for i, j in enumerate(np.flatnonzero(near[:, k])):
             occluder = occluders[int(j)]
@@ -142,7 +142,7 @@ def enclosing(part: Solid) -> tuple[Array, Array]:
     ends = isfinite(part.bottom) and isfinite(part.top)
     half = 0.5 * (part.top - part.bottom)
     scale = np.zeros((3, 3))
-    scale[:2, :2] = flat / (ENCLOSES if ends else WIDER)
+    scale[:2, :2] = flat / (ENCLOSES if ends else WIDER_RATIO)
     scale[2, 2] = 1.0 / (ENCLOSES * half) if ends else 0.0
     return scale, np.array([*middle, 0.5 * (part.bottom + part.top) if ends else 0.0])
 

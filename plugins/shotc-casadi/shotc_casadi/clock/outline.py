@@ -19,7 +19,7 @@ from shotc_casadi.extents import TINY_M2, Extent
 
 DEEP_SHARE = 0.01  # of its distance: the least depth of a subject before the camera
 LEVEL_SHARE = 0.003  # of its distance: a rim closer to the camera's height is rounded off
-UPRIGHT = 0.01  # of a sine or cosine of the pitch: smaller ones are rounded off
+UPRIGHT_SINE = 0.01  # of a sine or cosine of the pitch: smaller ones are rounded off
 EVEN_HALF_FRAMES = 0.001  # half frames: two rims closer on screen are rounded off
 
 
@@ -50,7 +50,9 @@ def outline(camera: View, away: Any, far: Any, solid: tuple[Any, Any]) -> Subjec
     solid : radius and height, metres
     """
     radius, height = solid
-    reach = height / 2 * length(camera.sin_pitch, UPRIGHT) + radius * length(camera.cos_pitch, UPRIGHT)
+    reach = height / 2 * length(camera.sin_pitch, UPRIGHT_SINE) + radius * length(
+        camera.cos_pitch, UPRIGHT_SINE
+    )
     centre = _before(camera, away, far, reach)
     u, v, _ = camera.project((centre[0], centre[1], centre[2]))
     box = _cylinder(camera, centre, far, solid)
@@ -118,11 +120,11 @@ def _axis(camera: View) -> Any:
 
 def _towards(camera: View, body: Extent) -> Any:
     """Return how far a body reaches from its centre towards the camera's image plane, metres."""
-    reach = body.height / 2 * length(camera.sin_pitch, UPRIGHT)
-    reach += body.radius * length(camera.cos_pitch, UPRIGHT)
+    reach = body.height / 2 * length(camera.sin_pitch, UPRIGHT_SINE)
+    reach += body.radius * length(camera.cos_pitch, UPRIGHT_SINE)
     for side in (body.along, body.across):
         part = camera.cos_pitch * (camera.cos_yaw * side[0] + camera.sin_yaw * side[1])
-        reach += ca.sqrt(part**2 + UPRIGHT**2 * ca.sumsqr(side) + TINY_M2)
+        reach += ca.sqrt(part**2 + UPRIGHT_SINE**2 * ca.sumsqr(side) + TINY_M2)
     return reach
 
 

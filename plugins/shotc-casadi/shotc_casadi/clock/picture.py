@@ -12,7 +12,7 @@ import casadi as ca
 
 from shotc.plugin_api.refiner import View, viewpoint
 from shotc_casadi.clock.outline import outline, outline_of
-from shotc_casadi.extents import EXTENT, Extent
+from shotc_casadi.extents import EXTENT_PARAMETERS, Extent
 from shotc_casadi.symbols import cut
 
 FIELDS = {
@@ -50,7 +50,7 @@ def picture(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
 
 def width(extents: int) -> int:
     """Return the number of parameters of a subject with that many bodies; 0 for one upright cylinder."""
-    return SUBJECT + EXTENT * extents
+    return SUBJECT + EXTENT_PARAMETERS * extents
 
 
 def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
@@ -69,7 +69,7 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
     away = given["centre"] - eye
     far = ca.sqrt(ca.sumsqr(away) + TINY_M2)
     flat = ca.sqrt(ca.sumsqr(away[:2]) + (STEEP_SHARE * far) ** 2)
-    rows = [subject[at : at + EXTENT] for at in range(SUBJECT, subject.numel(), EXTENT)]
+    rows = [subject[at : at + EXTENT_PARAMETERS] for at in range(SUBJECT, subject.numel(), EXTENT_PARAMETERS)]
     bodies = [Extent.of(row) for row in rows]
     seen = outline_of(camera, away, far, bodies) if bodies else outline(camera, away, far, (radius, height))
     edges = ca.vertcat(-seen.left, seen.right, -seen.low, seen.high) - viewpoint.EDGE_SHARE

@@ -14,16 +14,16 @@ from shotc_casadi.clock import weights
 from shotc_casadi.clock.picture import SUBJECT
 from shotc_casadi.clock.references import ClockReferences, ClockSubject, steepest
 from shotc_casadi.clock.several import angles, turning_room
-from shotc_casadi.clock.symbols import FIELDS, PLACED, PLANE, POINTS, SLACK, Sizes
-from shotc_casadi.extents import EXTENT
+from shotc_casadi.clock.symbols import CONTROL_POINTS, FIELDS, PLACE_STATES, PLANE_PARAMETERS, SLACK, Sizes
+from shotc_casadi.extents import EXTENT_PARAMETERS
 
 USUAL_STAGES = 100  # of the film, if its pieces allow
 COUNTS = (0, 1, 2, 3, 4, 6, 8, 12, 16)  # possible numbers of half-spaces, so that few programmes are built
 FREE_M = 1.0  # metres of slack of an unused half-space: a constraint needs an interior
 WEIGHTS = ("place", "jerk", "turn", "price", "hidden", "field", "touch", "picture")
-UNFILMED = 1e3
-ENDS = 5e-4  # half-width of the box about the given states of both ends, SI
-HELD = 2e-4  # half-width of the box about a keyframe's place, and about rest there, SI
+UNFILMED_WEIGHT = 1e3
+END_HALF_WIDTH = 5e-4  # half-width of the box about the given states of both ends, SI
+HELD_HALF_WIDTH = 2e-4  # half-width of the box about a keyframe's place, and about rest there, SI
 SAME_S = 1e-9  # seconds
 
 
@@ -35,7 +35,7 @@ class Use(NamedTuple):
     """
 
     share: float
-    ends: float = ENDS
+    ends: float = END_HALF_WIDTH
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,7 +129,7 @@ def problem(
         references.sight_lines.shape[1],
         references.bodies.shape[1],
         references.subjects.shape[1],
-        (references.subjects.shape[2] - SUBJECT) // EXTENT,
+        (references.subjects.shape[2] - SUBJECT) // EXTENT_PARAMETERS,
         windy,
     )
     least = np.full(sizes.inputs, -inf)
@@ -139,7 +139,7 @@ def problem(
     speed, acceleration, jerk = (
         (use.share * bound) ** 2 for bound in (limits.speed, limits.usable_acceleration, limits.jerk)
     )
-    low = np.zeros(sizes.limits + count * POINTS + sizes.occluders + sizes.bodies)
+    low = np.zeros(sizes.limits + count * CONTROL_POINTS + sizes.occluders + sizes.bodies)
     low[:3] = -inf, -inf, -use.share * limits.descent
     high = np.full_like(low, inf)
     high[:3] = jerk, speed, use.share * limits.climb
@@ -169,16 +169,19 @@ def _bounds(subject: ClockSubject, breaks: Array, sizes: Sizes, use: Use) -> tup
     high = -low
     low[:, 5], high[:, 5] = -use.share * limits.descent, use.share * limits.climb
     if sizes.subjects:
-        low[:, PLACED:], high[:, PLACED:] = turning_room(subject.drone, use.share)
+        low[:, PLACE_STATES:], high[:, PLACE_STATES:] = turning_room(subject.drone, use.share)
     camera = leg.curve if sizes.subjects else None
     rest = guess(leg.curve.channels(0, 1, 2), breaks[[0, -1]], camera)[0]
     for k, given in zip((0, -1), rest, strict=True):
         low[k], high[k] = given - use.ends, given + use.ends
     for bound in subject.bound:
         at = (breaks >= bound.start - SAME_S) & (breaks <= bound.end + SAME_S)
-        low[at, :3], high[at, :3] = np.array(bound.place) - HELD, np.array(bound.place) + HELD
+        low[at, :3], high[at, :3] = (
+            np.array(bound.place) - HELD_HALF_WIDTH,
+            np.array(bound.place) + HELD_HALF_WIDTH,
+        )
         if bound.still:
-            low[at, 3:9], high[at, 3:9] = -HELD, HELD
+            low[at, 3:9], high[at, 3:9] = -HELD_HALF_WIDTH, HELD_HALF_WIDTH
     return low, high
 
 
@@ -200,37 +203,39 @@ def _parameters(subject: ClockSubject, breaks: Array, references: ClockReference
     turn = np.where(
         filmed[:, None],
         turn * smoother ** np.array(weights.TURN_ORDERS),
-        (0.0 if free else weights.UNWATCHED) * turn,
+        (0.0 if free else weights.UNFILMED_RAY_WEIGHT) * turn,
     )
     drone, half = subject.drone, np.tan(subject.drone.hfov / 2)
-    unit = weights.TOGETHER if subject.together else binds
+    unit = weights.SUBJECTS_WEIGHT if subject.together else binds
     pose, ideal, angles = subject.near, references.ideal, np.zeros((n + 1, 4))
-    place, leash = binds * near * np.ones(n + 1), near / weights.LEASH**2
+    place, leash = binds * near * np.ones(n + 1), near / weights.LEASH_SHARE**2
     if pose is not None:  # viewpoint Eq. 10, as for the ideal
         drawn = np.array([near_at(subject.mission, pose, float(t)) for t in breaks])
         angles = _drawn_angles(pose) * np.where(filmed, 1.0, 0.0)[:, None]
-        angles[:, 2:] *= paid * weights.TOGETHER * _shared(length)[:, None]
+        angles[:, 2:] *= paid * weights.SUBJECTS_WEIGHT * _shared(length)[:, None]
         away = np.linalg.norm(references.centres.mean(axis=1) - drawn, axis=1)
         share = viewpoint.NEAR_WEIGHT / np.maximum(away, 1.0)
-        place = np.where(filmed, weights.TOGETHER * share**2, place)
+        place = np.where(filmed, weights.SUBJECTS_WEIGHT * share**2, place)
         ideal, leash = np.where(filmed[:, None], drawn, ideal), 0.0
     values = {
         "length": length,
         "ideal": ideal,
-        "place": place * _shared(np.where(filmed, 1.0, weights.FAINT) * length),
+        "place": place * _shared(np.where(filmed, 1.0, weights.UNFILMED_WEIGHT) * length),
         "leash": np.full(n + 1, leash),
         "drawn": angles,
         "near": references.reach**-2.0,
         "target": references.target,
-        "jerk": weights.JERK * near * np.where(filmed, smoother**weights.JERK_ORDER, weights.UNSEEN),
+        "jerk": weights.JERK_WEIGHT
+        * near
+        * np.where(filmed, smoother**weights.JERK_ORDER, weights.UNSEEN_WEIGHT),
         "turn": turn if references.watches else np.zeros((n + 1, 6)),
         "steep": steepest(subject, breaks),
-        "free": np.where(filmed & references.watches, 0.0, UNFILMED),
-        "price": np.full(n + 1, weights.STEEP / references.usual),
-        "hidden": np.full(n + 1, weights.HIDDEN * unit),
-        "field": weights.FIELD * _shared(length),
-        "touch": np.full(n + 1, weights.TOUCH * unit),
-        "picture": weights.TOGETHER * _shared(filmed * length),
+        "free": np.where(filmed & references.watches, 0.0, UNFILMED_WEIGHT),
+        "price": np.full(n + 1, weights.PITCH_WEIGHT / references.usual),
+        "hidden": np.full(n + 1, weights.HIDDEN_WEIGHT * unit),
+        "field": weights.FIELD_WEIGHT * _shared(length),
+        "touch": np.full(n + 1, weights.TOUCH_WEIGHT * unit),
+        "picture": weights.SUBJECTS_WEIGHT * _shared(filmed * length),
         "lens": np.tile([half, half / drone.aspect], (n + 1, 1)),
     }
     values |= {name: paid * values[name] for name in WEIGHTS}
@@ -248,16 +253,20 @@ def _unit(references: ClockReferences) -> float:
     """
     if references.sight_lines.shape[1]:
         return 1.0
-    return weights.UNIT * references.usual**2
+    return weights.UNIT_COST * references.usual**2
 
 
 def _binds(subject: ClockSubject, references: ClockReferences) -> float:
     """Return the weight of the position."""
     if len(subject.framed) > 1:
-        return weights.LOOSE
+        return weights.LOOSE_WEIGHT
     if not references.placed or subject.held_whole:
-        return weights.PLACE
-    return weights.YIELDS if references.yields or references.sight_lines.shape[1] else weights.PLACED
+        return weights.PLACE_WEIGHT
+    return (
+        weights.YIELDING_WEIGHT
+        if references.yields or references.sight_lines.shape[1]
+        else weights.PLACED_WEIGHT
+    )
 
 
 def _shared(stages: Array) -> Array:
@@ -271,7 +280,7 @@ def _half_spaces(planes: HalfSpaces, stages: int) -> tuple[Array, int]:
     """
     most = int(np.bincount(planes.piece, minlength=1).max()) if len(planes.piece) else 0
     count = next((c for c in COUNTS if c >= most), most)
-    table = np.zeros((stages + 1, count, PLANE))
+    table = np.zeros((stages + 1, count, PLANE_PARAMETERS))
     table[:, :, 3] = -FREE_M
     filled = np.zeros(stages, dtype=np.intp)
     for k, normal, offset in zip(planes.piece, planes.normal, planes.offset, strict=True):

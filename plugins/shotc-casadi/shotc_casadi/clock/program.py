@@ -9,13 +9,13 @@ import numpy as np
 
 from shotc.plugin_api.refiner import Array
 from shotc_casadi.clock.problem import ClockProblem
-from shotc_casadi.clock.symbols import POINTS, Sizes, derived
+from shotc_casadi.clock.symbols import CONTROL_POINTS, Sizes, derived
 from shotc_casadi.horizon import Solver
 from shotc_casadi.solving import Instance, Solution, solved
 
-TOLERANCE = 1e-5
-IN_UNITS = 1e-2  # the same if the cost is scaled by the problem's unit
-FEASIBLE = 1e-4  # of a constraint's residual, each in its own unit
+SOLVER_TOLERANCE = 1e-5
+UNIT_TOLERANCE = 1e-2  # the same if the cost is scaled by the problem's unit
+FEASIBLE_RESIDUAL = 1e-4  # of a constraint's residual, each in its own unit
 HELD = ("speed", "acceleration", "distance from its place")
 ROWS = (*HELD, "jerk", "speed", "climb and descent")
 
@@ -38,8 +38,8 @@ def instance(task: ClockProblem) -> Instance:
         held=task.held,
         driven=task.driven,
         named=partial(_named, task.sizes),
-        tolerance=IN_UNITS if task.unit > 1.0 else TOLERANCE,
-        feasible=FEASIBLE,
+        tolerance=UNIT_TOLERANCE if task.unit > 1.0 else SOLVER_TOLERANCE,
+        feasible=FEASIBLE_RESIDUAL,
     )
 
 
@@ -52,7 +52,7 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
     u = np.zeros((len(inputs), sizes.inputs))
     u[:, : sizes.moves] = inputs[:, : sizes.moves]
     rows = np.array(made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[2])
-    lack = np.maximum(-rows[len(HELD) + sizes.limits + POINTS * sizes.planes :].T, 0.0)
+    lack = np.maximum(-rows[len(HELD) + sizes.limits + CONTROL_POINTS * sizes.planes :].T, 0.0)
     if sizes.occluders:
         u[:, sizes.moves] = lack[:, : sizes.occluders].max(axis=1)
     if sizes.bodies:
@@ -69,7 +69,7 @@ def _named(sizes: Sizes, row: int) -> str:
     row -= len(HELD)
     if row < sizes.limits:
         return "the gimbal's pitch"
-    row -= sizes.limits + POINTS * sizes.planes
+    row -= sizes.limits + CONTROL_POINTS * sizes.planes
     if row < 0:
         return "clearance"
     return "the line of sight" if row < sizes.occluders else "distance"

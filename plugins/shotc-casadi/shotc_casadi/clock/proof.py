@@ -23,7 +23,7 @@ from shotc_casadi.clock.references import ClockSubject
 
 PROVED_M = 1e-6  # metres
 ROUNDING_SHARE = 1e-9  # of a limit
-AIMS = 200  # number of times at which a camera is compared with its reference
+AIM_SAMPLES = 200  # number of times at which a camera is compared with its reference
 
 
 class UnprovedMoment(NamedTuple):
@@ -70,7 +70,7 @@ def astray(subject: ClockSubject, leg: ClockLeg) -> float:
         return 0.0
     target = subject.mission.target(watched.target)
     worst = 0.0
-    times = np.linspace(leg.start, leg.end, AIMS)
+    times = np.linspace(leg.start, leg.end, AIM_SAMPLES)
     places = wanted_places(watched, leg.start, times)
     for t, q, (u, v) in zip(times, leg.curve(times), places.tolist(), strict=True):
         ray = np.array(target.at(float(t))) - q[:3]
@@ -83,7 +83,7 @@ def astray(subject: ClockSubject, leg: ClockLeg) -> float:
 
 def _off(camera_task: CameraTask, leg: ClockLeg) -> float:
     """Return the largest error of the camera angles in the film against those of its keyframes, rad."""
-    times = np.linspace(leg.start, leg.end, AIMS)
+    times = np.linspace(leg.start, leg.end, AIM_SAMPLES)
     pose = leg.curve(times)
     aims = aims_at(camera_task, times, pose[:, :3])
     turned = np.cos(aims[:, 1]) * wrapped(pose[:, CAM_YAW] - aims[:, 0])

@@ -30,7 +30,7 @@ from shotc.plugin_api.refiner import (
     through,
 )
 from shotc_casadi.clock.several import pictured, where_it_fits
-from shotc_casadi.clock.symbols import BODY, LINE
+from shotc_casadi.clock.symbols import BODY_PARAMETERS, SIGHT_LINE_PARAMETERS
 
 AROUND_S = 0.5  # seconds on each side over which a track is smoothed: its corners can then be followed
 QUADRATURE_SAMPLES = 200  # of Gauss-Legendre: exact for linear motion
@@ -39,7 +39,7 @@ KEPT_SHARE = 0.05  # of the usual distance: a guide farther from a framing's pla
 STEEP_SHARE = 0.15  # horizontal share of a line of sight below which it counts as vertical
 NEAREST_M = 1.0  # least distance that counts as usual, metres
 NO_SUBJECT_M = 100.0  # the target of a shot without a subject is this far east of the camera, metres
-PREFERRED = 0.98 * MOST_MOVED  # less than MOST_MOVED, because of the motion between nodes
+PREFERRED_SHARE = 0.98 * MOST_MOVED  # less than MOST_MOVED, because of the motion between nodes
 LOOKS_PER_STAGE = 8  # samples of an ideal, a stage
 INNER_M = 0.005  # metres beyond the guide's distance that are allowed: a constraint needs an interior
 
@@ -168,8 +168,8 @@ def references_at(subject: ClockSubject, t: Array) -> ClockReferences:
         yields=False,
         centres=centres,
         subjects=shown,
-        sight_lines=np.zeros((n, 0, LINE)),
-        bodies=np.zeros((n, 0, BODY)),
+        sight_lines=np.zeros((n, 0, SIGHT_LINE_PARAMETERS)),
+        bodies=np.zeros((n, 0, BODY_PARAMETERS)),
     )
     if watched is None or (keyed and _over(subject, centres, ideal)):
         return unwatched
@@ -199,7 +199,7 @@ def _reach(subject: ClockSubject, t: Array, ideal: Array) -> Array:
     straight = (ideal[:-1] + share[:, :, None] * np.diff(ideal, axis=0)).reshape(-1, 3)
     away = np.linalg.norm(seen_at(subject, times) - between[:, None], axis=2)
     far = away.min(axis=1) if subject.framed else UNWATCHED
-    free = PREFERRED * far - np.linalg.norm(between - straight, axis=1)
+    free = PREFERRED_SHARE * far - np.linalg.norm(between - straight, axis=1)
     stages = (
         np.where((times >= leg.start) & (times < leg.end), free, np.inf)
         .reshape(LOOKS_PER_STAGE, n)

@@ -32,7 +32,7 @@ from shotc_casadi.clock.several import turned
 from shotc_casadi.clock.side import Overflight, guess_to_side, held, passes
 from shotc_casadi.solving import SOLVERS, Solution, by_one_of
 
-ROUNDS = 6
+MOST_ROUNDS = 6
 REACH_M = 8.0  # an obstacle counts up to this far beyond its clearance, metres
 ROOM_SHARE = 0.5  # share of the room beside a wall that is kept
 NEARLY_SHARE = 0.998  # share of each limit that is used, so that rounding breaks none
@@ -148,7 +148,7 @@ def refine_clock(
     shown = (breaks >= subject.leg.start) & (breaks <= subject.leg.end)
     shot = _Shot(subject, occluders, breaks, around, bodies_of(around, breaks), shown, unseen)
     now = _begun(shot)
-    while not now.ended and now.rounds < ROUNDS:
+    while not now.ended and now.rounds < MOST_ROUNDS:
         now = _next(shot, now)
     return _refined(shot, now)
 

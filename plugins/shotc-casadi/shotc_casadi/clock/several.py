@@ -21,7 +21,7 @@ from shotc.plugin_api.refiner import (
     viewpoint,
 )
 from shotc_casadi.clock.picture import FIELDS, SUBJECT, width
-from shotc_casadi.clock.symbols import PITCH, PLACED, YAW
+from shotc_casadi.clock.symbols import PITCH, PLACE_STATES, YAW
 from shotc_casadi.extents import count_of, extents_of
 
 WHOLE = sum(FIELDS[name] for name in tuple(FIELDS)[: tuple(FIELDS).index("whole")])
@@ -124,5 +124,5 @@ def turning_room(drone: Drone, share: float) -> tuple[Array, Array]:
     acceleration = limits.yaw_acceleration + (0.0 if fixed else gimbal.acceleration)
     high = share * np.array([np.inf, rate, acceleration, 0.0, gimbal.rate, gimbal.acceleration])
     low = -high
-    low[PITCH - PLACED], high[PITCH - PLACED] = gimbal.pitch
+    low[PITCH - PLACE_STATES], high[PITCH - PLACE_STATES] = gimbal.pitch
     return low, high

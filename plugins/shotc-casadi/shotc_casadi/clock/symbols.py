@@ -19,18 +19,18 @@ import casadi as ca
 from shotc_casadi.clock.angles import over_ground, turning
 from shotc_casadi.clock.picture import residuals, width
 from shotc_casadi.derivatives import Derived, differentiated
-from shotc_casadi.symbols import WIND, StageSymbols, cut
+from shotc_casadi.symbols import WIND_PARAMETERS, StageSymbols, cut
 
 POSITION, VELOCITY, ACCELERATION = slice(0, 3), slice(3, 6), slice(6, 9)
-PLACED = 9  # states of the camera's position and its derivatives
+PLACE_STATES = 9  # states of the camera's position and its derivatives
 YAW, PITCH = 9, 12  # each with rate and acceleration
 JERK, SLACK, CAMERA_JERK = slice(0, 3), 3, slice(3, 5)
-POINTS = 4  # control points of a stage's position
-PLANE = 5  # normal, offset at the stage's start, change of the offset over it
-OCCLUDER = 13  # an occluder: see ``occlusion``
-LINE = OCCLUDER + 3  # the same, and the point that the camera looks at
-BODY = 14  # an obstacle: see ``inside``
-TINY = 1e-9  # added to a square so that it is not zero
+CONTROL_POINTS = 4  # control points of a stage's position
+PLANE_PARAMETERS = 5  # normal, offset at the stage's start, change of the offset over it
+OCCLUDER_PARAMETERS = 13  # an occluder: see ``occlusion``
+SIGHT_LINE_PARAMETERS = OCCLUDER_PARAMETERS + 3  # the same, and the point that the camera looks at
+BODY_PARAMETERS = 14  # an obstacle: see ``inside``
+TINY_SQUARE = 1e-9  # added to a square so that it is not zero
 
 
 class Sizes(NamedTuple):
@@ -52,12 +52,17 @@ class Sizes(NamedTuple):
     def rows(self) -> tuple[tuple[int, int], ...]:
         """Number of half-spaces, occluders, bodies and subjects, and the parameters of each."""
         subject = width(self.extents)
-        return (self.planes, PLANE), (self.occluders, LINE), (self.bodies, BODY), (self.subjects, subject)
+        return (
+            (self.planes, PLANE_PARAMETERS),
+            (self.occluders, SIGHT_LINE_PARAMETERS),
+            (self.bodies, BODY_PARAMETERS),
+            (self.subjects, subject),
+        )
 
     @property
     def states(self) -> int:
         """Number of states."""
-        return PLACED + (6 if self.subjects else 0)
+        return PLACE_STATES + (6 if self.subjects else 0)
 
     @property
     def moves(self) -> int:
@@ -148,17 +153,19 @@ def stage(sizes: Sizes) -> StageSymbols:
     given, walls, sight_lines, near, shown = _cut(p, sizes)
     h, jerk = given["length"], u[JERK]
     place, v, a = x[POSITION], x[VELOCITY], x[ACCELERATION]
-    moved = _integrated(x[:PLACED], jerk, h)
+    moved = _integrated(x[:PLACE_STATES], jerk, h)
     off = ca.sumsqr(place - given["ideal"])
     aimed = _aims_at_several(x, u, given, shown) if sizes.subjects else _aims_at_one(x, u, given)
     depths = [inside(body, place) for body in near]
-    occlusions = [occlusion(line[:OCCLUDER], place, line[OCCLUDER:]) for line in sight_lines]
+    occlusions = [
+        occlusion(line[:OCCLUDER_PARAMETERS], place, line[OCCLUDER_PARAMETERS:]) for line in sight_lines
+    ]
     lacks = {price: u[k] / (h * given[price]) for price, k in sizes.slacks.items()}
     reached = [
         ca.sqrt(given["field"]) * ca.fmax(0.0, 1.0 - q / body[-1])
         for q, body in zip(depths, near, strict=True)
     ]
-    middle, wind = v + h * a / 2, p[-WIND:] if sizes.windy else 0
+    middle, wind = v + h * a / 2, p[-WIND_PARAMETERS:] if sizes.windy else 0
     driven = ca.vertcat(
         ca.sumsqr(jerk),
         ca.sumsqr(middle[:2] - wind),
@@ -242,7 +249,7 @@ def _slacks(walls: list[Any], place: Any, v: Any, following: Any, h: Any) -> lis
         following[POSITION],
     ]
     return [
-        ca.dot(plane[:3], point) - plane[3] - (k / (POINTS - 1)) * plane[4]
+        ca.dot(plane[:3], point) - plane[3] - (k / (CONTROL_POINTS - 1)) * plane[4]
         for plane in walls
         for k, point in enumerate(points)
     ]
@@ -259,7 +266,7 @@ def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
     """
     scale, centre = ca.reshape(occluder[:9], 3, 3), occluder[9:12]
     ray, away = scale @ (point - eye), scale @ (centre - eye)
-    return occluder[12] - ca.sumsqr(ca.cross(away, ray)) / (ca.sumsqr(ray) + TINY)
+    return occluder[12] - ca.sumsqr(ca.cross(away, ray)) / (ca.sumsqr(ray) + TINY_SQUARE)
 
 
 def inside(body: Any, eye: Any) -> Any:
@@ -280,7 +287,9 @@ def derived(sizes: Sizes) -> Derived:
 
 def size(sizes: Sizes) -> int:
     """Return the number of parameters of a stage."""
-    return sum(FIELDS.values()) + sum(count * wide for count, wide in sizes.rows) + WIND * sizes.windy
+    return (
+        sum(FIELDS.values()) + sum(count * wide for count, wide in sizes.rows) + WIND_PARAMETERS * sizes.windy
+    )
 
 
 def _cut(p: Any, sizes: Sizes) -> tuple[dict[str, Any], list[Any], list[Any], list[Any], list[Any]]:

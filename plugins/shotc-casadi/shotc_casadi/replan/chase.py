@@ -17,15 +17,17 @@ import numpy as np
 from shotc.plugin_api.replanner import Array, ChaseProblem, ChaseSituation, Plan, Replan
 from shotc_casadi.clock.angles import rates
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
-from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, beside, fault, sent
+from shotc_casadi.replan.flight import BOUND_PARAMETERS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, length, pitched, rows, within
 from shotc_casadi.replan.steps import Solver, Until
 
 PRICES = Prices(lacking=(1e4,), outside=30.0, damping=1e-3)  # of a metre, of a m/s, of the squared step
 FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
 STATES, INPUTS = 6, 3
-OWN = BOUNDS + 8  # parameters of a stage: also the target, 1 if not the last stage, 1 if the last stage
-SHARED = 12  # parameters of all stages: weights, reference state, height
+STAGE_PARAMETERS = (
+    BOUND_PARAMETERS + 8
+)  # parameters of a stage: also the target, 1 if not the last stage, 1 if the last stage
+SHARED_PARAMETERS = 12  # parameters of all stages: weights, reference state, height
 
 
 class ShotChase:
@@ -77,9 +79,9 @@ class ShotChase:
 @lru_cache(maxsize=32)
 def _horizon(of: RowCounts, stages: int) -> Horizon:
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
-    p, g = ca.SX.sym("p", OWN + of.each), ca.SX.sym("g", SHARED + of.common)
+    p, g = ca.SX.sym("p", STAGE_PARAMETERS + of.each), ca.SX.sym("g", SHARED_PARAMETERS + of.common)
     effort, pitch, yaw, height, end = ca.vertsplit(g[:5])
-    shared, target = g[SHARED:], p[6:12]
+    shared, target = g[SHARED_PARAMETERS:], p[6:12]
     step, most = shared[0], shared[2]
     place, v, q = y[:3], y[3:], y[:3] - target[:3]
     yaw_rate, pitch_rate = rates(target[:3] - place, target[3:] - v)
@@ -100,11 +102,15 @@ def _horizon(of: RowCounts, stages: int) -> Horizon:
         allowed=allowed,
         following=ca.vertcat(x[:3] + step * (x[3:] + 0.5 * step * u), x[3:] + step * u),
         residuals=residuals,
-        rows=(ca.vertcat(rows(of, (place, v, q / length(q)), p[OWN:], shared), pitched(of, q, shared)),),
+        rows=(
+            ca.vertcat(
+                rows(of, (place, v, q / length(q)), p[STAGE_PARAMETERS:], shared), pitched(of, q, shared)
+            ),
+        ),
         firm=firm,
         ends=ends(of, place, v, shared),
         inputs=(-most * ca.SX.ones(INPUTS), most * ca.SX.ones(INPUTS)),
-        states=(ca.vertcat(-free, p[:3]), ca.vertcat(free, p[3:BOUNDS])),
+        states=(ca.vertcat(-free, p[:3]), ca.vertcat(free, p[3:BOUND_PARAMETERS])),
     )
     return horizon(stage, stages, PRICES)
 

@@ -26,7 +26,7 @@ from shotc_casadi.replan.steps import Solver, Walk
 BEYOND = "the motion from here is beyond all numbers"
 SOON_S = 1e-6
 """A step that begins this soon has begun, seconds."""
-BOUNDS = 6
+BOUND_PARAMETERS = 6
 """The first parameters of a stage: lower and upper bounds of the velocity."""
 
 
@@ -109,11 +109,11 @@ class ShotSolvers:
         once.
         """
         back = self._back[0]
-        given[:, :3], given[:, 3:BOUNDS] = self._lowest, self._highest
+        given[:, :3], given[:, 3:BOUND_PARAMETERS] = self._lowest, self._highest
         if (v >= self._lowest - back).all() and (v <= self._highest + back).all():
             return False
         given[:, :3] = np.minimum(self._lowest, v + self._back)
-        given[:, 3:BOUNDS] = np.maximum(self._highest, v - self._back)
+        given[:, 3:BOUND_PARAMETERS] = np.maximum(self._highest, v - self._back)
         return True
 
 

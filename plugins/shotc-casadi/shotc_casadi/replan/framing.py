@@ -26,7 +26,7 @@ from shotc.plugin_api.replanner import (
     Replan,
 )
 from shotc_casadi.replan.evaluation import Horizon, Prices, StageExpressions, horizon
-from shotc_casadi.replan.flight import BOUNDS, ShotSolvers, beside, fault, sent
+from shotc_casadi.replan.flight import BOUND_PARAMETERS, ShotSolvers, beside, fault, sent
 from shotc_casadi.replan.keeping import RowCounts, ends, rows, within
 from shotc_casadi.replan.pictures import (
     COMMON,
@@ -45,7 +45,9 @@ from shotc_casadi.replan.steps import Solver, Until
 PRICES = Prices(lacking=(300.0, 1.0), outside=30.0, damping=0.1)  # a metre, a cover, a m/s, a squared step
 FIRST, WARM = Until(30, 1e-3), Until(1, 0.0)
 STATES, INPUTS = 8, 5
-SHARED = 13  # common: weights, tan of half the fields of view, largest rates, pitch range; then the subjects
+SHARED_PARAMETERS = (
+    13  # common: weights, tan of half the fields of view, largest rates, pitch range; then the subjects
+)
 
 NEAR, NEAR_COMMON = 3, 5
 """Parameters of the reference pose, after those of the bodies.
@@ -92,7 +94,7 @@ class Framing:
 
     def _begin(self, solver: Solver) -> None:
         problem = self._problem
-        solver.evaluation.common[:SHARED] = [
+        solver.evaluation.common[:SHARED_PARAMETERS] = [
             *problem.weights,
             *problem.half,
             *problem.rates,
@@ -103,7 +105,7 @@ class Framing:
 def _fill(s: FramingSituation, given: Array, common: Array) -> None:
     """Write the subjects and the reference pose into the parameters."""
     for i, body in enumerate(s.subjects):
-        at, own = BOUNDS + EACH * i, SHARED + COMMON * i
+        at, own = BOUND_PARAMETERS + EACH * i, SHARED_PARAMETERS + COMMON * i
         wanted = body.wanted or Appearance()
         given[:, at : at + 3], given[:, at + 3 : at + 6] = body.point[1:], body.centre[1:]
         given[:, at + 6 : at + EACH] = 0.0 if wanted.view is None else wanted.view[1:]
@@ -116,7 +118,7 @@ def _fill(s: FramingSituation, given: Array, common: Array) -> None:
             wanted.size is not None,
             wanted.view is not None,
         ]
-    at, own = BOUNDS + EACH * len(s.subjects), SHARED + COMMON * len(s.subjects)
+    at, own = BOUND_PARAMETERS + EACH * len(s.subjects), SHARED_PARAMETERS + COMMON * len(s.subjects)
     given[:, at : at + NEAR], common[own : own + NEAR_COMMON] = 0.0, 0.0
     if s.near is not None:
         given[:, at : at + NEAR] = s.near.places[1:]
@@ -154,14 +156,15 @@ def stage(of: RowCounts, cast: Cast) -> StageExpressions:
     """Return one stage of the problem in symbols."""
     k = len(cast)
     x, u, y = ca.SX.sym("x", STATES), ca.SX.sym("u", INPUTS), ca.SX.sym("y", STATES)
-    bodied, own = BOUNDS + EACH * k, BOUNDS + EACH * k + NEAR
-    told = SHARED + COMMON * k
+    bodied, own = BOUND_PARAMETERS + EACH * k, BOUND_PARAMETERS + EACH * k + NEAR
+    told = SHARED_PARAMETERS + COMMON * k
     p, g = ca.SX.sym("p", own + of.each), ca.SX.sym("g", told + NEAR_COMMON + of.common)
     near, shared = (p[bodied:own], g[told : told + NEAR_COMMON]), g[told + NEAR_COMMON :]
     step, most, (turn, tilt) = shared[0], shared[2], (g[9], g[10])
     bodies = [
         Symbols.of(
-            p[BOUNDS + EACH * i : BOUNDS + EACH * (i + 1)], g[SHARED + COMMON * i : SHARED + COMMON * (i + 1)]
+            p[BOUND_PARAMETERS + EACH * i : BOUND_PARAMETERS + EACH * (i + 1)],
+            g[SHARED_PARAMETERS + COMMON * i : SHARED_PARAMETERS + COMMON * (i + 1)],
         )
         for i in range(k)
     ]
@@ -187,7 +190,7 @@ def stage(of: RowCounts, cast: Cast) -> StageExpressions:
         inputs=(-limit, limit),
         states=(
             ca.vertcat(-free, p[:3], -ca.inf, g[11]),
-            ca.vertcat(free, p[3:BOUNDS], ca.inf, g[12]),
+            ca.vertcat(free, p[3:BOUND_PARAMETERS], ca.inf, g[12]),
         ),
     )
 

@@ -18,9 +18,9 @@ STANDING_MS = 1e-3
 """Added to speeds and accelerations, which have no direction at 0, m/s and m/s^2."""
 REACH_M = 1.0
 """Obstacles farther than this beyond the reach of a horizon are left out, metres."""
-FEW = 3
+LEAST_CONSTRAINTS = 3
 """Up to this number of solids, none is left out, so that no new programme is built in flight."""
-LIMITS = 10
+LIMIT_ROWS = 10
 WALL = 4
 """Parameters of a half-space: its normal, and its offset with the margin."""
 
@@ -46,7 +46,7 @@ class RowCounts(NamedTuple):
     @property
     def common(self) -> int:
         """Number of parameters that all stages share."""
-        return LIMITS + sum(map(count, self.shapes)) + WALL * self.walls + self.cones
+        return LIMIT_ROWS + sum(map(count, self.shapes)) + WALL * self.walls + self.cones
 
     @property
     def each(self) -> int:
@@ -69,7 +69,7 @@ class StaticObstacles:
 
     def near(self, place: Array, way: float) -> tuple[SolidConstraint, ...]:
         """Return the solids within a way of ``way`` metres; all if there are few."""
-        if len(self._rooms) <= FEW:
+        if len(self._rooms) <= LEAST_CONSTRAINTS:
             return tuple(self._rooms)
         x, y, radius = self._discs.T
         away = np.hypot(x - place[0], y - place[1]) - radius
@@ -131,7 +131,7 @@ def rows(of: RowCounts, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
     p, g : parameters of ``each`` and ``common``
     """
     place, v, back = state
-    step, speed, _, _, apart, half_angle, *_ = ca.vertsplit(g[:LIMITS])
+    step, speed, _, _, apart, half_angle, *_ = ca.vertsplit(g[:LIMIT_ROWS])
     cut = ca.sumsqr(v) * step**2 / 8
     found = [free_at(shape, place, sizes) - cut * sizes[1] for shape, sizes in _rooms(of, g)]
     for i in range(of.others):
@@ -147,7 +147,7 @@ def rows(of: RowCounts, state: tuple[Any, Any, Any], p: Any, g: Any) -> Any:
         angle = g[of.common - of.cones + i]
         found.append(beside_cone(place - p[at : at + 3], p[at + 3 : at + 6], angle))
     found += [ca.dot(wall[:3], place) - wall[3] for wall in _walls(of, p, of.each)]
-    found.append(speed - ca.sqrt(ca.sumsqr(v[:2] - g[LIMITS - 2 : LIMITS]) + STANDING_MS**2))
+    found.append(speed - ca.sqrt(ca.sumsqr(v[:2] - g[LIMIT_ROWS - 2 : LIMIT_ROWS]) + STANDING_MS**2))
     return ca.vertcat(*found)
 
 
@@ -188,7 +188,7 @@ def beside_cone(d: Any, axis: Any, half_angle: Any) -> Any:
 
 
 def _rooms(of: RowCounts, g: Any) -> Iterator[tuple[int, Any]]:
-    at = LIMITS
+    at = LIMIT_ROWS
     for shape in of.shapes:
         yield shape, g[at : at + count(shape)]
         at += count(shape)

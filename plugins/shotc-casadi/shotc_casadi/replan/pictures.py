@@ -8,7 +8,7 @@ import casadi as ca
 
 from shotc_casadi.replan.keeping import length
 
-INFLATED = 1.3
+INFLATED_RATIO = 1.3
 """Factor on the ellipsoid of a body that may cover a subject."""
 FIELD_M = 0.8
 """How far the potential field of a body reaches beyond its ellipsoid, metres."""
@@ -100,7 +100,7 @@ def uncovered(place: Any, subject: Symbols, other: Symbols) -> Any:
     This is Eq. 11 with the horizon: in coordinates in which the body is the unit ball, the ray passes its
     centre at 1 or more, or the point is before the plane through its horizon.
     """
-    axes = INFLATED * other.axes
+    axes = INFLATED_RATIO * other.axes
     to_point, to_body = (subject.point - place) / axes, (other.centre - place) / axes
     horizon = ca.sumsqr(to_body) - 1
     along = ca.dot(to_point, to_body)

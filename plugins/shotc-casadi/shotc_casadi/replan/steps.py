@@ -14,11 +14,11 @@ import piqp
 from shotc.plugin_api.replanner import Array
 from shotc_casadi.replan.evaluation import Evaluation, Horizon, Rollout
 
-SHORTER = 0.4
-TRIES = 5
+SHORTER_RATIO = 0.4
+MOST_TRIES = 5
 TOLERANCE, GAP = 1e-4, 1e-4
 """Of PIQP: of the constraints, and of the cost, relative and absolute."""
-ITERATIONS = 50
+MOST_ITERATIONS = 50
 """Of PIQP: about 10 are usual; an infeasible programme takes all of them."""
 
 
@@ -91,11 +91,11 @@ class Solver:
 
     def _better(self, point: Rollout, step: Array) -> Rollout | None:
         share = 1.0
-        for _ in range(TRIES):
+        for _ in range(MOST_TRIES):
             found = self.evaluation.motion(point.inputs + share * step)
             if found.merit < point.merit:  # false for NaN
                 return found
-            share *= SHORTER
+            share *= SHORTER_RATIO
         return None
 
 
@@ -109,5 +109,5 @@ def _solver() -> Any:
     settings = solver.settings
     settings.eps_abs = settings.eps_rel = TOLERANCE
     settings.eps_duality_gap_abs = settings.eps_duality_gap_rel = GAP
-    settings.max_iter, settings.preconditioner_iter = ITERATIONS, 0
+    settings.max_iter, settings.preconditioner_iter = MOST_ITERATIONS, 0
     return solver

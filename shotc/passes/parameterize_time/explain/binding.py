@@ -25,14 +25,14 @@ from shotc.rounding import up
 from shotc.source.file import Span
 
 # Share of a limit above which it binds a piece.
-BINDING = 0.97
+BINDING_SHARE = 0.97
 # Factor on a proposed limit, because the path changes slightly with the limits.
-ROOM = 1.004
+BENDING_RATIO = 1.004
 # Largest factor of a limit that is proposed; bisection steps for the least one.
-HIGHEST = 4.0
-HALVINGS = 7
+HIGHEST_RATIO = 4.0
+LIMIT_HALVINGS = 7
 # Sine of the steepest tilt that is proposed, 60 deg.
-HIGHEST_TILT = 0.866
+HIGHEST_TILT_SINE = 0.866
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ def _held(move: TimedMove, ceiling: Ceiling) -> _Pieces:
     limits = axes_of(move.path, (float(profile.s[0]), float(profile.s[-1])), ceiling)
     held: dict[str, Mask] = {}
     for usage in usages(move.curve, limits):
-        held[usage.name] = held.get(usage.name, False) | (usage.share > BINDING)
+        held[usage.name] = held.get(usage.name, False) | (usage.share > BINDING_SHARE)
     return _Pieces(0.5 * (profile.s[1:] + profile.s[:-1]), np.diff(profile.t), held)
 
 
@@ -174,7 +174,7 @@ def raises(
     texts = []
     for name in names:
         factor = _least_factor(partial(_with, enough, full, name))
-        if factor is not None and ROOM * factor <= _alone(drone, name):
+        if factor is not None and BENDING_RATIO * factor <= _alone(drone, name):
             key = ".".join(_shown(drone, name).key)
             texts.append(f"raise `{key}` to {limit_text(mission, drone, name, factor)}")
     return texts
@@ -194,7 +194,7 @@ def _alone(drone: Drone, name: str) -> float:
         return inf
     least, following, _ = sorted(drone.limits.acceleration_bounds.values())
     if _shown(drone, name) is _SHOWN["tilt"]:
-        following = min(following, HIGHEST_TILT * G_M_S2)
+        following = min(following, HIGHEST_TILT_SINE * G_M_S2)
     return following / least
 
 
@@ -203,10 +203,10 @@ def _with(enough: Callable[[Ceiling], bool], full: Ceiling, name: str, factor: f
 
 
 def _least_factor(enough: Callable[[float], bool]) -> float | None:
-    low, high = 1.0, HIGHEST
+    low, high = 1.0, HIGHEST_RATIO
     if not enough(high):
         return None
-    for _ in range(HALVINGS):
+    for _ in range(LIMIT_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if enough(middle) else (middle, high)
     return high
@@ -226,7 +226,7 @@ def limit_text(mission: MissionIR, drone: Drone, name: str, factor: float = 1.0)
     value = factor * getattr(ceiling_of(drone), name)
     if factor == 1.0:
         return f"{_written(mission, shown, value):.2f} {shown.unit}"
-    return f"{up(_written(mission, shown, value, ROOM)):.2f} {shown.unit}"
+    return f"{up(_written(mission, shown, value, BENDING_RATIO)):.2f} {shown.unit}"
 
 
 def _written(mission: MissionIR, shown: _Shown, value: float, room: float = 1.0) -> float:

@@ -29,11 +29,11 @@ from shotc.passes.resolve.checks.home import stands_free
 from shotc.passes.resolve.checks.places import by_line
 from shotc.planning.clearances import ROUNDING_M, clearances_of, move, outward
 
-PAD = 1.5
+PAD_RADIUS_RATIO = 1.5
 """Height above the home, over the body's radius, from which on nothing may be too near; below is its
 support.
 """
-TURNS = 24  # horizontal directions in which a free place is searched
+WAY_DIRECTIONS = 24  # horizontal directions in which a free place is searched
 REACHES_M = tuple(0.25 * 1.12**k for k in range(52))  # distances in each of them, up to 81 m
 LIFTS_M = tuple(float(k) for k in range(1, 61))  # metres by which a path is raised
 LARGE_M = 1_000.0  # metres of a scene that may be in another unit
@@ -168,7 +168,7 @@ def _over_pad(mission: MissionIR, drone: Drone, mesh: ObstacleMesh) -> MeshClear
             mesh, -deep, body + deep, mesh.name_at(int(mesh.surface.source[found.triangle[0]]))
         )
     x, y, z = drone.home
-    low = z + PAD * drone.radius + mesh.spacing
+    low = z + PAD_RADIUS_RATIO * drone.radius + mesh.spacing
     a, b = np.array([[x, y, low]]), np.array([[x, y, max(low, mission.lowest(drone.home, drone.radius))]])
     pairs = within(mesh.surface, a, b, body)
     if not len(pairs):
@@ -218,8 +218,8 @@ def _around(p: Vec3, *, steep: bool) -> Iterator[Vec3]:
     """Yield places around one: at its height, and if steep, also above, below and between."""
     x, y, z = p
     for reach in REACHES_M:
-        for k in range(TURNS):
-            east, north = reach * cos(2 * pi * k / TURNS), reach * sin(2 * pi * k / TURNS)
+        for k in range(WAY_DIRECTIONS):
+            east, north = reach * cos(2 * pi * k / WAY_DIRECTIONS), reach * sin(2 * pi * k / WAY_DIRECTIONS)
             yield (x + east, y + north, z)
             if steep:
                 yield (x + 0.7 * east, y + 0.7 * north, z + 0.7 * reach)

@@ -11,9 +11,9 @@ from shotc.passes.resolve.checks.heights import as_counted
 from shotc.planning.clearances import ROUNDING_M, clearances_of
 from shotc.planning.framing.placing import place_shot
 
-STEP = 1.0  # metres between candidate values
-MOST = 40.0  # largest change of a value, metres
-PAIRS = 1000  # pairs of places and obstacles, above which the search is too slow for a check
+STEP_M = 1.0  # metres between candidate values
+LARGEST_CHANGE_M = 40.0  # largest change of a value, metres
+MOST_PAIRS = 1000  # pairs of places and obstacles, above which the search is too slow for a check
 
 Moved = Callable[[Keyframe, float], Keyframe]
 
@@ -51,7 +51,10 @@ def clear_path(mission: MissionIR, shot: Shot) -> list[ParameterChange]:
     nearest = min(distance_of(centre, k) for k in shot.keyframes)
     ends = (shot.keyframes[0], shot.keyframes[-1])
     changes: list[ParameterChange] = []
-    for key, move, least in ((DISTANCES[shot.kind], aside, STEP - nearest), ("altitude", above, -MOST)):
+    for key, move, least in (
+        (DISTANCES[shot.kind], aside, STEP_M - nearest),
+        ("altitude", above, -LARGEST_CHANGE_M),
+    ):
         by = next(_free(mission, shot, move, least), None)
         if by is not None:
             now = [distance_of(centre, k) if move is aside else altitude(k) for k in ends]
@@ -76,11 +79,11 @@ def _free(mission: MissionIR, shot: Shot, move: Moved, least: float) -> Iterator
     # The keyframe that was blocked last comes first, as it is likely blocked again; repeated places of a ring
     # are checked once.
     order = list({tuple(round(c, 6) for c in k.at): k for k in shot.keyframes}.values())
-    if len(order) * len(around) > PAIRS:
+    if len(order) * len(around) > MOST_PAIRS:
         return
     for sign in (1.0, -1.0):
-        for step in range(1, int(MOST / STEP) + 1):
-            by = sign * step * STEP
+        for step in range(1, int(LARGEST_CHANGE_M / STEP_M) + 1):
+            by = sign * step * STEP_M
             if by < least:
                 break
             met = next((i for i, k in enumerate(order) if blocked(move(k, by))), None)

@@ -20,8 +20,8 @@ from shotc.spec.world import TargetSpec
 if TYPE_CHECKING:  # missions on flat ground need no numpy
     from shotc.ir.terrain import Terrain
 
-ROUND = 16  # samples of a rim
-SIDE = 8  # samples of a side
+RIM_PLACES = 16  # samples of a rim
+SIDE_PLACES = 8  # samples of a side
 
 
 class _Counted(NamedTuple):
@@ -94,9 +94,11 @@ def _zones(mission: MissionIR, spec: MissionSpec) -> Iterator[_Counted]:
 def _footprint(solid: Solid) -> Iterator[Vec2]:
     """Yield places along the outline of a zone on the map, metres of W."""
     if isinstance(solid, Cylinder):
-        turns = [2 * pi * k / ROUND for k in range(ROUND)]
+        turns = [2 * pi * k / RIM_PLACES for k in range(RIM_PLACES)]
         x, y = solid.centre
         yield from ((x + solid.radius * cos(a), y + solid.radius * sin(a)) for a in turns)
         return
     for (ax, ay), (bx, by) in edges(solid.points):
-        yield from ((ax + (bx - ax) * k / SIDE, ay + (by - ay) * k / SIDE) for k in range(SIDE))
+        yield from (
+            (ax + (bx - ax) * k / SIDE_PLACES, ay + (by - ay) * k / SIDE_PLACES) for k in range(SIDE_PLACES)
+        )

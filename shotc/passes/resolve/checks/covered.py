@@ -15,7 +15,7 @@ from shotc.ir.begins import film_end
 from shotc.ir.mission import MissionIR, Shot, Zone
 from shotc.ir.target import Target
 
-HALVES = 40  # bisection steps for where a track enters a zone
+TRACK_HALVINGS = 40  # bisection steps for where a track enters a zone
 
 
 class TargetPosition(NamedTuple):
@@ -55,7 +55,7 @@ def _entry(solid: Solid, a: TargetPosition, b: TargetPosition) -> TargetPosition
     low, high = 0.0, 1.0
     if crosses(solid, a.at, a.at):
         return a
-    for _ in range(HALVES):
+    for _ in range(TRACK_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if crosses(solid, a.at, _between(a, b, middle).at) else (middle, high)
     return _between(a, b, high)

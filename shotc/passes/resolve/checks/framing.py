@@ -19,7 +19,7 @@ from shotc.planning.framing.moments import is_sure, moments
 from shotc.planning.framing.placing import explicit_aim, setting_of
 from shotc.rounding import at_least, at_most
 
-SAME = 1e-3  # metres within which a point is the camera's own place
+SAME_PLACE_M = 1e-3  # metres within which a point is the camera's own place
 
 
 def check_framing(mission: MissionIR, misplaced: Collection[KeyPath] = ()) -> list[Diagnostic]:
@@ -54,7 +54,7 @@ def _moments(mission: MissionIR, shot: Shot) -> Iterator[tuple[Keyframe, Mission
 def _fault(mission: MissionIR, shot: Shot, keyframe: Keyframe) -> Diagnostic | None:
     if keyframe.aim is None:
         return None
-    if len(keyframe.aim) == 3 and dist(keyframe.at, keyframe.aim) < SAME:
+    if len(keyframe.aim) == 3 and dist(keyframe.at, keyframe.aim) < SAME_PLACE_M:
         label = mission.origins.value((*keyframe.path, "look_at"))
         return Diagnostic("G014", "the camera looks at its own place", (label,), help="look at another point")
     aim = explicit_aim(keyframe.at, keyframe.aim, pi / 2)

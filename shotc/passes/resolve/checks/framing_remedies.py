@@ -19,14 +19,14 @@ SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 """Shares of a size, a field of view or a place on screen that are tried, the nearest first."""
 TURNS = tuple(sign * d for d in range(10, 181, 10) for sign in (1, -1))  # degrees from the written azimuth
 RISES = tuple(range(5, 86, 5))  # degrees of elevation
-WHOLE = 1.0
+LARGEST_SIZE = 1.0
 """The largest size that a mission writes as a number; only a name asks for a cropped target."""
 
 
 def for_size(fits: Fits, mission: MissionIR, shot: Shot, subject: Subject, most: float) -> Iterator[str]:
     """Yield the largest feasible size, at most ``most``."""
     for share in SHARES:
-        size = down(share * min(most, WHOLE), 2)
+        size = down(share * min(most, LARGEST_SIZE), 2)
         if size > 0 and fits(mission, _with(shot, subject, subject._replace(size=size))):
             yield f"ask for `size: {size:g}` or less"
             return

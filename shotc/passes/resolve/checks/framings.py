@@ -31,13 +31,13 @@ from shotc.passes.resolve.checks.framing_remedies import (
 )
 from shotc.rounding import up
 
-OFF_PLACE = 0.05  # half frames
+OFF_PLACE_HALF_FRAMES = 0.05  # half frames
 OFF_PLACE_M = 0.5  # metres from the place given by `near`
 OFF_PLACE_RAD = 0.05  # rad from its angles
-OFF_SIZE = 0.1  # relative error of a size
-OFF_VIEW = 0.09  # rad
-APART = 2.0  # factor by which a subject may be smaller, to have others in the picture
-OUT = 0.02  # half frames by which a whole subject may reach out of the frame
+OFF_SIZE_SHARE = 0.1  # relative error of a size
+OFF_VIEW_RAD = 0.09  # rad
+SIZES_APART_RATIO = 2.0  # factor by which a subject may be smaller, to have others in the picture
+OUT_HALF_FRAMES = 0.02  # half frames by which a whole subject may reach out of the frame
 ROUNDING = 1e-6
 
 
@@ -337,7 +337,7 @@ def _apart(
             "film it in another shot",
         )
     t, worst, _ = max(seen, key=lambda found: found[1].out)
-    if worst.out > OUT:
+    if worst.out > OUT_HALF_FRAMES:
         return Diagnostic(
             "M033",
             f"`{subject.target}` cannot be in one picture with {others}",
@@ -349,7 +349,7 @@ def _apart(
     if not sized:
         return None
     share, t, small, wanted = min(sized, key=lambda found: found[0])
-    if share * APART >= 1.0 or wanted.size is None:
+    if share * SIZES_APART_RATIO >= 1.0 or wanted.size is None:
         return None
     return Diagnostic(
         "M033",
@@ -364,18 +364,18 @@ def _compromise(subject: Subject, seen: Sequence[tuple[float, Appearance, Wanted
     """Return notes on how far one subject is from what was asked of it, where that is notable."""
     notes = []
     t, worst, wanted = max(seen, key=lambda found: found[1].screen)
-    if worst.screen > OFF_PLACE and wanted.uv is not None:
+    if worst.screen > OFF_PLACE_HALF_FRAMES and wanted.uv is not None:
         place = f"({wanted.uv[0]:.2f}, {wanted.uv[1]:.2f})"
         notes.append(f"{worst.screen:.2f} of half a frame from {place} at t = {t:.1f} s")
     sized = [(abs(found[1].size / found[2].size - 1.0), *found) for found in seen if found[2].size]
     if sized:
         off, t, worst, wanted = max(sized, key=lambda found: found[0])
-        if off > OFF_SIZE and wanted.size:
+        if off > OFF_SIZE_SHARE and wanted.size:
             notes.append(
                 f"{_share(worst.size)} of the frame high instead of {_share(wanted.size)} at t = {t:.1f} s"
             )
     t, worst, _ = max(seen, key=lambda found: found[1].angle)
-    if worst.angle > OFF_VIEW:
+    if worst.angle > OFF_VIEW_RAD:
         notes.append(f"seen {degrees(worst.angle):.0f} deg off its view at t = {t:.1f} s")
     return notes
 

@@ -12,12 +12,12 @@ from shotc.ir.ground import counted_from
 from shotc.ir.ideal import ideal_place
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
-from shotc.passes.resolve.lower.world import BURIED
+from shotc.passes.resolve.lower.world import BURIED_SHARE
 from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import at_least, up
 
 STEP_S = 0.5  # seconds between samples of a shot on its own clock
-MOMENTS = 400  # most samples of one shot
+MOST_SAMPLES = 400  # most samples of one shot
 STANDS_M = 0.1  # metres from z = 0 within which a target's foot is at z = 0
 LEGAL_M = 120.0  # above ground, the limit of the open category in Europe; 400 ft in the United States
 
@@ -48,7 +48,7 @@ def way_of(mission: MissionIR, shot: Shot) -> Way:
     if shot.ideal is None or duration is None:
         foot = None if target is None else target.foot[2]
         return tuple(CameraHeight(k.at, foot) for k in shot.keyframes)
-    start, pieces = first_start(mission, shot), max(1, min(MOMENTS, ceil(duration / STEP_S)))
+    start, pieces = first_start(mission, shot), max(1, min(MOST_SAMPLES, ceil(duration / STEP_S)))
     times = [start + duration * i / pieces for i in range(pieces + 1)]
     return tuple(
         CameraHeight(ideal_place(mission, shot, start, t), None if target is None else target.foot_at(t)[2])
@@ -62,7 +62,9 @@ def check_reference(mission: MissionIR, shot: Shot, way: Way) -> Iterator[Diagno
     feet = [moment.foot for moment in way if moment.foot is not None]
     if shot.above != "target" or (*key, "above") in mission.origins.values or not feet:
         return
-    buried = min(feet) < -BURIED * mission.target(shot.subject or "").height  # which has a report of its own
+    buried = (
+        min(feet) < -BURIED_SHARE * mission.target(shot.subject or "").height
+    )  # which has a report of its own
     if buried or max(map(abs, feet)) < STANDS_M:
         return
     now = [moment.at[2] for moment in way]

@@ -16,17 +16,17 @@ from shotc.geom.vec import Vec3
 from shotc.ir.begins import first_start, known_start
 from shotc.ir.drone import Drone
 from shotc.ir.framed import course_of
-from shotc.ir.ideal import TO_CATCH_UP, ideal_place
+from shotc.ir.ideal import CATCH_UP_RATIO, ideal_place
 from shotc.ir.keyed import carriers, is_keyed, settled
 from shotc.ir.mission import MissionIR, Shot
 from shotc.rounding import down, up
 
-WINDOW = 2.0  # seconds over which the mean speed is measured
-STEPS = 200  # samples of an ideal
-HALVES = 7  # bisection steps between the nearest distance and the written one
+WINDOW_S = 2.0  # seconds over which the mean speed is measured
+IDEAL_SAMPLES = 200  # samples of an ideal
+SPAN_HALVINGS = 7  # bisection steps between the nearest distance and the written one
 LATE = (0.0, 6.0, 12.0, 18.0, 24.0, 30.0)  # seconds of candidate starts after the earliest one
 MORE = (1.0, 1.05, 1.2, 1.5, 2.0)  # factors of the duration that is sufficient beside a standing target
-ROUNDING = 1e-6  # relative tolerance of a speed
+SPEED_ROUNDING_SHARE = 1e-6  # relative tolerance of a speed
 
 LEVEL = ("distance", "radius", "offset")
 """Keys of a shot for its horizontal distance from the target; the last is the sideways distance alone."""
@@ -36,7 +36,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the fault of an ideal that is faster than the drone over a window, for every possible start."""
     drone, starts = mission.drone(shot.drone), _begins(mission, shot)
     limit = drone.limits.speed
-    if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + ROUNDING) for t in starts):
+    if not starts or any(_fastest(mission, shot, t)[0] <= limit * (1 + SPEED_ROUNDING_SHARE) for t in starts):
         return
     worst, when = _fastest(mission, shot, starts[0])
     through = " through the air" if any(drone.limits.wind) else ""
@@ -44,7 +44,7 @@ def check_speed(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     early = f"; the shot begins at {starts[0]:.1f} s at the earliest" if open_ else ""
     taken = mission.wind_taken
     wind = f" ({limit + taken:.1f} less {taken:.1f} of wind)" if taken else ""
-    window = min(WINDOW, shot.timing.duration or 0.0)
+    window = min(WINDOW_S, shot.timing.duration or 0.0)
     remedies = [
         *_nearer(mission, shot, drone),
         *_other_side(mission, shot, limit),
@@ -77,10 +77,10 @@ def _faster(mission: MissionIR, shot: Shot, speed: float, start: float) -> str:
     never stops, a drone of equal speed never reaches its place, so the speed is higher.
     """
     if _goes_on(mission, shot):
-        speed *= TO_CATCH_UP
+        speed *= CATCH_UP_RATIO
     limits = f"speed: {up(speed + mission.wind_taken, 1):.1f} m/s"
     needed = _hardest(mission, shot, start)
-    if needed > mission.drone(shot.drone).limits.acceleration * (1 + ROUNDING):
+    if needed > mission.drone(shot.drone).limits.acceleration * (1 + SPEED_ROUNDING_SHARE):
         limits += f", acceleration: {up(needed, 1):.1f} m/s^2"
     return f"limits: {{{limits}}}"
 
@@ -101,10 +101,10 @@ def _hardest(mission: MissionIR, shot: Shot, start: float) -> float:
     if is_keyed(shot):
         shot = settled(mission, shot, start)
     duration = shot.timing.duration or 0.0
-    window = min(WINDOW, duration / 2)
+    window = min(WINDOW_S, duration / 2)
     delays = [0.0]
-    for i in range(STEPS + 1):
-        t = start + (duration - 2 * window) * i / STEPS
+    for i in range(IDEAL_SAMPLES + 1):
+        t = start + (duration - 2 * window) * i / IDEAL_SAMPLES
         a, b, c = (ideal_place(mission, shot, start, t + k * window) for k in range(3))
         delays.append(dist([2 * m for m in b], [p + n for p, n in zip(a, c, strict=True)]) / window**2)
     return max(delays)
@@ -142,10 +142,10 @@ def _fastest(mission: MissionIR, shot: Shot, start: float) -> tuple[float, float
     if is_keyed(shot):
         shot = settled(mission, shot, start)
     duration = shot.timing.duration or 0.0
-    window = min(WINDOW, duration)
+    window = min(WINDOW_S, duration)
     found = []
-    for i in range(STEPS + 1):
-        t = start + (duration - window) * i / STEPS
+    for i in range(IDEAL_SAMPLES + 1):
+        t = start + (duration - window) * i / IDEAL_SAMPLES
         a, b = (ideal_place(mission, shot, start, u) for u in (t, t + window))
         found.append((hypot(b[0] - a[0] - wind[0] * window, b[1] - a[1] - wind[1] * window) / window, -t))
     worst, late = max(found)
@@ -175,7 +175,7 @@ def _nearer(mission: MissionIR, shot: Shot, drone: Drone) -> Iterator[str]:
     low, high = up(least, 1), asked
     if low >= high or not _keeps_up(mission, at(low), limit):
         return
-    for _ in range(HALVES):
+    for _ in range(SPAN_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _keeps_up(mission, at(middle), limit) else (low, middle)
     told = max(up(least, 1), down(low, 1))

@@ -23,7 +23,7 @@ from shotc.planning.clearances import clearances_of, free_place, move
 from shotc.planning.framing.moments import moments
 from shotc.rounding import at_least
 
-ROOM = 1.0 - 1.0 / MOST_PARTS - 1e-5
+ZOOM_RATE_SHARE = 1.0 - 1.0 / MOST_PARTS - 1e-5
 """Largest mean rate of a zoom over the lens's rate, because the zoom accelerates and decelerates."""
 
 
@@ -60,7 +60,7 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
         seconds = arrive[i + 1] - arrive[i] - a.hold
         if lens is None or zoom_parts(shot, lens)[i] is not None or seconds <= 0.0:
             continue
-        way, reach = abs(b.hfov - a.hfov), ROOM * lens.rate * seconds
+        way, reach = abs(b.hfov - a.hfov), ZOOM_RATE_SHARE * lens.rate * seconds
         inside = degrees(a.hfov + (reach if b.hfov > a.hfov else -reach))
         nearer = f"{(floor if b.hfov > a.hfov else ceil)(10 * inside) / 10:g}"
         label = mission.origins.value((*b.path, "hfov"))
@@ -73,7 +73,7 @@ def _zooms(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic
                 (label,),
                 (
                     f"it has {degrees(lens.rate):.4g} deg/s (`zoom_rate`), and speeds up and slows down:"
-                    f" the zoom takes {at_least(way / (ROOM * lens.rate))} s",
+                    f" the zoom takes {at_least(way / (ZOOM_RATE_SHARE * lens.rate))} s",
                 ),
                 f"write `hfov: {nearer} deg`, or give it more time",
             ),

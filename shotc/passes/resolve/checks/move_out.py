@@ -12,9 +12,9 @@ from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, free_place, move, outward
 from shotc.planning.framing.placing import place_shot
 
-STEP = 1.1  # ratio of distances to the target between consecutive candidates
-TRIES = 40  # candidates in each direction
-WAYS = 6  # directions out of an obstacle, the nearest ones
+DISTANCE_STEP_RATIO = 1.1  # ratio of distances to the target between consecutive candidates
+TRIES_PER_WAY = 40  # candidates in each direction
+NEAREST_WAYS = 6  # directions out of an obstacle, the nearest ones
 
 
 def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clearance) -> str:
@@ -31,7 +31,7 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
     around = clearances_of(mission, drone)
     centre = mission.target(str(keyframe.target)).centre
     places: list[Vec3] = []
-    for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:WAYS]:
+    for way in sorted(obstacle.ways_out(p), key=lambda q: dist(p, q))[:NEAREST_WAYS]:
         for q in _farther(centre, way):
             place = outward(p, q)
             low = mission.lowest(place, drone.radius)
@@ -48,8 +48,8 @@ def move_out(mission: MissionIR, shot: Shot, keyframe: Keyframe, obstacle: Clear
 
 def _farther(centre: Vec3, place: Vec3) -> Iterator[Vec3]:
     """Yield a place and others behind it as seen from a target, at its height and straight back."""
-    for i in range(TRIES):
-        x, y, z = (c + (p - c) * STEP**i for c, p in zip(centre, place, strict=True))
+    for i in range(TRIES_PER_WAY):
+        x, y, z = (c + (p - c) * DISTANCE_STEP_RATIO**i for c, p in zip(centre, place, strict=True))
         yield (x, y, place[2])
         yield (x, y, z)
 

@@ -24,10 +24,10 @@ from shotc.planning.clearances import move, outward
 from shotc.rounding import at_least
 
 ROUNDING = 1e-6  # metres or seconds
-HALVES = 40  # bisection steps for the first and last contact
-LOOKS = 50  # samples of a take-off
-FAR = 1e3  # metres beyond a pad
-BESIDE = 0.1  # metres kept beyond the reach of what passes, in a remedy
+TRACK_HALVINGS = 40  # bisection steps for the first and last contact
+TAKEOFF_SAMPLES = 50  # samples of a take-off
+FAR_M = 1e3  # metres beyond a pad
+BESIDE_M = 0.1  # metres kept beyond the reach of what passes, in a remedy
 RINGS = (1.0, 1.5, 2.0, 3.0, 5.0, 8.0)  # factors of that reach, at which another pad is searched
 
 
@@ -93,7 +93,7 @@ def _fault(mission: MissionIR, drone: Drone, target: Target, when: float, why: s
 def beside_tracks(mission: MissionIR, drone: Drone, target: Target) -> str:
     """Return the move of a home to a near place over which no target passes, in words."""
     wide = mission.rules.beside_target(drone.radius)
-    reach = target.radius + wide + BESIDE
+    reach = target.radius + wide + BESIDE_M
     x, y, z = drone.home
     for rings in RINGS:
         for turn in ROUND:
@@ -116,8 +116,8 @@ def _caught(drone: Drone, target: Target, touch: Touch) -> float | None:
     if touch.first == 0.0:
         return 0.0
     last = min(touch.last, touch.first + 10.0)
-    for i in range(LOOKS + 1):
-        t = touch.first + (last - touch.first) * i / LOOKS
+    for i in range(TAKEOFF_SAMPLES + 1):
+        t = touch.first + (last - touch.first) * i / TAKEOFF_SAMPLES
         x, y, z = drone.home
         if _room(drone, target, (x, y, z + _risen(drone, t)), t) < -ROUNDING:
             return t
@@ -166,7 +166,7 @@ def _stretches(drone: Drone, track: Track) -> Iterator[UniformMotion]:
     if speed < ROUNDING:
         yield UniformMotion(begin, inf)
         return
-    yield UniformMotion(begin, begin + (dist(track.at(begin), drone.home) + FAR) / speed)
+    yield UniformMotion(begin, begin + (dist(track.at(begin), drone.home) + FAR_M) / speed)
 
 
 def _touch(drone: Drone, target: Target, stretch: UniformMotion) -> Touch | None:
@@ -191,7 +191,7 @@ def _edge(drone: Drone, target: Target, inside: float, outside: float) -> float:
     """Return the end, towards ``outside``, of the time in which a target touches a drone on its pad."""
     if _room(drone, target, drone.home, outside) < -ROUNDING:
         return outside
-    for _ in range(HALVES):
+    for _ in range(TRACK_HALVINGS):
         middle = 0.5 * (inside + outside)
         if _room(drone, target, drone.home, middle) < -ROUNDING:
             inside = middle

@@ -12,7 +12,7 @@ OFF_M = 150.0
 """Metres of difference that the ellipsoid's height and a slope can explain together."""
 FAR_OFF_M = 500.0
 FOOT_M = 0.3048
-ALIKE = 0.04  # relative tolerance of a height in feet
+FEET_SHARE = 0.04  # relative tolerance of a height in feet
 ALT = ("world", "origin", "alt")
 
 
@@ -30,10 +30,10 @@ def check_level(mission: MissionIR, world: WorldSpec) -> Iterator[Diagnostic]:
     here, alt = origin.alt + over, origin.alt
     if abs(over) <= OFF_M:
         return
-    if abs(here * FOOT_M - alt) <= ALIKE * abs(alt):
+    if abs(here * FOOT_M - alt) <= FEET_SHARE * abs(alt):
         note = f"{here:.0f} ft are {here * FOOT_M:.0f} m"
         help_ = f"export `{terrain.file}` with heights in metres"
-    elif abs(alt * FOOT_M - here) <= ALIKE * abs(here):
+    elif abs(alt * FOOT_M - here) <= FEET_SHARE * abs(here):
         note, help_ = f"{alt:.0f} ft are {alt * FOOT_M:.0f} m", f"write `alt: {here:.0f}`"
     elif abs(over) > FAR_OFF_M:
         note = "no datum makes heights differ by so much"

@@ -18,7 +18,7 @@ from shotc.passes.resolve.checks.wind import less_wind
 from shotc.rounding import at_least
 
 _LESS = ("shorten the shot", "cut it in two for two flights")
-SLACK = 1e-6  # seconds of rounding
+ROUNDING_S = 1e-6  # seconds of rounding
 SHORTEST = "`shotc plan` finds the shortest possible"
 EARLIEST = "`shotc plan` finds the earliest possible"
 
@@ -63,7 +63,7 @@ def _keyed_order(mission: MissionIR, shot: Shot, duration: float) -> Iterator[Di
     for (i, start), (j, end) in pairwise(known):
         a, b = shot.keyframes[i], shot.keyframes[j]
         holds = sum(k.hold for k in shot.keyframes[i:j])
-        if j == 0 or end - start > holds + SLACK:
+        if j == 0 or end - start > holds + ROUNDING_S:
             continue
         labels = (
             mission.origins.value((*b.path, "time")),
@@ -77,7 +77,7 @@ def _keyed_order(mission: MissionIR, shot: Shot, duration: float) -> Iterator[Di
     i, start = known[-1]
     last = len(shot.keyframes) - 1
     least = start + sum(k.hold for k in shot.keyframes[i:])
-    if least < duration - SLACK or (i == last and least <= duration + SLACK):
+    if least < duration - ROUNDING_S or (i == last and least <= duration + ROUNDING_S):
         return
     yield Diagnostic(
         "K002",
@@ -108,7 +108,7 @@ def _pair(mission: MissionIR, shot: Shot, i: int, j: int) -> Diagnostic | None:
         labels = (label, mission.origins.value((*a.path, "time"), "the earlier keyframe"))
         note = f"keyframe {j + 1} is at {end:.1f} s, keyframe {i + 1} before it at {start:.1f} s"
         return Diagnostic("K001", "keyframe times do not rise", labels, (note,), help_)
-    if end - start >= least - SLACK:
+    if end - start >= least - ROUNDING_S:
         return None
     note = f"the {length(stretch):.1f} m between them need at least {at_least(least, 1)} s"
     message = f"no drone gets there in the {end - start:.1f} s between keyframes {i + 1} and {j + 1}"
@@ -120,7 +120,11 @@ def _past_end(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     duration = shot.timing.duration
     limits = mission.drone(shot.drone).limits
     for i, keyframe in enumerate(shot.keyframes):
-        if duration is None or keyframe.time is None or keyframe.time + keyframe.hold <= duration + SLACK:
+        if (
+            duration is None
+            or keyframe.time is None
+            or keyframe.time + keyframe.hold <= duration + ROUNDING_S
+        ):
             continue
         following = shot.keyframes[i:]
         end = keyframe.time + sum(k.hold for k in following)
@@ -148,11 +152,11 @@ def _own_duration(mission: MissionIR, shot: Shot) -> list[Diagnostic]:
     asked = shot.timing.duration
     if (least if asked is None else asked) > drone.endurance:
         return [too_long(mission, shot, drone, least)]
-    if asked is None or asked >= least - SLACK:
+    if asked is None or asked >= least - ROUNDING_S:
         return []
     label = _duration_label(mission, shot)
     holds = sum(k.hold for k in shot.keyframes)
-    if holds > asked + SLACK:
+    if holds > asked + ROUNDING_S:
         held = [k for k in shot.keyframes if k.hold > 0]
         labels = (label, *(mission.origins.value((*k.path, "hold"), "a hold") for k in held))
         note = f"its holds alone last {holds:.1f} s; the shot is given {asked:.1f} s"
@@ -255,13 +259,13 @@ def _schedule(mission: MissionIR) -> list[Diagnostic]:
 def _late(mission: MissionIR, shot: Shot, before: _Moment, there: float, waits: float) -> list[Diagnostic]:
     """Return why a shot cannot begin at its ``start``, or nothing."""
     start = shot.timing.start
-    if start is None or start >= max(there, waits) - SLACK:
+    if start is None or start >= max(there, waits) - ROUNDING_S:
         return []
     label = timing_label(mission, shot)
     remedy = f"start it later than {at_least(max(there, waits), 1)} s; {EARLIEST}"
-    if start < waits - SLACK:
+    if start < waits - ROUNDING_S:
         return [waits_longer(mission, shot, waits, there)]
-    if before.shot is not None and start < before.time - SLACK:
+    if before.shot is not None and start < before.time - ROUNDING_S:
         note = f"`{before.shot.id}` ends at {before.time:.1f} s at the earliest; this starts at {start:.1f} s"
         message = f"shots `{before.shot.id}` and `{shot.id}` of drone `{shot.drone}` overlap"
         labels = (label, timing_label(mission, before.shot, "the other shot"))

@@ -12,7 +12,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.target import Target
 from shotc.kinds.base import stands
-from shotc.passes.resolve.lower.world import BURIED
+from shotc.passes.resolve.lower.world import BURIED_SHARE
 from shotc.rounding import at_least
 from shotc.spec.heights import AboveGround
 from shotc.spec.mission import MissionSpec
@@ -44,7 +44,7 @@ def _standing(mission: MissionIR, target: Target) -> Iterator[Diagnostic]:
     if mission.terrain is not None and mission.terrain.height(x, y) is None:
         return
     z = mission.ground(x, y)
-    if target.foot[2] >= z - target.height * BURIED:
+    if target.foot[2] >= z - target.height * BURIED_SHARE:
         return
     yield Diagnostic(
         "G018",
@@ -58,7 +58,7 @@ def _standing(mission: MissionIR, target: Target) -> Iterator[Diagnostic]:
 def _moving(mission: MissionIR, target: Target, written: TrackSpec, *, level: bool) -> Iterator[Diagnostic]:
     assert target.track is not None
     deepest = _deepest(mission, target, target.track)
-    if deepest is None or deepest.over >= -target.height * BURIED:
+    if deepest is None or deepest.over >= -target.height * BURIED_SHARE:
         return
     x, y, z = target.foot_at(deepest.time)
     key = "file" if written.file is not None else "start" if written.points is None else "points"

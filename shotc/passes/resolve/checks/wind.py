@@ -6,7 +6,7 @@ from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.resolve.checks.motion import least_shot
 from shotc.rounding import at_least, down
 
-FASTEST = 100.0  # m/s, above which speed is not the cause
+FASTEST_M_S = 100.0  # m/s, above which speed is not the cause
 
 
 def less_wind(mission: MissionIR, shot: Shot, drone: Drone, seconds: float) -> list[str]:
@@ -47,7 +47,7 @@ def _needed(shot: Shot, limits: Limits, seconds: float) -> float | None:
     def takes(speed: float) -> float:
         return least_shot(shot.keyframes, limits._replace(speed=speed))
 
-    low, high = limits.speed, FASTEST
+    low, high = limits.speed, FASTEST_M_S
     if takes(high) > seconds:
         return None
     while high - low > 1e-4:

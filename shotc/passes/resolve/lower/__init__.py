@@ -30,7 +30,7 @@ from shotc.passes.resolve.lower.tracks import read_tracks
 from shotc.passes.resolve.lower.world import Put, drones, resolve_drone, zones
 from shotc.spec.drones import DroneSpec
 from shotc.spec.load import LoadedMission
-from shotc.spec.presets import RATE, SHOW_RATE, TRANSIT_FILMED, TRANSIT_OTHER
+from shotc.spec.presets import RATE_HZ, SHOW_RATE_HZ, TRANSIT_FILMED_M, TRANSIT_OTHER_M
 from shotc.spec.rehearse import WindSpec
 from shotc.spec.rules import RulesSpec
 
@@ -166,7 +166,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial,
         drones=tuple(world.drones.values()),
         rules=world.rules,
         shots=shots.shots,
-        rate=spec.output.rate or (SHOW_RATE if shots.displays and not shots.shots else RATE),
+        rate=spec.output.rate or (SHOW_RATE_HZ if shots.displays and not shots.shots else RATE_HZ),
         emit=emitters_of(spec),
         source_sha256=ir.sha256,
         deferred=deferred_features(spec, shots.deferred),
@@ -207,8 +207,8 @@ def _transits(spec: RulesSpec) -> TransitClearance:
     asked = spec.transit_clearance
     filmed, other = (None, None) if asked is None else (asked.filmed, asked.other)
     return TransitClearance(
-        TRANSIT_FILMED if filmed is None else filmed,
-        TRANSIT_OTHER if other is None else other,
+        TRANSIT_FILMED_M if filmed is None else filmed,
+        TRANSIT_OTHER_M if other is None else other,
         filmed is not None,
         other is not None,
     )

@@ -9,7 +9,7 @@ from shotc.diag.model import Diagnostic
 from shotc.geom.geodetic import onto_plane
 from shotc.ir.mission import GeoOrigin
 from shotc.kinds.base import bad_file
-from shotc.kinds.earth import FARTHEST, stray
+from shotc.kinds.earth import FARTHEST_M, stray
 from shotc.kinds.files import FileFault
 from shotc.kinds.footprints.geojson import FeatureCollection, described, read_geojson
 from shotc.kinds.footprints.houses import BuildingFault, House, Houses, houses_of
@@ -18,7 +18,7 @@ from shotc.passes.resolve.lower.files import Files
 from shotc.spec.world import BuildingsSpec
 
 BUILDINGS = ("world", "buildings", "file")
-_NAMED = 3  # buildings that a diagnostic names
+_NAMED_BUILDINGS = 3  # buildings that a diagnostic names
 
 
 class GroundedBuilding(NamedTuple):
@@ -42,7 +42,7 @@ def read_buildings(
     if isinstance(found, FileFault):
         return (), [bad_file(files.origins, BUILDINGS, written.file, found)]
     put = onto_plane((origin.lat_deg, origin.lon_deg, origin.alt))
-    houses = houses_of(found.footprints, lambda place: put(place[1], place[0]), FARTHEST, written.height)
+    houses = houses_of(found.footprints, lambda place: put(place[1], place[0]), FARTHEST_M, written.height)
     wrong = list(_errors(written, houses, files))
     if not wrong and not houses.houses:
         wrong = [_without_any(written, found, houses, files)]
@@ -74,7 +74,7 @@ def _warnings(
         yield Diagnostic("G036", message, label, _listed(houses.assumed), help_)
     left = (*described(found.others), *([f"{houses.passed} polygons of no building"] * (houses.passed > 0)))
     if houses.far:
-        left = (*left, f"{len(houses.far)} buildings more than {FARTHEST / 1000:.0f} km from the origin")
+        left = (*left, f"{len(houses.far)} buildings more than {FARTHEST_M / 1000:.0f} km from the origin")
     if left:
         message = f"some of `{written.file}` is left out: it is no building near the mission"
         yield Diagnostic("G037", message, label, (f"left out: {', '.join(left)}",), _LEFT)
@@ -96,7 +96,7 @@ def _without_any(
         lon, lat = far.ring[0]
         where = stray(origin, lat, lon)
         label = (files.origins.value(BUILDINGS), files.origins.key(("world", "origin"), "the origin"))
-        note = f"none of its {len(houses.far)} buildings is nearer than {FARTHEST / 1000:.0f} km"
+        note = f"none of its {len(houses.far)} buildings is nearer than {FARTHEST_M / 1000:.0f} km"
         notes, help_ = ((note,), "") if where is None else ((note, where.note), where.help)
         return Diagnostic("G017", f"`{written.file}` lies somewhere else", label, notes, help_)
     listed = ", ".join(described(found.others)) or "no feature"
@@ -109,5 +109,9 @@ def _count(faults: Sequence[BuildingFault]) -> str:
 
 
 def _listed(faults: Sequence[BuildingFault]) -> tuple[str, ...]:
-    notes = [f"`{f.name}` (feature {f.number}): {f.text}" for f in faults[:_NAMED]]
-    return (*notes, f"and {len(faults) - _NAMED} more") if len(faults) > _NAMED else tuple(notes)
+    notes = [f"`{f.name}` (feature {f.number}): {f.text}" for f in faults[:_NAMED_BUILDINGS]]
+    return (
+        (*notes, f"and {len(faults) - _NAMED_BUILDINGS} more")
+        if len(faults) > _NAMED_BUILDINGS
+        else tuple(notes)
+    )

@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # missions without these do not load numpy
 
 MOST_BODIES = 8
 """Most bodies of one target, which is the limit of a group's parts."""
-_LISTED = 5  # names in a diagnostic
+_LISTED_NAMES = 5  # names in a diagnostic
 
 
 class _Named(NamedTuple):
@@ -103,7 +103,7 @@ def _all(standing: Obstacles) -> Iterator[_Named]:
 
 
 def _ambiguous(wanted: str, found: list[_Named], standing: Obstacles) -> Diagnostic:
-    notes = tuple(named.described(wanted, standing) for named in found[:_LISTED])
+    notes = tuple(named.described(wanted, standing) for named in found[:_LISTED_NAMES])
     others = [name for named in found for name in named.called if name != wanted]
     help_ = f"write `building: {others[0]}` if that one is meant" if others else "give each a name of its own"
     return Diagnostic("G049", f"{len(found)} buildings are called `{wanted}`", (), notes, help_)
@@ -114,8 +114,8 @@ def _unknown(spec: MissionSpec, wanted: str, standing: Obstacles) -> Diagnostic:
     names = [named.called[0] for named in _all(standing) if named.called]
     every = {name: None for named in _all(standing) for name in named.called}
     close = closest(wanted, every)
-    listed = ", ".join(f"`{name}`" for name in sorted(dict.fromkeys(names), key=_words_first)[:_LISTED])
-    more = len(set(names)) - _LISTED
+    listed = ", ".join(f"`{name}`" for name in sorted(dict.fromkeys(names), key=_words_first)[:_LISTED_NAMES])
+    more = len(set(names)) - _LISTED_NAMES
     note = f"there are {listed}" + (f" and {more} more" if more > 0 else "")
     help_ = f"did you mean `{close}`?" if close else "write the `name` or the id that the file gives it"
     message = f"{' and '.join(f'`{file}`' for file in files)} has no building `{wanted}`"

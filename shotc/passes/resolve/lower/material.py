@@ -21,9 +21,9 @@ from shotc.passes.resolve.lower.files import NOT_KEPT, read_file
 from shotc.show.labels import key_of
 from shotc.source.limits import MAX_TABLE_BYTES
 
-LARGEST_MESH = 64_000_000  # bytes of one mesh or font
-LARGEST_FLIGHT = 200_000_000  # bytes of one recorded flight, as in `importers.flights`
-MOST = 256_000_000  # bytes of all files that one mission draws
+LARGEST_MESH_BYTES = 64_000_000  # bytes of one mesh or font
+LARGEST_FLIGHT_BYTES = 200_000_000  # bytes of one recorded flight, as in `importers.flights`
+LARGEST_SUM_BYTES = 256_000_000  # bytes of all files that one mission draws
 
 Material = tuple[tuple[str, bytes], ...]
 
@@ -43,8 +43,8 @@ def read_material(
             continue
         data = read(name, path)
         total = sum(map(len, files.values()))
-        if not isinstance(data, Diagnostic) and total + len(data) > MOST:
-            message = f"with this file the mission's displays have more than {MOST / 1e6:.0f} MB"
+        if not isinstance(data, Diagnostic) and total + len(data) > LARGEST_SUM_BYTES:
+            message = f"with this file the mission's displays have more than {LARGEST_SUM_BYTES / 1e6:.0f} MB"
             data = bad_file(origins, path, name, FileFault(message, None, "thin the meshes, or take fewer"))
         if isinstance(data, Diagnostic):
             faults[path] = data
@@ -98,7 +98,7 @@ def _where(picture: Picture) -> KeyPath:
 def _usable(folder: Path | None, origins: OriginMap, name: str, path: KeyPath) -> bytes | Diagnostic:
     drawing = name.lower().endswith(".svg")
     flight = name.lower().endswith(FLIGHTS)
-    most = MAX_TABLE_BYTES if drawing else LARGEST_FLIGHT if flight else LARGEST_MESH
+    most = MAX_TABLE_BYTES if drawing else LARGEST_FLIGHT_BYTES if flight else LARGEST_MESH_BYTES
     data = read_file(folder, origins, name, path, most)
     if isinstance(data, Diagnostic):
         return data

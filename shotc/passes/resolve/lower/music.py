@@ -13,7 +13,7 @@ from shotc.spec.load import LoadedMission
 from shotc.spec.music import MOST_BEATS, MusicSpec
 
 SONGS = (".mp3", ".wav", ".flac", ".ogg", ".m4a")
-LARGEST_SONG = 100_000_000
+LARGEST_SONG_BYTES = 100_000_000
 """Bytes of a song: an hour of MP3, ten minutes of WAV."""
 
 PATH: KeyPath = ("music",)
@@ -71,7 +71,7 @@ def _song(spec: MusicSpec, ir: LoadedMission, origins: OriginMap) -> tuple[str, 
         return Diagnostic(
             "D011", f"`{spec.file}` is in no format of music", (origins.value(path),), help=help_
         )
-    data = read_file(ir.folder, origins, spec.file, path, LARGEST_SONG)
+    data = read_file(ir.folder, origins, spec.file, path, LARGEST_SONG_BYTES)
     return data if isinstance(data, Diagnostic) else (spec.file, data)
 
 

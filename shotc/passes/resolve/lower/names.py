@@ -16,7 +16,7 @@ from shotc.spec.words import nearest
 
 AUTO = "auto"
 _UNKNOWN = ("N001", "N002", "N003")
-_SHOWN = 4  # labels of one unknown name
+_SHOWN_PLACES = 4  # labels of one unknown name
 
 
 def emitters_of(spec: MissionSpec) -> tuple[str, ...]:
@@ -66,8 +66,8 @@ def _merged(group: list[Diagnostic]) -> Diagnostic:
     """Return one diagnostic for the same unknown name in different places."""
     ordered = sorted(group, key=lambda diagnostic: diagnostic.sort_key)
     first, *others = dict.fromkeys(diagnostic.labels[0] for diagnostic in ordered)
-    labels = (first, *(label._replace(text="here, too") for label in others[: _SHOWN - 1]))
-    notes = (f"it stands in {1 + len(others)} places",) if len(others) >= _SHOWN else ()
+    labels = (first, *(label._replace(text="here, too") for label in others[: _SHOWN_PLACES - 1]))
+    notes = (f"it stands in {1 + len(others)} places",) if len(others) >= _SHOWN_PLACES else ()
     return group[0]._replace(labels=labels, notes=(*group[0].notes, *notes))
 
 

@@ -22,7 +22,7 @@ from shotc.ir.limits import Vec3
 from shotc.ir.obstacle_mesh import ObstacleMesh
 from shotc.ir.terrain import Terrain
 from shotc.kinds.base import bad_file
-from shotc.kinds.earth import FARTHEST
+from shotc.kinds.earth import FARTHEST_M
 from shotc.kinds.files import FileFault
 from shotc.kinds.models.endings import METRES
 from shotc.kinds.models.parts import ModelFault, NodePart, wrong_corners
@@ -48,11 +48,11 @@ USUAL_M = (3.0, 1_000.0)
 _LIKELY = ("m", "mm", "ft", "cm", "in", "km")
 BELOW_M = 0.5
 """Depth in the ground of a corner that rounding of the scene's position does not explain."""
-UNDER = 0.4
+UNDER_GROUND_SHARE = 0.4
 """Share of corners at that depth, above which there is a warning; half of them if a house lies on its
 side.
 """
-_LOOKED_AT = 10_000  # most corners that are compared with the ground
+_SAMPLED_CORNERS = 10_000  # most corners that are compared with the ground
 
 
 _DOUBLES = re.compile(rb"^property\s+(double|float64)\s+x\s*$", re.MULTILINE)
@@ -127,7 +127,7 @@ class _Scene(NamedTuple):
         """Yield the fault of a scene that is smaller than a drone, or larger than the range of a mission."""
         low, high = _box(parts)
         size = float((high - low).max()) * self.placed.metres
-        if not LEAST_M <= size <= FARTHEST:
+        if not LEAST_M <= size <= FARTHEST_M:
             message = f"the scene `{self.written.file}` measures {_length(size)}"
             yield Diagnostic("G031", message, self._label, (self._says(low, high),), self._fitting(size))
 
@@ -136,7 +136,7 @@ class _Scene(NamedTuple):
         low, high = _box(parts)
         middle = self._world(0.5 * (low + high)[None])[0]
         away = float(np.linalg.norm(middle[:2]) - 0.5 * self.placed.metres * np.linalg.norm(high - low))
-        if away > FARTHEST:
+        if away > FARTHEST_M:
             message = f"the scene `{self.written.file}` is {away / 1000:.1f} km away from the world's origin"
             help_ = f"take {_rounded(0.5 * (low + high))} off its coordinates, and give that place as `at`"
             yield Diagnostic("G031", message, self._label, (self._says(low, high),), help_)
@@ -176,18 +176,18 @@ class _Scene(NamedTuple):
             message = f"the scene `{self.written.file}` measures {_length(size)}"
             help_ = f"{self._fitting(size)}; leave it if it is so large"
             yield Diagnostic("G030", message, self._label, (self._unit_says(),), help_)
-        some = corners[:: max(1, len(corners) // _LOOKED_AT)]
+        some = corners[:: max(1, len(corners) // _SAMPLED_CORNERS)]
         ground = np.zeros(len(some)) if terrain is None else height_at(terrain.ground, some[:, :2])
         over = some[:, 2] - np.nan_to_num(ground)
         under = float(np.mean(over < -BELOW_M))
         top = float(corners[:, 2].max() if terrain is None else over.max())
-        if under > UNDER and top < BELOW_M:
+        if under > UNDER_GROUND_SHARE and top < BELOW_M:
             message = f"the scene `{self.written.file}` lies below the ground"
             low, high = float(over.min()), max(0.0, top)
             note = f"it reaches from {-low:.1f} m below the ground to {high:.1f} m above it"
             help_ = f"turn it over in the program that made it, or raise it by {-low:.1f} m in `at`"
             yield Diagnostic("G051", message, self._label, (note,), help_)
-        elif under > UNDER:
+        elif under > UNDER_GROUND_SHARE:
             other = "z" if self.placed.up == "y" else "y"
             low, high = float(some[:, 2].min()), float(some[:, 2].max())
             yield Diagnostic(

@@ -22,8 +22,8 @@ from shotc.spec.mission import MissionSpec
 from shotc.spec.places import PlaceType
 
 LEAST_DEG = 1.0  # degrees from latitude and longitude 0, within which degrees look like any metres
-TENTHS = 10.0  # a position in degrees has more than one decimal, which is accurate to 11 km only
-TOLD = 10  # most warnings of one mission
+TENTHS_PER_DEG = 10.0  # a position in degrees has more than one decimal, which is accurate to 11 km only
+MOST_REPORTED = 10  # most warnings of one mission
 
 
 class _Written(NamedTuple):
@@ -44,17 +44,17 @@ def check_slips(spec: MissionSpec, origin: GeoOrigin | None, origins: OriginMap)
             if _looks_like_degrees(origin, lat, lon):
                 found.append(_slip(written, (lat, lon), origin, origins))
                 break
-    if len(found) > TOLD:
-        more = f"{len(found) - TOLD} more places of this mission look like this"
-        last = found[TOLD - 1]
-        found[TOLD - 1 :] = [last._replace(notes=(*last.notes, more))]
+    if len(found) > MOST_REPORTED:
+        more = f"{len(found) - MOST_REPORTED} more places of this mission look like this"
+        last = found[MOST_REPORTED - 1]
+        found[MOST_REPORTED - 1 :] = [last._replace(notes=(*last.notes, more))]
     return found
 
 
 def _looks_like_degrees(origin: GeoOrigin, lat: float, lon: float) -> bool:
     if abs(lat) > 90.0 or abs(lon) > 180.0 or stray(origin, lat, lon) is not None:
         return False
-    return any(abs(TENTHS * value - round(TENTHS * value)) > 1e-6 for value in (lat, lon))
+    return any(abs(TENTHS_PER_DEG * value - round(TENTHS_PER_DEG * value)) > 1e-6 for value in (lat, lon))
 
 
 def _slip(written: _Written, place: Vec2, origin: GeoOrigin, origins: OriginMap) -> Diagnostic:

@@ -11,11 +11,11 @@ from shotc.geom.vec import Vec3
 from shotc.ir.origin import KeyPath, OriginMap
 from shotc.rounding import at_least
 
-GAP = 10.0  # gap over the usual time between rows; smart recorders skip up to that much
-LEAST_GAP = 3.0  # seconds; over a shorter gap a straight line is a good estimate
-ROUNDING = 1e-6  # relative tolerance of a speed
-MOST = 1000.0  # m/s, largest speed that the language reads
-STOOD = 0.1  # metres of motion in a gap, below which the target stood; recorders may pause
+GAP_RATIO = 10.0  # gap over the usual time between rows; smart recorders skip up to that much
+LEAST_GAP_S = 3.0  # seconds; over a shorter gap a straight line is a good estimate
+SPEED_ROUNDING_SHARE = 1e-6  # relative tolerance of a speed
+FASTEST_M_S = 1000.0  # m/s, largest speed that the language reads
+STOOD_M = 0.1  # metres of motion in a gap, below which the target stood; recorders may pause
 
 
 class CheckedTrack(NamedTuple):
@@ -37,7 +37,7 @@ class CheckedTrack(NamedTuple):
 
 def check_jump(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     """Return the fault of the first two rows between which the target exceeds its top speed, or None."""
-    track, top = course.track, course.top_speed * (1 + ROUNDING)
+    track, top = course.track, course.top_speed * (1 + SPEED_ROUNDING_SHARE)
     jumps = [i for i, ((s, t), (p, q)) in enumerate(_stretches(track)) if dist(p, q) > top * (t - s)]
     if not jumps:
         return None
@@ -65,7 +65,7 @@ def check_velocity(
     """Return the fault of a speed, written at ``key`` below the track, above the target's top speed,
     or None.
     """
-    if speed <= course.top_speed * (1 + ROUNDING):
+    if speed <= course.top_speed * (1 + SPEED_ROUNDING_SHARE):
         return None
     labels, raised = _labels(course, origins, (*course.path, *key), speed)
     return Diagnostic(
@@ -82,8 +82,8 @@ def check_gap(course: CheckedTrack, origins: OriginMap) -> Diagnostic | None:
     times, points = course.track.times, course.track.points
     spaces = [t - s for s, t in pairwise(times)]
     usual = sorted(spaces)[(len(spaces) - 1) // 2]
-    least = max(LEAST_GAP, GAP * usual)
-    gaps = [i for i, s in enumerate(spaces) if s > least and dist(points[i], points[i + 1]) > STOOD]
+    least = max(LEAST_GAP_S, GAP_RATIO * usual)
+    gaps = [i for i, s in enumerate(spaces) if s > least and dist(points[i], points[i + 1]) > STOOD_M]
     if not gaps:
         return None
     i = max(gaps, key=lambda k: spaces[k])
@@ -135,7 +135,7 @@ def _labels(
 ) -> tuple[tuple[Label, ...], str]:
     """Return labels on a fault and on the top speed, where one is written, and the remedy for the latter."""
     written = (*course.path[:-1], "top_speed")
-    key = f"`top_speed: {at_least(speed, 1)} m/s`" if speed < MOST else "a `top_speed`"
+    key = f"`top_speed: {at_least(speed, 1)} m/s`" if speed < FASTEST_M_S else "a `top_speed`"
     if written in origins.values:
         return (
             origins.value(path),

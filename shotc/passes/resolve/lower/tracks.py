@@ -19,11 +19,11 @@ from shotc.passes.resolve.lower.track_jumps import CheckedTrack, check_gap, chec
 from shotc.passes.resolve.lower.world import Put
 from shotc.spec.heights import STANDING, AboveGround
 from shotc.spec.mission import MissionSpec
-from shotc.spec.presets import TOP_SPEED
+from shotc.spec.presets import TOP_SPEED_M_S
 from shotc.spec.world import TargetSpec, TrackSpec
 
-SAME = 1e-6  # metres within which two points are equal
-FEW = 12  # most times that a remedy lists
+SAME_POINT_M = 1e-6  # metres within which two points are equal
+MOST_WRITTEN_TIMES = 12  # most times that a remedy lists
 
 
 class TargetTracks(NamedTuple):
@@ -50,7 +50,7 @@ def read_tracks(spec: MissionSpec, put: Put, files: Files) -> TargetTracks:
         if isinstance(track, Diagnostic):
             faults.append(track)
             continue
-        course = CheckedTrack(name, path, track.track, target.top_speed or TOP_SPEED)
+        course = CheckedTrack(name, path, track.track, target.top_speed or TOP_SPEED_M_S)
         if target.track.file is not None:
             course = course._replace(file=target.track.file, lines=track.lines)
         wrong = [fault for fault in _too_fast(target.track, course, files.origins) if fault is not None]
@@ -126,7 +126,7 @@ def _track(spec: TrackSpec, put: Put, files: Files, path: KeyPath) -> Recording 
 def _steady(points: list[Vec3], speed: float, origins: OriginMap, path: KeyPath) -> Track | Diagnostic:
     """Return the motion along points at one speed; repeated points are dropped."""
     kept = points[:1]
-    kept += [p for o, p in pairwise(points) if dist(o, p) > SAME]
+    kept += [p for o, p in pairwise(points) if dist(o, p) > SAME_POINT_M]
     if len(kept) < 2:
         label = origins.value((*path, "points"))
         return Diagnostic(
@@ -141,7 +141,7 @@ def _in_order(times: tuple[float, ...], i: int) -> str:
     if i + 1 < len(times) and times[i + 1] > times[i - 1]:
         return f"set it to {(times[i - 1] + times[i + 1]) / 2:g} s, between its neighbours"
     ordered = sorted(times)
-    if len(times) <= FEW and all(a < b for a, b in pairwise(ordered)):
+    if len(times) <= MOST_WRITTEN_TIMES and all(a < b for a, b in pairwise(ordered)):
         return f"write `times: [{', '.join(f'{t:g}' for t in ordered)}]`"
     return f"set it later than {times[i - 1]:g} s"
 

@@ -23,7 +23,7 @@ from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.heights import HeightRange
 from shotc.spec.mission import MissionSpec
 from shotc.spec.places import Spot
-from shotc.spec.presets import CIRCLE_SHARE, PIXELS, PRESETS, Preset
+from shotc.spec.presets import CIRCLE_SHARE, PRESETS, WIDTH_PX, Preset
 from shotc.spec.rehearse import WindSpec
 from shotc.spec.world import ZoneSpec
 
@@ -33,12 +33,12 @@ if TYPE_CHECKING:  # missions without these features do not load them
     from shotc.spec.fleets import FleetSpec
 
 Put = Callable[[Spot | Geodetic], Vec3]
-LEAST_AREA = 1e-4  # m^2
-BURIED = 0.25  # share of a target's height below the ground that rounding does not explain
-BEYOND = 2.0  # factor of a preset's value; presets have at least half of the published values
-WIDER = 1.02  # ratio of widths from which a lens differs from the model's
+LEAST_AREA_M2 = 1e-4  # m^2
+BURIED_SHARE = 0.25  # share of a target's height below the ground that rounding does not explain
+BEYOND_PRESET_RATIO = 2.0  # factor of a preset's value; presets have at least half of the published values
+WIDER_LENS_RATIO = 1.02  # ratio of widths from which a lens differs from the model's
 _PUBLISHED = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^2"}
-LEAST_SPEED = 0.1  # m/s, least speed that the wind has to leave
+LEAST_SPEED_M_S = 0.1  # m/s, least speed that the wind has to leave
 
 
 def zones(
@@ -86,7 +86,7 @@ def _solid(zone: ZoneSpec, put: Put, terrain: Terrain | None) -> Solid | str:
     if not is_simple(ring):
         return "crosses or touches itself"
     area = signed_area(ring)
-    if abs(area) < LEAST_AREA:
+    if abs(area) < LEAST_AREA_M2:
         return "encloses no area"
     heights = _heights(zone, zone.polygon.height, terrain, ring)
     return Prism(ring if area > 0 else ring[::-1], *heights)
@@ -208,7 +208,7 @@ def _optics(camera: CameraSpec, preset: Preset) -> Optics | None:
         return None
     sensor = preset.sensor if camera.sensor is None else camera.sensor[0]
     circle = camera.circle_of_confusion or CIRCLE_SHARE * (sensor or FULL_FRAME_M)
-    return Optics(sensor, camera.aperture, circle, camera.shutter, camera.pixels or PIXELS)
+    return Optics(sensor, camera.aperture, circle, camera.shutter, camera.pixels or WIDTH_PX)
 
 
 def limits_of(preset: Preset, spec: LimitsSpec, wind: float) -> Limits:
@@ -247,7 +247,7 @@ def beyond_model(
             "the plan uses it as it is written",
         )
         for key, (limit, usual) in given.items()
-        if limit is not None and limit > BEYOND * usual * (1 + 1e-9)
+        if limit is not None and limit > BEYOND_PRESET_RATIO * usual * (1 + 1e-9)
     ]
 
 
@@ -256,7 +256,7 @@ def another_lens(spec: DroneSpec, drone: Drone, origins: OriginMap) -> list[Diag
     preset, lens = PRESETS[spec.model], drone.lens
     if not preset.fixed_lens or lens is None:
         return []
-    wider = tan(lens.widest / 2) > WIDER * tan(preset.hfov / 2)
+    wider = tan(lens.widest / 2) > WIDER_LENS_RATIO * tan(preset.hfov / 2)
     if not (lens.zooms or wider):
         return []
     shown = f"shows {degrees(lens.widest):.4g} deg"
@@ -276,14 +276,14 @@ def another_lens(spec: DroneSpec, drone: Drone, origins: OriginMap) -> list[Diag
 
 def becalmed(what: str, drone: Drone | Fleet, wind: float, origins: OriginMap) -> list[Diagnostic]:
     """Return the fault of a drone, or of a fleet's drones, to which the wind leaves no speed."""
-    if drone.limits.slowest >= LEAST_SPEED:
+    if drone.limits.slowest >= LEAST_SPEED_M_S:
         return []
     speed = drone.limits.slowest + wind
     labels = (
         origins.value(("world", "wind")),
         origins.value((*drone.path, "limits", "speed"), f"{what} `{drone.name}`"),
     )
-    none, half = max(0.0, speed - LEAST_SPEED), speed / 2
+    none, half = max(0.0, speed - LEAST_SPEED_M_S), speed / 2
     diagnostic = Diagnostic(
         "K011",
         f"the wind leaves {what} `{drone.name}` no speed",

@@ -13,7 +13,7 @@ from shotc.planning.clock.remedy import BesideMeshes
 from shotc.planning.clock.shot import PICTURES, Away, Missed, NoMotion
 from shotc.rounding import at_least, up
 
-TOLD = 5  # intervals of a shot that are listed
+MOST_REPORTED = 5  # intervals of a shot that are listed
 SILENT = "rules: {mutual_visibility: {strength: off}}"
 
 
@@ -41,8 +41,8 @@ def _left_place(mission: MissionIR, stretches: list[ClockDeviation]) -> Diagnost
     smoothly = f"with `smoothing: {written(shot.smoothing)}`" if calm else "smoothly"
     notes = [f"the reasons: {', '.join(causes)}, and that it is flown {smoothly}"]
     if len(stretches) > 1:
-        often = ", ".join(f"{d.distance:.2f} m at t = {d.t:.1f} s" for d in stretches[:TOLD])
-        more = f" and {len(stretches) - TOLD} more" if len(stretches) > TOLD else ""
+        often = ", ".join(f"{d.distance:.2f} m at t = {d.t:.1f} s" for d in stretches[:MOST_REPORTED])
+        more = f" and {len(stretches) - MOST_REPORTED} more" if len(stretches) > MOST_REPORTED else ""
         notes.append(f"on {len(stretches)} stretches: {often}{more}")
     return Diagnostic(
         "M008",

@@ -30,11 +30,11 @@ from shotc.planning.path.swings import Swing
 from shotc.rounding import at_least
 from shotc.solvers.conic import Status
 
-ROUND = 24
+PAD_DIRECTIONS = 24
 """Directions in which a free pad is searched."""
 FARTHER = (1.0, 1.25, 1.5, 2.0, 3.0, 5.0)
 """Distances of the search, in units of what the pad lacks."""
-NUDGE = 0.02
+NUDGE_M = 0.02
 """Metres added to these, because the place is printed to centimetres."""
 FAR_M = (2.0, 5.0, 10.0, 20.0, 40.0, 80.0)
 """Further distances of the search, metres, where none of those is free."""
@@ -93,9 +93,9 @@ def _free_pad(mission: MissionIR, drone: Drone, lack: float) -> str:
     lacks.
     """
     x, y, z = drone.home
-    ways = (*(share * lack + NUDGE for share in FARTHER), *FAR_M)
-    for way, k in product(ways, range(ROUND)):
-        angle = 2.0 * pi * k / ROUND
+    ways = (*(share * lack + NUDGE_M for share in FARTHER), *FAR_M)
+    for way, k in product(ways, range(PAD_DIRECTIONS)):
+        angle = 2.0 * pi * k / PAD_DIRECTIONS
         there = drone._replace(home=(round(x + way * sin(angle), 2), round(y + way * cos(angle), 2), z))
         free = transit_point(flight_space(mission, there), pad_space(mission, there), there)
         if not isinstance(free, PadBlocked):

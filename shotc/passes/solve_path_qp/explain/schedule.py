@@ -8,14 +8,14 @@ from shotc.diag.model import Diagnostic, Severity
 from shotc.diag.registry import severity_of
 from shotc.ir.drone import Drone
 from shotc.ir.framed import at_start
-from shotc.ir.ideal import TO_CATCH_UP, ideal_place
+from shotc.ir.ideal import CATCH_UP_RATIO, ideal_place
 from shotc.ir.mission import MissionIR, Shot
 from shotc.passes.labels import phases_in_words, timing_value
 from shotc.planning.clock.starts import Meets, OutsideTrack, TooLate
 from shotc.rounding import at_least, down, plain, up
 
 ALONE = "or have the drone start nearer"
-WINDOW = 2.0  # seconds over which the speed of the ideal is measured
+WINDOW_S = 2.0  # seconds over which the speed of the ideal is measured
 
 
 def outside_track(mission: MissionIR, shot: Shot, outside: OutsideTrack) -> Diagnostic:
@@ -75,8 +75,8 @@ def _catching_up(mission: MissionIR, shot: Shot, time: float) -> list[str]:
     """Return the speed limit with which the drone could catch up with the ideal, as a remedy; or nothing."""
     drone = mission.drone(shot.drone)
     begun = at_start(mission, shot, time)
-    places = [ideal_place(mission, begun, time, time + t) for t in (0.0, WINDOW)]
-    east, north = (TO_CATCH_UP * (b - a) / WINDOW for a, b in zip(*(p[:2] for p in places), strict=True))
+    places = [ideal_place(mission, begun, time, time + t) for t in (0.0, WINDOW_S)]
+    east, north = (CATCH_UP_RATIO * (b - a) / WINDOW_S for a, b in zip(*(p[:2] for p in places), strict=True))
     speed = drone.limits.airspeed(east, north)
     if speed <= drone.limits.speed:
         return []

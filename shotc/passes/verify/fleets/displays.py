@@ -19,7 +19,7 @@ from shotc.ir.phases import Phase
 from shotc.ir.show import Display
 from shotc.ir.tolerances import ON_PLACE, ON_TIME_S
 from shotc.ir.trajectory import Claim, TrajectoryIR
-from shotc.passes.verify.claims import TOLERANCE, Limit, WorstValue, gap, held
+from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit, WorstValue, gap, held
 from shotc.passes.verify.fleets.cameras import named_pictures
 from shotc.passes.verify.fleets.flight import FleetFlight, bounded
 
@@ -77,7 +77,7 @@ def _pictures(
     missing = len(set(wanted) - {picture for picture, _ in order})
     astray = sum(b <= a for a, b in pairwise(order)) + sum(p not in wanted for p, _ in order)
     times = [phase.start, *(t for s in shown for t in (s.start, s.end)), phase.end]
-    astray += sum(b < a - TOLERANCE for a, b in pairwise(times))
+    astray += sum(b < a - LIMIT_TOLERANCE for a, b in pairwise(times))
     limit = Limit("pictures left out", 0.0, "", (*display.path, "frames"), shot=display.id)
     yield held(name, limit, WorstValue(float(missing), None, "exact"))
     limit = Limit("pictures out of order", 0.0, "", (*display.path, "frames"), shot=display.id)
@@ -132,7 +132,9 @@ def _waves(flight: FleetFlight, display: Display, shown: Sequence[FrameTimes]) -
             continue
         end = first[k].start
         begin = max((s.end for s in flight.track.shown if s.end <= end), default=flight.track.phases[0].end)
-        on_way = np.flatnonzero((breaks[:-1] > begin - TOLERANCE) & (breaks[1:] < end + TOLERANCE))
+        on_way = np.flatnonzero(
+            (breaks[:-1] > begin - LIMIT_TOLERANCE) & (breaks[1:] < end + LIMIT_TOLERANCE)
+        )
         if (
             not len(on_way)
             or np.linalg.norm(coef[:, on_way[-1] + 3] - coef[:, on_way[0]], axis=1).min() < LEAST_WAY_M

@@ -14,7 +14,7 @@ from shotc.geom.solids import point
 from shotc.passes.verify.claims import gap
 
 POINT = point((0.0, 0.0, 0.0))
-BLOCK = 200
+BLOCK_DRONES = 200
 """Drones that are processed together."""
 
 
@@ -34,10 +34,12 @@ def nearest(
     cuts = np.concatenate([[start], every[(every > start) & (every < end)], [end]])
     eye = restrict(own, cuts).ctrl
     best = ProvedExtreme(inf, inf, start)
-    for first in range(0, len(ctrl), BLOCK):
+    for first in range(0, len(ctrl), BLOCK_DRONES):
         # All drones of the block are channels of one curve, which is restricted to the common breaks.
-        n, q, k, _ = ctrl[first : first + BLOCK].shape
-        whole = Piecewise(breaks, ctrl[first : first + BLOCK].transpose(1, 2, 0, 3).reshape(q, k, 3 * n))
+        n, q, k, _ = ctrl[first : first + BLOCK_DRONES].shape
+        whole = Piecewise(
+            breaks, ctrl[first : first + BLOCK_DRONES].transpose(1, 2, 0, 3).reshape(q, k, 3 * n)
+        )
         cut = restrict(held_until(whole, end), cuts).ctrl.reshape(len(cuts) - 1, k, n, 3)
         degree = max(one.degree, k - 1)
         apart = _raised(eye, degree)[:, :, None] - _raised(cut, degree)

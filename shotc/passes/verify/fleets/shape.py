@@ -18,7 +18,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.tolerances import AT_REST
 from shotc.ir.trajectory import Claim, TrajectoryIR
 from shotc.passes.verify.advice import REPLAN
-from shotc.passes.verify.claims import TOLERANCE, Limit
+from shotc.passes.verify.claims import LIMIT_TOLERANCE, Limit
 from shotc.passes.verify.fleets.flight import FleetFlight, of_drone
 from shotc.passes.verify.shape import AT_HOME_M, LARGEST_M, SHORTEST_S, first_few, gaps
 
@@ -55,7 +55,7 @@ def _faults(mission: MissionIR, track: FleetTrajectory) -> Iterator[str]:
     if not all(map(isfinite, times)):
         yield "a time is not a finite number"
         return
-    if abs(float(breaks[0])) > TOLERANCE:
+    if abs(float(breaks[0])) > LIMIT_TOLERANCE:
         yield f"it begins at {breaks[0]:.6g} s, not at 0 s"
     yield from gaps(track.phases, float(breaks[0]), float(breaks[-1]))
     own = {d.id for d in mission.displays if d.fleet == track.fleet}

@@ -31,13 +31,13 @@ SPOT_PX, SPREAD_PX = 1.3, 7.0
 LIGHT, BLOOM = 9.0, 5.0
 """How strong both are, in a sky of which light takes a share that is exponential."""
 
-COARSE = 5
+COARSE_PX = 5
 """Pixels in a row that share what spills over."""
-SAMPLES = 12
+PALETTE_FRAMES = 12
 """Frames by which the palette is chosen."""
 BRIGHT, SKY_COLORS = 40, 40
 """Level from which a pixel shows a light, and colours of the palette for all others."""
-DIM = 170
+DIM_LEVEL = 170
 """Grey of the time."""
 
 
@@ -127,12 +127,12 @@ def _add(light: Levels, spots: Array, colors: Levels) -> None:
 
 def _picture(sky: Levels, light: Levels, time: float) -> Image.Image:
     spot = gaussian_filter(light, (SPOT_PX, SPOT_PX, 0.0), truncate=3.0)
-    coarse = light.reshape(HEIGHT // COARSE, COARSE, WIDTH // COARSE, COARSE, 3).mean(axis=(1, 3))
-    wide = gaussian_filter(coarse, (SPREAD_PX / COARSE, SPREAD_PX / COARSE, 0.0), truncate=3.0)
+    coarse = light.reshape(HEIGHT // COARSE_PX, COARSE_PX, WIDTH // COARSE_PX, COARSE_PX, 3).mean(axis=(1, 3))
+    wide = gaussian_filter(coarse, (SPREAD_PX / COARSE_PX, SPREAD_PX / COARSE_PX, 0.0), truncate=3.0)
     spread = np.stack([_wide(wide[..., k]) for k in range(3)], axis=-1)
     shade = 1.0 - (1.0 - sky) * np.exp(-(LIGHT * spot + BLOOM * spread))
     picture = Image.fromarray(np.asarray(np.round(255.0 * shade), dtype=np.uint8))
-    ImageDraw.Draw(picture).text((6, HEIGHT - 16), as_minutes(time), fill=(DIM, DIM, DIM))
+    ImageDraw.Draw(picture).text((6, HEIGHT - 16), as_minutes(time), fill=(DIM_LEVEL, DIM_LEVEL, DIM_LEVEL))
     return picture
 
 
@@ -144,7 +144,7 @@ def _wide(channel: Levels) -> NDArray[np.float32]:
 
 def _palette(pictures: list[Image.Image]) -> Image.Image:
     """Return an image with the palette of all frames: most of it for lights, which few pixels show."""
-    chosen = pictures[:: max(1, len(pictures) // SAMPLES)]
+    chosen = pictures[:: max(1, len(pictures) // PALETTE_FRAMES)]
     pixels = np.concatenate([np.asarray(picture).reshape(-1, 3) for picture in chosen])
     bright = pixels.max(axis=1) >= BRIGHT
     found = [_colors(pixels[~bright], SKY_COLORS), _colors(pixels[bright], 256 - SKY_COLORS)]

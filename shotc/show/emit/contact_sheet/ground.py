@@ -20,10 +20,10 @@ from shotc.ir.mission import MissionIR
 from shotc.show.emit.contact_sheet.moments import Board
 from shotc.show.emit.contact_sheet.stands import draw_stands, outlines
 
-BORDER = 0.35
+BORDER_IN = 0.35
 """Between what is on the map and its edge, inches."""
 
-PAD = 0.02
+PAD_HALF_WIDTH_IN = 0.02
 """Half the width of a pad, inches."""
 
 
@@ -37,7 +37,7 @@ def draw_ground(canvas: Canvas, box: PageRectangle, board: Board, mission: Missi
     draw_squares(canvas, sheet, step)
     zones(canvas, sheet, mission)
     _look(canvas, sheet, seen)
-    squares = [_square(at, PAD).outline() for at in sheet.place(pads)]
+    squares = [_square(at, PAD_HALF_WIDTH_IN).outline() for at in sheet.place(pads)]
     canvas.polygons(squares, WHITE, FLIGHT, 0.5, box)
     shapes = outlines(board, sheet)
     content = [_around(sheet.place(pads), 0.03), _around(np.concatenate(shapes), 0.03)]
@@ -54,7 +54,7 @@ def map_height(board: Board, width: float, seen: Audience) -> float:
     """Return the height that a map of some width needs, inches."""
     low, high = _reach(board, seen)
     span = np.maximum(high - low, 10.0)
-    return float((width - 2 * BORDER) / span[0] * span[1]) + 2 * BORDER
+    return float((width - 2 * BORDER_IN) / span[0] * span[1]) + 2 * BORDER_IN
 
 
 def _reach(board: Board, seen: Audience) -> tuple[Array, Array]:
@@ -68,7 +68,7 @@ def _reach(board: Board, seen: Audience) -> tuple[Array, Array]:
 def _sheet(box: PageRectangle, board: Board, seen: Audience) -> Sheet:
     low, high = _reach(board, seen)
     span = np.maximum(high - low, 10.0)
-    inches = float(min((box.width - 2 * BORDER) / span[0], (box.height - 2 * BORDER) / span[1]))
+    inches = float(min((box.width - 2 * BORDER_IN) / span[0], (box.height - 2 * BORDER_IN) / span[1]))
     return Sheet(box, np.eye(3)[:2], (low + high) / 2, inches)
 
 

@@ -18,7 +18,7 @@ MOST_MOMENTS = 12
 MOST_FRAMES = 4
 """Of one animation."""
 
-BETWEEN = 3
+FRAMES_BETWEEN = 3
 """Small frames of the way to a picture."""
 
 
@@ -83,7 +83,7 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[FrameTimes])
     left = max((p.start for p in flight.phases if p.start < chosen[0].start), default=before)
     moments, since = [], min(left, before)
     for one in chosen:
-        way = np.linspace(since, one.start, BETWEEN + 2)[1:-1] if one.start > since else ()
+        way = np.linspace(since, one.start, FRAMES_BETWEEN + 2)[1:-1] if one.start > since else ()
         many = counts[one.picture]
         part = (one.index + 1, many) if many > 1 else None
         name = picture_name(display.pictures[one.picture])

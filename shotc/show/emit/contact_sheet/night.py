@@ -19,7 +19,7 @@ ZENITH, HORIZON = (0.012, 0.018, 0.045), (0.060, 0.078, 0.130)
 EARTH, FAR = (0.022, 0.026, 0.028), (0.050, 0.056, 0.058)
 LINE = (0.20, 0.23, 0.27)
 
-UNLIT_GREY = 26.0
+UNLIT_GREY_LEVEL = 26.0
 """Grey of a drone whose light is off, of 255: it is there, though nobody would see it."""
 
 GLOW_M = 0.35
@@ -71,7 +71,7 @@ def _lights(at: Array, colors: Colors, seen: Audience, size: tuple[int, int]) ->
     for i in np.flatnonzero(shown):
         x, y = (u[i] + 1.0) / 2.0 * columns - 0.5, (1.0 - v[i]) / 2.0 * rows - 0.5
         radius = columns * float(np.clip(share[i], SMALLEST, LARGEST))
-        _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT_GREY / 255.0))
+        _spot(picture, (x, y), radius, np.maximum(colors[i] / 255.0, UNLIT_GREY_LEVEL / 255.0))
     return picture
 
 

@@ -15,7 +15,7 @@ from shotc.ir.fleet import FleetTrajectory
 from shotc.ir.trajectory import VerifiedIR
 from shotc.rounding import as_minutes
 from shotc.show.emit.contact_sheet.ground import draw_ground, map_height
-from shotc.show.emit.contact_sheet.moments import BETWEEN, Board, SheetFrame, boards, lights
+from shotc.show.emit.contact_sheet.moments import FRAMES_BETWEEN, Board, SheetFrame, boards, lights
 from shotc.show.emit.contact_sheet.night import night
 from shotc.show.emit.contact_sheet.stands import NUMBER_IN, number
 
@@ -26,10 +26,12 @@ SLIT_IN = 0.05
 """Between small frames, and between them and the large one, inches."""
 
 CELL = (WIDTH - 2 * MARGIN - MAP - 0.35 + GAP) / COLUMNS - GAP
-BIG = (CELL - SLIT_IN + 2 * SLIT_IN / BETWEEN * ASPECT * (BETWEEN - 1) / 2) / (1 + 1 / BETWEEN)
+BIG = (CELL - SLIT_IN + 2 * SLIT_IN / FRAMES_BETWEEN * ASPECT * (FRAMES_BETWEEN - 1) / 2) / (
+    1 + 1 / FRAMES_BETWEEN
+)
 HEIGHT = BIG / ASPECT
-SMALL = (HEIGHT - (BETWEEN - 1) * SLIT_IN) / BETWEEN
-LEAST_MAP = 3.2
+SMALL = (HEIGHT - (FRAMES_BETWEEN - 1) * SLIT_IN) / FRAMES_BETWEEN
+LEAST_MAP_IN = 3.2
 
 
 def draw_page(plan: VerifiedIR, dpi: float) -> bytes:
@@ -56,7 +58,7 @@ def _rows(board: Board) -> int:
 
 def _height(board: Board) -> float:
     """Return the height of a display's part of the page, inches."""
-    return BAND + max(_rows(board) * (HEIGHT + CAPTION), LEAST_MAP) + 0.22
+    return BAND + max(_rows(board) * (HEIGHT + CAPTION), LEAST_MAP_IN) + 0.22
 
 
 def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
@@ -89,7 +91,7 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     canvas.lines([np.array([[MARGIN, top], [WIDTH - MARGIN, top]])], FAINT, 0.8)
     _band(canvas, top, board, seen)
     start, tall = top - BAND, _height(board) - BAND - 0.22 - 0.17
-    tall = min(tall, max(LEAST_MAP, map_height(board, MAP, seen)))
+    tall = min(tall, max(LEAST_MAP_IN, map_height(board, MAP, seen)))
     draw_ground(canvas, PageRectangle(MARGIN, start - tall, MAP, tall), board, mission, seen)
     left = MARGIN + MAP + 0.35
     for i, moment in enumerate(board.moments):

@@ -18,7 +18,7 @@ from shotc.ir.fleet import FleetTrajectory
 TOLERANCE_M = 5e-4
 """How far key points may be off for there to be fewer of them, metres."""
 
-DECIMALS = 4
+COORDINATE_DECIMALS = 4
 """Of coordinates, metres: a tenth of a millimetre."""
 
 LONGEST_PIECES = 32
@@ -57,7 +57,7 @@ def curves(flight: FleetTrajectory) -> Curves:
     control = np.stack(
         [start, start + third * rate[:, keys[:-1]], end - third * rate[:, keys[1:]], end], axis=2
     )
-    rounded = np.round(control, DECIMALS) + 0.0  # no negative zeros
+    rounded = np.round(control, COORDINATE_DECIMALS) + 0.0  # no negative zeros
     return Curves(millis[keys], rounded, error + float(np.linalg.norm(rounded - control, axis=-1).max()))
 
 

@@ -16,7 +16,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from shotc.ir.effects import LIGHT_RATE
+from shotc.ir.effects import LIGHT_RATE_HZ
 from shotc.ir.fleet import Colors, FleetTrajectory, Lights
 from shotc.ir.light_colors import tick_colors
 
@@ -25,10 +25,10 @@ STEP_S = 0.02
 
 END, SET, FADE = 0x00, 0x04, 0x08
 
-TOLERANCE = 2.0
+TOLERANCE_LEVELS = 2.0
 """Levels, of 255, by which a program may be off the lights of the plan in any channel, at any time."""
 
-MOMENTS = 100
+BATCH_TIMES = 100
 """Moments of all drones that are evaluated at once."""
 
 
@@ -37,7 +37,7 @@ def programs(flight: FleetTrajectory) -> Iterator[bytes]:
     if not flight.lights.looks:
         yield from _faded(flight.lights)
         return
-    steps = round(1.0 / (LIGHT_RATE * STEP_S))
+    steps = round(1.0 / (LIGHT_RATE_HZ * STEP_S))
     for ticks, colors in kept_moments(flight):
         yield program((ticks * steps).tolist(), [bytes(color) for color in colors])
 
@@ -49,11 +49,11 @@ def _faded(lights: Lights) -> Iterator[bytes]:
 
 
 def kept_moments(flight: FleetTrajectory) -> Iterator[tuple[NDArray[np.intp], Colors]]:
-    """Yield of every drone the moments that are kept, numbers of ``LIGHT_RATE``, and its colours there."""
-    last = ceil(float(flight.breaks[-1]) * LIGHT_RATE)
+    """Yield of every drone the moments that are kept, numbers of ``LIGHT_RATE_HZ``, and its colours there."""
+    last = ceil(float(flight.breaks[-1]) * LIGHT_RATE_HZ)
     thinning = _Thinning(tick_colors(flight, np.arange(1))[:, 0])
-    for first in range(1, last + 1, MOMENTS):
-        colors = tick_colors(flight, np.arange(first, min(first + MOMENTS, last + 1)))
+    for first in range(1, last + 1, BATCH_TIMES):
+        colors = tick_colors(flight, np.arange(first, min(first + BATCH_TIMES, last + 1)))
         for k in range(colors.shape[1]):
             thinning.add(colors[:, k])
     return thinning.kept()
@@ -88,7 +88,7 @@ class _Thinning:
             self._keep(np.flatnonzero(out))
             span[out] = 1.0
             slope[out] = wanted[out] - self._from[out]
-        reach = np.float32(TOLERANCE) / span
+        reach = np.float32(TOLERANCE_LEVELS) / span
         self._low = np.maximum(self._low, slope - reach)
         self._high = np.minimum(self._high, slope + reach)
         self._tick, self._last = here, colors

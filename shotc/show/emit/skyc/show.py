@@ -21,7 +21,7 @@ from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import drone_names
 from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.numbered import by_number
-from shotc.show.emit.skyc.curve import DECIMALS, Curves, curves
+from shotc.show.emit.skyc.curve import COORDINATE_DECIMALS, Curves, curves
 from shotc.show.emit.skyc.fireworks import programs_of
 from shotc.show.emit.skyc.lights import programs
 
@@ -80,7 +80,7 @@ def show_of(plan: VerifiedIR) -> ShowFile:
 def _turned(points: Array) -> list[list[float]]:
     """Return points of W, East-North-Up, as North-West-Up."""
     turned = np.stack([points[..., 1], -points[..., 0], points[..., 2]], axis=-1)
-    return list((np.round(turned, DECIMALS) + 0.0).tolist())
+    return list((np.round(turned, COORDINATE_DECIMALS) + 0.0).tolist())
 
 
 def _drones(mission: MissionIR, flight: FleetTrajectory, found: Curves) -> Iterator[Json]:

@@ -13,7 +13,7 @@ from shotc.geom.surface.tree import surface_of
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_spacing_is_that_of_nearest_neighbours(seed, monkeypatch):
-    monkeypatch.setattr(cloud, "_SAMPLE", 10_000)
+    monkeypatch.setattr(cloud, "_SAMPLED_POINTS", 10_000)
     random = np.random.default_rng(seed)
     points = np.concatenate([random.normal(size=(900, 3)), random.uniform(-9, 9, (600, 3))])
     true = cKDTree(points).query(points, k=2)[0][:, 1]

@@ -13,7 +13,7 @@ from shotc.geom.pieces import Pieces, pieces
 from shotc.geom.surface import distance, near
 from shotc.geom.surface.distance import inf_distance
 from shotc.geom.surface.near import comes_within, nearest, within
-from shotc.geom.surface.tree import FAN, TooMany, search, surface_of
+from shotc.geom.surface.tree import LEAF_TRIANGLES, TooMany, search, surface_of
 from shotc.geom.surface.triangles import closest, halved, segment_distances
 from tests.support.few import examples
 from tests.support.surfaces import distances, grid, line, orbit, samples, some_curve, some_triangles
@@ -100,7 +100,7 @@ def test_what_meets_too_many_boxes_at_once_is_bound_as_tight(monkeypatch: pytest
 def test_a_bound_that_is_not_closed_is_still_proved(monkeypatch: pytest.MonkeyPatch):
     random = np.random.default_rng(5)
     triangles, curve = some_triangles(random, 60), some_curve(random)
-    monkeypatch.setattr(distance, "ROUNDS", 1)
+    monkeypatch.setattr(distance, "MOST_HALVINGS", 1)
     found = inf_distance(pieces(curve), surface_of(triangles), fine)
     assert found.proven <= distances(triangles, samples(curve, 400)).min()
     assert np.isfinite(found.proven)
@@ -226,7 +226,7 @@ def test_a_search_that_meets_more_pairs_than_allowed_stops():
 
     assert len(search(surface, 2, everything)) == 2 * len(surface)
     with pytest.raises(TooMany):
-        search(surface, 2, everything, most=FAN * 20)
+        search(surface, 2, everything, most=LEAF_TRIANGLES * 20)
 
 
 def test_pieces_of_any_degree_are_bound():

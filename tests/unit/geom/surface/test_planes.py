@@ -130,7 +130,7 @@ def test_a_piece_that_is_too_near_gets_a_plane_at_the_full_clearance():
 def test_a_piece_among_too_many_triangles_is_told(monkeypatch: pytest.MonkeyPatch):
     random = np.random.default_rng(4)
     heap = surface_of(random.uniform(-4, 4, size=(300, 1, 3)) + random.normal(size=(300, 3, 3)) * 0.2)
-    monkeypatch.setattr(planes, "MOST", 3)
+    monkeypatch.setattr(planes, "MOST_PLANES", 3)
     hulls = np.array([[[0.0, 0, 0], [1, 0, 0]], [[60.0, 0, 0], [61, 0, 0]]])
     found = half_spaces(heap, hulls, 0.5, REACH, some)
     assert list(found.crowded) == [True, False]

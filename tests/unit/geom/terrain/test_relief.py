@@ -167,7 +167,7 @@ def test_as_many_posts_are_taken_beyond_a_box_on_one_side_as_on_the_other(low: f
     found = relief._about(values, np.array([low, high, 0.5 * (low + high)]))
     assert found is not None
     taken = values[found]
-    assert (taken <= low).sum() == (taken >= high).sum() == 1 + relief._SPARE
+    assert (taken <= low).sum() == (taken >= high).sum() == 1 + relief._MARGIN_POSTS
     at_ends = relief._about(values, np.array([-3.0, 30.0]))
     assert values[at_ends].tolist() == values.tolist()
     assert relief._about(values, np.array([-3.0, -1.0])) is None

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shotc.api import PlanOptions, compile_source
 from shotc.checking import check_source
 from shotc.kinds.models import mesh_file
-from shotc.passes.assign_drones.choice import LEAST_WAY, choose
+from shotc.passes.assign_drones.choice import WORK_PER_METRE_S, choose
 from shotc.passes.assign_drones.tasks import ShotTask
 from tests.support.front_passes import clean
 from tests.support.meshes import box_mesh, ply
@@ -42,7 +42,7 @@ def cost(tasks: list[ShotTask], names: tuple[str, ...]) -> float | None:
     work = dict.fromkeys(DRONES, 0.0)
     for t, name in zip(tasks, names, strict=True):
         work[name] += t.duration + 0.5 * (t.way(name) + t.back(name))
-    return max(work.values()) + LEAST_WAY * sum(t.length(n) for t, n in zip(tasks, names, strict=True))
+    return max(work.values()) + WORK_PER_METRE_S * sum(t.length(n) for t, n in zip(tasks, names, strict=True))
 
 
 PLACE = st.floats(-80.0, 80.0)

@@ -46,7 +46,7 @@ def test_one_that_moves_is_met_where_both_are() -> None:
 @pytest.mark.parametrize("block", [1, 2, 3, 100])
 @pytest.mark.parametrize("turned", [False, True])
 def test_the_nearest_of_all_blocks_counts(block: int, turned: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(nearness, "BLOCK", block)
+    monkeypatch.setattr(nearness, "BLOCK_DRONES", block)
     places = [(x, y, 10.0) for x, y in ((2.0, 9.0), (4.0, 3.5), (6.0, 2.5), (8.0, 6.0), (9.0, 7.0))]
     ctrl = standing(places[::-1] if turned else places, 3)
     found = nearest(flown(5), np.array([0.0, 2.0, 6.0]), ctrl, (0.0, 6.0), 1.0)

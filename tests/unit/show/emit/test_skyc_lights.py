@@ -7,7 +7,7 @@ import pytest
 
 from shotc.ir.light_colors import light_colors
 from shotc.ir.light_layers import Axis, Band, Glints, Gradient, Layer
-from shotc.show.emit.skyc.lights import TOLERANCE, programs
+from shotc.show.emit.skyc.lights import TOLERANCE_LEVELS, programs
 from tests.support.lit_shows import layer, line, lit
 from tests.support.skyc_reader import color_at
 
@@ -31,7 +31,7 @@ def test_a_program_plays_back_what_is_planned(name: str) -> None:
     for drone, code in enumerate(programs(flight)):
         found = np.array([color_at(code, t) for t in times])
         # Half a level is the rounding of what is wanted at a time between two moments.
-        assert np.abs(found - wanted[drone]).max() <= TOLERANCE + 0.51
+        assert np.abs(found - wanted[drone]).max() <= TOLERANCE_LEVELS + 0.51
 
 
 def test_it_keeps_few_moments_of_what_changes_evenly() -> None:

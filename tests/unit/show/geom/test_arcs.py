@@ -12,7 +12,7 @@ from scipy.interpolate import BSpline
 from scipy.sparse.csgraph import shortest_path
 from scipy.spatial.distance import pdist
 
-from shotc.geom.apart import ROOMIER, stretch
+from shotc.geom.apart import ROUNDING_RATIO, stretch
 from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import knots
 from shotc.geom.separation import closest
@@ -32,7 +32,7 @@ def formation(rng: np.random.Generator, count: int, apart: Apart) -> Array:
     """Part of the densest lattice there is, turned about the vertical, as near as goals may be; metres."""
     side = 2.0 + 1.2 * count ** (1 / 3)
     size = np.full(3, side)
-    points = lattice(-size, size, 1.0, apart.shape == "cylinder") * apart.across * ROOMIER
+    points = lattice(-size, size, 1.0, apart.shape == "cylinder") * apart.across * ROUNDING_RATIO
     nearest = np.argsort(np.linalg.norm(points - rng.uniform(-1, 1, 3), axis=1))[:count]
     c, s = np.cos(a := rng.uniform(0, 2 * pi)), np.sin(a)
     turned = points[nearest] @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import pdist
 
 from shotc.geom.bernstein import Array
-from shotc.show.geom.push_apart import SLACK, nearest_pair, push_apart
+from shotc.show.geom.push_apart import SLACK_SHARE, nearest_pair, push_apart
 
 
 def anywhere(_: Array, after: Array) -> Array:
@@ -28,7 +28,9 @@ def test_goals_end_apart_and_near_their_shape(seed: int, n: int, density: float)
         return
     assert pdist(found).min() >= least * (1 - 1e-9)
     outside = np.maximum(np.maximum(-found, found - 1), 0)
-    assert np.linalg.norm(outside, axis=1).max() <= 1.2 * (SLACK * least + 0.12)  # 0.12: gaps of the points
+    assert np.linalg.norm(outside, axis=1).max() <= 1.2 * (
+        SLACK_SHARE * least + 0.12
+    )  # 0.12: gaps of the points
 
 
 def test_goals_that_are_apart_stay_to_the_last_bit() -> None:

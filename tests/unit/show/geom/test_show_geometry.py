@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shotc.geom.apart import ROOMIER, spacing
+from shotc.geom.apart import ROUNDING_RATIO, spacing
 from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
@@ -156,7 +156,7 @@ def test_points_spread_on_a_sphere_never_beat_the_bound(radius: float, count: in
         for i, z in enumerate(heights)
     ]
     gap = min(dist(p, q) for p, q in combinations(points, 2))
-    apart = Apart("ellipsoid", gap / ROOMIER, gap / ROOMIER, 0.0)
+    apart = Apart("ellipsoid", gap / ROUNDING_RATIO, gap / ROUNDING_RATIO, 0.0)
     assert most_drones(picture(Sphere(CENTRE, radius), "surface"), apart) >= count - 1e-6
 
 
@@ -164,7 +164,7 @@ def test_points_spread_on_a_sphere_never_beat_the_bound(radius: float, count: in
     ("count", "gap"), [(2, 2.0), (3, sqrt(3)), (4, sqrt(8 / 3)), (6, sqrt(2)), (12, 1.0514622)]
 )
 def test_the_bound_on_a_sphere_is_met_by_the_regular_bodies(count: int, gap: float) -> None:
-    apart = Apart("ellipsoid", gap / ROOMIER - 1e-7, gap / ROOMIER - 1e-7, 0.0)
+    apart = Apart("ellipsoid", gap / ROUNDING_RATIO - 1e-7, gap / ROUNDING_RATIO - 1e-7, 0.0)
     bound = most_drones(picture(Sphere(CENTRE, 1.0), "surface"), apart)
     assert count <= bound + 1e-5
     assert bound < count + 1

@@ -89,8 +89,8 @@ def test_stragglers_are_solved_by_the_interior_point_method(monkeypatch: pytest.
     breaks, wanted = walks(2, 20, 2.0, 1.5)
     bounds = DerivativeBounds(LIMITS)
     usual = bounded(breaks, wanted, bounds)
-    monkeypatch.setattr(fleet_qcqp, "ROUNDS", 1)
-    monkeypatch.setattr(fleet_qcqp, "ROUND", 1)
+    monkeypatch.setattr(fleet_qcqp, "MOST_ROUNDS", 1)
+    monkeypatch.setattr(fleet_qcqp, "ROUND_ITERATIONS", 1)
     exact = bounded(breaks, wanted, bounds)
     assert exact.exact == 2
     assert cost(breaks, exact.coef, wanted) == pytest.approx(cost(breaks, usual.coef, wanted), rel=1e-3)

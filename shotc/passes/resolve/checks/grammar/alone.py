@@ -10,7 +10,7 @@ from shotc.passes.resolve.checks.grammar.labels import lasting
 from shotc.passes.resolve.checks.grammar.leaving import check_leaving
 from shotc.passes.resolve.checks.grammar.pans import check_pans
 
-SHORTEST = 2.0  # seconds
+SHORTEST_S = 2.0  # seconds
 
 
 def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
@@ -26,12 +26,12 @@ def check_alone(mission: MissionIR, shot: Shot, judged: Callable[[str, Shot], bo
 def check_length(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the warning of a shot that is too short to be read."""
     duration = shot.timing.duration
-    if duration is None or duration >= SHORTEST:
+    if duration is None or duration >= SHORTEST_S:
         return
     yield Diagnostic(
         "F003",
         f"shot `{shot.id}` is over before it is seen",
         (lasting(mission, shot),),
-        (f"it lasts {duration:.1f} s; a picture that moves takes about {SHORTEST:.1f} s to be read",),
-        f"give it {SHORTEST:.0f} s or more, or write `allow: [short-shot]` in it",
+        (f"it lasts {duration:.1f} s; a picture that moves takes about {SHORTEST_S:.1f} s to be read",),
+        f"give it {SHORTEST_S:.0f} s or more, or write `allow: [short-shot]` in it",
     )

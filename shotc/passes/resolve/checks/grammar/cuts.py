@@ -19,11 +19,11 @@ from shotc.passes.resolve.checks.grammar.line import check_line
 from shotc.passes.resolve.checks.grammar.sight import ShotFrame, sight
 from shotc.rounding import at_least, at_most
 
-APART = radians(30.0)  # least angle between two views of one subject: the 30-degree rule
-ALIKE = 1.5  # ratio of sizes on screen, below which they are about the same
-SAME_PLACE = 0.02  # share of the distance that a camera may move between shots that continue
-SAME_LENS = 1.05
-SAME_TIME = 1.0  # seconds between two shots of a moving subject that continue
+VIEWS_APART_RAD = radians(30.0)  # least angle between two views of one subject: the 30-degree rule
+ALIKE_SIZE_RATIO = 1.5  # ratio of sizes on screen, below which they are about the same
+SAME_PLACE_SHARE = 0.02  # share of the distance that a camera may move between shots that continue
+SAME_LENS_RATIO = 1.05
+SAME_TIME_S = 1.0  # seconds between two shots of a moving subject that continue
 
 
 def check_cuts(mission: MissionIR, judged: Callable[[str, Shot], bool]) -> Iterator[Diagnostic]:
@@ -55,10 +55,10 @@ def check_jump(
     if left.names[0] != right.names[0] or carries_on(left, right):
         return None
     angle, ratio = between(left, right), right.scale / left.scale
-    if angle >= APART or not 1 / ALIKE < ratio < ALIKE:
+    if angle >= VIEWS_APART_RAD or not 1 / ALIKE_SIZE_RATIO < ratio < ALIKE_SIZE_RATIO:
         return None
     change = f"{ratio:.1f} times as large" if ratio >= 1 else f"{1 / ratio:.1f} times smaller"
-    aside = to_the_side(mission, after, left, right, APART)
+    aside = to_the_side(mission, after, left, right, VIEWS_APART_RAD)
     ways = [aside] if aside else []
     ways += _as_far(mission, after, right, ratio) or [
         f"begin {'it' if aside else f'`{after.id}`'} much nearer or much farther away"
@@ -69,7 +69,7 @@ def check_jump(
         (placing(mission, after, last=False), placing(mission, before, last=True, text="filmed from here")),
         (
             f"the camera moves {int(degrees(angle))} deg round it, which is then {change}; a cut needs "
-            f"30 deg or more, or a size that changes by a factor of {ALIKE:.1f}",
+            f"30 deg or more, or a size that changes by a factor of {ALIKE_SIZE_RATIO:.1f}",
         ),
         f"{', or '.join(ways)}, or write `allow: [jump-cut]` in it",
     )
@@ -86,7 +86,7 @@ def _as_far(mission: MissionIR, after: Shot, right: ShotFrame, ratio: float) -> 
     x, y, z = right.offset
     away = hypot(x, y, z)
     target = mission.target(right.names[0])
-    near, far = away * ratio / ALIKE, away * ratio * ALIKE
+    near, far = away * ratio / ALIKE_SIZE_RATIO, away * ratio * ALIKE_SIZE_RATIO
     clear = target.radius + mission.rules.beside_target(mission.drone(after.drone).radius)
     remedies = [f"write `distance: {at_least(sqrt(far * far - z * z), 1)}` or more"]
     if near > hypot(clear, z):
@@ -105,10 +105,10 @@ def carries_on(left: ShotFrame, right: ShotFrame) -> bool:
     """Return whether a shot begins with the picture with which the last one ends, so that no cut is
     visible.
     """
-    if dist(left.eye, right.eye) > SAME_PLACE * hypot(*left.offset):
+    if dist(left.eye, right.eye) > SAME_PLACE_SHARE * hypot(*left.offset):
         return False
-    if not 1 / SAME_LENS < left.half / right.half < SAME_LENS:
+    if not 1 / SAME_LENS_RATIO < left.half / right.half < SAME_LENS_RATIO:
         return False
     if not left.moving:
         return True
-    return left.t is not None and right.t is not None and abs(right.t - left.t) < SAME_TIME
+    return left.t is not None and right.t is not None and abs(right.t - left.t) < SAME_TIME_S

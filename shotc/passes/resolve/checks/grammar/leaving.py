@@ -13,8 +13,8 @@ from shotc.passes.resolve.checks.grammar.labels import framing
 from shotc.passes.resolve.checks.grammar.sight import start_of
 from shotc.planning.framing.candidates import FixedCamera
 
-EMPTY = 0.5  # seconds that a shot may be without its subject
-STEPS = 200  # samples of a shot
+EMPTY_S = 0.5  # seconds that a shot may be without its subject
+SHOT_SAMPLES = 200  # samples of a shot
 
 
 def check_leaving(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
@@ -24,23 +24,24 @@ def check_leaving(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
         return
     for subject in shot.subjects:
         seen = [
-            _seen(mission, shot, subject.target, start, start + duration * i / STEPS) for i in range(STEPS)
+            _seen(mission, shot, subject.target, start, start + duration * i / SHOT_SAMPLES)
+            for i in range(SHOT_SAMPLES)
         ]
-        empty = duration * seen.count(False) / STEPS
-        if empty < min(EMPTY, duration):
+        empty = duration * seen.count(False) / SHOT_SAMPLES
+        if empty < min(EMPTY_S, duration):
             continue
         if True not in seen:
             message = f"`{subject.target}` is never in the picture of shot `{shot.id}`"
             note = f"the camera keeps its aim, and looks past it for all of the {duration:.1f} s"
         else:
-            first, last = seen.index(True), STEPS - seen[::-1].index(True)
+            first, last = seen.index(True), SHOT_SAMPLES - seen[::-1].index(True)
             message = f"`{subject.target}` walks out of the picture of shot `{shot.id}`"
-            if last == STEPS:
+            if last == SHOT_SAMPLES:
                 message = f"`{subject.target}` is not in the picture of shot `{shot.id}` all the time"
+            begin, end = (start + duration * sample / SHOT_SAMPLES for sample in (first, last))
             note = (
-                f"the camera keeps its aim and shows it from t = {start + duration * first / STEPS:.1f} s "
-                f"to {start + duration * last / STEPS:.1f} s; the shot is filmed from {start:.1f} s to "
-                f"{start + duration:.1f} s"
+                f"the camera keeps its aim and shows it from t = {begin:.1f} s to {end:.1f} s; "
+                f"the shot is filmed from {start:.1f} s to {start + duration:.1f} s"
             )
         yield Diagnostic(
             "F004",

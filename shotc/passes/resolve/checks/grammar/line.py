@@ -16,7 +16,7 @@ from shotc.passes.resolve.checks.grammar.labels import placing
 from shotc.passes.resolve.checks.grammar.sight import ShotFrame, sight
 
 NEUTRAL = sin(radians(15.0))  # sine of the angle from the line within which a camera is on no side
-STEPS = 24  # samples of a shot for a visible crossing
+SHOT_SAMPLES = 24  # samples of a shot for a visible crossing
 
 
 def check_line(
@@ -72,6 +72,6 @@ def goes_over(mission: MissionIR, shot: Shot, *, pair: bool) -> bool:
     """Return whether the camera is on both sides of the line during a shot."""
     if shot.ideal is None:
         return False
-    seen = (sight(mission, shot, i / STEPS) for i in range(STEPS + 1))
+    seen = (sight(mission, shot, i / SHOT_SAMPLES) for i in range(SHOT_SAMPLES + 1))
     sines = [s for s in (side(one, pair=pair) for one in seen if one is not None) if s is not None]
     return bool(sines) and min(sines) < -NEUTRAL and max(sines) > NEUTRAL

@@ -7,17 +7,17 @@ from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.pan import WINDOW_S, slowest, whose
-from shotc.geom.vec import TURN, minus, wrapped
+from shotc.geom.vec import TURN_RAD, minus, wrapped
 from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import Keyframe, MissionIR, Shot
 from shotc.passes.resolve.checks.grammar.labels import lasting
 from shotc.passes.resolve.checks.grammar.sight import sight, start_of
-from shotc.passes.resolve.checks.timing import SLACK
+from shotc.passes.resolve.checks.timing import ROUNDING_S
 from shotc.planning.framing.placing import explicit_aim
 from shotc.planning.framing.whole_turns import ROUNDING
 from shotc.rounding import at_least
 
-STEPS = 120  # most pieces of such a shot
+MOST_PIECES = 120  # most pieces of such a shot
 
 
 class PanStretch(NamedTuple):
@@ -49,7 +49,7 @@ class PanStretch(NamedTuple):
 def check_pans(mission: MissionIR, shot: Shot) -> Iterator[Diagnostic]:
     """Yield the worst of a shot's pans that are too fast; those with unknown times are skipped."""
     pans = list(_on_clock(mission, shot) if shot.ideal is not None else _between_keyframes(mission, shot))
-    fast = [pan for pan in pans if pan.seconds > 0 and pan.seconds < pan.least - SLACK]
+    fast = [pan for pan in pans if pan.seconds > 0 and pan.seconds < pan.least - ROUNDING_S]
     if not fast:
         return
     worst = max(fast, key=lambda pan: pan.least / pan.seconds)
@@ -89,7 +89,7 @@ def _on_clock(mission: MissionIR, shot: Shot) -> Iterator[PanStretch]:
         return
     if shot.keyframes and _followed(shot.keyframes) is None:
         return
-    pieces = max(2, min(STEPS, ceil(4 * duration)))
+    pieces = max(2, min(MOST_PIECES, ceil(4 * duration)))
     ahead = min(pieces, max(1, round(WINDOW_S * pieces / duration)))
     looks: list[Vec3 | None] = []
     for i in range(pieces + 1):
@@ -135,7 +135,7 @@ def _turned(keyframes: Sequence[Keyframe], looks: Sequence[Vec2], i: int) -> flo
     """Return the frame widths by which the camera turns from a keyframe to the next one."""
     a, b = looks[i], looks[i + 1]
     stated, before = keyframes[i + 1].heading, keyframes[i].heading
-    if stated is not None and before is not None and abs(stated) >= TURN - ROUNDING:
+    if stated is not None and before is not None and abs(stated) >= TURN_RAD - ROUNDING:
         yaw = stated - before
     else:
         yaw = wrapped(b[0] - a[0])

@@ -14,7 +14,7 @@ from shotc.passes.resolve.checks.show.pyro import check_pyro
 from shotc.spec.fleets import in_no_group
 from shotc.spec.mission import MissionSpec
 
-SHOWN = 4  # groups of a fleet that a help lists
+NAMED_GROUPS = 4  # groups of a fleet that a help lists
 
 
 def check_show(mission: MissionIR, spec: MissionSpec, *, order: bool) -> list[Diagnostic]:
@@ -70,7 +70,7 @@ def _nobody_left(mission: MissionIR, spec: MissionSpec) -> Iterator[Diagnostic]:
                 mission.origins.key(("fleets", display.fleet, "groups"), "its groups"),
             )
             note = "a display without a `group` is drawn by the drones that are in none"
-            some = " or ".join(f"`group: {name}`" for name in list(fleet.groups)[:SHOWN])
+            some = " or ".join(f"`group: {name}`" for name in list(fleet.groups)[:NAMED_GROUPS])
             help_ = (
                 f"write {some}; for a picture by all, give each group a display with its part of it, and all "
                 "the same `start`"

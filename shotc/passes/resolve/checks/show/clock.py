@@ -18,7 +18,7 @@ from shotc.rounding import at_least, plain
 from shotc.show.geom.shape import bounds
 from shotc.show.labels import key_of, moments, transition_label, word_of
 
-SLACK = 1e-6  # seconds of rounding
+ROUNDING_S = 1e-6  # seconds of rounding
 
 
 def check_clock(mission: MissionIR) -> list[Diagnostic]:
@@ -43,7 +43,7 @@ def _transitions(mission: MissionIR, display: Display, fleet: Fleet) -> Iterator
     """Yield transitions shorter than the transfer from one picture's box to the next one's."""
     for before, after in pairwise(display.pictures):
         least = _between(before, after, fleet.limits)
-        if after.transition is None or after.transition >= least - SLACK:
+        if after.transition is None or after.transition >= least - ROUNDING_S:
             continue
         labels = (
             transition_label(mission, after),
@@ -105,7 +105,7 @@ def _shown(display: Display, begin: float, limits: Limits) -> tuple[float, list[
     clock, late = begin, []
     for before, after in pairwise(display.pictures):
         clock += _stand(before) + _change(before, after, limits)
-        if after.at is not None and after.at < clock - SLACK:
+        if after.at is not None and after.at < clock - ROUNDING_S:
             late.append(_Late(after, before, clock))
         clock = max(clock, after.at or 0.0)
     return clock + _stand(display.pictures[-1]), late
@@ -201,7 +201,7 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
             there += _change(last.picture, first, limits)
         waits = ends.get(display.timing.after or "", 0.0)
         start = display.start
-        if start is not None and start < max(there, waits) - SLACK:
+        if start is not None and start < max(there, waits) - ROUNDING_S:
             faults.append(_early(mission, display, last, there, waits))
         begin = max(start or 0.0, there, waits)
         ends[display.id], late = _shown(display, begin, limits)
@@ -209,7 +209,7 @@ def _starts(mission: MissionIR, order: Sequence[Display], fleets: dict[str, Flee
         free[display.fleet] = _Free(ends[display.id], display.pictures[-1])
     for shot in mission.shots:
         waits = ends.get(shot.timing.after or "", 0.0)
-        if shot.timing.start is not None and shot.timing.start < waits - SLACK:
+        if shot.timing.start is not None and shot.timing.start < waits - ROUNDING_S:
             faults.append(waits_longer(mission, shot, waits))
     return faults
 

@@ -20,7 +20,7 @@ from shotc.planning.take_off import MOST_LAYERS, bodies_of, take_off_of
 from shotc.rounding import at_least, up
 from shotc.show.labels import wider
 
-UNEVEN = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
+UNEVEN_M = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
 FARTHEST, MANY = 60, 400  # largest distance of the search for a free place, metres, and most drones for it
 
 
@@ -187,7 +187,7 @@ def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     label = _place(mission, fleet)
     low = min(range(len(fleet.pads)), key=lambda i: fleet.pads[i][2])
     z = fleet.pads[low][2]
-    if z < -UNEVEN:
+    if z < -UNEVEN_M:
         note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
         message = f"{fleet.words} stands underground"
         higher = _shifted(fleet, (0.0, 0.0, up(-z)))
