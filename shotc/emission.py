@@ -56,8 +56,9 @@ class EmitterPool:
         self._work: list[_Work] = []
 
     def prepare(self, names: Sequence[str]) -> None:
-        """Let the workers load what these emitters need; emitters without preparation stay in this
-        process.
+        """Let the workers load what these emitters need.
+
+        Emitters without preparation stay in this process.
         """
         if self._pool is None or self._load is None:
             return

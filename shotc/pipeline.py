@@ -104,8 +104,9 @@ PASS_NAMES = tuple(step.name for step in (ASSIGN, *FRONT, *FILM, *SHOW, JOIN, VE
 
 
 def passes_of(steps: Sequence[RouteStep], setting: PassSettings) -> tuple[AnyPass, ...]:
-    """Return the passes of a part of a route; raise ValueError if one does not take what the last one
-    gives.
+    """Return the passes of a part of a route.
+
+    Raises ValueError if one does not take what the last one gives.
     """
     for last, step in pairwise(steps):
         if last.gives != step.takes:

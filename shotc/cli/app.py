@@ -132,9 +132,7 @@ def _invoke(arguments: Sequence[str]) -> int:
 
 
 def _needed(words: Sequence[str]) -> Sequence[str]:
-    """Return the commands that a command line needs: the one that it names, or all to list or complete
-    them.
-    """
+    """Return the commands that a command line needs: the named one, or all to list or complete them."""
     if not words or "_SHOTC_COMPLETE" in os.environ:
         return tuple(COMMANDS)
     if words[0] == "--version":

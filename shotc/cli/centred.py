@@ -26,9 +26,7 @@ def centred(ir: KeyframeIR) -> list[str]:
 
 
 def _all_in_the_centre(placed: PlacedShot) -> str | None:
-    """Return the composition of a shot if it allows other places but all its targets are centred, else
-    None.
-    """
+    """Return the composition of a shot if it has other places but all targets are centred, else None."""
     places = [
         *((k.composition, p.reference) for k, p in zip(placed.shot.keyframes, placed.keyframes, strict=True)),
         *((s.composition, p.reference) for s, p in zip(placed.shot.subjects, placed.subjects, strict=True)),

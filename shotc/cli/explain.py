@@ -1,6 +1,4 @@
-"""``shotc explain``: print what a diagnostic code means, with a mission that raises it and one that does
-not.
-"""
+"""``shotc explain``: print the meaning of a code, with a mission that raises it and a corrected one."""
 
 from __future__ import annotations
 

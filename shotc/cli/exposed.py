@@ -13,9 +13,7 @@ from shotc.rounding import at_least, exposure
 
 
 def exposed(plan: VerifiedIR) -> Iterator[tuple[str, str]]:
-    """Yield (name, text) pairs: unknown lenses, the worst sharpness and motion blur of subjects, and
-    where.
-    """
+    """Yield (name, text) pairs: unknown lenses, worst sharpness and motion blur of subjects, and where."""
     yield from (("lens", text) for text in _unknown_lenses(plan.trajectory.keyframes.mission))
     for track in plan.trajectory.drones:
         drone = plan.trajectory.keyframes.mission.drone(track.drone)

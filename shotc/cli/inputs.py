@@ -31,9 +31,7 @@ class MissionText(NamedTuple):
 
 
 class Gathered:
-    """Missions to check, diagnostics of unreadable files, and YAML files skipped because they are no
-    missions.
-    """
+    """Missions to check, diagnostics of unreadable files, and YAML files that are no missions."""
 
     def __init__(self) -> None:
         self.missions: list[MissionText] = []
@@ -148,9 +146,7 @@ def _unreadable(what: str, name: str, error: OSError) -> Diagnostic:
 
 
 def _bounded(stream: BinaryIO) -> bytes:
-    """Read one byte more than a mission may have, so that the YAML reader can report a text that is too
-    long.
-    """
+    """Read one byte more than a mission may have, so that the YAML reader reports a text too long."""
     return stream.read(MAX_BYTES + 1)
 
 

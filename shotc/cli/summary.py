@@ -235,9 +235,7 @@ def _passed(claims: Sequence[Claim]) -> list[str]:
 
 
 def _ahead(plan: VerifiedIR) -> list[str]:
-    """Return the largest angle between nose and course, the shots in which it is judged, and why not in
-    others.
-    """
+    """Return the largest angle between nose and course, the judged shots, and why others are not."""
     off = [claim for claim in plan.certificate if claim.constraint == LOOK_AHEAD]
     ir = plan.trajectory
     if ir.keyframes.mission.rules.look_ahead is None:

@@ -55,9 +55,7 @@ def spacing(apart: Distances) -> float:
 
 
 def straight_spacing(apart: Distances) -> float:
-    """Return the stretched distance of two goals at which straight moves between formations are always
-    safe.
-    """
+    """Return the stretched distance of two goals at which straight moves between formations are safe."""
     return sqrt(2.0) * ball(apart)
 
 

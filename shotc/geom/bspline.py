@@ -105,9 +105,7 @@ def control_rows(breaks: Array, order: int = 0) -> SplineFunctionals:
 
 
 def _points(breaks: Array, order: int) -> Array:
-    """Return the maps from coefficients to Bernstein points of a derivative, piece by piece, (P, 6 - order,
-    6).
-    """
+    """Return the maps from coefficients to a derivative's Bernstein points, (P, 6 - order, 6)."""
     maps = extraction(breaks)
     widths = np.diff(breaks)[:, None, None]
     for _ in range(order):

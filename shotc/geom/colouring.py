@@ -86,9 +86,7 @@ def _smallest_last(around: Sequence[Sequence[int]]) -> list[int]:
 
 
 def _on_lattice(places: Sequence[Vec2], least: float, fewest: int) -> list[int] | None:
-    """Return the colouring by the best sublattice; None for other layouts, or if it needs more than
-    ``fewest``.
-    """
+    """Return the colouring by the best sublattice; None for other layouts or above ``fewest`` colours."""
     index = _grid(places)
     if index is None:
         return None
@@ -114,9 +112,7 @@ def _shortest(a: int, b: int, d: int) -> float:
 
 
 def _grid(places: Sequence[Vec2]) -> tuple[float, list[tuple[int, int]]] | None:
-    """Return the spacing of a square grid, and the grid steps from the first place; None for other
-    layouts.
-    """
+    """Return the spacing of a square grid and the steps from the first place; None for other layouts."""
     (x0, y0) = places[0]
     spacing = min((dist(places[0], place) for place in places[1:]), default=inf)
     if not 0.0 < spacing < inf:

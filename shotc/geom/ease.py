@@ -39,8 +39,7 @@ def parts_of(room: float) -> int | None:
 
 
 def control(parts: int) -> list[tuple[float, float, list[float]]]:
-    """Return the pieces of a step with so many parts: start and end as shares of the time, and control
-    points.
+    """Return the pieces of a step: start and end as shares of the time, and control points.
 
     These are of degree 5 in Bernstein form. The speed in a ramp is 3 y^2 - 2 y^3 of the constant one.
     """

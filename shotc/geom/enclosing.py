@@ -168,8 +168,9 @@ def _aligned(blocks: tuple[UprightPrism, ...], course: Vec2) -> _Aligned:
 
 
 def _few(found: list[_Aligned], most: int) -> list[_Aligned]:
-    """Join the smallest body with the one that grows least, until there are few; then join those of one
-    box.
+    """Join the smallest body with the one that grows least, until there are few.
+
+    Then join those of one box.
     """
     while len(found) > most:
         smallest = min(range(len(found)), key=lambda i: found[i].volume)

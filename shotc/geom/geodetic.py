@@ -44,8 +44,7 @@ def above_ground(place: Vec3, origin: Vec3) -> Vec3:
 
 
 def onto_plane(origin: Vec3) -> Callable[[float, float], Vec2]:
-    """Return a function from latitude and longitude, degrees, to x, y on the plane z = 0, as
-    ``above_ground``.
+    """Return a function from latitude, longitude, degrees, to x, y at z = 0, as ``above_ground``.
 
     It is for many places: the parts that depend only on the origin are computed once.
     """

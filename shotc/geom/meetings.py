@@ -182,9 +182,7 @@ def _sampled(search: NearestPair, slabs: _Slabs, first: int | None) -> None:
 
 
 def _candidates(search: NearestPair, slabs: _Slabs, first: int | None) -> tuple[Index, Index]:
-    """Return pairs and the slabs in which they may be nearer than the least distance so far, nearest
-    first.
-    """
+    """Return pairs and slabs that may be nearer than the least distance so far, nearest first."""
     found, where = [np.zeros((0, 2), dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
     bound = search.best * _ball(search)
     for k in range(len(slabs.ends) - 1):

@@ -121,9 +121,7 @@ def midway(ctrl: Array) -> Array:
 
 
 def least_along(ctrl: Array, towards: Array) -> Array:
-    """Return the least of control points (M, 4, D) along directions (M, D), shape (M,); 0 without a
-    direction.
-    """
+    """Return the least of control points (M, 4, D) along directions (M, D), (M,); 0 for no direction."""
     size = norm(towards)
     along = np.einsum("mkd,md->km", ctrl, towards)
     least = np.minimum(np.minimum(along[0], along[1]), np.minimum(along[2], along[3]))

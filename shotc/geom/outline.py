@@ -160,8 +160,9 @@ def covered_by_solid(rays: OutlineRays, solid: Solid) -> Mask:
 
 
 def covered_by_ball(rays: OutlineRays, centres: Array, radius: float) -> Mask:
-    """Return which rays balls at centres (F, 3) block, (F, n, n); a ball that contains the eye blocks
-    none.
+    """Return which rays balls at centres (F, 3) block, (F, n, n).
+
+    A ball that contains the eye blocks none.
     """
     out, may = np.zeros_like(rays.own), near(rays.boards, centres, radius)
     may &= np.linalg.norm(centres - rays.boards.eye, axis=1) >= radius
@@ -181,9 +182,7 @@ def covered_by_surface(rays: OutlineRays, surface: Surface, pairs: Pairs) -> Mas
 
 
 def share_of(rays: OutlineRays, which: Mask) -> Array:
-    """Return the share (F,) of the outline that the rays of a mask (F, n, n) represent; 0 without an
-    outline.
-    """
+    """Return the share (F,) of the outline in the rays of a mask (F, n, n); 0 without an outline."""
     count = rays.own.sum(axis=(1, 2))
     return np.asarray((which & rays.own).sum(axis=(1, 2)) / np.maximum(count, 1))
 
@@ -200,9 +199,7 @@ def _ball_about(solid: Solid) -> tuple[Array, float]:
 
 
 def _holding(eyes: Array, middle: Array, contour: Array) -> Billboards:
-    """Return the rectangles perpendicular to the lines of sight around points (F, K, 3), given minus the
-    eyes.
-    """
+    """Return the rectangles across the lines of sight around points (F, K, 3), given minus the eyes."""
     frame = billboards(eyes, np.broadcast_to(middle, eyes.shape), 1.0, 1.0)
     away = middle - eyes
     far = np.maximum(np.linalg.norm(away, axis=1), NO_LENGTH_M)

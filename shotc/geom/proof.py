@@ -149,9 +149,7 @@ def _least(pieces: Pieces, near: Nearness, gap: Callable[[float], float]) -> Pro
 
 
 def _distances(pieces: Pieces, part: Solid) -> tuple[Array, Array]:
-    """Return lower bounds of every piece's distance from a convex solid, and the distances of its middle,
-    (M,).
-    """
+    """Return lower bounds of each piece's distance from a convex solid, and its middle's, (M,)."""
     distance, normal = separation(part, _middle(pieces.ctrl))
     along = np.einsum("mkd,md->mk", pieces.ctrl, normal).min(axis=1) - support(part, normal)
     return np.maximum(np.where(distance > 0.0, along, 0.0), box_gap(pieces.ctrl, part)), distance
@@ -243,9 +241,7 @@ def _middle(ctrl: Array) -> Array:
 
 
 def box_gap(ctrl: Array, part: Solid) -> Array:
-    """Return the distances of the boxes round control points (M, n + 1, 3) from the box round a solid,
-    (M,).
-    """
+    """Return the distances (M,) of boxes around control points (M, n + 1, 3) from a solid's box."""
     low, high = bounds(part)
     apart = np.maximum(np.maximum(ctrl.min(axis=1) - high, low - ctrl.max(axis=1)), 0.0)
     return norm(apart)

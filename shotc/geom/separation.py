@@ -130,9 +130,7 @@ class _Fleet:
 
 
 def _cut(low: float, high: float) -> Array:
-    """Return the matrix from control points of a cubic to those between two parameters, by its blossom, (4,
-    4).
-    """
+    """Return the (4, 4) matrix from a cubic's control points to those between two parameters (blossom)."""
     rows = []
     for k in range(4):
         row = np.array([1.0])

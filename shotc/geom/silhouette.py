@@ -92,8 +92,9 @@ def box_contour(offset: Array, box: BoxShape) -> Array:
 
 
 def _contour_of(beyond: tuple[int, int, int]) -> list[tuple[int, ...]]:
-    """Return the corners (+-1, +-1, +-1) of a cube along its contour; beyond : the sides that face the
-    eye.
+    """Return the corners (+-1, +-1, +-1) of a cube along its contour.
+
+    beyond : the sides that face the eye
     """
     if beyond == (0, 0, 0):
         return [(0, 0, 0)]

@@ -68,9 +68,7 @@ def _weights(offsets: Sequence[float]) -> _Weights:
 
 
 def scatter(track: Track, deviation: float, start: float, end: float) -> list[tuple[float, Vec3]]:
-    """Return the times of a track's rows between two times, and their offsets from the smoothed track,
-    metres.
-    """
+    """Return the times of a track's rows between two times, and their offsets after smoothing, metres."""
     inside = [t for t in track.times if start <= t <= end]
     if not inside:
         return []

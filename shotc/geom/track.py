@@ -108,9 +108,7 @@ class Track(NamedTuple):
         return i, (t - self.times[i]) / (self.times[i + 1] - self.times[i])
 
     def _moved(self, t: float) -> tuple[float, float] | None:
-        """Return the displacement over ground within HEADING_SPAN_S around a time, metres; None if it
-        stands.
-        """
+        """Return the ground displacement within HEADING_SPAN_S around a time, metres; None if it stands."""
         a, b = self.at(t - HEADING_SPAN_S), self.at(t + HEADING_SPAN_S)
         moved = (b[0] - a[0], b[1] - a[1])
         return moved if hypot(*moved) >= MOVES_M else None

@@ -37,9 +37,7 @@ class Turning:
     moves: Mask
 
     def at(self, t: Array) -> tuple[Array, Array]:
-        """Return the rotation at times (M,) within the known ones, before and after a jump there, (M,)
-        each.
-        """
+        """Return the rotation at times (M,) in the known range, before and after a jump, (M,) each."""
         k = np.clip(np.searchsorted(self.times, t, side="right") - 1, 0, len(self.times) - 1)
         piece = np.minimum(k, len(self.moves) - 1)
         turned = _course(self.track, t) - self.leaves[piece]
@@ -72,9 +70,7 @@ def turning(track: Track, start: float, end: float) -> Turning:
 
 
 def _course(track: Track, t: Array) -> Array:
-    """Return the headings of a track at times (M,) or, without them, the directions of its motion, rad,
-    (M,).
-    """
+    """Return a track's headings at times (M,), or its directions of motion without them, rad, (M,)."""
     if track.headings:
         return np.asarray(np.interp(t, np.array(track.times), np.array(track.headings)))
     x, y = _moved(track, t).T

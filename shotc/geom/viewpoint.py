@@ -1,5 +1,4 @@
-"""The viewpoint from which subjects appear as required: position, yaw and pitch of a camera, by least
-squares.
+"""The camera pose (position, yaw, pitch) from which subjects appear as required, by least squares.
 
 The terms are those of Naegeli et al. (viewpoint Eq. 7 to 9): place on screen, size and viewing angle. Sizes
 are those of the exact outline. They enter as logarithms, so that twice and half the size have the same error.
@@ -76,9 +75,7 @@ class Wanted(NamedTuple):
 
 
 class Since(NamedTuple):
-    """The camera at the knot before: its position, the position if it moves with the subjects, the largest
-    step.
-    """
+    """The camera at the knot before: position, position if it moves with the subjects, largest step."""
 
     eye: Vec3
     kept: Vec3
@@ -122,9 +119,7 @@ def size_from(wanted: Wanted, lens: Lens, offset: Vec3) -> float:
 
 
 def nearest(wanted: Wanted, toward: Vec3, near: float) -> float:
-    """Return the least distance from a subject's centre along a unit vector that keeps the clearance
-    ``near``.
-    """
+    """Return the least distance along a unit vector from a subject's centre with clearance ``near``."""
     low, high = 0.0, wanted.shape.radius + wanted.shape.height + near + 1.0
     for _ in range(MOST_HALVINGS):
         middle = 0.5 * (low + high)
@@ -146,9 +141,7 @@ def distance_for(wanted: Wanted, lens: Lens, toward: Vec3, size: float) -> float
 
 
 def lens_for(wanted: Wanted, lens: Lens, offset: Vec3, size: float) -> float | None:
-    """Return the horizontal field of view, rad, that gives a subject its size from a place; None without
-    one.
-    """
+    """Return the horizontal field of view, rad, that gives a subject its size from a place, or None."""
     low, high = 0.02, 2.8
     sized = [size_from(wanted, lens._replace(hfov=h), offset) for h in (low, high)]
     if not sized[1] <= size <= sized[0]:

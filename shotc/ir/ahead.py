@@ -26,8 +26,7 @@ def looks_along(shot: Shot) -> bool:
 
 
 def least_off_course(drone: Drone, aside: Array) -> Array:
-    """Return the least angle between the course and an admissible body heading, rad, in the shape of
-    ``aside``.
+    """Return the least angle between course and admissible body heading, rad, shaped as ``aside``.
 
     aside : camera yaw less the course, rad, any winding
     """

@@ -33,8 +33,9 @@ def parts_of_one(a: Target, b: Target, t: Array) -> Mask:
 
 
 def shapes(target: Target, t: Array) -> TargetShape:
-    """Return the shape of a target at mission times (M,); if it turns, the shape holds its course as
-    arrays.
+    """Return the shape of a target at mission times (M,).
+
+    If it turns, the shape holds its course as arrays.
     """
     if target.track is None or not target.shape.turns:
         return target.shape
@@ -73,7 +74,8 @@ def standing_at(place: Array, times: Array) -> Array:
 
 
 def flying(curve: Piecewise, times: Array) -> Array:
-    """Return the position of a drone at times (M,), shape (M, 3); before and after its flight it is on its
-    pad.
+    """Return the position of a drone at times (M,), shape (M, 3).
+
+    Before and after its flight it is on its pad.
     """
     return np.asarray(curve(np.clip(times, curve.start, curve.end))[:, :3])

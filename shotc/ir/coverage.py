@@ -60,8 +60,7 @@ class Coverage:
 def coverage(
     mission: MissionIR, others: Sequence[DroneTrajectory], target: str, eyes: Array, t: Array
 ) -> Coverage:
-    """Return the covered share of a target's outline from eyes (M, 3), metres, at mission times (M,),
-    seconds.
+    """Return the covered share of a target's outline from eyes (M, 3), m, at mission times (M,), s.
 
     others : flights of the drones that count as occluders
     """
@@ -143,8 +142,9 @@ def _over(some: Mask, shares: Array) -> Array:
 def _things(
     mission: MissionIR, others: Sequence[DroneTrajectory], filmed: Target, boards: Billboards, t: Array
 ) -> Iterator[_Thing]:
-    """Yield the possible occluders of a target; boards : the bounding rectangle of its outline in each
-    frame.
+    """Yield the possible occluders of a target.
+
+    boards : the bounding rectangle of its outline in each frame
     """
     for zone in mission.opaque_zones:
         yield _Thing(f"zone {zone.name}", near_solid(boards, zone.solid), partial(_by_solid, zone.solid))

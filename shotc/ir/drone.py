@@ -129,9 +129,7 @@ class Drone(NamedTuple):
 
     @property
     def zooms_unasked(self) -> bool:
-        """Whether a plan may zoom in a shot of one field of view: the files of its autopilot can command
-        it.
-        """
+        """Whether a plan may zoom in a shot of one field of view: its autopilot's files can command it."""
         return self.zooms and self.autopilot in ZOOM_COMMANDS
 
     @property

@@ -59,8 +59,9 @@ class Ramp(NamedTuple):
 
 
 class Chase(NamedTuple):
-    """A band of light that crosses the picture once a period; length : of the band, as a share of the
-    picture.
+    """A band of light that crosses the picture once a period.
+
+    length : of the band, as a share of the picture
     """
 
     color: Color
@@ -79,8 +80,9 @@ class Sparkle(NamedTuple):
 
 
 class Image(NamedTuple):
-    """A picture file projected onto the lights from the audience; period : seconds of all its frames, None
-    for the times in the file.
+    """A picture file projected onto the lights from the audience.
+
+    period : seconds of all its frames, None for the times in the file
     """
 
     file: str

@@ -67,9 +67,7 @@ class StartedFraming(NamedTuple):
 
 
 def at_start(mission: MissionIR, shot: Shot, start: float) -> Shot:
-    """Return a shot resolved for its first frame at ``start``, seconds: framings and keyframes depend on
-    it.
-    """
+    """Return a shot resolved for its first frame at ``start``, s: framings and keyframes depend on it."""
     if shot.timing.start is not None and abs(shot.timing.start - start) <= SAME_TIME_S:
         return shot
     if is_keyed(shot):
@@ -86,8 +84,9 @@ def course_of(mission: MissionIR, shot: Shot, start: float) -> StartedFraming:
 
 
 def places_of(composition: Composition) -> list[Vec2]:
-    """Return the places (u, v) of a composition, the nearest to the middle first; a line gives its
-    nearest.
+    """Return the places (u, v) of a composition, the nearest to the middle first.
+
+    A line gives its nearest.
     """
     points = [*composition.points, *((c, 0.0) for c in composition.u_lines)]
     points += [(0.0, c) for c in composition.v_lines]
@@ -239,9 +238,7 @@ def _opening(scene: FramedScene) -> tuple[Pose, tuple[Subject, ...]]:
 
 
 def _score(scene: FramedScene, first: Pose, subjects: tuple[Subject, ...]) -> tuple[float, float]:
-    """Return the share of a course at which the camera lacks a clearance, and the hidden share of its
-    subjects.
-    """
+    """Return the share of a course with too little clearance, and the hidden share of its subjects."""
     times = scene.times[:: max(1, len(scene.times) // 6)]
     poses = _follow(scene, subjects, first, times)
     eyes = [(t, (p[0], p[1], p[2])) for t, p in zip(times, poses, strict=True)]
@@ -265,8 +262,9 @@ def _polished(
 def _follow(
     scene: FramedScene, subjects: Sequence[Subject], first: Pose, times: Sequence[float]
 ) -> tuple[Pose, ...]:
-    """Return the poses at times; the initial guess of each is the one before, moved along with the
-    subjects.
+    """Return the poses at times.
+
+    The initial guess of each is the one before, moved along with the subjects.
     """
     poses = [first]
     middle, before = middle_of(scene.wanted(subjects, times[0])), times[0]

@@ -105,9 +105,7 @@ class FramedScene:
         return sum(without_room(self.mission, self.drone, eyes)) / len(eyes)
 
     def covered(self, eyes: Sequence[tuple[float, Vec3]]) -> float:
-        """Return the hidden share of the subjects, 0 to 1: their middles count one half, each side one
-        quarter.
-        """
+        """Return the hidden share of the subjects, 0 to 1: middles weigh one half, each side one quarter."""
         weights = (0.5, 0.25, 0.25)
         hidden = 0.0
         for s in self.shot.subjects:

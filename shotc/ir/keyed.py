@@ -75,9 +75,7 @@ def keeps_a_place(shot: Shot) -> bool:
 
 
 def carriers(shot: Shot) -> tuple[str, ...]:
-    """Return the targets that the places of a shot on its own clock are relative to, and those that it
-    films.
-    """
+    """Return the targets of a shot on its own clock: those of its relative places and those it films."""
     ideal = () if shot.ideal is None or shot.ideal.target is None else (shot.ideal.target,)
     beside = (k.beside.target for k in shot.keyframes if k.beside is not None)
     return tuple(dict.fromkeys([*ideal, *beside, *(s.target for s in shot.subjects)]))
@@ -112,8 +110,7 @@ def arrivals(shot: Shot) -> tuple[float, ...]:
 
 
 def zoom_parts(shot: Shot, lens: LensRange | None) -> tuple[int | None, ...]:
-    """Return the parts of ``geom.ease`` with which a lens zooms from each keyframe to the next within its
-    rate.
+    """Return the parts of ``geom.ease`` for a zoom from each keyframe to the next within the lens's rate.
 
     None where it is too slow for the time between; an unknown lens is never too slow.
     """
@@ -185,8 +182,9 @@ def _slope(speeds: list[tuple[float, float]], i: int, *, rests: bool) -> Vec3:
 
 
 def _weights(bends: _Bends, t: float) -> tuple[Weight, ...]:
-    """Return the weight of each keyframe at a time, seconds from the shot's start; the weights add up to
-    1.
+    """Return the weight of each keyframe at a time, seconds from the shot's start.
+
+    The weights add up to 1.
     """
     i = bisect_right(bends.arrive, t) - 1
     if i < 0:

@@ -34,9 +34,7 @@ class PlacedKeyframe(NamedTuple):
     turn: float | None = None
 
     def asks_for_lens(self, own: float) -> bool:
-        """Return whether its field of view is required: by the author, or because it differs from ``own``,
-        rad.
-        """
+        """Return whether the field of view is required: by the author, or as it differs from ``own``, rad."""
         return self.placed or self.hfov != own
 
 

@@ -21,8 +21,9 @@ class Axis(NamedTuple):
 
 
 class Radius(NamedTuple):
-    """A coordinate: 0 at a centre, 1 at ``reach`` metres from it; inward : 1 at the centre, 0 at
-    ``reach``.
+    """A coordinate: 0 at a centre, 1 at ``reach`` metres from it.
+
+    inward : 1 at the centre, 0 at ``reach``
     """
 
     centre: Vec3

@@ -22,9 +22,7 @@ ALL: Levels = np.ones((1, 1), dtype=np.float32)
 
 
 class Spots:
-    """Lights at times: numbers (n,) of drones, times (T,), and positions, which are evaluated on first
-    use.
-    """
+    """Lights at times: drone numbers (n,), times (T,), and positions, evaluated on first use."""
 
     def __init__(self, numbers: NDArray[np.intp], times: Array, breaks: Array, coef: Array) -> None:
         self.numbers, self.times = numbers, times
@@ -132,8 +130,9 @@ def _mixed(value: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 
 def pixels(footage: Footage) -> NDArray[np.uint8]:
-    """Return the frames of an image, shape (frames, rows, columns, 4); raise ValueError if the data is
-    damaged.
+    """Return the frames of an image, shape (frames, rows, columns, 4).
+
+    Raises ValueError if the data is damaged.
     """
     return _unpacked(footage.rgba, (len(footage.ends), footage.rows, footage.columns, 4))
 
@@ -174,9 +173,7 @@ def _footage(paint: Footage, spots: Spots) -> tuple[Levels, Levels]:
 
 
 def _between(share: Array, count: int) -> tuple[NDArray[np.intp], Levels]:
-    """Return the pixel whose centre is at or before a share of an image, and the share of the way to the
-    next.
-    """
+    """Return the pixel with its centre at or before a share of an image, and the fraction to the next."""
     at = np.clip(share * count - 0.5, 0.0, count - 1.0)
     first = np.floor(at).astype(np.intp)
     return first, (at - first).astype(np.float32)

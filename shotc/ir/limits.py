@@ -90,9 +90,7 @@ class Limits(NamedTuple):
 
     @property
     def usable_acceleration(self) -> float:
-        """The planner's bound, m/s^2: in every direction it keeps the limits of acceleration, tilt and
-        thrust.
-        """
+        """The planner's bound, m/s^2: in all directions within the acceleration, tilt and thrust limits."""
         return min(self.acceleration_bounds.values())
 
 

@@ -56,8 +56,7 @@ class Zone(NamedTuple):
 
 
 class Composition(NamedTuple):
-    """The admissible places of a target on screen: points, lines, or the place by the user's angles
-    (``keep``).
+    """The admissible places of a target on screen: points, lines, or by the user's angles (``keep``).
 
     Without any of them the camera keeps its own angles and the target has no reference.
 
@@ -326,9 +325,7 @@ class MissionIR(NamedTuple):
         return self.ground(place[0], place[1]) + self.rules.over_ground(radius)
 
     def base(self, above: Above, place: Vec2, target: Target, t: float) -> float:
-        """Return z of the reference of heights at a place, for the target's position at a mission time,
-        metres.
-        """
+        """Return z of the height reference at a place, for the target's position at a mission time, m."""
         return counted_from(above, self.ground, place, target.foot_at(t)[2])
 
     def drone(self, name: str) -> Drone:

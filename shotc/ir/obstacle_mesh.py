@@ -82,9 +82,7 @@ class ObstacleMesh:
         return NearPart(name, float(found.distance[0]), (float(x), float(y), float(z)))
 
     def block(self, part: int) -> UprightPrism:
-        """Return the upright prism about a part: the convex hull of its corners in the plan, with their
-        heights.
-        """
+        """Return the upright prism about a part: the convex hull of its corners in the plan, and heights."""
         corners = self.surface.triangles[self.part[self.surface.source] == part].reshape(-1, 3)
         plan = np.unique(corners[:, :2], axis=0).tolist()
         low, high = float(corners[:, 2].min()), float(corners[:, 2].max())

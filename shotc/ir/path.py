@@ -183,9 +183,7 @@ class PathDeviation:
 
 @dataclass(frozen=True, slots=True)
 class ClockDeviation:
-    """The largest deviation of a shot on its own clock: ``distance`` metres at mission time t, and its
-    cause.
-    """
+    """The largest deviation of a shot on its own clock: ``distance`` m at mission time t, and its cause."""
 
     shot: str
     distance: float

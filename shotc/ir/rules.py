@@ -43,19 +43,22 @@ class Rules(NamedTuple):
     look_ahead: float | None = None
 
     def over_ground(self, radius: float) -> float:
-        """Return the least height of a body's centre above flat ground, metres; radius : of the body,
-        metres.
+        """Return the least height of a body's centre above flat ground, metres.
+
+        radius : of the body, metres
         """
         return self.ground_clearance + radius
 
     def beside_target(self, radius: float) -> float:
-        """Return the least distance of a body's centre from a target, metres; radius : of the body,
-        metres.
+        """Return the least distance of a body's centre from a target, metres.
+
+        radius : of the body, metres
         """
         return self.target_clearance + radius
 
     def beside_obstacle(self, radius: float) -> float:
-        """Return the least distance of a body's centre from scenes and buildings, metres; radius : as
-        there.
+        """Return the least distance of a body's centre from scenes and buildings, metres.
+
+        radius : as there
         """
         return self.obstacle_clearance + radius

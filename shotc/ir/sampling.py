@@ -41,8 +41,9 @@ def ticks(rate: float, start: float, end: float) -> Array:
 
 
 def phase_index(phases: tuple[Phase, ...], t: Array) -> NDArray[np.intp]:
-    """Return the index of the phase at times t (M,), shape (M,); a boundary belongs to the phase that starts
-    there.
+    """Return the index of the phase at times t (M,), shape (M,).
+
+    A boundary belongs to the phase that starts there.
     """
     starts = np.array([phase.start for phase in phases[1:]])
     return np.asarray(np.searchsorted(starts, t + SAME_TIME_S, side="right"))
@@ -103,9 +104,7 @@ def beside_cameras(eyes: Cameras, target: Target, t: Array) -> Cameras:
 
 
 def beside(curve: Piecewise, target: Target) -> Piecewise:
-    """Return a curve of channels x, y, z over mission time relative to the target, which stands at its
-    centre.
-    """
+    """Return a curve of channels x, y, z over mission time, relative to the target's centre."""
     if target.track is None:
         return curve
     seen_by = seen_from(curve, target.track)

@@ -1,6 +1,4 @@
-"""The inputs of a mission's lowering: its text, the files that it names, and planning's choices. Plain
-Python.
-"""
+"""The inputs of a mission's lowering: its text, its files, and planning's choices. Plain Python."""
 
 from pathlib import Path
 from typing import Literal, NamedTuple

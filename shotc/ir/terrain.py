@@ -84,8 +84,9 @@ class Terrain:
 
 
 def ground_heights(mission: MissionIR, xy: Array) -> Array:
-    """Return z of the ground at places (N, 2), metres of W, shape (N,); ``mission.ground`` does so for
-    one.
+    """Return z of the ground at places (N, 2), metres of W, shape (N,).
+
+    ``mission.ground`` does so for one.
     """
     if mission.terrain is None:
         return np.zeros(len(xy))

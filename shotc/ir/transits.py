@@ -27,8 +27,9 @@ class TransitClearance(NamedTuple):
 
 
 class TransitInterval(NamedTuple):
-    """A way from mission time ``start`` to ``end``, seconds; shot : the one that it leads to, None for the
-    pad.
+    """A way from mission time ``start`` to ``end``, seconds.
+
+    shot : the one that it leads to, None for the pad
     """
 
     start: float

@@ -91,8 +91,9 @@ class Expansion(NamedTuple):
 
     @classmethod
     def of(cls, parts: Iterable[Part]) -> Self:
-        """Return the expansion of parts; it has keyframes only if there are no diagnostics and deferred
-        parts.
+        """Return the expansion of parts.
+
+        It has keyframes only if there are no diagnostics and deferred parts.
         """
         items = tuple(parts)
         diagnostics = tuple(p for p in items if isinstance(p, Diagnostic))
@@ -243,9 +244,7 @@ class Scene(NamedTuple):
         return Diagnostic(code, message, (self.origins.value((*self.path, *path)),), notes, help)
 
     def lasting(self, code: str, message: str, *path: str | int) -> Diagnostic:
-        """Return the diagnostic of a shot without the duration that it needs, at its timing if there is
-        one.
-        """
+        """Return the diagnostic of a shot without a required duration, at its timing if there is one."""
         timing = (*self.path, "timing")
         if timing not in self.origins.values:
             return self.fault(code, message, "add `timing: {duration: ...}`", *path)

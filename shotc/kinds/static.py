@@ -59,9 +59,7 @@ def expand(shot: StaticShot, scene: Scene) -> Expansion:
 
 
 def _kept(shot: StaticShot, scene: Scene) -> Vec2 | Diagnostic | None:
-    """Return the constant (yaw, pitch) of a camera whose target moves through the picture; None without
-    one.
-    """
+    """Return the constant (yaw, pitch) of a camera whose target moves through the picture, or None."""
     if shot.heading is not None and shot.pitch is not None:
         return (yaw_of(shot.heading), shot.pitch)
     if shot.look_at is None or isinstance(shot.look_at, str):

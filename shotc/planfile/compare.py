@@ -54,9 +54,7 @@ class ClaimChange:
 
 @dataclass(frozen=True, slots=True)
 class FleetChange:
-    """A fleet in two plans: numbers of drones, and flight times in seconds; None if a plan has no such
-    fleet.
-    """
+    """A fleet in two plans: numbers of drones and flight times, s; None if a plan has no such fleet."""
 
     fleet: str
     drones: tuple[int | None, int | None]

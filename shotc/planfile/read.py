@@ -203,9 +203,7 @@ class _Source(NamedTuple):
 
 
 def _source(value: Any, decoder: Decoder) -> _Source | None:
-    """Return the source of the mission, or None after a fault. Plans of earlier versions do not hold its
-    text.
-    """
+    """Return the source of the mission, or None after a fault. Older plans do not hold its text."""
     kinds: dict[str, Any] = {"file": str, "sha256": str}
     if isinstance(value, dict) and not value.keys() <= kinds.keys():
         kinds |= {"text": tuple[str, ...], "tables": object, "drawn": object, "chosen": object}

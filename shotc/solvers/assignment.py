@@ -1,6 +1,4 @@
-"""Assignment problems: a mixed-integer linear programme with binary choices, solved exactly by HiGHS
-(scipy).
-"""
+"""Assignment problems: mixed-integer linear programmes with binary choices, solved by HiGHS (scipy)."""
 
 from __future__ import annotations
 

@@ -26,9 +26,7 @@ _LARGEST = int(sys.float_info.max)
 
 
 def resolve(text: str) -> ScalarValue:
-    """Return the value of a plain (unquoted) scalar. A number beyond the range of a float becomes
-    infinite.
-    """
+    """Return the value of a plain (unquoted) scalar. A number beyond the range of floats is infinite."""
     if text in _WORDS:
         return _WORDS[text]
     if text[0] not in _NUMBER_STARTS:

@@ -86,9 +86,7 @@ def _wide(data: bytes, name: str, codec: str, title: str) -> DecodedFile:
 
 
 def _not_utf8(data: bytes, error: UnicodeDecodeError, file: SourceFile) -> Fault:
-    """Return the fault of the first byte that is not UTF-8. Its offset is the length of the text before
-    it.
-    """
+    """Return the fault of the first byte that is not UTF-8, at the end of the text before it."""
     offset = len(data[: error.start].decode("utf-8"))
     byte = data[error.start]
     notes = [f"byte {error.start} of the file is 0x{byte:02x}"]

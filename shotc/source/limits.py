@@ -1,6 +1,4 @@
-"""Size limits of a mission, far above the need of missions and far below what costs too much time or
-memory.
-"""
+"""Size limits of a mission: far above the need of missions, far below a cost in time or memory."""
 
 from __future__ import annotations
 

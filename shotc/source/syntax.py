@@ -161,9 +161,7 @@ def _stray_item(c: Complaint) -> Fault:
 
 
 def _not_a_key(c: Complaint) -> Fault:
-    """Return the fault of text that is no key of the mapping: a stray bracket, trailing text or an odd
-    indent.
-    """
+    """Return the fault of text that is no key: a stray bracket, trailing text or an odd indent."""
     if c.character and c.character in "]}":
         return _stray_bracket(c)
     if c.character == ":":

@@ -9,8 +9,9 @@ class StopParsing(Exception):
 
 
 class XmlReader(Protocol):
-    """The handlers that expat calls. `feed` sets ``parser`` before the first call; it knows the line
-    number.
+    """The handlers that expat calls. `feed` sets ``parser`` before the first call.
+
+    It knows the line number.
     """
 
     parser: Any
@@ -29,9 +30,7 @@ class XmlReader(Protocol):
 
 
 class NotXml(NamedTuple):
-    """Why bytes are not XML: message of expat or Python, line and column from 1, whether it is the
-    encoding.
-    """
+    """Why bytes are not XML: message, line and column from 1, and whether it is the encoding."""
 
     reason: str
     line: int = 1

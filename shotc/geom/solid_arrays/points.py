@@ -80,9 +80,7 @@ def signed_distance(solid: Solid, p: Array) -> Array:
 
 
 def footprint_distances(solid: Solid, xy: Array) -> Array:
-    """Return the horizontal distances (...) of points (..., 2) from the solid's footprint, metres, 0
-    inside.
-    """
+    """Return horizontal distances (...) of points (..., 2) from the footprint, metres, 0 inside."""
     if isinstance(solid, Cylinder):
         return np.maximum(_from_axis(solid, xy) - solid.radius, 0.0)
     return np.where(in_footprint(solid, xy), 0.0, np.sqrt(_from_edges(solid, xy)[0].min(axis=-1)))
@@ -101,8 +99,9 @@ def in_footprint(solid: Solid, xy: Array) -> Mask:
 
 
 def in_convex(corners: Array, xy: Array) -> Mask:
-    """Return which points (..., 2) are in or on a convex polygon, shape (...); corners (k, 2)
-    counter-clockwise.
+    """Return which points (..., 2) are in or on a convex polygon, shape (...).
+
+    corners : in counter-clockwise order, shape (k, 2)
     """
     sides = np.roll(corners, -1, axis=0) - corners
     offset = xy[..., None, :] - corners

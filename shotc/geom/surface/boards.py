@@ -58,9 +58,7 @@ def billboards(eye: Array, centre: Array, width: Array | float, height: Array | 
 
 
 def facing_cylinders(eye: Array, centre: Array, radius: float, height: float) -> Billboards:
-    """Return the least such rectangles that contain the outlines of upright cylinders at centres (F, 3) from
-    afar.
-    """
+    """Return the least rectangles around the outlines of upright cylinders at centres (F, 3) from afar."""
     away = centre - eye
     far = np.maximum(np.linalg.norm(away, axis=1), _NO_LENGTH)
     upright = np.hypot(away[:, 0], away[:, 1]) / far

@@ -51,9 +51,7 @@ class Splats:
 
 
 def splats(points: Array, size: float, most: int) -> Splats:
-    """Return at most ``most`` representatives of points (N, 3), N > 0, in cells of at least ``size``,
-    metres.
-    """
+    """Return at most ``most`` representatives of points (N, 3), N > 0, in cells of ``size`` m or more."""
     while True:
         order, begins = _in_cells(points, size)
         if len(begins) <= most:
@@ -65,9 +63,7 @@ def splats(points: Array, size: float, most: int) -> Splats:
 
 
 def _thinned(points: Array, most: int) -> tuple[Array, float]:
-    """Return the middles of the boxes around the points of each cell, (M, 3), and the largest distance
-    moved.
-    """
+    """Return the box middles of each cell's points, (M, 3), and the largest distance moved."""
     kept = splats(points, float(np.ptp(points, axis=0).max()) / _FIRST_CELLS, most)
     order, begins = _in_cells(points, kept.size)
     counts = np.diff(np.append(begins, len(points)))

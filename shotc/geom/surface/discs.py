@@ -50,8 +50,7 @@ def stopped_by_discs(
 def _cells_about(
     away: Array, frame: IntArray, boards: Billboards, radius: float, n: int
 ) -> tuple[IntArray, IntArray]:
-    """Return the first and the last cell, along right and up, whose rays may meet discs at points, (K, 2)
-    each.
+    """Return the first and last cell, along right and up, whose rays may meet discs, (K, 2) each.
 
     away : the points minus the eyes of their frames, (K, 3), metres
     """

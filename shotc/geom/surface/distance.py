@@ -67,9 +67,7 @@ class Numbered:
 
 @dataclass(slots=True)
 class LeastSearch:
-    """The state of a minimisation: the least value found, and the least bound of what was not halved
-    further.
-    """
+    """The state of a minimisation: the least value, and the least bound of pieces not halved further."""
 
     best: float = np.inf
     at: float = 0.0
@@ -87,9 +85,7 @@ class LeastSearch:
             self.piece, self.triangle = int(parts.source[i]), int(triangles[k])
 
     def keep_open(self, pairs: Pairs, lower: Array, gap: Gap) -> tuple[Pairs, Array]:
-        """Return the pairs whose bounds (K,) are below the least known value minus the gap, and these
-        bounds.
-        """
+        """Return the pairs with bounds (K,) below the least known value minus the gap, and these bounds."""
         is_open = lower < self.best - gap(self.best)
         self.closed = min(self.closed, float(lower[~is_open].min(initial=np.inf)))
         self.rest = float(lower[is_open].min(initial=np.inf))

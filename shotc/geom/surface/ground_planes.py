@@ -99,9 +99,7 @@ def _cut(triangles: Array, pairs: Pairs, low: Array, high: Array) -> Corners:
 
 
 def _over(triangles: Array, low: Array, high: Array) -> Array:
-    """Return the corners of boxes (K, 2) inside triangles, at the triangles' height, (K, 4, 3); NaN for
-    others.
-    """
+    """Return box corners (K, 2) inside triangles at the triangles' height, (K, 4, 3); else NaN."""
     x = np.stack([low[:, 0], high[:, 0], high[:, 0], low[:, 0]], axis=1)
     y = np.stack([low[:, 1], low[:, 1], high[:, 1], high[:, 1]], axis=1)
     one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]

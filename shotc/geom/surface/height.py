@@ -117,9 +117,7 @@ class _Heights:
         return np.asarray(high[:, 2] if self.sign > 0 else -low[:, 2])
 
     def _bounds(self, parts: Numbered, pairs: Pairs, triangles: Array) -> Array:
-        """Return lower bounds (K,) of values over pairs, by the triangle's plane and by its extreme
-        corner.
-        """
+        """Return lower bounds (K,) of values over pairs, by triangle plane and extreme corner."""
         ctrl = parts.pieces.ctrl[pairs.item]
         lowest_z = (self.sign * ctrl[..., 2]).min(axis=1)
         above = lowest_z - self._top(lowest(triangles), highest(triangles))
@@ -143,8 +141,7 @@ class _Heights:
 
 
 def _parted(triangles: Array, ctrl: Array) -> Mask:
-    """Return which triangles (K, 3, 3) one of their sides separates from control points (K, n + 1, 3), in the
-    plan.
+    """Return which triangles (K, 3, 3) a side separates in the plan from control points (K, n + 1, 3).
 
     Triangles without area in the plan are no ground and always separated.
     """

@@ -35,8 +35,7 @@ class Hits:
 
 
 def first_hits(surface: Surface, boards: Billboards, n: int, disc: float = 0.0) -> Hits:
-    """Return the first intersections of unbounded rays from eyes through n x n cells of billboards, (F, n,
-    n).
+    """Return the first hits (F, n, n) of unbounded rays from eyes through n x n billboard cells.
 
     disc : radius of the discs that stand for points, metres; with 0 no ray meets a point
     """

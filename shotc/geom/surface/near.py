@@ -37,9 +37,7 @@ class NearestOnSurface:
 
 
 def nearest(surface: Surface, p: Array, limit: Array | float = np.inf) -> NearestOnSurface:
-    """Return the nearest points of a surface to points (K, 3), within ``limit``, metres, one for all or
-    (K,).
-    """
+    """Return the nearest surface points to points (K, 3) within ``limit``, metres, scalar or (K,)."""
     count = len(p)
     found = NearestOnSurface(np.full(count, np.inf), np.full((count, 3), np.nan), np.full(count, -1))
     limits = np.broadcast_to(np.asarray(limit, dtype=np.float64), (count,))
@@ -103,9 +101,7 @@ def some_distance(surface: Surface, p: Array) -> Array:
 
 
 def within(surface: Surface, low: Array, high: Array, reach: Array | float) -> Pairs:
-    """Return the triangles whose boxes are nearer than ``reach``, metres, to boxes low-high, shapes (K,
-    3).
-    """
+    """Return the triangles with boxes nearer than ``reach``, metres, to boxes low-high, (K, 3) each."""
     reaches = np.broadcast_to(np.asarray(reach, dtype=np.float64), (len(low),))
 
     def meets(item: IntArray, its_low: Array, its_high: Array) -> Mask:

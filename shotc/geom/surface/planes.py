@@ -186,9 +186,7 @@ def _distances(triangles: Array, hulls: Array) -> Array:
 
 
 def _away(triangles: Array, p: Array) -> tuple[Array, Array]:
-    """Return unit directions (K, 3) from triangles to points (K, 3), up for points on them, and distances
-    (K,).
-    """
+    """Return unit directions (K, 3) from triangles to points (K, 3) (up on them), and distances (K,)."""
     found = closest(triangles, p)
     away = p - found.point
     outside = (found.distance > TOUCHES_M)[:, None]

@@ -130,8 +130,7 @@ class _Pyramids:
     sides: Array
 
     def may_meet(self, frame: IntArray, corners: Array, disc: float) -> Mask:
-        """Return which triangles (K, 3, 3), from the eyes of frames (K,), are not separated from their rays,
-        (K,).
+        """Return which triangles (K, 3, 3), seen from eyes of frames (K,), their rays may hit, (K,).
 
         disc : radius of triangles without size, metres
         """
@@ -145,9 +144,7 @@ class _Pyramids:
         return np.asarray(may)
 
     def _reach_planes(self, frame: IntArray, corners: Array, beside: float) -> Mask:
-        """Return of which triangles the rays reach the plane, or come within ``beside`` metres of it,
-        (K,).
-        """
+        """Return which triangles' planes the rays reach or approach within ``beside`` metres, (K,)."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         normal /= np.maximum(np.sqrt(dot(normal, normal)), _NO_LENGTH)[:, None]
         far = dot(normal, corners[:, 0])
@@ -186,8 +183,9 @@ class _Sliding:
         return _Sliding(low, high, speed)
 
     def alike(self, on: Array) -> bool:
-        """Return whether the frames of a group have nearly the same view; on : vectors to their boards, (3,
-        F).
+        """Return whether the frames of a group have nearly the same view.
+
+        on : vectors to their boards, (3, F)
         """
         wide = (self.high - self.low) + self.speed[:3] + self.speed[3:]
         return bool((wide.sum(axis=0) <= ALIKE_RATIO * np.abs(on).sum(axis=0)).all())

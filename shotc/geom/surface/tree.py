@@ -79,9 +79,7 @@ def surface_of(triangles: Array) -> Surface:
 
 
 def _without_long(triangles: Array) -> Halved:
-    """Halve triangles that are long compared with the others, so that a few large ones do not slow
-    searches.
-    """
+    """Halve triangles that are long compared with others: a few large ones would slow searches."""
     sides = triangles[:, [1, 2, 0]] - triangles
     edges = np.sqrt(dot(sides, sides).max(axis=1))
     limit = max(LONG_EDGE_RATIO * float(np.median(edges)), LONG_EDGE_RATIO * 1e-3 * float(edges.max()), 1e-9)

@@ -115,8 +115,9 @@ def pierced(triangles: Array, a: Array, b: Array) -> Mask:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Halved:
-    """A subdivision of given triangles: triangles (N, 3, 3); source : (N,), index of each one's given
-    triangle.
+    """A subdivision of given triangles: triangles (N, 3, 3).
+
+    source : (N,), index of each one's given triangle
     """
 
     triangles: Array
@@ -124,9 +125,7 @@ class Halved:
 
 
 def halved(triangles: Array, longest: float) -> Halved:
-    """Split triangles (T, 3, 3) at the middle of their longest edge until none is longer than ``longest``
-    metres.
-    """
+    """Split triangles (T, 3, 3) at their longest edges until none is longer than ``longest`` metres."""
     done: list[Halved] = []
     rest, source = triangles, np.arange(len(triangles))
     while len(rest):

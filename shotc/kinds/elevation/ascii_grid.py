@@ -38,8 +38,9 @@ class Steps(NamedTuple):
 
 
 def read_ascii_grid(data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a grid (the middles of its cells), or its fault; grids in degrees are taken as
-    WGS84.
+    """Return the posts of a grid (the middles of its cells), or its fault.
+
+    Grids in degrees are taken as WGS84.
     """
     try:
         lines = data.decode("ascii").splitlines()

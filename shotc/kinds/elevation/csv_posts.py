@@ -22,8 +22,9 @@ USUAL_GAP_SHARE = 0.25
 
 
 def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFault:
-    """Return the posts of a table, or its fault; omitted places of the grid, and omitted rows, have no
-    height.
+    """Return the posts of a table, or its fault.
+
+    Omitted places of the grid, and omitted rows, have no height.
     """
     table = read_table(data, LAYOUTS, most=MOST_ROWS)
     if isinstance(table, FileFault):
@@ -53,9 +54,7 @@ def read_csv_posts(data: bytes, system: int | None = None) -> Posts | TerrainFau
 
 
 def _places(values: Array) -> tuple[Array, IntArray]:
-    """Return the coordinates along an axis, increasing and with missing ones added, and the index of each
-    value.
-    """
+    """Return the increasing coordinates along an axis, gaps filled, and the index of each value."""
     order = np.argsort(values, kind="stable")
     ordered = values[order]
     begins = np.concatenate([[True], np.diff(ordered) > SAME_PLACE_SHARE * (ordered[-1] - ordered[0])])

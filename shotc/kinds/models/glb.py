@@ -176,8 +176,9 @@ def _colors(file: _File, number: Any, count: int) -> Colors | None:
 
 
 def _accessor(file: _File, number: Any) -> Array:
-    """Return the rows of an accessor as 64-bit floats, (count, columns); raise ValueError if it is
-    damaged.
+    """Return the rows of an accessor as 64-bit floats, (count, columns).
+
+    Raises ValueError if it is damaged.
     """
     accessor = file.item("accessors", number)
     if "sparse" in accessor or "bufferView" not in accessor:

@@ -65,8 +65,9 @@ def _lines(text: str) -> _Lines:
 
 
 def _faces(lines: _Lines, count: int) -> tuple[IntArray, IntArray]:
-    """Return triangles (T, 3) of corner indices, and the face line of each, (T,); raise ValueError for a bad
-    index.
+    """Return triangles (T, 3) of corner indices, and the face line of each, (T,).
+
+    Raises ValueError for a bad index.
     """
     slashes = any("/" in line for line in lines.faces)
     words = [(_AFTER_SLASH.sub("", line) if slashes else line).split()[1:] for line in lines.faces]

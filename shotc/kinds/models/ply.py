@@ -1,6 +1,4 @@
-"""PLY files: a header of elements and their properties, then rows as text or as binary of either byte
-order.
-"""
+"""PLY files: a header of elements and properties, then rows as text or binary of either byte order."""
 
 from __future__ import annotations
 

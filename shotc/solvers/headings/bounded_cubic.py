@@ -42,9 +42,7 @@ def bounded_cubic(task: HeadingTask, energy: Energy, angles: Array) -> Piecewise
 
 
 def within_limits(task: HeadingTask, angles: Array, slope: Array) -> bool:
-    """Return whether the cubic with these values and slopes, shapes (N + 1,), keeps both limits
-    everywhere.
-    """
+    """Return whether the cubic of these values and slopes, (N + 1,) each, keeps both limits everywhere."""
     h = np.diff(task.at)
     chord = np.diff(angles) / h
     first, last = slope[:-1], slope[1:]

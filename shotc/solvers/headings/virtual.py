@@ -147,9 +147,7 @@ def _samples(grid: _Grid, order: int) -> tuple[IntArray, Array]:
 
 
 def _weights(h: Array, x: Array, order: int) -> Array:
-    """Return the weights of (p0, v0, p1, v1) in the derivative of that order at x of a piece, shape (M,
-    4).
-    """
+    """Return the weights of (p0, v0, p1, v1) in the derivative of that order at x of a piece, (M, 4)."""
     one, zero = np.ones_like(x), np.zeros_like(x)
     powers = [
         [one, x, x * x, x**3],

@@ -46,8 +46,9 @@ def _decoded(cost: Energy, shorter: Array, extra: Array) -> Decoded:
 
 
 def _judged(task: HeadingTask, cost: Energy, choices: list[Array], decoded: Decoded) -> Headings:
-    """Solve the choices, the cheapest first; the energy without limits is a lower bound of that with
-    limits.
+    """Solve the choices, the cheapest first.
+
+    The energy without limits is a lower bound of that with limits.
     """
     least = [cost.of(angles, cost.slopes(angles)) for angles in choices]
     best: tuple[float, Array, Piecewise] | None = None
