@@ -1,5 +1,5 @@
-"""Plans as they are flown: drones that lag, wind, sensors, and subjects that leave their track.
+"""Simulates plans: drones with lag, wind, sensors, and subjects that leave their track.
 
-A simulation proves nothing, and nothing that is proved depends on it: it helps to choose, and it judges what
-a mission asks of rehearsals (``rehearse``).
+A simulation proves nothing, and no proof depends on it. It helps to choose conditions and margins, and it
+judges what a mission asks of rehearsals (``rehearse``).
 """

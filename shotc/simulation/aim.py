@@ -1,4 +1,4 @@
-"""Camera angles that show a target at a place on screen: ``geom.camera.aim_at`` for many runs at once."""
+"""Camera angles that show a target at a place on screen: ``geom.camera.aim_at``, vectorised over runs."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ class Shown(NamedTuple):
 def aimed(offset: Array, uv: Array, half: Array) -> tuple[Array, Array]:
     """Return yaw and pitch (R,), rad, that show points at offsets (R, 3) from the eye, W, at (u, v) (R, 2).
 
-    half : tan of half the fields of view, (R, 2). Where no camera without roll shows the point there it looks
-    as steeply as it helps.
+    Where no camera without roll shows the point there, the pitch is as near as possible.
+
+    half : tan of half the fields of view, (R, 2)
     """
     right, up = uv[:, 0] * half[:, 0], uv[:, 1] * half[:, 1]
     norm = np.sqrt(right**2 + up**2 + 1.0)

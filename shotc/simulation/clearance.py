@@ -1,6 +1,6 @@
-"""How near the bodies of drones come to all else in a run, at its frames.
+"""Distances of the drones' bodies from everything else in a run, at its frames.
 
-Take-off and landing over a drone's own pad are left out, as in the proof.
+Take-off and landing over a drone's own pad are left out, as in verification.
 """
 
 from __future__ import annotations
@@ -21,13 +21,15 @@ from shotc.simulation.flight import DroneRuns
 from shotc.simulation.world import World, at_times
 
 MESH_LIMIT_M = 20.0
-"""Metres beyond which the distance from a scene is not told."""
+"""Metres, above which the distance from a mesh is not computed."""
 
 
 class ClosestApproach(NamedTuple):
-    """How near a drone's body comes to something: metres (negative: into it), and when, s.
+    """The least distance of a drone's body from an obstacle.
 
-    to : the thing as plans name it, or "drone NAME"
+    to : the obstacle's name in plans, or "drone NAME"
+    distance : metres, negative inside
+    time : seconds
     """
 
     to: str
@@ -36,7 +38,7 @@ class ClosestApproach(NamedTuple):
 
 
 def free_of_pad(track: DroneTrajectory, times: Array) -> Array:
-    """Return those of times at which a drone neither takes off nor lands."""
+    """Return those of times (M,) at which a drone neither takes off nor lands, shape (K,)."""
     inside = np.zeros(len(times), dtype=bool)
     for phase in track.phases:
         if phase.name not in UPRIGHT:
@@ -47,7 +49,7 @@ def free_of_pad(track: DroneTrajectory, times: Array) -> Array:
 def nearest(
     world: World, flown: DroneRuns, track: DroneTrajectory, times: Array
 ) -> list[tuple[ClosestApproach, ...]]:
-    """Return for every run how near a drone comes to each thing that stands, and to each target."""
+    """Return for every run the least distance of a drone from each obstacle and each target."""
     drone, mission = world.mission.drone(flown.drone), world.mission
     free = free_of_pad(track, times)
     if not len(free):
@@ -65,7 +67,9 @@ def nearest(
 
 
 def between(mission: MissionIR, one: DroneRuns, other: DroneRuns, times: Array) -> list[ClosestApproach]:
-    """Return for every run how near the bodies of two drones come; who has landed stands on the pad."""
+    """Return for every run the least distance of two drones' bodies; a drone that has landed is
+    on its pad.
+    """
     a, b = (at_times(f.position, f.times, times) for f in (one, other))
     reach = mission.drone(one.drone).radius + mission.drone(other.drone).radius
     away = np.linalg.norm(a - b, axis=2) - reach

@@ -1,4 +1,4 @@
-"""Under which conditions a plan is flown."""
+"""The conditions in which a plan is simulated."""
 
 from __future__ import annotations
 
@@ -16,12 +16,14 @@ from shotc.simulation.wind import WindField
 
 @dataclass(frozen=True, slots=True)
 class Conditions:
-    """What runs have in common.
+    """The conditions that all runs share.
 
-    loop : replay flies the plan; track lets the camera follow where its targets are taken to be; replan lets
-        the drone follow, too; replanner : who plans anew then, of ``plugins.names("replanners")``
-    vehicle : what flies: "lag" is ours, "rotorpy" needs RotorPy
-    gps : the receivers of drones and of targets that move; detector : what finds targets in pictures, or None
+    loop : "replay" flies the plan; with "track" the camera follows the estimates of its targets; with
+        "replan" the drone follows them as well
+    replanner : name of the replanner, of ``plugins.names("replanners")``
+    vehicle : "lag" is the built-in model, "rotorpy" needs RotorPy
+    gps : receiver of the drones and of moving targets
+    detector : finds targets in pictures, or None
     """
 
     loop: Loop = "replay"
@@ -34,9 +36,9 @@ class Conditions:
     seed: int = 1
 
     def chances(self, runs: Sequence[int], what: str) -> list[np.random.Generator]:
-        """Return random numbers for one thing in each run: no other thing and no other run changes them."""
+        """Return one random generator for each run; it depends only on the seed, the run and ``what``."""
         return [np.random.default_rng(self.seed_of(run, what)) for run in runs]
 
     def seed_of(self, run: int, what: str) -> tuple[int, ...]:
-        """Return the seed of one thing in a run."""
+        """Return the seed of one random quantity in a run."""
         return (self.seed, run, crc32(what.encode()))

@@ -1,4 +1,4 @@
-"""simulate.json: what came of every run, for programs; and flight.csv: the worst run, instant by instant."""
+"""simulate.json: the results of every run, for programs; and flight.csv: the worst run over time."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FLIGHT = (
 
 
 def json_text(done: Rehearsed) -> str:
-    """Return the document; the same rehearsal gives the same text, whatever ran it."""
+    """Return the document; the same rehearsal gives the same text on any number of processes."""
     mission = done.mission
     document = {
         "tool": {"name": "shotc", "version": __version__},
@@ -44,7 +44,7 @@ def json_text(done: Rehearsed) -> str:
 
 
 def _finite(value: Any) -> Any:
-    """Return a document without the numbers that JSON has not: infinite ones are words, as in plan.json."""
+    """Return a document in which infinite and undefined numbers are words, as in plan.json."""
     if isinstance(value, dict):
         return {key: _finite(each) for key, each in value.items()}
     if isinstance(value, tuple) and hasattr(value, "_asdict"):
@@ -55,9 +55,9 @@ def _finite(value: Any) -> Any:
 
 
 def flight_table(done: Rehearsed, world: World, flown: Sequence[DroneRuns]) -> str:
-    """Return flight.csv of the first run of a world, at the ticks of the output clock: by drone, then time.
+    """Return flight.csv of the first run of a world at the ticks of the output clock, by drone, then by time.
 
-    A drone that follows several targets has a row for each; one that follows none has one row.
+    A drone that follows several targets has a row for each; a drone that follows none has one row.
     """
     rows = [
         row
@@ -87,7 +87,7 @@ def _rows(done: Rehearsed, world: World, flown: DroneRuns, times: Any) -> Iterat
 
 
 def _known(world: World, flown: DroneRuns, of: Estimated, times: Any) -> Any:
-    """Return where a target is, where it is taken to be, and the deviation of that, (M, 7)."""
+    """Return the true position of a target, its estimate, and the estimate's standard deviation, (M, 7)."""
     spread = np.sqrt(np.trace(of.covariance[:, 0], axis1=1, axis2=2) / 3.0)
     return np.column_stack(
         [

@@ -1,4 +1,4 @@
-"""Diagnostics of rehearsals: conditions that nothing can be flown in, and promises that too few runs keep."""
+"""Diagnostics of rehearsals: conditions that cannot be flown, and requirements that too few runs keep."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ WORDS = {
 
 
 def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
-    """Yield what keeps conditions from being flown: too strong a wind, a truth that cannot be."""
+    """Yield the faults of conditions: too strong a wind, or an impossible true track."""
     mission, wind = ir.keyframes.mission, conditions.wind.speed
     end = max((track.curve.end for track in ir.drones), default=0.0)
     taken = mission.wind_taken
@@ -47,7 +47,7 @@ def unflyable(ir: TrajectoryIR, conditions: Conditions) -> Iterator[Diagnostic]:
 
 
 def not_kept(done: Rehearsed) -> Iterator[Diagnostic]:
-    """Yield what too few runs keep."""
+    """Yield the requirements that too few runs keep."""
     if done.kept:
         return
     failing = [each for each in done.verdicts if each.held < done.needed]

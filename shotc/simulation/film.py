@@ -1,4 +1,4 @@
-"""What a drone is to do, sampled from its plan at the steps of a simulation."""
+"""A drone's plan, sampled at the steps of a simulation."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from shotc.ir.trajectory import DroneTrajectory
 from shotc.simulation.vehicle import STEP_S, VehicleSetpoint
 
 LEAD_S = 1.5
-"""Seconds over which a camera comes to follow a target before a shot."""
+"""Seconds in which a camera passes from its plan to following a target before a shot."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FramedTarget:
     """A target that a drone frames.
 
-    wanted : where on screen it is to be at each step, (N, 2); NaN where it is not framed
-    share : how far the camera follows it, 0 to 1, shape (N,): it rises before a shot and falls after it
+    wanted : reference on screen at each step, (N, 2); NaN where it is not framed
+    share : how far the camera follows it, 0 to 1, shape (N,); it rises before a shot and falls after it
     """
 
     target: str
@@ -35,7 +35,8 @@ class FramedTarget:
 class PlanSamples:
     """One drone's plan at N steps of STEP_S.
 
-    times : (N,), s; position, velocity, acceleration : (N, 3), W
+    times : (N,), seconds
+    position, velocity, acceleration : (N, 3), W, metres, m/s, m/s^2
     yaw, pitch, yaw_rate, pitch_rate : of the camera, (N,), rad, rad/s
     half : tan of half the fields of view, (N, 2)
     """
@@ -54,7 +55,7 @@ class PlanSamples:
     framed: tuple[FramedTarget, ...]
 
     def step(self, time: float) -> int:
-        """Return the step at a time, or the first after it."""
+        """Return the index of the first step at or after a time."""
         return min(int(np.ceil(time / STEP_S - 1e-6)), len(self.times) - 1)
 
     def places(self, times: Array) -> Array:
@@ -62,18 +63,18 @@ class PlanSamples:
         return np.asarray(self.position[[self.step(time) for time in times.tolist()]])
 
     def setpoint(self, k: int) -> VehicleSetpoint:
-        """Return what the drone is asked for at a step."""
+        """Return the setpoint of the plan at a step."""
         return VehicleSetpoint(self.position[k, None], self.velocity[k, None], self.acceleration[k, None])
 
 
 def film_of(mission: MissionIR, track: DroneTrajectory) -> PlanSamples:
-    """Sample the plan of one drone, from its first second to its landing."""
+    """Return the samples of one drone's plan, from time 0 to its landing."""
     drone = mission.drone(track.drone)
     count = int(np.ceil(track.curve.end / STEP_S)) + 1
     times = np.arange(count, dtype=np.float64) * STEP_S
     pose = track.curve(times)
     rate, acceleration = track.curve.derivative()(times), track.curve.derivative(2)(times)
-    rate[-1] = acceleration[-1] = 0.0  # it stands on its pad
+    rate[-1] = acceleration[-1] = 0.0  # the drone stands on its pad
     half = np.tan(pose[:, HFOV] / 2)
     return PlanSamples(
         drone=drone,
@@ -104,7 +105,9 @@ def _framed(mission: MissionIR, track: DroneTrajectory, times: Array) -> tuple[F
 
 
 def _led_in(name: str, wanted: Array) -> FramedTarget:
-    """Let the camera begin to follow a target LEAD_S before a shot, and leave it as slowly afterwards."""
+    """Return a target that the camera begins to follow LEAD_S before a shot and releases as
+    slowly after it.
+    """
     asked = np.isfinite(wanted[:, 0])
     steps, rows = round(LEAD_S / STEP_S), np.arange(len(wanted))
     at = rows[asked]

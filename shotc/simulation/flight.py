@@ -1,4 +1,4 @@
-"""One drone of a plan, flown in many runs at once: sense, estimate, aim, fly."""
+"""One drone of a plan, simulated in many runs at once: sense, estimate, aim, fly."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ from shotc.simulation.vehicle import STEP_S, Lagging, Plant, Vehicle, VehicleSta
 from shotc.simulation.world import World
 
 HEADROOM_RATIO = 1.3
-"""Times the fastest speed of a plan, with which a controller may ask a drone to catch up."""
+"""Factor over the plan's fastest speed, with which a controller may let a drone catch up."""
 
 STEPS_PER_RECORD = 2
-"""Steps of the drone for one of the gimbal, and for one record: 50 a second."""
+"""Steps of the drone for one step of the gimbal and for one record: 50 a second."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Estimated:
-    """What a drone knew of a target: place (F, R, 3), metres, and its covariance (F, R, 3, 3)."""
+    """A drone's estimate of a target: position (F, R, 3), metres, and its covariance (F, R, 3, 3)."""
 
     target: str
     place: Array
@@ -43,8 +43,10 @@ class Estimated:
 class DroneRuns:
     """One drone in R runs at F instants.
 
-    times : (F,), s; position, velocity : (F, R, 3), W; yaw, pitch, roll : of the camera, (F, R), rad
-    replans : of every run, () where nothing is planned anew
+    times : (F,), seconds
+    position, velocity : (F, R, 3), W, metres, m/s
+    yaw, pitch, roll : of the camera, (F, R), rad
+    replans : of every run; () without replanning
     """
 
     drone: str
@@ -59,9 +61,10 @@ class DroneRuns:
 
 
 def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[DroneRuns, ...]:
-    """Fly the plans of several drones in all runs of a world, as many and in the same order.
+    """Return the flights of several drones in all runs of a world, in the order of the tracks.
 
-    Who plans anew does so one after the other: those of higher priority first, whose plans the others know.
+    With replanning, drones fly one after another: those of higher priority first, whose plans the others
+    know.
     """
     ranks = {track.drone: (world.mission.drone(track.drone).priority, track.drone) for track in tracks}
     done: dict[str, DroneRuns] = {}
@@ -75,11 +78,13 @@ def fly_all(world: World, tracks: Sequence[DroneTrajectory]) -> tuple[DroneRuns,
 
 
 def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent | None = None) -> DroneRuns:
-    """Fly the plan of one drone in all runs of a world.
+    """Return the flight of one drone in all runs of a world.
 
-    A run is the same whichever ran beside it, up to rounding; with the same beside it, to the last digit.
+    A run does not depend on the other runs of its block, up to rounding. In the same block it is reproduced
+    exactly.
 
-    sent : what drones of higher priority tell of their next seconds; own : takes what this one tells
+    sent : plans that drones of higher priority have sent
+    own : takes the plans that this drone sends
     """
     conditions, runs = world.conditions, world.runs
     name, count, n = film.drone.name, len(film.times), len(runs)
@@ -115,7 +120,10 @@ def fly(world: World, film: PlanSamples, sent: tuple[Sent, ...] = (), own: Sent 
 
 
 def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:
-    """Return the plant of a name; first : where drones hover at the start."""
+    """Return the plant with a name.
+
+    first : state of the drones at the start, hovering
+    """
     if name == "lag":
         return Lagging(vehicle)
     from shotc.simulation.rotorpy_plant import RotorPyPlant
@@ -124,12 +132,12 @@ def plant_of(name: VehicleName, vehicle: Vehicle, first: VehicleState) -> Plant:
 
 
 def fastest(limits: Limits) -> float:
-    """Return the largest speed that limits allow, climbing or sinking included, m/s."""
+    """Return the largest speed that limits allow, climb and descent included, m/s."""
     return hypot(limits.fastest, max(limits.climb, limits.descent))
 
 
 def _watched(world: World, film: PlanSamples) -> tuple[TrackedTarget, ...]:
-    """Return the targets that a drone follows with its camera: those that move, where the loop says so."""
+    """Return the moving targets that a drone's camera follows; none for the loop "replay"."""
     if world.conditions.loop == "replay":
         return ()
     moving = (f for f in film.framed if world.moves(f.target))
@@ -139,10 +147,11 @@ def _watched(world: World, film: PlanSamples) -> tuple[TrackedTarget, ...]:
 def _asked(
     world: World, film: PlanSamples, k: int, drone: tuple[Array, Array], targets: tuple[TrackedTarget, ...]
 ) -> tuple[Array, Array]:
-    """Return the attitudes that cameras are asked for, (R, 3, 3), and their rates, (R, 3).
+    """Return the demanded attitudes of cameras, (R, 3, 3), and their rates, (R, 3).
 
-    drone : where drones take themselves to be and how they move, (R, 3) each. Of several targets the mean of
-    the angles that each asks for is taken.
+    For several targets, the mean of their angles is taken.
+
+    drone : estimated positions of the drones and their velocities, (R, 3) each
     """
     yaw, pitch, rates = film.yaw[k], film.pitch[k], np.array([film.yaw_rate[k], film.pitch_rate[k]])
     asked = np.tile([yaw, pitch, *rates], (len(drone[0]), 1))
@@ -162,14 +171,14 @@ def _asked(
 
 
 def _beyond(aim: Array, planned: Array) -> Array:
-    """Return angles and rates less those of the plan, (R, 4); the yaw by the shorter turn."""
+    """Return angles and rates minus those of the plan, (R, 4), with the yaw wrapped."""
     away = aim - planned
     away[:, 0] = wrapped(away[:, 0])
     return away
 
 
 def _known(world: World, name: str, targets: tuple[TrackedTarget, ...], time: float) -> tuple[Array, Array]:
-    """Return where a target is taken to be, and how it moves; what stands is where the mission says."""
+    """Return a target's estimated position and velocity; for a standing target the mission's."""
     for target in targets:
         if target.name == name:
             now = target.tracker.now(time)
@@ -180,7 +189,7 @@ def _known(world: World, name: str, targets: tuple[TrackedTarget, ...], time: fl
 def _aim(
     film: PlanSamples, k: int, wanted: Array, drone: tuple[Array, Array], target: tuple[Array, Array]
 ) -> Array:
-    """Return yaw, pitch and their rates, (R, 4), that keep a target where it is to be on screen."""
+    """Return yaw, pitch and their rates, (R, 4), that keep a target at its reference on screen."""
     offset, velocity = target[0] - drone[0], target[1] - drone[1]
     # After its last frame a target has no place on screen.
     soon = min(k + STEPS_PER_RECORD, len(wanted) - 1)
@@ -192,7 +201,7 @@ def _aim(
 
 @dataclass(slots=True)
 class _Record:
-    """What is kept of a flight while it is flown."""
+    """The record of a flight under simulation."""
 
     position: Array
     velocity: Array

@@ -1,4 +1,4 @@
-"""A gimbal that turns a camera on SO(3), for many runs at once.
+"""A gimbal that turns a camera on SO(3), vectorised over runs.
 
 Frames: W is East, North, Up; C is x right, y down, z forward. An attitude is R_WC: its columns are the
 camera's axes in W.
@@ -19,8 +19,9 @@ from shotc.simulation.vehicle import within
 class GimbalModel:
     """A gimbal.
 
-    gain : of the attitude error, 1/s; lag : time constant of the motors, s
-    rate : largest rate of an axis, rad/s; both together reach root two of it
+    rate : largest rate of an axis, rad/s; both axes together reach sqrt(2) times it
+    gain : of the attitude error, 1/s
+    lag : time constant of the motors, seconds
     """
 
     rate: float
@@ -37,7 +38,7 @@ class Attitude:
 
 
 def axes_of(yaw: Array, pitch: Array) -> Array:
-    """Return R_WC (R, 3, 3) without roll of yaw and pitch (R,), rad: counter-clockwise from East, up."""
+    """Return R_WC (R, 3, 3) without roll, from yaw counter-clockwise from East and pitch up, (R,), rad."""
     cos_y, sin_y, cos_p, sin_p = np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch)
     right = np.stack([sin_y, -cos_y, np.zeros_like(yaw)], axis=-1)
     forward = np.stack([cos_p * cos_y, cos_p * sin_y, sin_p], axis=-1)
@@ -60,11 +61,11 @@ def turn_rate(axes: Array, yaw_rate: Array, pitch_rate: Array) -> Array:
 
 
 def turned(gimbal: GimbalModel, attitude: Attitude, wanted: Array, rate: Array, step: float) -> Attitude:
-    """Return cameras a step later that are asked for attitudes (R, 3, 3) that turn at ``rate`` (R, 3), in W.
+    """Return cameras a step later, with demanded attitudes (R, 3, 3) that turn at ``rate`` (R, 3), in W.
 
-    The law is omega = k (R_e - R_e^T)^vee / 2 + the rate that is wanted, R_e = R^T R* (Lee et al. 2010),
-    which in W is half the sum of the cross products of the axes. The motors' lag follows, and
-    R <- exp(omega h) R.
+    The control law is omega = k (R_e - R_e^T)^vee / 2 + the demanded rate, with R_e = R^T R* (Lee et al.
+    2010). In W it is half the sum of the cross products of the axes. The motors' lag follows, and R <-
+    exp(omega h) R.
     """
     error = 0.5 * cross(np.swapaxes(attitude.axes, 1, 2), np.swapaxes(wanted, 1, 2)).sum(axis=1)
     asked = within(gimbal.gain * error + rate, sqrt(2.0) * gimbal.rate)
@@ -73,7 +74,7 @@ def turned(gimbal: GimbalModel, attitude: Attitude, wanted: Array, rate: Array, 
 
 
 def rotated(axes: Array, by: Array) -> Array:
-    """Return attitudes (R, 3, 3) turned by rotation vectors in W, (R, 3), rad (Rodrigues)."""
+    """Return attitudes (R, 3, 3) rotated by rotation vectors in W, (R, 3), rad (Rodrigues)."""
     angle = np.sqrt(np.einsum("rd,rd->r", by, by))
     along = np.sinc(angle / np.pi)[:, None, None]
     across = (0.5 * np.sinc(angle / (2 * np.pi)) ** 2)[:, None, None]
@@ -84,7 +85,7 @@ def rotated(axes: Array, by: Array) -> Array:
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Return the cross products of vectors (..., 3); numpy's own takes five times as long for a few."""
+    """Return the cross products of vectors (..., 3); numpy's own is five times slower for a few."""
     out = np.empty(np.broadcast_shapes(a.shape, b.shape))
     out[..., 0] = a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1]
     out[..., 1] = a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2]

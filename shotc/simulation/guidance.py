@@ -1,4 +1,4 @@
-"""What a drone is asked to do at each step: what was planned, or what is planned anew while it flies."""
+"""The setpoint of a drone at each step: from its plan, or from a replan."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from shotc.simulation.walls import Standing
 from shotc.simulation.world import World
 
 PERIOD_S = 0.5
-"""Seconds between two plans."""
+"""Seconds between two replans."""
 
 LIMIT_S = 10.0
-"""Seconds after which a planner is given up: it hangs, for nobody could fly with it."""
+"""Seconds after which a replanner is given up as hanging; nobody could fly with it."""
 
 LOST_M = 4.0
-"""Standard deviation of a target's place beyond which nobody flies beside it, metres."""
+"""Standard deviation of a target's position, above which a drone does not fly beside it, metres."""
 
 STILL_M_S = 0.3
-"""Speed below which the course of a target is not known."""
+"""Speed, below which the course of a target is unknown."""
 
 COURSE_S = 3.0
 """Time over which the course of a target and its height are taken, seconds: one that weaves does not turn.
@@ -57,7 +57,7 @@ NEARER_M = 0.01
 
 @dataclass(slots=True)
 class Replans:
-    """How often a drone's plan was made anew in a run, and what came of it (``plugin_api.replanner``)."""
+    """The number of replans of a drone in a run by result (``plugin_api.replanner``)."""
 
     planned: int = 0
     stalled: int = 0
@@ -69,10 +69,12 @@ class Replans:
 
 @dataclass(slots=True)
 class Guidance:
-    """One drone of R runs.
+    """Guides one drone in R runs.
 
-    shots : those that are planned anew; () flies the plan; targets : what is known of those that move
-    sent : what the drones of higher priority have sent; own : takes what this one sends
+    shots : shots with replanning; () flies the plan
+    targets : the trackers of moving targets
+    sent : plans of drones of higher priority
+    own : takes the plans that this drone sends
     """
 
     world: World
@@ -92,9 +94,9 @@ class Guidance:
     _rise: Array | None = None
 
     def setpoint(self, k: int, drone: tuple[Array, Array]) -> VehicleSetpoint:
-        """Return what the drone is asked for at a step.
+        """Return the setpoint of the drone at a step.
 
-        drone : where it takes itself to be, and how it moves, (R, 3) each
+        drone : its estimated position and velocity, (R, 3) each
         """
         time = float(self.film.times[k])
         shot = next((s for s in self.shots if s.phase.start <= time < s.phase.end), None)
@@ -155,7 +157,7 @@ class Guidance:
         self._active = shot
 
     def _planned(self, time: float, count: int) -> Plan:
-        """Return the next seconds of the plan, from which the first replan goes on."""
+        """Return the next seconds of the plan, from which the first replan continues."""
         stages = time + STAGE_S * np.arange(count + 1, dtype=np.float64)
         curve = self.film.track.curve
         velocities = curve.derivative()(stages)[:, :3]
@@ -223,7 +225,7 @@ class Guidance:
             self.own.add(time, self._held.plans)
 
     def _traffic(self, run: int, stages: Array) -> Traffic:
-        """Return what the others have told of these instants, and what their cameras see then."""
+        """Return the sent positions of other drones at the stages, and the cones of their cameras."""
         mission = self.world.mission
         places = [each.places(run, stages) for each in self.sent]
         cones = [
@@ -234,7 +236,7 @@ class Guidance:
         return Traffic(np.array(places).reshape(-1, len(stages), 3), tuple(cones))
 
     def _asked(self, situation: Any, last: Plan, count: Replans) -> Plan | None:
-        """Return a new plan, or None where there is none: then the last one is flown to its end."""
+        """Return a new plan; None if there is none, so that the last one is flown to its end."""
         try:
             with time_limit(LIMIT_S):
                 done = self._planner.replan(situation, last)
@@ -256,10 +258,9 @@ class Guidance:
         return plan
 
     def _turn(self, shot: Anew | Rejoined, time: float, known: Known) -> Array:
-        """Return by how much the target's course is off the plan's, (R,), rad.
+        """Return the difference of the target's course from the planned one, (R,), rad.
 
-        It comes nearer to what is estimated by what COURSE_S makes of a period; it is kept while the target
-        stands.
+        It approaches the estimate with the time constant COURSE_S. It stays constant while the target stands.
         """
         assert self._course is not None
         if isinstance(shot, Chased) and shot.turns:
@@ -287,9 +288,10 @@ def _exact(phase: Phase) -> bool:
 
 
 def _cone_of(mission: MissionIR, drone: Drone) -> float | None:
-    """Return half the opening of the cone of a drone's camera that others keep their centres out of, rad.
+    """Return half the opening angle of the cone of a drone's camera that others must avoid, rad.
 
-    It is that of the rules, or goes to the sides of the frame. None where the mission does not require it.
+    It is that of the rules, else half the horizontal field of view. It is None if the mission does not
+    require it.
     """
     rules = mission.rules
     if rules.visibility != "require":
@@ -298,7 +300,7 @@ def _cone_of(mission: MissionIR, drone: Drone) -> float | None:
 
 
 def _lost(known: Known, run: int) -> str:
-    """Say which target is not known well enough to be flown beside; empty where all are."""
+    """Return why a target's estimate is too uncertain to fly beside it; "" if none is."""
     for name, each in known.items():
         deviation = float(np.sqrt(np.trace(each.now.covariance[run, :3, :3]) / 3.0))
         if deviation > LOST_M:

@@ -1,4 +1,4 @@
-"""What came of the runs of a plan: what cameras saw, how near drones came, how far they strayed."""
+"""Judges the runs of a plan: what cameras saw, the drones' clearances, and their strays."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from shotc.simulation.shows import FleetCourse, FleetPair, FleetRun
 from shotc.simulation.world import World, at_times
 
 SIGHT_S = 0.2
-"""Seconds between the instants at which it is looked at what hides a target."""
+"""Seconds between the samples at which occlusion is judged."""
 
 
 @dataclass(frozen=True, slots=True)
 class TargetFraming:
     """A target in the frames of a shot, in one run.
 
-    in_frame : share of frames with the whole target in them, 0 to 1
-    error, usual, worst : distance from where it is to be on screen, half frames: its mean, what 95 % of
-        frames do not exceed, the largest; None where the shot asks for no place. Infinite behind the camera
-    time : of the largest, or of the frame that it is farthest out of, s
-    in_sight : share of instants at which nothing that stands or is filmed hides more than half of its outline
+    in_frame : share of frames with the whole target, 0 to 1
+    error, usual, worst : screen error in half frames: mean, 95 % quantile and maximum; None if the shot has
+        no reference, infinite behind the camera
+    time : of the largest error, or of the largest cropping, seconds
+    in_sight : share of samples at which at most half of its outline is hidden
     """
 
     shot: str
@@ -53,13 +53,15 @@ class TargetFraming:
 
 @dataclass(frozen=True, slots=True)
 class TrackingError:
-    """How a drone kept to its plan in one run.
+    """A drone's deviation from its plan in one run.
 
-    stray, farthest : distance from where the plan has it at the same time, m: root of the mean square, the
-        largest; time : of the largest, s; speed : the largest over ground, m/s
-    roll : the largest that its picture was tilted, rad
-    spoiled : share of the instants at which it filmed with another drone in its picture, or in the cone that
-        the rules keep free; 0 where it is alone
+    stray, farthest : distance from the planned position at the same time, metres: root mean square and
+        maximum
+    time : of the maximum, seconds
+    speed : largest speed over ground, m/s
+    roll : largest roll of its picture, rad
+    spoiled : share of filming samples with another drone in its picture, or in the cone of the rules; 0
+        without other drones
     """
 
     drone: str
@@ -74,13 +76,16 @@ class TrackingError:
 
     @property
     def nearest(self) -> ClosestApproach | None:
-        """The thing that its body came nearest to."""
+        """The least distance of its body from anything."""
         return min(self.near, key=lambda each: each.distance, default=None)
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One run; number : which, from 0 on. The same number is the same run, whatever ran beside it."""
+    """One run.
+
+    number : its number, from 0; the same number gives the same run in any block
+    """
 
     number: int
     pictures: tuple[TargetFraming, ...]
@@ -90,43 +95,49 @@ class Run:
 
     @property
     def in_frame(self) -> float:
-        """The least share of frames that show a whole target, over the shots; 1 where nothing is filmed."""
+        """Least share of frames with the whole target, over the shots; 1 without shots."""
         return min((p.in_frame for p in self.pictures), default=1.0)
 
     @property
     def in_sight(self) -> float:
-        """The least share of instants that leave half of a target free, over the shots; 1 without targets."""
+        """Least share of samples at which at most half of a target is hidden, over the shots; 1 without
+        targets.
+        """
         return min((p.in_sight for p in self.pictures), default=1.0)
 
     @property
     def error(self) -> float:
-        """The largest mean distance on screen, over the shots; 0 where none asks for a place."""
+        """Largest mean screen error over the shots; 0 without references."""
         return max((p.error for p in self.pictures if p.error is not None), default=0.0)
 
     @property
     def clearance(self) -> float:
-        """The least distance of a drone's body from all else, metres; infinite where there is nothing."""
+        """Least distance of a drone's body from anything, metres; infinite without obstacles."""
         near = [c.nearest.distance for c in self.courses if c.nearest is not None]
         fleets = [fleet.clearance for fleet in self.fleets]
         return min([*near, *fleets, *(pair.clearance for pair in self.fleet_pairs)], default=inf)
 
     @property
     def stray(self) -> float:
-        """The farthest that a drone was from its plan, metres."""
+        """Largest stray of a drone, metres."""
         return max(
             [*(c.farthest for c in self.courses), *(f.flown.farthest for f in self.fleets)], default=0.0
         )
 
     @property
     def merit(self) -> tuple[float, float, float, float]:
-        """Order from the worst run to the best: what goes deepest into a thing, shows least, is off most."""
+        """Sort key from the worst run to the best: collision depth, share in frame, screen error, stray."""
         return (min(self.clearance, 0.0), self.in_frame, -self.error, -self.stray)
 
 
 def judged(
     world: World, ir: TrajectoryIR, flown: tuple[DroneRuns, ...], fleets: tuple[FleetRun, ...] = ()
 ) -> tuple[Run, ...]:
-    """Judge all runs of a plan; flown : as ``ir.drones``; fleets : of every run, of plans that have some."""
+    """Return the judged runs of a plan.
+
+    flown : flights in the order of ``ir.drones``
+    fleets : results of fleets in every run; empty without fleets
+    """
     mission = world.mission
     ticks = clock(mission.rate, float(world.times[-1]))
     near = [nearest(world, f, t, ticks[ticks <= t.curve.end]) for f, t in zip(flown, ir.drones, strict=True)]
@@ -156,7 +167,10 @@ def judged(
 def cameras_of(
     mission: MissionIR, track: DroneTrajectory, flown: DroneRuns, run: int, times: Array
 ) -> Cameras:
-    """Return the cameras of a run, by its index, at times (M,): where they were, and with the plan's lens."""
+    """Return the cameras of a run at times (M,): as flown, with the plan's lens.
+
+    run : index of the run
+    """
     return Cameras(
         at_times(flown.position[:, run], flown.times, times),
         at_times(np.unwrap(flown.yaw[:, run]), flown.times, times),
@@ -167,9 +181,10 @@ def cameras_of(
 
 
 class _Filmed(NamedTuple):
-    """A target of a shot at the frames in which it is to be seen.
+    """A target of a shot at the frames in which it is framed.
 
-    times : (M,), s; wanted : where on screen it is to be, (M, 2), NaN where no place is asked
+    times : (M,), seconds
+    wanted : reference on screen, (M, 2); NaN where there is none
     """
 
     shot: str
@@ -217,7 +232,7 @@ def _picture(
     return replace(
         picture,
         error=float(known.mean()),
-        usual=float(np.quantile(known, 0.95, method="higher")),  # a frame's: between two it may be inf - inf
+        usual=float(np.quantile(known, 0.95, method="higher")),  # interpolation may give inf - inf
         worst=float(error[worst]),
         time=float(times[worst]),
     )
@@ -235,7 +250,7 @@ def _in_sight(
 
 
 def _away(flown: DroneRuns, track: DroneTrajectory) -> Array:
-    """Return how far a drone is from its plan at its instants in each run, (F, R), metres."""
+    """Return the stray of a drone at its instants in each run, (F, R), metres."""
     plan = track.curve(flown.times)[:, None, :3]
     return np.asarray(np.linalg.norm(flown.position - plan, axis=2))
 
@@ -243,7 +258,10 @@ def _away(flown: DroneRuns, track: DroneTrajectory) -> Array:
 def _spoiled(
     world: World, tracks: tuple[DroneTrajectory, ...], flown: tuple[DroneRuns, ...], of: tuple[int, int]
 ) -> float:
-    """Return how much of what a drone films has another drone in it; of : which drone, and which run."""
+    """Return the share of a drone's filming samples with another drone in the picture.
+
+    of : index of the drone, and of the run
+    """
     (d, run), mission = of, world.mission
     filmed = [np.arange(p.start, p.end, SIGHT_S) for p in tracks[d].phases if p.shot is not None]
     if len(flown) < 2 or not filmed:
@@ -262,7 +280,10 @@ def _spoiled(
 def _course(
     flown: DroneRuns, run: int, off: Array, near: tuple[ClosestApproach, ...], spoiled: float
 ) -> TrackingError:
-    """Return how a drone kept to its plan; off : how far it was from it at its instants, (F,), metres."""
+    """Return a drone's deviation from its plan.
+
+    off : its stray at its instants, (F,), metres
+    """
     k = int(np.argmax(off))
     speed = np.linalg.norm(flown.velocity[:, run], axis=1)
     return TrackingError(

@@ -23,7 +23,7 @@ from shotc.geom.pieces import Mask
 from shotc.simulation.sensors import BIAS_MEMORY_S
 
 GATE_CHI2 = 9.21
-"""Squared distance from what is expected beyond which a detection is of something else: chi-square, 99 %."""
+"""Squared Mahalanobis distance, above which a detection is taken for another object: chi-square, 99 %."""
 
 STATE_COUNT = 12
 WAY, BIAS = slice(6, 9), slice(9, 12)
@@ -64,12 +64,12 @@ class Estimate:
 
     @property
     def position(self) -> Array:
-        """Where the target is, (R, 3), metres."""
+        """Position of the target, (R, 3), metres."""
         return self.mean[:, :3]
 
     @property
     def velocity(self) -> Array:
-        """How it moves, (R, 3), m/s."""
+        """Velocity of the target, (R, 3), m/s."""
         return self.mean[:, 3:6]
 
     @property
@@ -79,9 +79,9 @@ class Estimate:
 
 
 class Taken(NamedTuple):
-    """An estimate with a measurement taken in.
+    """An estimate after a measurement.
 
-    fit : the logarithm of how likely it was, (R,); 0 in runs without one
+    fit : log-likelihood of the measurement, (R,); 0 in runs without one
     """
 
     estimate: Estimate
@@ -89,19 +89,24 @@ class Taken(NamedTuple):
 
 
 class Measurement(Protocol):
-    """What a sensor says, stamped with the moment it holds for."""
+    """A sensor's measurement, with the time for which it holds."""
 
     @property
     def time(self) -> float:
-        """That moment, seconds."""
+        """The time, seconds."""
 
     def taken(self, estimate: Estimate) -> Taken:
-        """Return the estimate of the same moment with the measurement taken in."""
+        """Return the estimate of the same time, updated with the measurement."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PositionFix:
-    """A satellite position: place (R, 3), metres; deviation : of its noise; used : in which runs, (R,)."""
+    """A satellite position.
+
+    place : (R, 3), metres
+    deviation : standard deviation of its noise, metres
+    used : the runs in which it is used, (R,)
+    """
 
     time: float
     place: Array
@@ -109,7 +114,7 @@ class PositionFix:
     used: Mask
 
     def taken(self, estimate: Estimate) -> Taken:
-        """Take the position in."""
+        """Return the estimate updated with the position."""
         jacobian = np.zeros((len(self.place), 3, STATE_COUNT))
         jacobian[:, :, :3] = jacobian[:, :, BIAS] = np.eye(3)
         noise = self.deviation**2 * np.eye(3)
@@ -119,9 +124,11 @@ class PositionFix:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PictureFix:
-    """A detection: (u, v) (R, 2), half frames, seen from eyes (R, 3) with axes R_WC (R, 3, 3).
+    """A detection at (u, v) (R, 2), half frames, seen from eyes (R, 3) with axes R_WC (R, 3, 3).
 
-    half : tan of half the fields of view, (R, 2); deviation : of u and v; used : in which runs, (R,)
+    half : tan of half the fields of view, (R, 2)
+    deviation : standard deviation of u and v
+    used : the runs in which it is used, (R,)
     """
 
     time: float
@@ -133,7 +140,9 @@ class PictureFix:
     used: Mask
 
     def taken(self, estimate: Estimate) -> Taken:
-        """Take the detection in, where it is not another thing's (the extended Kalman filter's row)."""
+        """Return the estimate updated with the detection unless the gate rejects it (extended
+        Kalman filter).
+        """
         expected, jacobian = projection(estimate.position - self.eye, self.axes, self.half)
         known = self.used & np.isfinite(expected).all(axis=1)
         miss = np.where(known[:, None], self.uv - expected, 0.0)
@@ -144,15 +153,19 @@ class PictureFix:
         off = np.einsum("ri,rij,rj->r", miss, np.linalg.inv(spread), miss)
         right = off <= GATE_CHI2
         done = _updated(estimate, (miss, rows, noise), known & right)
-        # Whose detections are of other things all the time is no better than one whose miss is at the gate.
+        # A model whose detections are always rejected has the likelihood of a detection at the gate.
         rest = -0.5 * (GATE_CHI2 + np.linalg.slogdet(spread)[1])
         return Taken(done.estimate, np.where(known & ~right, rest, done.fit))
 
 
 def projection(offset: Array, axes: Array, half: Array) -> tuple[Array, Array]:
-    """Return (u, v) of points at offsets from eyes, (R, 2), and its derivative by the offset, (R, 2, 3).
+    """Return (u, v) of points at offsets from eyes, (R, 2), and the derivative by the offset, (R, 2, 3).
 
-    offset : (R, 3), W; axes : R_WC (R, 3, 3); half : (R, 2); NaN behind the camera
+    The result is NaN behind the camera.
+
+    offset : (R, 3), W, metres
+    axes : R_WC (R, 3, 3)
+    half : tan of half the fields of view, (R, 2)
     """
     inside = np.einsum("rij,ri->rj", axes, offset)
     depth = np.where(inside[:, 2] > 1e-6, inside[:, 2], np.nan)
@@ -164,7 +177,7 @@ def projection(offset: Array, axes: Array, half: Array) -> tuple[Array, Array]:
 
 
 def predicted(estimate: Estimate, time: float, model: MotionModel) -> Estimate:
-    """Return an estimate as of a later time, seconds."""
+    """Return an estimate predicted to a later time, seconds."""
     dt = time - estimate.time
     if dt <= 0.0:
         return estimate
@@ -213,7 +226,7 @@ def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) ->
     gain = estimate.covariance @ across @ inverse
     gain = np.where(used[:, None, None], gain, 0.0)
     mean = estimate.mean + np.einsum("rij,rj->ri", gain, miss)
-    # Joseph's form stays symmetric and positive.
+    # Joseph's form keeps the covariance symmetric and positive.
     left = np.eye(STATE_COUNT) - gain @ jacobian
     covariance = left @ estimate.covariance @ np.swapaxes(left, 1, 2) + gain @ noise @ np.swapaxes(gain, 1, 2)
     return Taken(Estimate(estimate.time, mean, covariance), np.where(used, fit, 0.0))

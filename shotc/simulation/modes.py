@@ -1,10 +1,11 @@
-"""How agile a target is, learned while it moves: Kalman filters of several models, weighed by their success.
+"""Learns a target's agility while it moves, with Kalman filters of several models weighted by their
+likelihood.
 
-A walker who keeps to his way and one who turns a corner differ by a factor of a hundred in the noise on their
-acceleration. A filter for the one cuts the other's corners; a filter for the other believes every error of a
-receiver, and who flies seconds ahead along its velocity is led about. So one filter runs for each model, and
-each is believed by how well it expected what was measured (the interacting multiple model of Blom and
-Bar-Shalom, IEEE TAC 33(8), 1988): before a step their states are mixed by how likely one follows another.
+The acceleration noise of a walker on a straight path and of one who turns a corner differ by a factor of a
+hundred. A filter for the first lags in corners. A filter for the second follows every error of a receiver,
+which misleads a drone that extrapolates its velocity by seconds. So one filter runs for each model, and each
+is weighted by the likelihood of the measurements. This is the interacting multiple model filter (Blom and
+Bar-Shalom, IEEE TAC 33(8), 1988): before a step the states are mixed by the models' transition probabilities.
 """
 
 from __future__ import annotations
@@ -18,38 +19,40 @@ from shotc.geom.bernstein import Array
 from shotc.simulation.kalman import Estimate, Measurement, MotionModel, ahead, predicted
 
 LASTS_S = 10.0
-"""Seconds for which a model holds in the mean before another one does."""
+"""Mean duration of a model, seconds, before another one holds."""
 
 LEAST_SHARE = 1e-6
-"""Share that no model falls below: one that is given up never comes back."""
+"""Least weight of a model; a weight of zero could never grow again."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Modes:
-    """The estimates of all models at one moment, and how much each is believed in R runs, (R, M)."""
+    """The estimates of all models at one time, and their weights in R runs, (R, M)."""
 
     estimates: tuple[Estimate, ...]
     share: Array
 
     @property
     def time(self) -> float:
-        """The moment, seconds."""
+        """The time, seconds."""
         return self.estimates[0].time
 
     @property
     def whole(self) -> Estimate:
-        """What is known, over all models."""
+        """The estimate of the mixture of all models."""
         return self.estimates[0] if len(self.estimates) == 1 else _joined(self.estimates, self.share)
 
 
 def begun(estimate: Estimate, models: tuple[MotionModel, ...]) -> Modes:
-    """Return models that are believed alike and know the same."""
+    """Return models with equal weights and the same estimate."""
     share = np.full((len(estimate.mean), len(models)), 1.0 / len(models))
     return Modes((estimate,) * len(models), share)
 
 
 def stepped(modes: Modes, time: float, models: tuple[MotionModel, ...]) -> Modes:
-    """Return what is known as of a later time, seconds, where a model may have followed another one."""
+    """Return the estimates predicted to a later time, seconds, after mixing by the transition
+    probabilities.
+    """
     count = len(models)
     if count == 1:
         return Modes((predicted(modes.estimates[0], time, models[0]),), modes.share)
@@ -64,7 +67,7 @@ def stepped(modes: Modes, time: float, models: tuple[MotionModel, ...]) -> Modes
 
 
 def taken(modes: Modes, measurement: Measurement) -> Modes:
-    """Return what is known with a measurement of that moment taken in."""
+    """Return the estimates updated with a measurement of the same time."""
     found = [measurement.taken(estimate) for estimate in modes.estimates]
     if len(found) == 1:
         return Modes((found[0].estimate,), modes.share)
@@ -82,7 +85,10 @@ def expected(modes: Modes, times: Array, models: tuple[MotionModel, ...]) -> Arr
 
 
 def _joined(estimates: tuple[Estimate, ...], share: Array) -> Estimate:
-    """Return the mean and the covariance of a mixture; share : of each, (R, M)."""
+    """Return the mean and the covariance of a mixture.
+
+    share : weight of each estimate, (R, M)
+    """
     mean = sum(share[:, [j]] * each.mean for j, each in enumerate(estimates))
     assert isinstance(mean, np.ndarray)
     covariance = np.zeros_like(estimates[0].covariance)

@@ -18,10 +18,13 @@ from shotc.simulation.summary import summary
 
 
 def artifacts(done: Rehearsed, plan: VerifiedIR, progress: Callable[[str], None]) -> Emission:
-    """Return the report, simulate.json and simulate.png, and of cameras flight.csv and simulate.rrd, too.
+    """Return the report, simulate.json and simulate.png; for missions with cameras also flight.csv and
+    simulate.rrd.
 
-    plan : that is flown
-    All but the recording are the same every time. Where rerun is not installed it is left out with a warning.
+    All but the recording are reproducible. The recording is left out with a warning if rerun is not
+    installed.
+
+    plan : the simulated plan
     """
     found = summary(done)
     made = [

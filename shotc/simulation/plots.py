@@ -1,4 +1,4 @@
-"""simulate.png: how pictures, clearances and strays are spread over the runs, on one page."""
+"""simulate.png: the distributions of framing, clearance and stray over the runs, on one page."""
 
 from __future__ import annotations
 
@@ -23,11 +23,14 @@ PANEL_IN = 2.6
 HEAD_IN = 1.0
 BIN_COUNT = 32
 HEADROOM_RATIO = 1.3
-"""Times the tallest bar: the legend is above them."""
+"""Height of the axes over the tallest bar, which leaves space for the legend."""
 
 
 class _Panel(NamedTuple):
-    """One distribution; limit : what the mission asks."""
+    """One distribution.
+
+    limit : the mission's requirement, or None
+    """
 
     title: str
     unit: str
@@ -75,7 +78,7 @@ def _panels(done: Rehearsed) -> list[_Panel]:
 
 
 def _spread(axes: Any, done: Rehearsed, panel: _Panel) -> None:
-    """Draw every run as a tick and their histogram; the worst run in amber, what is asked in vermilion."""
+    """Draw every run as a tick with their histogram, the worst run in amber, the requirement in vermilion."""
     values = np.array([panel.measure(run) for run in done.runs])
     values = values[np.isfinite(values)]
     if len(values):

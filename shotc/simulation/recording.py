@@ -1,4 +1,4 @@
-"""simulate.rrd of a run: what was flown, made a plan that recordings know how to draw."""
+"""simulate.rrd of a run: converts the flown run to a plan, which the recording can draw."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from shotc.simulation.rehearsal import Rehearsed
 from shotc.simulation.world import World, at_times
 
 KNOT_S = 0.2
-"""Seconds between the knots of a curve that is drawn of a flight."""
+"""Seconds between the knots of a flight's curve."""
 
 
 def recording(done: Rehearsed, world: World, flown: tuple[DroneRuns, ...]) -> bytes:
@@ -39,7 +39,7 @@ def _as_plan(ir: TrajectoryIR, world: World, drones: tuple[DroneTrajectory, ...]
 
 
 def _drawn(track: DroneTrajectory, flown: DroneRuns) -> DroneTrajectory:
-    """Return a drone's plan with the curve that it flew: through places and velocities at knots."""
+    """Return a drone's plan with its flown curve, through positions and velocities at knots."""
     knots = np.linspace(track.curve.start, track.curve.end, max(2, round(track.curve.end / KNOT_S) + 1))
     pose = track.curve(knots)
     angles = np.column_stack([np.unwrap(flown.yaw[:, 0]), flown.pitch[:, 0]])

@@ -1,4 +1,4 @@
-"""A rehearsal: a plan flown in many runs, and what the mission asks of them."""
+"""A rehearsal: a plan simulated in many runs, judged by the mission's requirements."""
 
 from __future__ import annotations
 
@@ -25,15 +25,19 @@ from shotc.spec.presets import RUN_COUNT
 SILENT = Rehearsal(
     RehearsalPromise(), path=(), runs=RUN_COUNT, loop="replay", wind=None, gusts=0.0, gps="rtk", wander=0.0
 )
-"""What is asked of the rehearsals of a mission that says nothing of them."""
+"""The rehearsal of a mission that states none."""
 
 
 class RehearsalOptions(NamedTuple):
-    """What a command line says in the place of the mission; None leaves it to the mission.
+    """The command line's options, which override the mission; None leaves the mission's value.
 
-    wind : of the steady wind, m/s; bearing : compass bearing that it comes from, deg; gusts : m/s
-    gps : a name of GRADES; bias : offset of all positions to the East, m
-    lost : stretches without satellite positions, s; wander : m
+    wind : speed of the steady wind, m/s
+    bearing : compass bearing from which it blows, degrees
+    gusts : standard deviation, m/s
+    gps : a name of GRADES
+    bias : offset of all positions to the East, metres
+    lost : intervals without satellite positions, seconds
+    wander : standard deviation of the targets from their tracks, metres
     """
 
     loop: Loop | None = None
@@ -53,10 +57,10 @@ class RehearsalOptions(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rehearsed:
-    """What came of a rehearsal.
+    """The result of a rehearsal.
 
-    held, needed : in how many runs all that is asked holds, and in how many it has to
-    strays : of cameras over time, None for shows
+    held, needed : number of runs that keep all requirements, and the number that must
+    strays : of cameras over time; None for shows
     """
 
     ir: TrajectoryIR
@@ -70,26 +74,26 @@ class Rehearsed:
 
     @property
     def mission(self) -> MissionIR:
-        """The mission that was flown."""
+        """The simulated mission."""
         return self.ir.keyframes.mission
 
     @property
     def worst(self) -> Run:
-        """The worst of the runs."""
+        """The worst run."""
         return min(self.runs, key=lambda run: run.merit)
 
     def run(self, number: int) -> Run:
-        """Return the run of a number."""
+        """Return the run with a number."""
         return next(run for run in self.runs if run.number == number)
 
     @property
     def kept(self) -> bool:
-        """Whether enough runs keep all that is asked."""
+        """Whether enough runs keep all requirements."""
         return self.held >= self.needed
 
 
 def conditions_of(mission: MissionIR, asked: RehearsalOptions) -> Conditions:
-    """Return the conditions that a mission and a command line ask for."""
+    """Return the conditions of a mission and a command line."""
     usual = mission.rehearsal or SILENT
     wind = usual.wind or Wind(mission.wind, mission.wind_toward)
     return Conditions(
@@ -112,23 +116,24 @@ def _either(asked: float | None, usual: float) -> float:
 
 
 def runs_of(ir: TrajectoryIR, conditions: Conditions, asked: RehearsalOptions) -> int:
-    """Return how many runs a mission and a command line ask for: one where nothing differs between runs."""
+    """Return the number of runs of a mission and a command line; one if all runs are equal."""
     if alike(ir, conditions):
         return 1
     return asked.runs or (ir.keyframes.mission.rehearsal or SILENT).runs
 
 
 def alike(ir: TrajectoryIR, conditions: Conditions) -> bool:
-    """Tell whether all runs are the same: of what fleets meet gusts alone are drawn."""
+    """Return whether all runs are equal: for fleets only gusts are random."""
     return not ir.drones and not conditions.wind.gusts
 
 
 def rehearse(
     ir: TrajectoryIR, conditions: Conditions, blocks: Iterable[RunBlock], done: Callable[[int], None]
 ) -> Rehearsed:
-    """Judge runs by what the mission of their plan asks.
+    """Return the rehearsal: all runs judged by the mission's requirements.
 
-    blocks : of all runs, in any order; done : called with how many runs have come
+    blocks : of all runs, in any order
+    done : called with the number of finished runs
     """
     promise = (ir.keyframes.mission.rehearsal or SILENT).promise
     found: list[RunBlock] = []

@@ -1,8 +1,8 @@
-"""A second opinion: RotorPy's multirotor as the plant, rigid body, motors and attitude loop included.
+"""A second opinion: RotorPy's multirotor as the plant, with rigid body, motors and attitude loop.
 
-RotorPy (Folk et al. 2023, MIT) knows nothing of ours. Its vehicle is that of PX4's simulation in hardware.
-Its rotor drag is set to what ``Vehicle.drag`` is at hover, and its attitude gains to ones that do not
-oscillate with motors as slow as its own.
+RotorPy (Folk et al. 2023, MIT) is independent of this project. Its vehicle is that of PX4's
+hardware-in-the-loop simulation. Its rotor drag is set to ``Vehicle.drag`` at hover. Its attitude gains are
+set to values that do not oscillate with its slow motors.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from shotc.geom.bernstein import Array
 from shotc.simulation.vehicle import STEP_S, Vehicle, VehicleState
 
 ATTITUDE_GAIN, RATE_GAIN = 60.0, 14.0
-"""1/s^2 and 1/s: with RotorPy's own 3000 and 360 a motor lag of 0.05 s oscillates."""
+"""1/s^2 and 1/s; RotorPy's own 3000 and 360 oscillate with a motor lag of 0.05 s."""
 
 RTOL = 1e-3
 
@@ -27,7 +27,7 @@ class RotorPyPlant:
     """One multirotor for each of R runs."""
 
     def __init__(self, vehicle: Vehicle, first: VehicleState) -> None:
-        """First : where they hover at the start."""
+        """Create the multirotors in their first, hovering states."""
         mass, thrust = quad_params["mass"], quad_params["k_eta"]
         hover = sqrt(mass * 9.81 / (4 * thrust))
         drag = vehicle.drag * mass / (4 * hover)

@@ -1,6 +1,6 @@
-"""Many runs of a plan, block by block on all cores.
+"""Simulates many runs of a plan, block by block on all cores.
 
-A run depends on the seed and its own number alone, and blocks are the same however many processes there are.
+A run depends only on the seed and its number. The blocks do not depend on the number of processes.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from shotc.simulation.shows import fly_fleets
 from shotc.simulation.world import World, at_times
 
 BLOCK_RUNS = 25
-"""Runs of cameras that are flown at once, as rows of arrays; those of fleets are flown one by one."""
+"""Runs of cameras that are simulated together as rows of arrays; fleets are simulated run by run."""
 
 STRAYS_S = 0.2
-"""Seconds between the instants of ``Strays``."""
+"""Seconds between the samples of ``Strays``."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strays:
-    """How far the farthest drone is from its plan: at times (F,), s, in each run, (F, R), metres."""
+    """The largest stray of all drones at times (F,), seconds, in each run, (F, R), metres."""
 
     times: Array
     metres: Array
@@ -37,7 +37,10 @@ class Strays:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunBlock:
-    """Runs that were flown together; strays : None for shows."""
+    """Runs that were simulated together.
+
+    strays : None for shows
+    """
 
     runs: tuple[Run, ...]
     strays: Strays | None
@@ -46,9 +49,9 @@ class RunBlock:
 def simulated(
     ir: TrajectoryIR, conditions: Conditions, count: int, hands: Hands, earlier: Sequence[RunBlock] = ()
 ) -> Iterator[RunBlock]:
-    """Fly a plan ``count`` times and judge every run; yields blocks of runs as they are done.
+    """Yield blocks of judged runs of a plan as they finish, ``count`` runs in total.
 
-    earlier : blocks that were done before; those of as many runs as are needed now are not flown again
+    earlier : finished blocks; those that fit the requested number of runs are not simulated again
     """
     size = 1 if ir.fleets else BLOCK_RUNS
     needed = {i: range(i, min(i + size, count)) for i in range(0, count, size)}
@@ -63,13 +66,13 @@ def simulated(
 def flown(
     ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int]
 ) -> tuple[World, tuple[DroneRuns, ...]]:
-    """Fly the cameras of a plan in the runs of these numbers, for what is drawn or written of them."""
+    """Return the world and the cameras' flights in the runs with these numbers, for drawings and files."""
     world = World.of(ir, conditions, runs)
     return world, fly_all(world, ir.drones)
 
 
 def fly_block(ir: TrajectoryIR, conditions: Conditions, block: range) -> RunBlock:
-    """Fly a plan in the runs of these numbers and judge them."""
+    """Return the judged runs of a plan with these numbers."""
     if not ir.drones:
         fleets = fly_fleets(ir, conditions, block)
         runs = tuple(Run(number, (), (), *each) for number, each in zip(block, fleets, strict=True))

@@ -1,4 +1,4 @@
-"""What a drone knows of the targets that it films: fixes and detections on their way to its trackers."""
+"""A drone's knowledge of its targets: fixes and detections with their delay, and trackers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from shotc.simulation.vehicle import STEP_S
 from shotc.simulation.world import World
 
 ROUNDING_S = 1e-6
-"""Seconds by which the sum of a stamp and a delay may come out late: 0.2 + 0.1 is more than 0.3."""
+"""Seconds of tolerance for rounding of a time stamp plus a delay: 0.2 + 0.1 is more than 0.3."""
 
 WALKS = (MotionModel(0.2, memory=0.7, drift=0.001), MotionModel(1.0, memory=0.7, drift=1.0))
 """Models of a tracker: one who keeps to a way, about which he weaves, and one who leaves it.
@@ -46,9 +46,10 @@ class Foreseen:
 
 @dataclass(slots=True)
 class TrackedTarget:
-    """One target that moves, and what is known of it in R runs.
+    """One moving target and its tracker in R runs.
 
-    places : where it really is at each step, (N, R, 3); share : as of ``FramedTarget``
+    places : true positions at each step, (N, R, 3), metres
+    share : as in ``FramedTarget``
     """
 
     name: str
@@ -63,7 +64,10 @@ class TrackedTarget:
     def look(
         self, k: int, film: PlanSamples, conditions: Conditions, eyes: tuple[Array, Array], attitude: Attitude
     ) -> None:
-        """Take a picture where one is due; eyes : where the cameras are, and where they are taken to be."""
+        """Take a picture if one is due.
+
+        eyes : true and estimated positions of the cameras
+        """
         detector = conditions.detector
         if detector is None or k % round(detector.period / STEP_S) or self.share[k] == 0.0:
             return
@@ -76,7 +80,7 @@ class TrackedTarget:
         heappush(self.waiting, (time + detector.delay, next(self.numbers), fix))
 
     def learn(self, time: float) -> None:
-        """Take in what has arrived by a time."""
+        """Update the tracker with all measurements that have arrived by a time."""
         while self.waiting and self.waiting[0][0] <= time + ROUNDING_S:
             self.tracker.take(heappop(self.waiting)[2])
 
@@ -87,7 +91,7 @@ class TrackedTarget:
 
 
 def watched(world: World, film: PlanSamples, framed: FramedTarget) -> TrackedTarget:
-    """Return what is known at the start of a target that moves: about where it is."""
+    """Return the tracker of a moving target, initialised with its approximate position."""
     conditions, runs, name = world.conditions, world.runs, framed.target
     gps, places = conditions.gps, world.places[name]
     every = max(1, round(gps.period / STEP_S))

@@ -1,4 +1,4 @@
-"""Sensors: satellite positions with noise, bias, delay and drop-outs; targets found in pictures."""
+"""Sensor models: satellite positions with noise, bias, delay and drop-outs, and detections in pictures."""
 
 from __future__ import annotations
 
@@ -21,13 +21,14 @@ BAROMETER_SHARE = 0.2
 
 @dataclass(frozen=True, slots=True)
 class Gps:
-    """A receiver of satellite positions; metres, each axis by itself.
+    """A receiver of satellite positions; metres, each axis independent.
 
-    noise : standard deviation of what is new in every position
-    bias : standard deviation of what drifts over BIAS_MEMORY_S, nearly the same from one position to the next
-    offset : what all positions of an axis are off, m, along East, North and Up
-    period, delay : seconds between positions, and from the moment they hold for until they arrive
-    lost : stretches of time without any, (from, until), seconds of the mission
+    noise : standard deviation of the white noise
+    bias : standard deviation of the drift, with correlation time BIAS_MEMORY_S
+    offset : constant error along East, North and Up
+    period : seconds between positions
+    delay : seconds from a position's time until it arrives
+    lost : intervals without positions, (from, until), seconds of mission time
     """
 
     noise: float = 0.02
@@ -39,12 +40,12 @@ class Gps:
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of a position, m."""
+        """Standard deviation of a position, metres."""
         return float(np.hypot(self.noise, self.bias))
 
     def error(self, times: Array, chances: Sequence[np.random.Generator]) -> Array:
-        """Return what positions are off at even times (M,), metres; shape (M, R, 3) for R runs."""
-        # One draw for both, so that a longer recording begins as a shorter one does.
+        """Return position errors at uniform times (M,), seconds; shape (M, R, 3) for R runs, metres."""
+        # One draw for both, so that a longer series begins like a shorter one.
         noise = np.stack([rng.standard_normal((len(times), 6)) for rng in chances], axis=1)
         white, slow = noise[..., :3], noise[..., 3:]
         step = float(times[1] - times[0]) if len(times) > 1 else 0.0
@@ -52,10 +53,11 @@ class Gps:
         return np.asarray(self.noise * white + self.bias * drift + np.array(self.offset))
 
     def own_error(self, times: Array, chances: Sequence[np.random.Generator]) -> Array:
-        """Return what a drone takes its own place to be off at even times (M,), metres; shape (M, R, 3).
+        """Return the errors of a drone's own position at uniform times (M,), seconds; shape (M, R, 3),
+        metres.
 
-        Its filter smooths the noise over FILTER_S, and a barometer holds its height, to BAROMETER_SHARE of
-        what the receiver is off.
+        Its filter smooths the noise over FILTER_S. Its barometer reduces the error of height to
+        BAROMETER_SHARE of the receiver's.
         """
         noise = np.stack([rng.standard_normal((len(times), 6)) for rng in chances], axis=1)
         step = float(times[1] - times[0]) if len(times) > 1 else 0.0
@@ -66,7 +68,7 @@ class Gps:
         return np.asarray(error + np.array(self.offset))
 
     def arrives(self, time: float) -> bool:
-        """Tell whether there is a position at a time."""
+        """Return whether there is a position at a time."""
         return not any(start <= time < end for start, end in self.lost)
 
 
@@ -78,11 +80,12 @@ GRADES = {"rtk": RTK, "plain": PLAIN}
 
 @dataclass(frozen=True, slots=True)
 class Detector:
-    """What finds a target in the picture.
+    """A detector of targets in pictures.
 
     noise : standard deviation of u and of v, half frames
-    period, delay : seconds between pictures, and until what was found in one is known
-    misses : share of pictures in which a target that is there is not found, 0 to 1
+    period : seconds between pictures
+    delay : seconds until a detection is available
+    misses : share of visible targets that are not found, 0 to 1
     """
 
     noise: float = 0.01
@@ -91,8 +94,10 @@ class Detector:
     misses: float = 0.05
 
     def found(self, uv: Array, chances: Sequence[np.random.Generator]) -> tuple[Array, Mask]:
-        """Return what is found of targets at (R, 2), half frames (NaN behind the camera), and whether."""
+        """Return detections of targets at (R, 2), half frames (NaN behind the camera), and their existence
+        (R,).
+        """
         drawn = np.stack([rng.standard_normal(3) for rng in chances])
         hit = np.stack([rng.uniform() for rng in chances]) >= self.misses
-        inside = np.all(np.abs(uv) <= 1.0, axis=1)  # NaN is not inside
+        inside = np.all(np.abs(uv) <= 1.0, axis=1)  # false for NaN
         return uv + self.noise * drawn[:, :2], np.asarray(hit & inside)

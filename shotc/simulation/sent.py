@@ -1,4 +1,4 @@
-"""Plans of the next seconds: how drones fly them, and what the others know of them."""
+"""Short-term plans: how drones fly them, and what other drones know of them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Fading:
         return Fading(self.film, start, seconds, place, rate)
 
     def setpoint(self, time: float) -> VehicleSetpoint:
-        """Return the plan's setpoint with what is left of the way back."""
+        """Return the plan's setpoint plus the remaining offset."""
         plan = self.film.setpoint(self.film.step(time))
         x = np.clip((time - self.start) / self.lasts, 0.0, 1.0)
         if (x == 1.0).all():
@@ -69,20 +69,21 @@ class Fading:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SentPlans:
-    """The plans that drones of R runs fly, each to its end; then they brake and hold.
+    """The plans that drones of R runs fly; at their end the drones brake and hold.
 
-    plans : of every run; acceleration : limit at which they brake, m/s^2
+    plans : of every run
+    acceleration : braking acceleration, m/s^2
     """
 
     plans: tuple[Plan, ...]
     acceleration: float
 
     def replaced(self, new: Sequence[Plan | None]) -> SentPlans:
-        """Return the same with new plans; where there is none the last one is flown on."""
+        """Return the same with new plans; where there is none, the last one continues."""
         return SentPlans(tuple(n or last for n, last in zip(new, self.plans, strict=True)), self.acceleration)
 
     def setpoint(self, time: float) -> VehicleSetpoint:
-        """Return what drones are asked for, (R, 3) each."""
+        """Return the setpoints, (R, 3) each."""
         rows = [self._row(plan, time) for plan in self.plans]
         position, velocity, acceleration = (np.array(part) for part in zip(*rows, strict=True))
         return VehicleSetpoint(position, velocity, acceleration)
@@ -104,9 +105,9 @@ class SentPlans:
 
 @dataclass(slots=True)
 class Sent:
-    """What a drone has told the others of its next seconds.
+    """The plans that a drone has sent to the others.
 
-    age : seconds until what is sent is known
+    age : seconds until a sent plan is known
     """
 
     film: PlanSamples
@@ -120,16 +121,18 @@ class Sent:
         self.plans.append(plans)
 
     def places(self, run: int, stages: Array) -> Array:
-        """Return where the drone is to be at times (M,), by what is known at the first, (M, 3), metres.
+        """Return the drone's expected positions at times (M,), as known at the first, (M, 3), metres.
 
-        Where it has sent nothing of these seconds, that is its plan.
+        Without a sent plan they are those of its trajectory.
         """
         planned = np.asarray(self.film.track.curve(stages)[:, :3])
         plan = self._known(run, stages)
         return planned if plan is None else _instead(planned, stages, plan, plan.places)
 
     def axes(self, run: int, stages: Array) -> Array:
-        """Return unit vectors along which its camera looks then, (M, 3), W; as planned if it did not say."""
+        """Return unit vectors of its camera's directions at the times, (M, 3), W; without a sent aim as
+        planned.
+        """
         planned = np.asarray(self.film.track.curve(stages)[:, [CAM_YAW, CAM_PITCH]])
         plan = self._known(run, stages)
         if plan is not None and plan.aim is not None:
@@ -138,7 +141,7 @@ class Sent:
         return np.column_stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
 
     def films(self, stages: Array) -> bool:
-        """Tell whether it films at any of these times."""
+        """Return whether it films at any of these times."""
         return any(
             phase.shot is not None and phase.start <= stages[-1] and stages[0] <= phase.end
             for phase in self.film.track.phases
@@ -151,7 +154,7 @@ class Sent:
 
 
 def _instead(planned: Array, stages: Array, plan: Plan, rows: Array) -> Array:
-    """Return rows of a plan at times (M,), and up to its end only: what was planned, (M, D), stands then."""
+    """Return rows of a plan at times (M,); after the plan's end the rows ``planned``, (M, D)."""
     inside = stages <= plan.times[-1]
     known = np.column_stack([np.interp(stages, plan.times, column) for column in rows.T])
     return np.where(inside[:, None], known, planned)

@@ -1,4 +1,4 @@
-"""The fleets of a plan, flown in many runs: all of them at once, on one clock."""
+"""Simulates the fleets of a plan in many runs, all together on one clock."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ from shotc.simulation.world import at_times
 
 @dataclass(frozen=True, slots=True)
 class FleetCourse:
-    """How a fleet kept to its plan in one run; radius : of its drones' bodies, metres."""
+    """A fleet's deviation from its plan in one run.
+
+    radius : of a drone's body, metres
+    """
 
     fleet: str
     flown: FleetRehearsal
@@ -33,24 +36,26 @@ class FleetCourse:
 
     @property
     def nearest(self) -> NearestPair | None:
-        """The nearest that two came, in the air or on pads; None for a fleet of one."""
+        """The nearest pair, in the air or on pads; None for a fleet of one."""
         found = [near for near in (self.flown.near, self.flown.beside) if near is not None]
         return min(found, key=lambda near: near.distance, default=None)
 
     @property
     def clearance(self) -> float:
-        """The least distance from body to body, metres; infinite for a fleet of one."""
+        """Least distance between bodies, metres; infinite for a fleet of one."""
         near = self.nearest
         return inf if near is None else near.distance - 2 * self.radius
 
 
 @dataclass(frozen=True, slots=True)
 class FleetPair:
-    """How near drones of a fleet came to those of another one, or to a camera's drone, in one run.
+    """The nearest drones of a fleet and of another fleet or a camera's drone, in one run.
 
-    one : a fleet; other : a fleet, or the drone of a camera
-    near : its rows are of the one and of the other
-    asked : the distance that is kept, without margins, metres; radii : of a body of each together, metres
+    one : a fleet
+    other : a fleet, or the drone of a camera
+    near : its rows refer to ``one`` and to ``other``
+    asked : separation without margins, metres
+    radii : sum of the radii of a body of each, metres
     """
 
     one: str
@@ -61,19 +66,22 @@ class FleetPair:
 
     @property
     def clearance(self) -> float:
-        """The least distance from body to body, metres."""
+        """Least distance between bodies, metres."""
         return self.near.distance - self.radii
 
 
 class FleetRun(NamedTuple):
-    """What came of all fleets in one run; pairs : of fleets, and of fleets and cameras."""
+    """The results of all fleets in one run.
+
+    pairs : of fleets, and of fleets and cameras
+    """
 
     fleets: tuple[FleetCourse, ...]
     pairs: tuple[FleetPair, ...]
 
 
 class _Meeting(NamedTuple):
-    """Two that are watched, by their numbers among all places: fleets first, then cameras."""
+    """Two groups whose distance is watched, by their indices: fleets first, then cameras."""
 
     one: int
     other: int
@@ -89,9 +97,9 @@ class _Meeting(NamedTuple):
 def fly_fleets(
     ir: TrajectoryIR, conditions: Conditions, runs: Sequence[int], cameras: Sequence[DroneRuns] = ()
 ) -> tuple[FleetRun, ...]:
-    """Return for every run how each fleet of the plan kept to it, in gusts.
+    """Return for every run the result of each fleet of the plan, in gusts.
 
-    cameras : as flown in these runs
+    cameras : their flights in these runs
     """
     return tuple(_flown(ir, conditions, (r, run), cameras) for r, run in enumerate(runs))
 
@@ -99,7 +107,10 @@ def fly_fleets(
 def _flown(
     ir: TrajectoryIR, conditions: Conditions, which: tuple[int, int], cameras: Sequence[DroneRuns]
 ) -> FleetRun:
-    """Return what came of a run; which : its index among the cameras' runs, and its number."""
+    """Return the result of a run.
+
+    which : its index among the cameras' runs, and its number
+    """
     r, run = which
     if not ir.fleets:
         return FleetRun((), ())
@@ -114,7 +125,7 @@ def _flown(
     times = np.arange(round(max(ends) / PERIOD_S) + 1, dtype=np.float64) * PERIOD_S
     filming = [at_times(camera.position[:, r], camera.times, times)[:, None] for camera in cameras]
     meetings = list(_meetings(ir.keyframes.mission, fleets, cameras))
-    # Every flight begins at 0 and has the same period; who has landed stays where it is.
+    # Every flight begins at 0 and has the same period; a drone that has landed stays where it is.
     last: list[Array] = [track.coef[:, 0] for track in ir.fleets]
     for k, time in enumerate(times.tolist()):
         for i, (flight, watch) in enumerate(zip(flights, watches, strict=True)):

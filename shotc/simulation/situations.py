@@ -1,4 +1,4 @@
-"""Shots that are planned anew while they are flown, and what is known at the moment of a replan."""
+"""Shots with replanning, and the input of a replanner."""
 
 from __future__ import annotations
 
@@ -44,17 +44,19 @@ from shotc.simulation.seen import Foreseen
 
 STAGE_S = 0.1
 CHASE_STAGES, FRAMING_STAGES = 30, 25
-"""Stages that are planned ahead, of STAGE_S seconds each."""
+"""Planning horizon in stages of STAGE_S seconds."""
 
 WEIGHTS = ChaseWeights(end=20.0)
-"""With the paper's 1 a drone stays a metre and more behind a target that leaves its track; with 20 half,
-and its acceleration grows by a twentieth (measured: a chase and a lateral at 1.2 m/s, horizon 4 s)."""
+"""With the paper's weight 1, a drone lags by a metre and more behind a target that leaves its track. With 20
+the lag is half of that, and the acceleration grows by a twentieth (measured: a chase and a lateral at 1.2
+m/s, horizon 4 s).
+"""
 
 NOWHERE_M = 1e4
 """Metres below a drone at which it looks at nothing."""
 
 LEVEL_M = 0.1
-"""Metres by which the height of a shot may change over a horizon and count as one height."""
+"""Change of a shot's height over a horizon, metres, below which the height is constant."""
 
 Known = Mapping[str, Foreseen]
 """What is known of the targets that move, by name, in R runs, at the stages of a replan."""
@@ -62,9 +64,10 @@ Known = Mapping[str, Foreseen]
 
 @dataclass(frozen=True, slots=True)
 class Chased:
-    """A shot of one target from beside it; turns : whether its place turns with the way the target goes.
+    """A shot beside one target.
 
-    smoother : smoothing of the shot over the normal one, whose square weighs rates
+    turns : whether its position turns with the target's course
+    smoother : smoothing time of the shot over the normal one; its square is the weight of rates
     """
 
     stages: ClassVar = CHASE_STAGES
@@ -74,7 +77,7 @@ class Chased:
     smoother: float = 1.0
 
     def planner(self, by: Replanner, _film: PlanSamples, keeping: Keeping) -> ChasePlanner:
-        """Return who plans it anew."""
+        """Return its planner."""
         calm = self.smoother**2
         weights = WEIGHTS._replace(pitch=calm * WEIGHTS.pitch, yaw=calm * WEIGHTS.yaw)
         return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), keeping, weights))
@@ -87,9 +90,9 @@ class Chased:
         drone: tuple[Array, Array],
         of: ReplanInstant,
     ) -> ChaseSituation:
-        """Return what is known of one run at the first of the stages, mission times (N + 1,).
+        """Return the input of a replan in one run at the first of the stages, mission times (N + 1,).
 
-        drone : where it takes itself to be, and how it moves, (3,) each
+        drone : its estimated position and velocity, (3,) each
         """
         target, moves = predicted(mission.target(self.target), stages, of)
         goal = min(float(stages[-1]), self.phase.end)
@@ -100,7 +103,8 @@ class Chased:
         wanted = target[-1] + np.array(
             [c * beside[0] - s * beside[1], s * beside[0] + c * beside[1], beside[2]]
         )
-        # A target that is taken to be in the ground leads no drone there: the floor is only a price.
+        # The floor is only a penalty in the replan, so a target estimated to be in the ground must not lead
+        # the drone there.
         wanted[2] = max(there[2] + of.rise, mission.lowest((wanted[0], wanted[1], 0.0), film.drone.radius))
         return ChaseSituation(
             time=float(stages[0]),
@@ -118,9 +122,10 @@ class Chased:
 
 @dataclass(frozen=True, slots=True)
 class ComposedShot:
-    """A shot that is found from how its subjects are to appear.
+    """A shot that follows from the appearance of its subjects.
 
-    smoother : as in ``Chased``; near : the pose that its camera stays near
+    smoother : as in ``Chased``
+    near : pose that its camera stays near
     """
 
     stages: ClassVar = FRAMING_STAGES
@@ -130,7 +135,7 @@ class ComposedShot:
     near: Near | None = None
 
     def planner(self, by: Replanner, film: PlanSamples, keeping: Keeping) -> FramingPlanner:
-        """Return who plans it anew."""
+        """Return its planner."""
         k = int(np.searchsorted(film.times, self.phase.start))
         half = (float(film.half[k, 0]), float(film.half[k, 1]))
         rates = (film.drone.gimbal.rate, film.drone.gimbal.rate)
@@ -145,7 +150,7 @@ class ComposedShot:
         drone: tuple[Array, Array],
         of: ReplanInstant,
     ) -> FramingSituation:
-        """Return what is known of one run; arguments as of ``Chased``."""
+        """Return the input of a replan in one run; arguments as in ``Chased``."""
         filmed = {each.target: self._asked(each, stages) for each in self.subjects}
         wanted = {each.target: each.wanted[film.step(float(stages[0]))] for each in film.framed}
         bodies = [t for t in mission.targets if t.name in filmed or t.name in of.known]
@@ -164,7 +169,7 @@ class ComposedShot:
         )
 
     def _asked(self, subject: Subject, stages: Array) -> tuple[Asked, ...]:
-        """Return how a subject is to appear at the stages."""
+        """Return the references of a subject's appearance at the stages."""
         return tuple(subject.asked(t - self.phase.start) for t in stages.tolist())
 
 
@@ -232,7 +237,7 @@ class ReplanInstant:
 
 
 def replanned(mission: MissionIR, track: DroneTrajectory) -> tuple[Anew, ...]:
-    """Return the shots that are planned anew: of what moves, from beside it or by how it is to appear."""
+    """Return the shots with replanning: those of moving targets."""
     return tuple(_anew(mission, track))
 
 
@@ -270,7 +275,9 @@ def predicted(target: Target, stages: Array, of: ReplanInstant) -> tuple[Array, 
 
 
 def _drawn(mission: MissionIR, near: Near, stages: Array, of: ReplanInstant) -> DrawnPose:
-    """Return what a camera stays near: beside a target, where that is taken to be."""
+    """Return the pose that a camera stays near, relative to the target's estimate if it is beside
+    a target.
+    """
     places = np.array([near_at(mission, near, t) for t in stages.tolist()])
     if near.beside is not None:
         target = mission.target(near.beside.target)
@@ -279,7 +286,7 @@ def _drawn(mission: MissionIR, near: Near, stages: Array, of: ReplanInstant) -> 
 
 
 def _aim(film: PlanSamples, time: float, last: Plan) -> tuple[float, float]:
-    """Return yaw and pitch of the camera as it was last planned, rad."""
+    """Return yaw and pitch of the camera in the last plan, rad."""
     if last.aim is None:
         pose = np.asarray(film.track.curve(time))
         return float(pose[CAM_YAW]), float(pose[CAM_PITCH])
@@ -307,9 +314,9 @@ def _filmed(
 
 
 def _appearance(asked: tuple[Asked, ...], uv: Array | None) -> Appearance:
-    """Return how a subject is to appear: place and size now, the view at every stage.
+    """Return the reference of a subject's appearance: place and size now, the view at every stage.
 
-    A view with a free angle is free.
+    A view with a free angle is not constrained.
     """
     place = None if uv is None or np.isnan(uv).any() else (float(uv[0]), float(uv[1]))
     ways = [viewpoint.direction(*view) for view in map(_both, asked) if view is not None]

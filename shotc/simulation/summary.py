@@ -1,4 +1,4 @@
-"""What came of a rehearsal, in tables and sentences that people read."""
+"""The result of a rehearsal in tables and sentences for people."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ LOOPS = {
     "replan": "drone and camera follow what they see",
 }
 LARGEST_MARGIN_RATIO = 2.0
-"""Times the separation: with a larger margin a show has no pictures left."""
+"""Largest useful margin over the separation; with a larger one a show has no pictures left."""
 FLEETS = ("fleet", "drones", "strays, RMS", "99 %", "farthest", "nearest", "asked", "margin")
 
 
@@ -47,11 +47,12 @@ Rows = tuple[tuple[str, ...], ...]
 
 
 class Summary(NamedTuple):
-    """What came of a rehearsal.
+    """The result of a rehearsal.
 
-    flown : how often, and in what conditions
-    tables : of pictures, cameras and fleets, those that have rows; the first row of each is its head
-    asked : what the mission asks, and how many runs keep it; notes : what else is to be told
+    flown : number of runs, and the conditions
+    tables : of framing, cameras and fleets, without empty ones; the first row of each is its head
+    asked : the mission's requirements, with the number of runs that keep them
+    notes : further remarks
     """
 
     flown: str
@@ -61,7 +62,7 @@ class Summary(NamedTuple):
 
 
 def summary(done: Rehearsed) -> Summary:
-    """Return what people read of a rehearsal."""
+    """Return the summary of a rehearsal."""
     total = len(done.runs)
     tables = (tuple(rows) for rows in (_pictures(done), _courses(done), _fleets(done)))
     return Summary(
@@ -101,7 +102,7 @@ def _conditions(done: Rehearsed) -> str:
 
 
 def _beside(gps: Gps) -> str:
-    """Say what else positions are off, and when there are none."""
+    """Return the constant error of positions and the intervals without them, in words."""
     east = gps.offset[0]
     away = f" of {plain(abs(east), 2)} m too far {'east' if east > 0 else 'west'}" if east else ""
     lost = " and ".join(f"{plain(start, 1)} to {plain(end, 1)} s" for start, end in gps.lost)
@@ -185,7 +186,7 @@ def _limit(each: RequirementVerdict) -> str:
 
 
 def _remarks(done: Rehearsed) -> Iterator[str]:
-    """Say what is flown as planned, what failed, and what the margin of a show should be."""
+    """Yield remarks on shots without replanning, on failures, and on the margin of a show."""
     yield from _planned_anew(done)
     unasked = [p.shot for p in done.runs[0].pictures if p.error is None]
     if unasked and done.conditions.loop != "replay":
@@ -203,7 +204,7 @@ def _remarks(done: Rehearsed) -> Iterator[str]:
 
 
 def _spoiled(done: Rehearsed) -> Iterator[str]:
-    """Say whose pictures have other drones in them, where the mission minds."""
+    """Yield remarks on pictures with other drones, unless the mission switches this off."""
     if done.mission.rules.visibility == "off":
         return
     for i, first in enumerate(done.runs[0].courses):
@@ -214,7 +215,7 @@ def _spoiled(done: Rehearsed) -> Iterator[str]:
 
 
 def _planned_anew(done: Rehearsed) -> Iterator[str]:
-    """Say which shots were planned anew, and how often that failed."""
+    """Yield remarks on the shots that were replanned, and on failed replans."""
     if done.conditions.loop != "replan":
         return
     mission = done.mission
@@ -238,7 +239,7 @@ def _planned_anew(done: Rehearsed) -> Iterator[str]:
 
 
 def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
-    """Say who strays farthest and comes nearest, and which margin is enough for how far drones stray."""
+    """Yield remarks on the largest stray, the nearest pair, and a sufficient margin."""
     fleet = done.mission.fleet(every[0].fleet)
     names, far = drone_names(fleet), max(every, key=lambda each: each.flown.farthest).flown
     yield f"{fleet.name}: {names[far.drone]} strays farthest, at {as_minutes(far.time)}"
@@ -256,7 +257,7 @@ def _margin(done: Rehearsed, every: list[FleetCourse]) -> Iterator[str]:
 
 
 def _met(done: Rehearsed, every: list[FleetPair]) -> str:
-    """Say which drones of two fleets, or of a fleet and a camera, come nearest, and whether too near."""
+    """Return the remark on the nearest drones of two fleets, or of a fleet and a camera."""
     worst = min(every, key=lambda each: each.near.distance)
     near, names = worst.near, {fleet.name: drone_names(fleet) for fleet in done.mission.fleets}
     one, other = names[worst.one][near.first], names.get(worst.other, (worst.other,))[near.second]
@@ -266,7 +267,7 @@ def _met(done: Rehearsed, every: list[FleetPair]) -> str:
 
 
 def _beside_pads(fleet: Fleet, every: list[NearestPair]) -> Iterator[str]:
-    """Say who comes nearest while one of them stands on its pad."""
+    """Yield the remark on the nearest pair while one of them stands on its pad."""
     if not every:
         return
     names, near = drone_names(fleet), min(every, key=lambda n: n.distance)

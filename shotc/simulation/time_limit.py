@@ -1,4 +1,4 @@
-"""A limit on how long a call may take, where the system can interrupt one."""
+"""A time limit for a call, on systems that can interrupt one."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from types import FrameType
 
 
 class CallTimeout(Exception):
-    """A call took longer than it may."""
+    """A call exceeded its time limit."""
 
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Raise ``CallTimeout`` in what runs below after so many seconds.
+    """Raise ``CallTimeout`` in the body after some seconds.
 
-    It needs Unix and the main thread, as the processes of a simulation have; elsewhere nothing is limited.
-    What does not come back to the interpreter cannot be interrupted.
+    It needs Unix and the main thread, which the processes of a simulation have; elsewhere there is no limit.
+    Code that does not return to the interpreter cannot be interrupted.
     """
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         yield
@@ -29,7 +29,7 @@ def time_limit(seconds: float) -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGALRM, before)
-        signal.setitimer(signal.ITIMER_REAL, *left)  # whoever had one goes on with it
+        signal.setitimer(signal.ITIMER_REAL, *left)  # restores an earlier timer
 
 
 def _interrupt(_number: int, _frame: FrameType | None) -> None:

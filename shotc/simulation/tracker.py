@@ -1,6 +1,6 @@
-"""One target followed through a flight: measurements that come late or out of order, by models of its motion.
+"""Tracks one target with measurements that arrive late or out of order.
 
-A measurement that arrives late is taken in at the moment it holds for: what came after it is taken in again.
+A late measurement is applied at the time for which it holds, and all later ones are applied again.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from shotc.simulation.kalman import Estimate, Measurement, MotionModel
 from shotc.simulation.modes import Modes, begun, expected, stepped, taken
 
 FIRST_VARIANCE = 0.5
-"""Of each component of the first state, m^2 and m^2/s^2."""
+"""Variance of each component of the first state, m^2 and m^2/s^2."""
 
 KEPT_S = 2.0
-"""Seconds for which the past is kept: what arrives later than that is too old to be taken in."""
+"""Seconds of history; a measurement older than that is ignored."""
 
 
 @dataclass(slots=True)
 class Tracker:
-    """One target of R runs.
+    """The tracker of one target in R runs.
 
-    models : of how it moves, one or several, and of what its receiver is off
+    models : one or several models of its motion and its receiver's bias
     """
 
     models: tuple[MotionModel, ...]
@@ -33,7 +33,7 @@ class Tracker:
 
     @staticmethod
     def beginning(time: float, place: Array, velocity: Array, *models: MotionModel) -> Tracker:
-        """Return a tracker that knows a first satellite position and a velocity, (R, 3) each, roughly."""
+        """Return a tracker initialised with a satellite position and a velocity, (R, 3) each."""
         mean = np.concatenate([place, velocity, velocity, np.zeros_like(place)], axis=1)
         off = models[0].bias ** 2
         # A place that a receiver tells is off by as much as the receiver, the other way. The first velocity
@@ -45,7 +45,7 @@ class Tracker:
         return Tracker(models, [(begun(Estimate(time, mean, covariance), models), None)])
 
     def take(self, measurement: Measurement) -> bool:
-        """Take a measurement in, in its place in time; tell whether it was not too old for that."""
+        """Apply a measurement at its time; return whether it was recent enough."""
         k = bisect_right(self._past, measurement.time, key=lambda entry: entry[0].time)
         if k == 0:
             return False
@@ -58,7 +58,7 @@ class Tracker:
         return True
 
     def now(self, time: float) -> Estimate:
-        """Return what is known of the target at a time at or after all that was taken in."""
+        """Return the estimate of the target at a time not before any applied measurement."""
         return stepped(self._past[-1][0], time, self.models).whole
 
     def ahead(self, times: Array) -> Array:

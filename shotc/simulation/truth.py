@@ -1,4 +1,4 @@
-"""Where targets really are in a run: on their track, off it by chance, or where a file says."""
+"""True positions of targets in a run: on their track, with a random deviation, or from a file."""
 
 from __future__ import annotations
 
@@ -15,24 +15,27 @@ from shotc.ir.target import Target
 from shotc.simulation.wind import wandering
 
 WANDER_MEMORY_S = 3.0
-"""Time constant with which a target leaves its track and comes back, seconds."""
+"""Time constant of a target's deviation from its track, seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """How targets move.
+    """The true motion of targets.
 
-    wander : standard deviation of how far what moves is off its track, along East and along North, metres
-    tracks : of targets that go elsewhere than the mission says, by name
+    wander : standard deviation of a moving target from its track, along East and along North, metres
+    tracks : true tracks of targets that differ from the mission, by name
     """
 
     wander: float = 0.0
     tracks: tuple[tuple[str, Track], ...] = ()
 
     def places(self, target: Target, times: Array, chances: Sequence[np.random.Generator]) -> Array:
-        """Return where a target is at even times (M,) from the mission's start on; shape (M, R, 3), metres.
+        """Return a target's positions at uniform times (M,) from the mission's start on; shape (M, R, 3),
+        metres.
 
-        chances : the random numbers of each run. A target that wanders begins on its track.
+        A target that wanders begins on its track.
+
+        chances : random generator of each run
         """
         shape = (len(times), len(chances), 3)
         track = dict(self.tracks).get(target.name, target.track)
@@ -45,7 +48,7 @@ class Truth:
 
 
 def _off(times: Array, chances: Sequence[np.random.Generator]) -> Array:
-    """Return smooth wandering of deviation 1 over ground, (M, R, 3): an OU process behind a lag."""
+    """Return a smooth horizontal deviation with standard deviation 1, (M, R, 3): a filtered OU process."""
     step = float(times[1] - times[0])
     noise = np.stack([rng.standard_normal((len(times), 2)) for rng in chances], axis=1)
     pulled = wandering(noise, step / WANDER_MEMORY_S)

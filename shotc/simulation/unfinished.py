@@ -1,7 +1,7 @@
-"""Runs that are done while others are not: kept, so that a simulation that is killed goes on from there.
+"""Progress file of a simulation: it records finished runs, so that a simulation that was killed can resume.
 
-An entry is a block of runs. One that belongs to another plan or to other conditions is passed over. The file
-goes when the simulation is finished.
+An entry is a block of runs. It is ignored if it belongs to another plan or to other conditions. The file is
+deleted when the simulation is finished.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ _RUNS: TypeAdapter[tuple[Run, ...]] = TypeAdapter(tuple[Run, ...])
 
 @dataclass(frozen=True, slots=True)
 class Unfinished:
-    """The blocks of one simulation that are done.
+    """The finished blocks of one simulation.
 
-    key : of the plan and its conditions
+    key : hash of the plan and its conditions
     """
 
     file: ProgressFile
@@ -41,7 +41,7 @@ class Unfinished:
 
     @staticmethod
     def of(folder: Path, ir: TrajectoryIR, conditions: Conditions) -> Unfinished:
-        """Return what is kept in a folder of a plan in these conditions."""
+        """Return the record in a folder for a plan in these conditions."""
         digest = sha256(f"{__version__} {ir.keyframes.mission.source_sha256} {asdict(conditions)}".encode())
         for track in ir.drones:
             digest.update(track.curve.breaks.tobytes() + track.curve.ctrl.tobytes())
@@ -50,18 +50,18 @@ class Unfinished:
         return Unfinished(ProgressFile(folder / NAME), digest.hexdigest())
 
     def done(self) -> tuple[RunBlock, ...]:
-        """Return the blocks that are kept."""
+        """Return the recorded blocks."""
         return tuple(block for entry in self.file.entries() for block in self._block(entry))
 
     def add(self, block: RunBlock) -> None:
-        """Keep a block."""
+        """Record a block."""
         entry: dict[str, Any] = {"runs": [asdict(run) for run in block.runs]}
         if block.strays is not None:
             entry["strays"] = [block.strays.times.tolist(), block.strays.metres.tolist()]
         self.file.add(self.key, entry)
 
     def keeping(self, blocks: Iterator[RunBlock], earlier: Sequence[RunBlock]) -> Iterator[RunBlock]:
-        """Yield blocks as they come, and keep those that are not among the earlier ones."""
+        """Yield blocks as they come, and record those that are not among the earlier ones."""
         for block in blocks:
             if not any(block is each for each in earlier):
                 self.add(block)

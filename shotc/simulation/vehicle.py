@@ -1,8 +1,9 @@
-"""A drone under a position controller as PX4's, for many runs at once. World frame W, metres, seconds.
+"""A drone with a position controller like PX4's, vectorised over runs. World frame W, metres, seconds.
 
-The controller is a cascade: a position error asks for a velocity, a velocity error for an acceleration; the
-planned velocity and acceleration are fed forward. The acceleration that comes follows with a lag, as a drone
-has to tilt first, and is bounded by the tilt. Air drags the drone along with the wind.
+The controller is a cascade: a position error demands a velocity, and a velocity error demands an
+acceleration. The planned velocity and acceleration are fed forward. The acceleration follows its demand with
+a lag, because a drone has to tilt first, and the tilt bounds it. Drag accelerates the drone towards the
+wind's velocity.
 """
 
 from __future__ import annotations
@@ -17,19 +18,19 @@ from shotc.geom.bernstein import Array
 from shotc.ir.limits import G_M_S2
 
 STEP_S = 0.01
-"""Step of integration, seconds: a tenth of the fastest lag."""
+"""Integration step, seconds: a tenth of the shortest lag."""
 
 
 @dataclass(frozen=True, slots=True)
 class Vehicle:
-    """What a drone and its controller do; gains are PX4's defaults (MPC_XY_P and so on).
+    """The dynamics of a drone and its controller; gains are PX4's defaults (MPC_XY_P and so on).
 
     position, velocity, integral : gains along East, North and Up, 1/s, 1/s, 1/s^2
-    lag : time constant of the acceleration behind what the controller asks, s
-    drag : acceleration towards the wind for each m/s of airspeed, 1/s
-    tilt : largest lean, rad, which bounds the level acceleration to g tan(tilt)
+    lag : time constant of the acceleration behind its demand, seconds
+    drag : acceleration for each m/s of airspeed, 1/s
+    tilt : largest tilt, rad, which bounds the horizontal acceleration to g tan(tilt)
     climb : largest upward and downward acceleration, m/s^2
-    speed : largest velocity that the controller asks for, m/s, as a norm
+    speed : largest velocity that the controller demands, m/s, as a norm
     """
 
     position: tuple[float, float, float] = (0.95, 0.95, 1.0)
@@ -44,9 +45,11 @@ class Vehicle:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VehicleState:
-    """Where drones of R runs are; every array of shape (R, 3).
+    """The state of drones in R runs; every array has shape (R, 3).
 
-    velocity : over ground; acceleration : that the rotors make, less gravity; held : what the integrator asks
+    velocity : over ground
+    acceleration : of the rotors, minus gravity
+    held : acceleration of the integrator
     """
 
     position: Array
@@ -56,14 +59,14 @@ class VehicleState:
 
     @staticmethod
     def at_rest(position: Array) -> VehicleState:
-        """Return drones that hover at places (R, 3)."""
+        """Return drones that hover at positions (R, 3)."""
         still = np.zeros_like(position)
         return VehicleState(position, still, still, still)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VehicleSetpoint:
-    """What drones are asked for; arrays that broadcast to (R, 3): metres, m/s, m/s^2 in W."""
+    """The demand on drones; arrays that broadcast to (R, 3): metres, m/s, m/s^2 in W."""
 
     position: Array
     velocity: Array
@@ -71,20 +74,21 @@ class VehicleSetpoint:
 
 
 class Plant(Protocol):
-    """What a drone does of what its controller asks."""
+    """The response of a drone to its controller's demand."""
 
     def carried(self, state: VehicleState, pushed: Array, held: Array, wind: Array) -> VehicleState:
-        """Return the state a ``STEP_S`` later.
+        """Return the state a ``STEP_S`` later; all arrays have shape (R, 3).
 
-        pushed : acceleration that the rotors are asked for, less gravity; held : of the integrator; wind
-        All have the shape (R, 3).
+        pushed : demanded acceleration of the rotors, minus gravity, m/s^2
+        held : acceleration of the integrator, m/s^2
+        wind : m/s
         """
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class Lagging:
-    """The plant by default: an acceleration that lags, and linear drag."""
+    """The default plant: a lagging acceleration and linear drag."""
 
     vehicle: Vehicle
 
@@ -99,15 +103,15 @@ class Lagging:
 def steered(
     vehicle: Vehicle, state: VehicleState, asked: VehicleSetpoint, error: Array | float = 0.0
 ) -> tuple[Array, Array]:
-    """Return the acceleration that the controller asks of the rotors, and what its integrator holds, (R, 3).
+    """Return the acceleration that the controller demands of the rotors, and the integrator's, (R, 3) each.
 
-    error : of the position that the drone takes for its own, (R, 3), metres
+    error : of the drone's position estimate, (R, 3), metres
     """
     gain_p, gain_v, gain_i = (np.array(g) for g in (vehicle.position, vehicle.velocity, vehicle.integral))
     wanted = within(asked.velocity + gain_p * (asked.position - state.position - error), vehicle.speed)
     missing = wanted - state.velocity
     pushed = _bounded(vehicle, asked.acceleration + gain_v * missing + state.held)
-    # What the integrator may ask is bounded as all else: it does not wind up while a drone is blown away.
+    # The integrator has the same bound, so it does not wind up while the wind carries a drone away.
     return pushed, _bounded(vehicle, state.held + STEP_S * gain_i * missing)
 
 
@@ -125,7 +129,7 @@ def within(vectors: Array, most: float) -> Array:
 
 
 def _bounded(vehicle: Vehicle, acceleration: Array) -> Array:
-    """Bound what the tilt and the thrust can give; level and upright parts by themselves."""
+    """Return accelerations bounded by tilt and thrust, the horizontal and vertical parts separately."""
     level = within(acceleration[:, :2], G_M_S2 * tan(vehicle.tilt))
     up = np.clip(acceleration[:, 2:], -vehicle.climb, vehicle.climb)
     return np.concatenate([level, up], axis=1)

@@ -1,4 +1,4 @@
-"""Whether runs keep what the mission asks of rehearsals, and what they would keep."""
+"""Judges whether runs keep the mission's requirements on rehearsals, and which values they would keep."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Unit = Literal["share", "half frames", "m"]
 
 
 class Measure(NamedTuple):
-    """What is measured of a run, and whether it is to stay below what is asked."""
+    """A measure of a run, and whether the requirement is an upper limit."""
 
     of: Callable[[Run], float]
     upper: bool
@@ -30,16 +30,20 @@ MEASURES: dict[Key, Measure] = {
     "clearance": Measure(lambda run: run.clearance, False, "m"),
     "stray": Measure(lambda run: run.stray, True, "m"),
 }
-"""What is measured for each key of the promise."""
+"""The measure of each key of the requirements."""
 
 
 @dataclass(frozen=True, slots=True)
 class RequirementVerdict:
-    """One thing that is asked of the runs.
+    """The verdict on one requirement.
 
-    key : as missions write it; limit : what is asked; upper : whether values are to stay below it
-    held : in how many runs it holds; worst, run : the worst value, and the run that has it
-    kept : the value that as many runs keep as are asked to; written : whether the mission asks for it
+    key : in the mission language
+    limit : required value
+    upper : whether it is an upper limit
+    held : number of runs that keep it
+    worst, run : the worst value, and its run
+    kept : the value that the required number of runs keep
+    written : whether the mission states it
     """
 
     key: Key
@@ -58,17 +62,17 @@ class RequirementVerdict:
 
 
 def verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> tuple[RequirementVerdict, ...]:
-    """Judge runs by what is asked of them; that nothing is touched is always asked."""
+    """Return the verdicts on runs; that no drone touches anything is always required."""
     return tuple(_verdicts(runs, promise))
 
 
 def held(runs: Sequence[Run], found: Sequence[RequirementVerdict]) -> int:
-    """Return in how many runs all of it holds."""
+    """Return the number of runs that keep all requirements."""
     return sum(all(_holds(each.key, run, each.limit) for each in found) for run in runs)
 
 
 def enough(runs: Sequence[Run], promise: RehearsalPromise) -> int:
-    """Return in how many runs all of it has to hold."""
+    """Return the number of runs that must keep all requirements."""
     return ceil(promise.of * len(runs) - 1e-9)
 
 
@@ -79,7 +83,7 @@ def _verdicts(runs: Sequence[Run], promise: RehearsalPromise) -> Iterator[Requir
             continue
         limit = 0.0 if asked is None else asked
         values = [(measure.of(run), run.number) for run in runs]
-        ordered = sorted(values, reverse=not measure.upper)  # the best first
+        ordered = sorted(values, reverse=not measure.upper)  # from best to worst
         worst, number = ordered[-1]
         kept = ordered[enough(runs, promise) - 1][0]
         count = sum(_holds(key, run, limit) for run in runs)

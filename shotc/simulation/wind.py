@@ -1,4 +1,4 @@
-"""Wind: one steady vector for a run, and gusts that come and go. World frame W, m/s."""
+"""Wind: one constant vector for a run, and gusts. World frame W, m/s."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import numpy as np
 from shotc.geom.bernstein import Array
 
 GUST_MEMORY_S = 2.0
-"""Correlation time of gusts, seconds: long enough to push a drone off, too short for its integrator."""
+"""Correlation time of gusts, seconds: long enough to displace a drone, too short for its integrator."""
 
 
 @dataclass(frozen=True, slots=True)
 class WindField:
-    """What blows in all runs.
+    """The wind of all runs.
 
-    speed : of the steady part, m/s
+    speed : of the constant part, m/s
     toward : yaw of the direction in which it blows, rad from East; None draws one for each run
     gusts : standard deviation of each axis of the gusts, m/s
     """
@@ -28,7 +28,10 @@ class WindField:
     gusts: float = 0.0
 
     def steady(self, chances: Sequence[np.random.Generator]) -> Array:
-        """Return the steady part of R runs, shape (R, 3), m/s; chances : the random numbers of each run."""
+        """Return the constant part of R runs, shape (R, 3), m/s.
+
+        chances : random generator of each run
+        """
         drawn = np.array([rng.uniform(0.0, 2 * pi) for rng in chances])
         toward = drawn if self.toward is None else np.full(len(drawn), self.toward)
         return self.speed * np.column_stack([np.cos(toward), np.sin(toward), np.zeros(len(drawn))])
@@ -45,9 +48,10 @@ class WindField:
 
 
 def wandering(noise: Array, share: float) -> Array:
-    """Return an Ornstein-Uhlenbeck process of deviation 1 made of white noise of deviation 1.
+    """Return an Ornstein-Uhlenbeck process of standard deviation 1 from white noise of standard deviation 1.
 
-    noise : shape (N, ...), one row for each instant; share : time between instants over the correlation time
+    noise : shape (N, ...), one row for each instant
+    share : time between instants over the correlation time
     """
     kept = exp(-share)
     fresh = sqrt(1.0 - kept * kept)

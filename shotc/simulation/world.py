@@ -1,4 +1,4 @@
-"""What all drones of a run have in common: its wind, and where its targets really are."""
+"""What all drones of a run share: the wind, and the true positions of targets."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ from shotc.simulation.vehicle import STEP_S
 class World:
     """R runs of a mission.
 
-    runs : their numbers; times : N steps from the mission's start to its end, s
-    steady : the steady part of the wind, (R, 3), m/s
-    places : where each target really is, (N, R, 3), metres
+    runs : their numbers
+    times : N steps from the mission's start to its end, seconds
+    steady : constant part of the wind, (R, 3), m/s
+    places : true positions of each target, (N, R, 3), metres
     """
 
     mission: MissionIR
@@ -48,12 +49,15 @@ class World:
         return World(mission, conditions, tuple(runs), times, steady, places)
 
     def moves(self, name: str) -> bool:
-        """Tell whether a target is elsewhere than at its centre in any run."""
+        """Return whether a target leaves its centre in any run."""
         moving = self.mission.target(name).track is not None
         return moving or name in dict(self.conditions.truth.tracks)
 
     def target(self, name: str, run: int, times: Array) -> Target:
-        """Return a target as it really moves in the run of an index, with rows at some times."""
+        """Return a target with its true track in one run, sampled at some times.
+
+        run : index of the run
+        """
         target = self.mission.target(name)
         if not self.moves(name):
             return target
@@ -64,7 +68,7 @@ class World:
 
 
 def at_times(rows: Array, clock: Array, times: Array) -> Array:
-    """Return rows (N, ...) on an even clock (N,) at times (M,), straight between them; shape (M, ...)."""
+    """Return rows (N, ...) on a uniform clock (N,), linearly interpolated at times (M,); shape (M, ...)."""
     at = np.clip((times - clock[0]) / (clock[1] - clock[0]), 0.0, len(clock) - 1.0)
     k = np.minimum(at.astype(np.intp), len(clock) - 2)
     share = (at - k).reshape(-1, *([1] * (rows.ndim - 1)))

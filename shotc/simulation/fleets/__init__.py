@@ -1,5 +1,5 @@
-"""Fleets flown in simulation: drones that lag and are blown about, led along their trajectories.
+"""Simulates fleets: drones with lag and gusts that follow their trajectories.
 
-*display* Section V. What is planned is proved for points on curves; here is what comes of it with vehicles,
-and so how large the margin of a fleet's separation has to be. Nothing in planning or verification uses it.
+*display* Section V. The plan is verified for points on curves. The simulation shows how vehicles deviate from
+them, and so how large the margin of a fleet's separation must be. Planning and verification do not use it.
 """

@@ -1,7 +1,7 @@
-"""Avoidance while flying: each drone gives way by half to those near it (ORCA), in the stretched metric.
+"""Collision avoidance in flight: reciprocal avoidance (ORCA) in scaled space.
 
-An adapter of the RVO2-3D library (van den Berg et al., "Reciprocal n-body collision avoidance"). The paper's
-own avoidance also knows the vehicle's dynamics; this one takes a new velocity to be had at once. The
+This adapts the RVO2-3D library (van den Berg et al., "Reciprocal n-body collision avoidance"). The paper's
+own avoidance also models the vehicle's dynamics; this one assumes that a new velocity is reached at once. The
 library has wheels for Linux and Windows on x86 only; without it this module cannot be imported.
 """
 
@@ -17,20 +17,22 @@ from shotc.geom.apart import Distances, ball, stretch
 from shotc.geom.bernstein import Array
 
 NEIGHBOUR_COUNT = 15
-"""Nearest drones that one looks at."""
+"""Nearest drones that a drone considers."""
 SIGHT_M = 8.0
-"""Metres within which it looks for them: two at 3.5 m/s close 7 m within the horizon."""
+"""Metres within which a drone considers others: two at 3.5 m/s approach by 7 m within the horizon."""
 HORIZON_S = 1.0
-"""Seconds ahead for which what is flown is free of conflict.
-
-Who looks farther gives way to those who are about to turn off anyhow, and strays by metres."""
+"""Seconds ahead for which the velocities are free of conflict. With a longer horizon, drones avoid others
+that are about to turn away, and stray by metres.
+"""
 
 
 @dataclass(slots=True, eq=False)
 class Avoidance:
-    """Reciprocal avoidance for one fleet; call it with positions, velocities and what is preferred.
+    """Reciprocal avoidance for one fleet, called with positions, velocities and preferred velocities.
 
-    apart : what is to be kept, its margin included; speed : largest velocity, m/s; period : of control, s
+    apart : separation, its margin included
+    speed : largest velocity, m/s
+    period : of control, seconds
     """
 
     apart: Distances
@@ -39,7 +41,9 @@ class Avoidance:
     _world: Any = field(init=False, default=None)
 
     def __call__(self, position: Array, velocity: Array, wanted: Array) -> Array:
-        """Return velocities (n, 3) as near to the wanted ones as leaves everyone free for the horizon."""
+        """Return velocities (n, 3), m/s, nearest to the preferred ones, without conflict within
+        the horizon.
+        """
         height = np.array([1.0, 1.0, stretch(self.apart)])
         if self._world is None:
             self._world = self._filled(position * height)

@@ -1,4 +1,4 @@
-"""A fleet flown in simulation: arrays in, where its drones were out."""
+"""Simulates a fleet: splines in, positions over time out."""
 
 from __future__ import annotations
 
@@ -16,12 +16,15 @@ PERIOD_S = 0.05
 """Seconds between commands."""
 
 Avoid = Callable[[Array, Array, Array], Array]
-"""From positions, velocities and preferred velocities, (n, 3) each, to those that are commanded."""
+"""Maps positions, velocities and preferred velocities, (n, 3) each, to commanded velocities, (n, 3)."""
 
 
 @dataclass(frozen=True, slots=True)
 class FleetConditions:
-    """How a fleet flies; seed : of the gusts."""
+    """The conditions in which a fleet flies.
+
+    seed : of the gusts
+    """
 
     vehicle: FleetVehicle = field(default_factory=FleetVehicle)
     gains: Gains = field(default_factory=Gains)
@@ -31,10 +34,11 @@ class FleetConditions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetRun:
-    """What came of it, every ``PERIOD_S``; times : (T,), the rest (n, T, 3).
+    """The simulated flight of a fleet, sampled every ``PERIOD_S``: times (T,), all else (n, T, 3).
 
-    position, velocity : of the drones over ground; wanted : where they should be
-    preferred : velocity that the controller asks for, before avoidance
+    position, velocity : of the drones over ground
+    wanted : planned positions
+    preferred : velocities that the controller asks for, before avoidance
     """
 
     times: Array
@@ -45,18 +49,18 @@ class FleetRun:
 
     @property
     def error(self) -> Array:
-        """Distance of each drone from where it should be at the same time, shape (n, T), m."""
+        """Distance of each drone from its planned position at the same time, shape (n, T), metres."""
         return np.asarray(np.linalg.norm(self.position - self.wanted, axis=2))
 
     @property
     def rmse(self) -> float:
-        """Root of the mean square of the error, over drones and times, m."""
+        """Root mean square of the error over drones and times, metres."""
         return float(np.sqrt(np.mean(self.error**2)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetSample:
-    """One row of ``FleetRun``: the time, and (n, 3) each of the rest."""
+    """One time of ``FleetRun``: the time, and (n, 3) of each other array."""
 
     time: float
     position: Array
@@ -68,9 +72,10 @@ class FleetSample:
 def flying(
     breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None
 ) -> Iterator[FleetSample]:
-    """Fly a fleet along splines (``geom.fleet_spline``) from rest at their start to their end.
+    """Yield the samples of a fleet that flies along splines (``geom.fleet_spline``), from rest at their
+    start.
 
-    avoid : what may change the preferred velocities; None flies them as they are
+    avoid : may change the preferred velocities; None leaves them
     """
     reference = FleetReference.of(breaks, coef)
     rng = np.random.default_rng(conditions.seed)
@@ -88,7 +93,7 @@ def flying(
 
 
 def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> FleetRun:
-    """Return all moments of ``flying`` together, which for a thousand drones is megabytes a second."""
+    """Return all samples of ``flying`` together; a thousand drones take megabytes for each second."""
     moments = list(flying(breaks, coef, conditions, avoid))
     return FleetRun(
         np.array([each.time for each in moments]),

@@ -1,10 +1,11 @@
-"""The controller that leads a fleet along its trajectories: the velocities it prefers (*display* Eq. 12-15).
+"""The controller of a fleet on its trajectories: the preferred velocities (*display* Eq. 12-15).
 
-Of each drone, the error along its path is towards the point where all are to be by now, which keeps a fleet
-in step; the error across it is from the nearest point of the path. Eq. 12 as printed looks for that point on
-the whole path. Before a sharp turn or a hold the tangent there then points away from where the drone should
-be, the two errors hold each other in balance, and it stands still for good. So only the path within ``reach``
-seconds of the common time is looked at.
+The along-track error of a drone is its distance from the planned position at the common time, which keeps the
+fleet synchronous. The cross-track error is its distance from the nearest point of its path.
+
+Eq. 12 as printed seeks the nearest point on the whole path. Before a sharp turn or a hold, the tangent at
+that point may point away from the planned position. The two errors then balance, and the drone stops for
+good. Therefore only the path within ``reach`` seconds of the common time is searched.
 """
 
 from __future__ import annotations
@@ -19,19 +20,19 @@ from shotc.geom.bernstein import Array
 from shotc.geom.fleet_spline import pieces, places_of
 
 SPACING_S = 0.05
-"""Seconds between the points of the path among which the nearest is looked for first."""
+"""Seconds between samples of the path in the first search for the nearest point."""
 SLOW_M_S = 0.02
-"""m/s below which a path has no tangent worth following."""
+"""m/s, below which the tangent of a path is not used."""
 TINY = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """Constants of the controller; pairs are (proportional, derivative), 1/s and 1.
+    """Gains of the controller; pairs are (proportional, derivative), 1/s and 1.
 
-    forward : seconds by which the acceleration leads, best the vehicle's response
+    forward : seconds by which the acceleration is fed forward, best the vehicle's response time
     ahead : seconds by which the point of the along-track error is ahead of the common time
-    reach : seconds from the common time within which the nearest point is looked for; infinite as printed
+    reach : seconds around the common time in which the nearest point is sought; infinite as printed
     """
 
     along: tuple[float, float] = (3.0, 0.6)
@@ -42,7 +43,7 @@ class Gains:
 
     @property
     def as_printed(self) -> bool:
-        """Whether the nearest point is looked for on the whole path."""
+        """Whether the nearest point is sought on the whole path."""
         return self.reach == inf
 
 
@@ -50,8 +51,9 @@ class Gains:
 class FleetReference:
     """The trajectories of a fleet.
 
-    breaks : shape (P + 1,); ctrl : Bernstein control points of their pieces, (n, P, 4, 3)
-    together : where all drones are to be, (n, T, 3), at times (T,)
+    breaks : shape (P + 1,), seconds
+    ctrl : Bernstein control points of their pieces, (n, P, 4, 3), metres
+    together : returns the planned positions, (n, T, 3), at times (T,)
     """
 
     breaks: Array
@@ -64,7 +66,7 @@ class FleetReference:
         return FleetReference(breaks, pieces(breaks, coef), places_of(breaks, coef))
 
     def each(self, times: Array) -> tuple[Array, Array, Array]:
-        """Return place, velocity and acceleration, (n, 3) each, of every drone at a time of its own (n,)."""
+        """Return position, velocity and acceleration, (n, 3) each, of every drone at its own time (n,)."""
         times = np.clip(times, self.breaks[0], self.breaks[-1])
         piece = np.clip(np.searchsorted(self.breaks, times, side="right") - 1, 0, len(self.breaks) - 2)
         width = np.diff(self.breaks)[piece][:, None]
@@ -78,12 +80,13 @@ class FleetReference:
 
 
 def preferred(reference: FleetReference, gains: Gains, now: float, position: Array, velocity: Array) -> Array:
-    """Return the velocity that each drone should fly, shape (n, 3), m/s in W.
+    """Return the preferred velocity of each drone, shape (n, 3), m/s in W.
 
-    now : the common time; position, velocity : as measured, shape (n, 3)
+    Source: *display* Eq. 12 to 15. The speed of the path replaces v_i in Eq. 12. Where the path hovers, its
+    tangent is the direction to the planned position. Without cross-track error n_i is zero.
 
-    Source: *display* Eq. 12 to 15. The speed of the path takes the place of v_i in Eq. 12; where the path
-    hovers its tangent is the direction to the point it should be at; without cross-track error n_i is zero.
+    now : the common time, seconds
+    position, velocity : as measured, shape (n, 3)
     """
     place, rate, bend = reference.each(_nearest(reference, gains, now, position))
     goal = reference.together(np.array([now + gains.ahead]))[:, 0] - position
@@ -97,7 +100,7 @@ def preferred(reference: FleetReference, gains: Gains, now: float, position: Arr
 
 
 def _nearest(reference: FleetReference, gains: Gains, now: float, position: Array) -> Array:
-    """Return the time of each drone's nearest point of its path, shape (n,)."""
+    """Return the time of each drone's nearest point of its path, shape (n,), seconds."""
     first, last = reference.breaks[0], reference.breaks[-1]
     low, high = (first, last) if gains.as_printed else (now - gains.reach, now + gains.reach)
     low, high = np.clip([low, high], first, last)
@@ -119,6 +122,6 @@ def _size(vectors: Array) -> Array:
 
 
 def _unit(vectors: Array) -> Array:
-    """Return directions, zero for what has none."""
+    """Return unit vectors (n, 3), zero for vectors without a direction."""
     size = _size(vectors)
     return np.where(size > TINY, vectors / np.maximum(size, TINY), 0.0)

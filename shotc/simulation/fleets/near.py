@@ -1,7 +1,7 @@
-"""How near flown drones come, straight in between the places where they were recorded.
+"""Distances of simulated drones, with straight motion between recorded positions.
 
-Of a plan this is proved (``geom.separation``); a simulation is one flight of many, and its records are close
-enough: over a period a drone leaves the straight line by millimetres.
+For a plan this is proved (``geom.separation``). A simulation is only one of many flights, and its records are
+dense: within a period a drone deviates from the straight line by millimetres.
 """
 
 from __future__ import annotations
@@ -19,14 +19,16 @@ Pairs = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 MOST_NARROWINGS = 30
-"""Times that two thirds of an interval are kept; the distance of two drones is convex over it."""
+"""Ternary search steps, each of which keeps two thirds; the distance of two drones is convex in between."""
 
 
 @dataclass(frozen=True, slots=True)
 class NearestPair:
-    """The nearest that two drones came, metres of horizontal distance as in ``geom.separation``.
+    """The nearest pair of drones, metres of horizontal distance as in ``geom.separation``.
 
-    first, second : their rows; time : when, s; below : how many pairs came nearer than was asked about
+    first, second : their rows
+    time : seconds
+    below : number of pairs that came nearer than the limit
     """
 
     distance: float
@@ -37,9 +39,11 @@ class NearestPair:
 
 
 def nearest(times: Array, position: Array, apart: Distances, limit: float) -> NearestPair:
-    """Return the nearest of all pairs; position : shape (n, T, 3), two drones or more, two times or more.
+    """Return the nearest of all pairs.
 
-    limit : metres of horizontal distance, for ``NearestPair.below``
+    times : (T,), seconds, at least two
+    position : (n, T, 3), metres, at least two drones
+    limit : horizontal distance for ``NearestPair.below``, metres
     """
     search = NearestSearch(apart, limit)
     for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
@@ -48,9 +52,10 @@ def nearest(times: Array, position: Array, apart: Distances, limit: float) -> Ne
 
 
 class Across:
-    """The nearest of two drones of different fleets, whose places (n, 3) and (m, 3) come one after another.
+    """The nearest pair of drones from different fleets, whose positions (n, 3) and (m, 3) are added over
+    time.
 
-    limit : metres of horizontal distance, for ``NearestPair.below``
+    limit : horizontal distance for ``NearestPair.below``, metres
     """
 
     def __init__(self, apart: Distances, limit: float) -> None:
@@ -62,14 +67,14 @@ class Across:
         self._last: tuple[float, Array, Array] | None = None
 
     def add(self, time: float, one: Array, other: Array) -> None:
-        """Take where the drones of both fleets are at a time, later than those before."""
+        """Add the positions (n, 3) and (m, 3) of both fleets at a later time."""
         one, other = one * self._height, other * self._height
         if self._last is not None:
             self._between(*self._last, (time, one, other))
         self._last = (time, one, other)
 
     def found(self) -> NearestPair:
-        """Return the nearest so far; ``first`` is a row of the one fleet, ``second`` of the other."""
+        """Return the nearest pair so far; ``first`` is a row of the one fleet, ``second`` of the other."""
         return replace(self._best, below=len(self._low))
 
     def _between(self, before: float, one: Array, other: Array, then: tuple[float, Array, Array]) -> None:
@@ -78,7 +83,7 @@ class Across:
         moves = (one_end - one, other_end - other)
         moved = sum(float(np.linalg.norm(move, axis=1).max()) for move in moves)
         now = float(trees[1].query(trees[0].data)[0].min())
-        # In the tree's sense two are as far apart as in the cylinder's, or up to a root of two farther.
+        # The Euclidean distance is between the cylinder's measure and sqrt(2) times it.
         wide = np.sqrt(2.0) if self._upright else 1.0
         far = wide * max(self._limit, min(self._best.distance, now)) + moved
         if now > far:
@@ -94,7 +99,7 @@ class Across:
 
 
 class NearestSearch:
-    """``nearest`` for places (n, 3) that come one after another."""
+    """The incremental form of ``nearest``, for positions (n, 3) that are added over time."""
 
     def __init__(self, apart: Distances, limit: float) -> None:
         self._height = np.array([1.0, 1.0, stretch(apart)])
@@ -105,9 +110,9 @@ class NearestSearch:
         self._last: tuple[float, Array] | None = None
 
     def add(self, time: float, places: Array, counted: Mask | None = None) -> None:
-        """Take where all drones are at a time, later than those before.
+        """Add the positions of all drones at a later time.
 
-        counted : who counts since the time before, shape (n,); all, if None
+        counted : which drones count since the time before, shape (n,); None for all
         """
         seen = places * self._height
         seen = seen - seen.mean(axis=0)
@@ -117,7 +122,7 @@ class NearestSearch:
         self._last = (time, seen)
 
     def found(self) -> NearestPair:
-        """Return the nearest so far."""
+        """Return the nearest pair so far."""
         return replace(self._best, below=len(self._low))
 
     def _between(self, before: float, start: Array, then: tuple[float, Array], rows: Pairs) -> None:
@@ -142,13 +147,15 @@ def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:
     if not np.isfinite(reach):
         reach = float(tree.query(middle, k=2)[0][:, 1].min())
     moved = float(np.linalg.norm(end - start, axis=1).max())
-    # A ball holds the cylinder: what is near in its sense is near in the tree's.
+    # The Euclidean distance is at most sqrt(2) times the cylinder's measure.
     far = reach * (np.sqrt(2.0) if upright else 1.0) + moved
     return np.asarray(tree.query_pairs(far * (1.0 + 1e-9), output_type="ndarray"))
 
 
 def _least(one: Array, other: Array, upright: bool) -> tuple[Array, Array]:
-    """Return the least distance between straight moves and at which share of them, shape (K,) each."""
+    """Return the least distance between straight motions, and the share of the motion there,
+    shape (K,) each.
+    """
     low, high = np.zeros(len(one)), np.ones(len(one))
     for _ in range(MOST_NARROWINGS):
         left, right = low + (high - low) / 3.0, high - (high - low) / 3.0

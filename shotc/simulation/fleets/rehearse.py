@@ -1,4 +1,4 @@
-"""A planned fleet rehearsed: how far its drones stray, and what that leaves of their separation."""
+"""Rehearses a fleet: how far its drones stray, and what remains of their separation."""
 
 from __future__ import annotations
 
@@ -18,18 +18,20 @@ from shotc.simulation.fleets.near import NearestPair, NearestSearch
 from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 
 HEADROOM_RATIO = 2.0
-"""Acceleration that drones have over what plans may ask of them, as in the paper's simulation."""
+"""Factor of the drones' acceleration over the limit of plans, as in the paper's simulation."""
 
 
 @dataclass(frozen=True, slots=True)
 class FleetRehearsal:
-    """What came of one fleet, metres.
+    """The result of one fleet's run, metres.
 
-    rmse : of the distance from where each drone should be; usual : what 99 % of the largest distances of each
-        drone do not exceed; farthest : the largest; drone, time : whose, a row, and when, s
-    near : the nearest that two came, horizontal distance as in ``geom.separation``, or None for one drone;
-        of a fleet that takes off in layers, two in the air
-    beside : the nearest that two came while one stood on its pad, m; None for fleets that rise all at once
+    rmse : root mean square of the stray
+    usual : 99 % quantile of the drones' largest strays
+    farthest : largest stray
+    drone, time : row and time in seconds of the largest stray
+    near : the nearest pair, horizontal distance as in ``geom.separation``; None for one drone; in the air for
+        a fleet that takes off in layers
+    beside : the nearest pair while one drone stands on its pad; None for fleets that rise all at once
     """
 
     rmse: float
@@ -42,7 +44,7 @@ class FleetRehearsal:
 
 
 class Watch:
-    """What is kept of a fleet while it is flown."""
+    """Accumulates the results of a fleet while it flies."""
 
     def __init__(self, fleet: Fleet, flight: FleetTrajectory) -> None:
         self._flight, count = flight, len(flight.coef)
@@ -54,9 +56,9 @@ class Watch:
         self._squares, self._count = 0.0, 0
 
     def add(self, moment: FleetSample) -> Array:
-        """Take a moment, later than those before; return where the drones are, shape (n, 3).
+        """Add a later sample; return the positions of the drones, shape (n, 3), metres.
 
-        Of a fleet that takes off in layers, whoever stands on its pad stays there.
+        In a fleet that takes off in layers, a drone that stands on its pad stays there.
         """
         position, aloft = moment.position, None
         if self._standing is not None:
@@ -73,7 +75,7 @@ class Watch:
         return position
 
     def found(self) -> FleetRehearsal:
-        """Return what came of it so far."""
+        """Return the result so far."""
         drone = int(np.argmax(self._largest))
         return FleetRehearsal(
             rmse=float(np.sqrt(self._squares / self._count)),
@@ -89,7 +91,7 @@ class Watch:
 def moments(
     fleet: Fleet, flight: FleetTrajectory, gusts: Gusts, seed: int | tuple[int, ...]
 ) -> Iterator[FleetSample]:
-    """Fly a fleet with lag and gusts; the same seed gives the same flight."""
+    """Return the samples of a fleet's flight with lag and gusts; the same seed gives the same flight."""
     limits = fleet.limits
     fastest = hypot(limits.speed, max(limits.climb, limits.descent))
     vehicle = FleetVehicle(acceleration=HEADROOM_RATIO * limits.acceleration, speed=fastest)

@@ -1,6 +1,6 @@
-"""A drone as its autopilot shows it to a ground station: it takes a velocity and follows with a lag.
+"""A drone as its ground station sees it: it takes a velocity and follows it with a lag.
 
-World frame W, metres, seconds; n drones at once.
+World frame W, metres, seconds; vectorised over n drones.
 """
 
 from __future__ import annotations
@@ -14,15 +14,17 @@ from shotc.geom.bernstein import Array
 from shotc.simulation.vehicle import within
 
 STEP_S = 0.01
-"""Longest step of integration, seconds: a fifteenth of the fastest lag."""
+"""Longest integration step, seconds: a fifteenth of the shortest lag."""
 
 
 @dataclass(frozen=True, slots=True)
 class FleetVehicle:
-    """What a drone can do.
+    """The dynamics of a drone.
 
-    response : time constant of its velocity loop, s; lag : of the acceleration behind what the loop asks, s
-    acceleration : largest that the loop asks, m/s^2; speed : largest that is commanded, m/s; both as norms
+    response : time constant of its velocity loop, seconds
+    lag : time constant of the acceleration behind the loop's demand, seconds
+    acceleration : largest demand of the loop, m/s^2, as a norm
+    speed : largest commanded velocity, m/s, as a norm
     """
 
     response: float = 0.3
@@ -33,20 +35,21 @@ class FleetVehicle:
 
 @dataclass(frozen=True, slots=True)
 class Gusts:
-    """Wind that comes and goes: an Ornstein-Uhlenbeck velocity, of each drone and axis by itself.
+    """Gusts: an Ornstein-Uhlenbeck velocity, independent for each drone and axis.
 
-    deviation : standard deviation of each axis, m/s; memory : its correlation time, s
+    deviation : standard deviation of each axis, m/s
+    memory : correlation time, seconds
     """
 
     deviation: float = 0.0
     memory: float = 1.0
 
     def at_first(self, n: int, rng: np.random.Generator) -> Array:
-        """Return what blows at the beginning, shape (n, 3)."""
+        """Return the gusts at the start, shape (n, 3), m/s."""
         return self.deviation * rng.standard_normal((n, 3))
 
     def after(self, blowing: Array, step: float, rng: np.random.Generator) -> Array:
-        """Return what blows a step later; exact for a step of any length."""
+        """Return the gusts (n, 3) a step later; exact for a step of any length."""
         kept = exp(-step / self.memory)
         fresh = self.deviation * sqrt(1.0 - kept * kept)
         return kept * blowing + fresh * rng.standard_normal(blowing.shape)
@@ -54,9 +57,10 @@ class Gusts:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetState:
-    """Where drones are and how they move; all of shape (n, 3).
+    """The state of drones; all arrays have shape (n, 3).
 
-    velocity : through the air; gust : how the air moves, which carries them along
+    velocity : through the air
+    gust : velocity of the air
     """
 
     position: Array
@@ -66,14 +70,14 @@ class FleetState:
 
     @property
     def over_ground(self) -> Array:
-        """Velocity in W, which is what a drone measures."""
+        """Velocity in W, which a drone measures, (n, 3)."""
         return self.velocity + self.gust
 
 
 def moved(vehicle: FleetVehicle, state: FleetState, command: Array, step: float) -> FleetState:
-    """Return the state after a step under a commanded velocity of shape (n, 3), in a steady gust.
+    """Return the state after a step with a commanded velocity of shape (n, 3) and constant gusts.
 
-    The loop holds the velocity over ground; the acceleration follows what it asks with the lag.
+    The loop controls the velocity over ground. The acceleration follows its demand with the lag.
     """
     parts = max(1, round(step / STEP_S))
     h = step / parts
