@@ -77,4 +77,28 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
         "3  ->  4",
         "x, y and z alone are written",
     ),
+    Equivalent(
+        "shotc/geom/terrain/relief.py",
+        "_ALONG = 33  # samples on each side of a box that are transformed to the system of the file",
+        "33  ->  34",
+        "sides bulge by far less than the posts to spare, so that one sample more takes the same posts",
+    ),
+    Equivalent(
+        "shotc/geom/solid_arrays/rings.py",
+        "SIDES = 48",
+        "48  ->  49",
+        "the polygon is around its circle whatever its number of sides",
+    ),
+    Equivalent(
+        "shotc/show/geom/arcs.py",
+        "STEPS = 1500",
+        "1500  ->  1501",
+        "points of a way are off its arc by a ten-millionth of the radius either way, which pushed_out makes good",
+    ),
+    Equivalent(
+        "shotc/geom/solid_arrays/segments.py",
+        "upright = a < 1e-18",
+        "1e-18  ->  1e-15",
+        "a line that goes 3e-8 m aside over its length is upright to a thirtieth of what counts as inside",
+    ),
 )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree
 from scipy.spatial.distance import pdist
 
 from shotc.geom.bernstein import Array
-from shotc.show.geom.push_apart import SLACK_SHARE, nearest_pair, push_apart
+from shotc.show.geom.push_apart import SLACK_SHARE, grain, nearest_pair, push_apart
 
 
 def anywhere(_: Array, after: Array) -> Array:
@@ -84,3 +86,11 @@ def test_nobody_goes_where_it_may_not() -> None:
 def test_a_single_goal_is_alone() -> None:
     assert nearest_pair(np.zeros((1, 3))) == np.inf
     assert push_apart(np.zeros((1, 3)), np.zeros((1, 3)), 1.0, anywhere) is not None
+
+
+def test_the_grain_of_a_shape_is_how_far_its_points_are_apart() -> None:
+    assert grain(cKDTree(np.zeros((1, 3)))) == 0.0
+    grid = np.stack(np.meshgrid(*[np.arange(8.0) * 0.7] * 2), axis=-1).reshape(-1, 2)
+    assert grain(cKDTree(grid)) == pytest.approx(0.7)
+    # One point in twenty may stand alone.
+    assert grain(cKDTree(np.concatenate([grid, [[50.0, 50.0]]]))) == pytest.approx(0.7)

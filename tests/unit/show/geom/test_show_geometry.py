@@ -14,7 +14,7 @@ from shotc.geom.apart import ROUNDING_RATIO, spacing
 from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
-from shotc.show.geom.fit import most_drones
+from shotc.show.geom.fit import _round_box, most_drones
 from shotc.show.geom.shape import balls, bounds, depth_in, highest, lowest
 
 coordinates = st.floats(-8, 8).map(lambda x: round(x, 3))
@@ -190,3 +190,24 @@ def test_balls_of_a_ring_go_round_its_axis(radius: float, tube: float, heading: 
         assert sum(a * b for a, b in zip(d, axis, strict=True)) == pytest.approx(0.0, abs=1e-9 * radius)
     steps = [dist(a, b) for a, b in zip(away, [*away[1:], away[0]], strict=True)]
     assert steps == pytest.approx([steps[0]] * len(steps))
+
+
+@pytest.mark.parametrize(
+    ("sides", "reach", "volume"),
+    [
+        ((2.0, 3.0, 5.0), 0.0, 30.0),
+        ((0.0, 0.0, 0.0), 2.0, 4 / 3 * pi * 8.0),  # a ball
+        ((3.0, 0.0, 0.0), 2.0, 3.0 * pi * 4.0 + 4 / 3 * pi * 8.0),  # a rod
+        ((0.0, 5.0, 0.0), 2.0, 5.0 * pi * 4.0 + 4 / 3 * pi * 8.0),
+        ((0.0, 0.0, 7.0), 2.0, 7.0 * pi * 4.0 + 4 / 3 * pi * 8.0),
+        # A plate: its two faces, half a rod along each of its four sides, a ball at its corners.
+        ((3.0, 5.0, 0.0), 2.0, 2 * 15.0 * 2.0 + 8.0 * pi * 4.0 + 4 / 3 * pi * 8.0),
+        ((0.0, 5.0, 7.0), 2.0, 2 * 35.0 * 2.0 + 12.0 * pi * 4.0 + 4 / 3 * pi * 8.0),
+        ((3.0, 0.0, 7.0), 2.0, 2 * 21.0 * 2.0 + 10.0 * pi * 4.0 + 4 / 3 * pi * 8.0),
+        ((2.0, 3.0, 5.0), 0.1, 30.0 + 2 * 31.0 * 0.1 + pi * 10.0 * 0.01 + 4 / 3 * pi * 0.001),
+    ],
+)
+def test_what_is_within_reach_of_a_box_has_the_volume_of_its_faces_edges_and_corners(
+    sides: Vec3, reach: float, volume: float
+) -> None:
+    assert _round_box(*sides, reach) == pytest.approx(volume)

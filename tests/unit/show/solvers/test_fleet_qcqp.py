@@ -149,3 +149,15 @@ def test_acceleration_counts_whole_or_axis_by_axis(
     halves = np.array([(a * b + a * c + b * c) / 6 for a, b, c in zip(t, t[1:], t[2:], strict=False)])
     found = overdraft(breaks, (halves[:, None] * np.array(rate))[None], DerivativeBounds(LIMITS, per_axis))
     assert found == pytest.approx([excess], abs=1e-9)
+
+
+def test_drones_within_their_bounds_are_returned_bit_for_bit() -> None:
+    breaks, slow = walks(5, 10, 0.01, 2.0)
+    done = bounded(breaks, slow, DerivativeBounds(LIMITS))
+    assert np.array_equal(done.coef, slow)
+    assert (done.failed.size, done.changed, done.iterations, done.exact) == (0, 0, 0, 0)
+    mixed = slow.copy()
+    mixed[2, 5] += [0.0, 0.0, 20.0]
+    some = bounded(breaks, mixed, DerivativeBounds(LIMITS))
+    assert some.changed == 1
+    assert np.array_equal(np.delete(some.coef, 2, axis=0), np.delete(slow, 2, axis=0))
