@@ -31,7 +31,7 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/geom/surface/tree.py",
-        "TOP = 16",
+        "TOP_NODES = 16",
         "16  ->  17",
         "how many boxes a search begins with: all of them are held against what is sought, whatever their number",
     ),
@@ -79,19 +79,19 @@ EQUIVALENTS: tuple[Equivalent, ...] = (
     ),
     Equivalent(
         "shotc/geom/terrain/relief.py",
-        "_ALONG = 33  # samples on each side of a box that are transformed to the system of the file",
+        "_SIDE_SAMPLES = 33  # samples on each side of a box that are transformed to the system of the file",
         "33  ->  34",
         "sides bulge by far less than the posts to spare, so that one sample more takes the same posts",
     ),
     Equivalent(
         "shotc/geom/solid_arrays/rings.py",
-        "SIDES = 48",
+        "POLYGON_SIDES = 48",
         "48  ->  49",
         "the polygon is around its circle whatever its number of sides",
     ),
     Equivalent(
         "shotc/show/geom/arcs.py",
-        "STEPS = 1500",
+        "WAY_POINTS = 1500",
         "1500  ->  1501",
         "points of a way are off its arc by a ten-millionth of the radius either way, which pushed_out makes good",
     ),
