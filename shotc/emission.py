@@ -37,7 +37,7 @@ Outcome = Emission | Exception | str
 
 
 def usual_jobs() -> int:
-    """Return the default number of processes: that of usable cores, at most MOST."""
+    """Return the default number of processes: that of usable cores, at most MOST_PROCESSES."""
     return min(MOST_PROCESSES, cores()) if sys.platform == "linux" else 1
 
 

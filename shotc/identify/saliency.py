@@ -104,7 +104,7 @@ class SpectralResidual:
 
 
 def _smaller(grey: Array) -> Array:
-    """Return a picture averaged over square blocks, with at least WIDTH columns; shape (rows, columns)."""
+    """Return a picture averaged over square blocks, with at least WIDTH_PX columns; shape (rows, columns)."""
     by = max(1, grey.shape[1] // WIDTH_PX)
     rows, columns = (length // by for length in grey.shape)
     return np.asarray(grey[: rows * by, : columns * by].reshape(rows, by, columns, by).mean(axis=(1, 3)))

@@ -177,7 +177,7 @@ def _cones(block: _Block, asked: BoolArray) -> Sequence[Any]:
 
 
 def _widened(chosen: BoolArray) -> BoolArray:
-    """Return the mask with BESIDE neighbours on each side added."""
+    """Return the mask with BESIDE_CONES neighbours on each side added."""
     out = chosen.copy()
     for step in range(1, BESIDE_CONES + 1):
         out[step:] |= chosen[:-step]

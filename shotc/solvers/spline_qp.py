@@ -52,7 +52,7 @@ def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
 
     unit : of the objective, m^2; the solver's tolerance is 1e-8 of it, or of the objective if that is larger
     Without active bounds the solution is one linear solve. A solution that violates an equality by more than
-    MISS has the status FAILED.
+    MISS_M has the status FAILED.
     """
     centre = problem.equalities.value.mean(axis=0)
     problem = centred(problem, centre)

@@ -46,7 +46,7 @@ class Extent(NamedTuple):
 
     @staticmethod
     def of(row: Any) -> Extent:
-        """Return the body of EXTENT numbers; the first axis of an array."""
+        """Return the body of EXTENT_PARAMETERS numbers; the first axis of an array."""
         return Extent(row[:3], row[3], row[4], row[5:7], row[7:9])
 
     def reach(self, camera: View, n: UnitVector) -> Any:
@@ -69,7 +69,7 @@ def count_of(shapes: Sequence[TargetShape]) -> int:
 
 
 def extents_of(shape: TargetShape, count: int, times: int) -> Array:
-    """Return a target's bodies, shape (times, count, EXTENT); copies of the first one fill the rest.
+    """Return a target's bodies, shape (times, count, EXTENT_PARAMETERS); copies of the first fill the rest.
 
     shape : may have one course for each of the times
     """
@@ -110,7 +110,7 @@ def between(first: Array, second: Array, share: Array) -> Array:
 
     Sides that point the opposite way are turned: they describe the same body.
 
-    first, second : (1, K, EXTENT)
+    first, second : (1, K, EXTENT_PARAMETERS)
     """
     turned = second.copy()
     for pair in (slice(5, 7), slice(7, 9)):

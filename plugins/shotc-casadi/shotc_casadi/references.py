@@ -46,7 +46,7 @@ class References:
     framed : 1 where the target has a place on screen, shape (N + 1,)
     whole : 1 where the whole target has to be in the frame, shape (N + 1,)
     inside : margin of the target to the left, right, bottom and top edge there, half frames, (N + 1, 4)
-    extents : of the target's bodies, (N + 1, K, EXTENT); K is 0 if it is one cylinder
+    extents : of the target's bodies, (N + 1, K, EXTENT_PARAMETERS); K is 0 if it is one cylinder
     """
 
     centre: Array

@@ -109,7 +109,7 @@ def _interval(row: dict[str, str]) -> Photos | None:
 
 
 def _pairs(action: PointAction) -> list[tuple[int, int]]:
-    """Return type and parameter of an action; a stay longer than STAY_MOST is divided into several."""
+    """Return type and parameter of an action; a stay longer than LONGEST_STAY_S is divided into several."""
     if action.kind != "stay":
         return [(START if action.kind == "start" else STOP, 0)]
     count = ceil(action.seconds / LONGEST_STAY_S)

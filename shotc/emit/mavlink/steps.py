@@ -123,7 +123,7 @@ def _speed(track: SampledFlight, index: int) -> float:
 
 def _radius(before: Array, corner: Array, after: Array, elapsed: float) -> float:
     """Return the acceptance radius with which a corner is rounded at speed and not cut by more than
-    CORNER_CUT.
+    CORNER_CUT_M.
 
     A circle tangent to both legs at distance r from the corner has radius r / tan(turn / 2). Flown at speed
     v, it needs the acceleration v^2 tan(turn / 2) / r, and it misses the corner by r tan(turn / 4).

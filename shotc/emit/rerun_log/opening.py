@@ -97,7 +97,7 @@ def _bodies(mission: MissionIR, subjects: list[str], time: float) -> list[Array]
 
 
 def _over_ground(mission: MissionIR, eye: Array) -> Array:
-    """Return an eye, raised if it is below OVER_GROUND above the terrain."""
+    """Return an eye, raised if it is below OVER_GROUND_M above the terrain."""
     if mission.terrain is None:
         return eye
     least = ground_heights(mission, eye[None, :2])[0] + OVER_GROUND_M

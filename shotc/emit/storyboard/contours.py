@@ -23,7 +23,7 @@ CONTOUR_COUNT = 10
 
 LEAST_STEP_M = 0.5
 LABELLED_EVERY = 5
-"""Every LABELLED-th contour is bold and labelled with its height, if the plan shows at least two of them."""
+"""Every LABELLED_EVERY-th contour is bold and has its height, if the plan shows at least two of them."""
 
 MOST_LABELS = 6
 LINE, BOLD = 0.45, 0.9

@@ -121,7 +121,7 @@ def _small(faces: Faces, project: Project) -> Faces:
 
 
 def _in_view(triangles: Array, project: Project) -> Mask:
-    """Return which triangles are in a potentially visible bounding box of BLOCK consecutive
+    """Return which triangles are in a potentially visible bounding box of BLOCK_TRIANGLES consecutive
     triangles, (N,).
     """
     if not len(triangles):

@@ -62,7 +62,7 @@ MOST_ROUNDS = 400
 class Chooser:
     """Chooses the points of one drone's route.
 
-    way : (n,), metres flown before each sample; stays count with STAY_PACE
+    way : (n,), metres flown before each sample; stays count with STAY_PACE_M_S
     planned : missing clearance at each sample, one array (n,) for each obstacle, metres
     halts : whether the machine stands still at every point with an action
     lens : the lens whose zoom the file commands; None if it commands none

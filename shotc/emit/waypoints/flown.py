@@ -19,7 +19,7 @@ class ReflownSamples:
     position : (n, 3), W, metres
     body_yaw, cam_yaw, cam_pitch : (n,), rad
     part : (n,), number of starts and stops of recording so far; it is odd while a shot is filmed
-    progress : (n,), metres flown; stays count with STAY_PACE
+    progress : (n,), metres flown; stays count with STAY_PACE_M_S
     elapsed : (n,), seconds
     hfov : (n,), rad; NaN where no field of view is commanded
     """

@@ -64,7 +64,7 @@ def too_near(mission: MissionIR, flight: DroneTrajectory, way: Array, name: str)
 
 
 def evenly(way: Array) -> Array:
-    """Return positions (k, 3) every STEP along a path through positions (n, 3), both ends included."""
+    """Return positions (k, 3) every STEP_M along a path through positions (n, 3), both ends included."""
     done = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1)))
     at = np.linspace(0.0, done[-1], max(2, ceil(done[-1] / STEP_M) + 1))
     return np.stack([np.interp(at, done, axis) for axis in way.T], axis=1)

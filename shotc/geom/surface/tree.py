@@ -42,7 +42,7 @@ class Surface:
 
     triangles : shape (N, 3, 3), metres of W; those of a leaf are consecutive
     source    : shape (N,), index of the given triangle that each one is, or is a part of
-    low, high : corners of boxes, one array (n, 3) a level: leaves first, at most TOP nodes last
+    low, high : corners of boxes, one array (n, 3) a level: leaves first, at most TOP_NODES boxes last
     disc      : radius of the discs by which triangles without size hide, metres; 0 if they hide nothing
     """
 

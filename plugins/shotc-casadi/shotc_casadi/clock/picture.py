@@ -58,7 +58,7 @@ def residuals(subject: Any, eye: Any, aim: tuple[Any, Any], lens: Any) -> Any:
 
     They are smooth for every camera: see ``outline``, which moves what is behind the camera to its front.
 
-    subject : SUBJECT numbers, and EXTENT for each of its bodies unless it is a cylinder
+    subject : SUBJECT numbers, and EXTENT_PARAMETERS for each of its bodies unless it is a cylinder
     eye : camera position, W, metres
     aim : camera yaw and pitch, rad
     lens : as in symbols.FIELDS

@@ -275,8 +275,9 @@ def _shared(stages: Array) -> Array:
 
 
 def _half_spaces(planes: HalfSpaces, stages: int) -> tuple[Array, int]:
-    """Return the half-spaces as parameters, shape (N + 1, count, PLANE) flattened, and their number a
-    stage.
+    """Return the half-spaces as parameters, and their number per stage.
+
+    The parameters have shape (N + 1, count, PLANE_PARAMETERS), with the last two axes flattened.
     """
     most = int(np.bincount(planes.piece, minlength=1).max()) if len(planes.piece) else 0
     count = next((c for c in COUNTS if c >= most), most)

@@ -120,7 +120,7 @@ class ClockReferences:
     centres : of all subjects, (N + 1, J, 3), W, metres
     subjects : how several subjects appear, (N + 1, J, picture.width); J is 0 for one subject
     sight_lines : past occluders, (N + 1, K, LINE), as in symbols.occlusion
-    bodies : obstacles, (N + 1, B, BODY), as in symbols.inside
+    bodies : obstacles, (N + 1, B, BODY_PARAMETERS), as in symbols.inside
     near : which occluders ``sight_lines`` contains at each node
     beside : which obstacles ``bodies`` contains at each node
     """

@@ -111,7 +111,7 @@ FIELDS = {
 }
 """The parameters of a stage and their sizes.
 
-Then follow: half-spaces (PLANE numbers each), occluders (LINE numbers each), obstacles (BODY numbers each),
+Then follow: half-spaces (PLANE_PARAMETERS each), occluders (LINE each), obstacles (BODY_PARAMETERS each),
 several subjects (``picture.width`` each), and the wind to the East and North if there is wind.
 
 length : seconds
@@ -261,7 +261,7 @@ def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
     d_v is 1 minus the squared distance of the line from the centre, in coordinates in which the ellipsoid is
     the unit ball.
 
-    occluder : OCCLUDER numbers: scale by columns, centre, and 1 (much less for an unused one)
+    occluder : OCCLUDER_PARAMETERS numbers: scale by columns, centre, and 1 (much less for an unused one)
     eye, point : camera and the point that it looks at, W, metres
     """
     scale, centre = ca.reshape(occluder[:9], 3, 3), occluder[9:12]
@@ -272,7 +272,7 @@ def occlusion(occluder: Any, eye: Any, point: Any) -> Any:
 def inside(body: Any, eye: Any) -> Any:
     """Return the squared distance from an ellipsoid's centre, in coordinates in which it is the unit ball.
 
-    body : BODY numbers: scale by columns, centre, what is added to the square (0 unless it is unused), and
+    body : BODY_PARAMETERS: scale by columns, centre, an offset of the square (0 unless it is unused), and
         the square at which the potential field ends (viewpoint Eq. 12 and 13)
     """
     scale, centre = ca.reshape(body[:9], 3, 3), body[9:12]
