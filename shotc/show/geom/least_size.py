@@ -18,7 +18,9 @@ The shortest way in the plane of (a, b) from (1, 0) to (0, 1) that is nowhere sm
 points of the bound those are left out where it would turn right. Two drones side by side before, and one
 above the other after, ask for a = 1 until b is 1, if both pictures are as dense as can be, and so do those
 for b that are the other way round: the string then goes by (1, 1) and is 2 long, straight ways sqrt 2. That
-is the least there is of common scalars for all three axes.
+is the least there is of common scalars for all three axes: moves between two such pictures take 1.45 to 1.6
+times as long as straight ones (``tests.experiments.dense``). Heights with scalars of their own might take
+less, for a = 1 and b = 1 are asked of one axis at a time.
 """
 
 from __future__ import annotations
