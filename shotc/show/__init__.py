@@ -1,6 +1,6 @@
-"""Drone shows: from what displays draw to flights of a fleet that keep apart, and their files.
+"""Drone shows: from the pictures of displays to a fleet's trajectories with separation, and their files.
 
 goals, assignment, splines, separation : the passes of the route, in its order
-geom, solvers : what they alone need
+geom, solvers : what only these passes need
 emit : the files of shows
 """

@@ -11,9 +11,10 @@ from shotc.geom.vec import wrapped
 
 
 class Shown(NamedTuple):
-    """Where on screen a point is to be, and through which lens; (R, 2) each.
+    """The place on screen of a point, and the lens; (R, 2) each.
 
-    uv : half frames; half : tan of half the fields of view
+    uv : half frames
+    half : tan of half the fields of view
     """
 
     uv: Array
@@ -40,10 +41,11 @@ def aimed(offset: Array, uv: Array, half: Array) -> tuple[Array, Array]:
 
 
 def aim_rates(offset: Array, velocity: Array, now: Shown, later: Shown, step: float) -> tuple[Array, Array]:
-    """Return how fast the angles of ``aimed`` turn over the next ``step`` seconds, (R,) each, rad/s.
+    """Return the mean rates of the angles of ``aimed`` over the next ``step`` seconds, (R,) each, rad/s.
 
-    offset : (R, 3), from the eye to the point, W, metres; velocity : of the point less the eye's, m/s
-    now, later : the place on screen may wander in that time, and the lens may zoom
+    offset : (R, 3), from the eye to the point, W, metres
+    velocity : of the point minus that of the eye, (R, 3), m/s
+    now, later : place on screen and lens at the start and at the end of the step
     """
     yaw, pitch = aimed(offset, *now)
     then_yaw, then_pitch = aimed(offset + step * velocity, *later)

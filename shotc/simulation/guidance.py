@@ -39,20 +39,20 @@ STILL_M_S = 0.3
 """Speed, below which the course of a target is unknown."""
 
 COURSE_S = 3.0
-"""Time over which the course of a target and its height are taken, seconds: one that weaves does not turn.
-
-The place of a shot turns with the course: a step aside would send a camera 15 m away on a way of metres.
-A height that is known to 2 cm would have the camera climb and sink twice a second, with 0.2 m/s^2.
+"""Time constant of a target's course and height, seconds, so that a target that weaves does not turn. The
+position of a shot turns with the course, so without smoothing a sidestep would move a camera by 15 m. A
+height known to 2 cm would let the camera climb and sink twice a second with 0.2 m/s^2.
 """
 
 _SHARE = 1.0 - exp(-PERIOD_S / COURSE_S)
 
 BACK_S, MOST_BACK_S = 4.0, 20.0
-"""Least time in which a drone comes back to its plan after a shot, and for how long it plans its way at most,
-where something stands in the straight one; seconds."""
+"""Seconds in which a drone returns to its plan after a shot: the least time, and the most time of replanning
+around an obstacle on the direct path.
+"""
 
 NEARER_M = 0.01
-"""Metres by which a way back may be nearer to something than it has to be, or than the plan is."""
+"""Metres by which the return may lack more clearance than necessary, or than the plan does."""
 
 
 @dataclass(slots=True)
@@ -111,7 +111,9 @@ class Guidance:
         return self._mixed(time)
 
     def _mixed(self, time: float) -> VehicleSetpoint:
-        """Return what runs are asked for: those that are back on their plan by it, others by their own."""
+        """Return the setpoints of all runs: those that have rejoined their plan follow it, the others their
+        replans.
+        """
         assert self._held is not None
         held = self._held.setpoint(time)
         if self._away.all() or self._back is None:
@@ -124,7 +126,7 @@ class Guidance:
         )
 
     def _due(self, time: float) -> bool:
-        """Tell whether plans are made at a step."""
+        """Return whether a replan is due at a step."""
         assert self._active is not None
         since = self.film.step(time) - self.film.step(self._active.phase.start)
         return since % round(PERIOD_S / STEP_S) == 0
@@ -139,7 +141,7 @@ class Guidance:
         self._away = np.ones(n, dtype=bool)
 
     def _take(self, shot: Anew | Rejoined) -> None:
-        """Plan this anew from now on."""
+        """Start replanning of a shot or of a return."""
         mission, drone = self.world.mission, self.film.drone
         rules, terrain = mission.rules, mission.terrain
         keeping = Keeping(
@@ -164,16 +166,16 @@ class Guidance:
         return Plan(stages, curve(stages)[:, :3], velocities, np.diff(velocities, axis=0) / STAGE_S)
 
     def _leave(self, time: float) -> None:
-        """Let drones come back to their plan after a shot."""
+        """Start the drones' return to their plan after a shot."""
         following = [p.start for p in self.film.track.phases if p.start >= time and _exact(p)]
         until = min(time + MOST_BACK_S, *following, float(self.film.times[-1]))
         self._take(Rejoined(Phase("transit", None, time, until)))
         self._back = Fading.none(self.film, len(self.world.runs))
 
     def _come_back(self, shot: Rejoined, time: float) -> None:
-        """Let those runs go straight back to their plan in whose way nothing stands, or whose time is up.
+        """Let runs return directly to their plan if the path is clear or their time is over.
 
-        Over its pad a drone is near to what it need not be clear of.
+        Over its pad a drone may be near obstacles.
         """
         assert self._held is not None
         assert self._back is not None
@@ -273,7 +275,9 @@ class Guidance:
         return self._course
 
     def _risen(self, shot: Anew | Rejoined, time: float, known: Known) -> Array:
-        """Return by how much the target is higher than planned, (R,), metres: taken as the course is."""
+        """Return the difference of the target's height from the planned one, (R,), metres, smoothed as the
+        course.
+        """
         assert self._rise is not None
         if isinstance(shot, Chased):
             planned = self.world.mission.target(shot.target).at(time)[2]
@@ -283,7 +287,7 @@ class Guidance:
 
 
 def _exact(phase: Phase) -> bool:
-    """Tell whether a phase is flown as planned from its start on: shots, and what is upright over the pad."""
+    """Return whether a phase must follow the plan from its start: shots, and vertical phases over the pad."""
     return phase.shot is not None or phase.name in UPRIGHT
 
 

@@ -1,12 +1,13 @@
-"""Where a target is and how it moves, of what sensors say: one step of a Kalman filter for many runs at once.
+"""One step of a Kalman filter for a target's motion, vectorised over runs.
 
-State x = [p, v, w, b] in W (m, m/s, m/s, m): place, velocity, the velocity of the way that the target keeps
-to, and what satellite positions are off for long. p' = v, v' = (w - v) / tau + noise q, w' = noise q_w: who
-weaves steps aside for about a second and comes back (the acceleration of Singer, IEEE TAES 6(4), 1970, has a
-memory of the same form). Seconds ahead a place then follows w, of which more is known than of v. Without a
-memory w plays no part, and p and v have F = [I dt I; 0 I] and Q = q [dt^3/3 I, dt^2/2 I; dt^2/2 I, dt I].
-b is an Ornstein-Uhlenbeck process: without it the filter takes a bias that lasts for noise that averages out,
-becomes sure of a wrong place, and turns detections away that show the right one.
+The state is x = [p, v, w, b] in W (m, m/s, m/s, m): position, velocity, the velocity of the course that the
+target keeps, and the slow bias of satellite positions. The model is p' = v, v' = (w - v) / tau + noise of
+density q, w' = noise of density q_w. A target that weaves steps aside for about a second and returns (the
+acceleration of Singer, IEEE TAES 6(4), 1970, has a memory of the same form). A prediction over seconds
+therefore follows w, which is known better than v. Without a memory, tau is infinite and v alone is predicted.
+
+b is an Ornstein-Uhlenbeck process. Without it, the filter would treat a lasting bias as noise that averages
+out. It would become certain of a wrong position, and reject correct detections.
 """
 
 from __future__ import annotations
@@ -27,19 +28,21 @@ GATE_CHI2 = 9.21
 
 STATE_COUNT = 12
 WAY, BIAS = slice(6, 9), slice(9, 12)
-"""Where the velocity of the way and the bias stand in a state."""
+"""Indices of the course's velocity and of the bias in a state."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
-"""Of the integral for Q over one step: to 1e-10 of it for steps of up to five memories."""
+"""Quadrature of the integral for Q over one step, exact to 1e-10 for steps of up to five memories."""
 
 
 @dataclass(frozen=True, slots=True)
 class MotionModel:
-    """What is believed of a target: q of the noise on its acceleration, m^2/s^3, and the receiver's bias.
+    """The motion model of a target.
 
-    bias : standard deviation of what positions are off for long, m, the drone's own place included
-    memory : seconds after which a velocity has gone back to that of the way; infinite: it never does
-    drift : q_w of the noise on the velocity of the way, m^2/s^3
+    agility : q of the noise on its acceleration, m^2/s^3
+    bias : standard deviation of the slow bias of positions, metres, that of the drone's own position included
+    memory : tau, time constant with which a velocity returns to that of the course, seconds; infinite if it
+        never does
+    drift : q_w of the noise on the velocity of the course, m^2/s^3
     """
 
     agility: float
@@ -48,7 +51,9 @@ class MotionModel:
     drift: float = 0.0
 
     def span(self, seconds: Array | float) -> Array:
-        """Return the seconds of way that a velocity beside that of the way leads to, in so many seconds."""
+        """Return the seconds of motion that a deviation from the course's velocity contributes in
+        some time.
+        """
         if self.memory == inf:
             return np.asarray(seconds)
         return np.asarray(-self.memory * np.expm1(-np.asarray(seconds) / self.memory))
@@ -74,7 +79,7 @@ class Estimate:
 
     @property
     def way(self) -> Array:
-        """The velocity of the way that it keeps to, (R, 3), m/s."""
+        """Velocity of the course, (R, 3), m/s."""
         return self.mean[:, WAY]
 
 
@@ -187,7 +192,7 @@ def predicted(estimate: Estimate, time: float, model: MotionModel) -> Estimate:
 
 
 def ahead(estimate: Estimate, seconds: Array, model: MotionModel) -> Array:
-    """Return place and velocity after so many seconds (M,) each, shape (M, R, 6), metres and m/s."""
+    """Return predicted position and velocity after times (M,), seconds, shape (M, R, 6), metres and m/s."""
     span, left = model.span(seconds)[:, None, None], np.asarray(seconds)[:, None, None]
     way, beside = estimate.way, estimate.velocity - estimate.way
     kept = 1.0 - span / model.memory
@@ -210,14 +215,17 @@ def _transition(dt: float, model: MotionModel) -> tuple[Array, Array]:
 
 
 def _forward(dt: float, model: MotionModel) -> Array:
-    """Return F of place, velocity and that of the way along one axis, (3, 3)."""
+    """Return F of position, velocity and the course's velocity along one axis, (3, 3)."""
     span = float(model.span(dt))
     share = span / model.memory
     return np.array([[1.0, span, dt - span], [0.0, 1.0 - share, share], [0.0, 0.0, 1.0]])
 
 
 def _updated(estimate: Estimate, row: tuple[Array, Array, Array], used: Mask) -> Taken:
-    """Return an estimate with innovation (R, m), Jacobian (R, m, 12) and noise (m, m) taken in where used."""
+    """Return an estimate after an update where ``used``.
+
+    row : innovation (R, m), Jacobian (R, m, 12) and noise (m, m)
+    """
     miss, jacobian, noise = row
     across = np.swapaxes(jacobian, 1, 2)
     spread = jacobian @ estimate.covariance @ across + noise

@@ -34,7 +34,7 @@ by 0.27 m instead of 0.62 m (a straight walker known by RTK: 0.18 and 0.37 m).
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Foreseen:
-    """What is known of a target at a moment, and where it will be at M times from then on.
+    """The estimate of a target at a time, and its prediction at M later times.
 
     places, velocities : (M, R, 3), metres, m/s
     """

@@ -16,14 +16,15 @@ from shotc.simulation.vehicle import VehicleSetpoint
 
 PLACE = np.polynomial.Polynomial([1.0, 0.0, 0.0, -10.0, 15.0, -6.0])
 RATE = np.polynomial.Polynomial([0.0, 1.0, 0.0, -6.0, 8.0, -3.0])
-"""From 1, or a slope of 1, to rest at 0 over a time of 1, without acceleration at both ends."""
+"""Polynomials over a unit time from 1, or from a slope of 1, to rest at 0; no acceleration at both ends."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fading:
-    """How drones of R runs come back to their plan: a quintic in time that ends at rest beside it.
+    """The return of drones in R runs to their plan: an offset that is quintic in time and ends at rest.
 
-    start, lasts : (R,), s; off, rate : beside the plan at the start, (R, 3), metres, m/s
+    start, lasts : (R,), seconds
+    off, rate : offset at the start, (R, 3), metres, m/s
     """
 
     film: PlanSamples
@@ -34,11 +35,14 @@ class Fading:
 
     @staticmethod
     def none(film: PlanSamples, runs: int) -> Fading:
-        """Return drones that are where they are to be."""
+        """Return the state without any offset."""
         return Fading(film, np.zeros(runs), np.ones(runs), np.zeros((runs, 3)), np.zeros((runs, 3)))
 
     def begun(self, run: int, time: float, lasts: float, off: tuple[Array, Array]) -> Fading:
-        """Return the same with a run that begins to come back now; off : place and velocity, (3,) each."""
+        """Return the same with one run that begins its return now.
+
+        off : position and velocity, (3,) each
+        """
         start, seconds, place, rate = (part.copy() for part in (self.start, self.lasts, self.off, self.rate))
         start[run], seconds[run], place[run], rate[run] = time, lasts, *off
         return Fading(self.film, start, seconds, place, rate)
@@ -55,13 +59,16 @@ class Fading:
         )
 
     def places(self, run: int, times: Array) -> Array:
-        """Return where a run is to be at times (M,), (M, 3), metres."""
+        """Return the positions of a run at times (M,), shape (M, 3), metres."""
         x = np.clip((times - self.start[run]) / self.lasts[run], 0.0, 1.0)[:, None]
         beside = PLACE(x) * self.off[run] + RATE(x) * self.lasts[run] * self.rate[run]
         return np.asarray(self.film.places(times) + beside)
 
     def _beside(self, x: Array, order: int) -> Array:
-        """Return the way beside the plan or its derivative, (R, 3); x : share of the time, (R,)."""
+        """Return the offset or its derivative, (R, 3).
+
+        x : share of the time, (R,)
+        """
         along, seconds = x[:, None], self.lasts[:, None]
         place, rate = PLACE.deriv(order)(along), RATE.deriv(order)(along)
         return np.asarray((place * self.off + rate * seconds * self.rate) / seconds**order)

@@ -53,13 +53,13 @@ m/s, horizon 4 s).
 """
 
 NOWHERE_M = 1e4
-"""Metres below a drone at which it looks at nothing."""
+"""Distance of the point below a drone that its camera looks at during a return, metres."""
 
 LEVEL_M = 0.1
 """Change of a shot's height over a horizon, metres, below which the height is constant."""
 
 Known = Mapping[str, Foreseen]
-"""What is known of the targets that move, by name, in R runs, at the stages of a replan."""
+"""Estimates and predictions of the moving targets at the stages of a replan, by name, in R runs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,16 +178,16 @@ Anew = Chased | ComposedShot
 
 @dataclass(frozen=True, slots=True)
 class Rejoined:
-    """The way back to the plan where something stands in it.
+    """The return to the plan where an obstacle is on the direct path.
 
-    phase : from the end of a shot until the plan has to be flown again, at the latest
+    phase : from the end of a shot to the latest time at which the plan must be flown again
     """
 
     stages: ClassVar = CHASE_STAGES
     phase: Phase
 
     def planner(self, by: Replanner, _film: PlanSamples, keeping: Keeping) -> ChasePlanner:
-        """Return who plans it: a chase whose camera has nothing to look at."""
+        """Return its planner: that of a chase without camera costs."""
         free = replace(keeping, pitch=(-pi / 2, pi / 2), half_angle=None)
         weights = WEIGHTS._replace(pitch=0.0, yaw=0.0, height=0.0)
         return by.chase(ChaseProblem(Horizon(CHASE_STAGES, STAGE_S), free, weights))
@@ -200,7 +200,7 @@ class Rejoined:
         drone: tuple[Array, Array],
         of: ReplanInstant,
     ) -> ChaseSituation:
-        """Return what is known of one run; arguments as of ``Chased``."""
+        """Return the input of a replan in one run; arguments as in ``Chased``."""
         k = film.step(min(float(stages[-1]), self.phase.end))
         below = np.tile(drone[0] - [0.0, 0.0, NOWHERE_M], (len(stages), 1))
         return ChaseSituation(
@@ -219,12 +219,15 @@ class Rejoined:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReplanInstant:
-    """What is known of one run at the moment of a replan.
+    """The knowledge in one run at the time of a replan.
 
-    known : of the targets, in R runs; last : the plan that the drone flies; run : which of the runs
-    turn, rise : by how much the way that the target of a ``Chased`` goes is off the plan's, rad, and the
-        target higher, metres
-    traffic : the plans that others have sent; walls : what keeps it clear of terrain and meshes
+    known : estimates of the targets, in R runs
+    last : the plan that the drone flies
+    run : index of the run
+    turn : difference of the course of a ``Chased`` target from the planned one, rad
+    rise : difference of its height from the planned one, metres
+    traffic : sent plans of other drones
+    walls : half-spaces that keep it clear of terrain and meshes
     """
 
     known: Known
@@ -261,9 +264,9 @@ def _anew(mission: MissionIR, track: DroneTrajectory) -> Iterator[Anew]:
 
 
 def predicted(target: Target, stages: Array, of: ReplanInstant) -> tuple[Array, Array]:
-    """Return where a target will be at the stages, and its velocity over ground, (N + 1, 3) each.
+    """Return a target's predicted positions at the stages and its velocity over ground, (N + 1, 3) each.
 
-    Up and down it goes as planned: a velocity that is known to 0.3 m/s is no climb.
+    Its height follows the plan, because a vertical velocity with an error of 0.3 m/s is not usable.
     """
     course = np.array([target.at(t) for t in stages.tolist()])
     if target.name not in of.known:

@@ -1,4 +1,4 @@
-"""Half-spaces beside the plan that a drone flies, which keep its next one clear of terrain and meshes."""
+"""Half-spaces beside the plan that a drone flies, which keep its next plan clear of terrain and meshes."""
 
 from __future__ import annotations
 
@@ -16,25 +16,24 @@ from shotc.planning.over_ground import OverGround
 from shotc.plugin_api.replanner import NO_WALLS, Keeping, Plan, Walls
 
 MOST = 8
-"""Half-spaces of a stage: the nearest ones. A plan that is made twice a second meets no more."""
+"""Most half-spaces of a stage, the nearest ones; a plan renewed twice a second needs no more."""
 
 REACH_M = 8.0
-"""What is farther from the plan than this and the clearance is left out, metres.
-
-A drone at 3 m/s^2 leaves its plan by so much in 2.3 s, and plans anew four times meanwhile.
+"""Distance from the plan in addition to the clearance, above which surfaces are ignored, metres. A drone at 3
+m/s^2 deviates that much in 2.3 s, in which it replans four times.
 """
 
 UP = np.array([0.0, 0.0, 1.0])
 FAR_M = 1e6
-"""Metres below all that is flown."""
+"""Metres below everything that is flown."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Standing:
-    """What stands and a drone keeps clear of.
+    """The standing obstacles of a drone.
 
-    surfaces : what is of triangles: terrain, scenes, buildings
-    keeping : zones, and the limits with which it stops
+    surfaces : obstacles made of triangles: terrain, scenes, buildings
+    keeping : zones, and the limits with which the drone stops
     """
 
     surfaces: tuple[OverGround | BesideMesh, ...]
@@ -42,15 +41,15 @@ class Standing:
 
     @staticmethod
     def of(mission: MissionIR, drone: Drone, keeping: Keeping) -> Standing:
-        """Return all that a mission has."""
+        """Return the standing obstacles of a mission."""
         if mission.terrain is None and not mission.meshes:
             return Standing((), keeping)
         return Standing(flight_space(mission, drone).surfaces, keeping)
 
     def lack(self, places: Array) -> Array:
-        """Return how far a drone's centre at places (M, 3) is too near to anything, (M,), metres.
+        """Return the missing clearance of a drone's centre at positions (M, 3), shape (M,), metres.
 
-        0 and less is clear.
+        It is at most 0 where all clearances hold.
         """
         lacks = [np.full(len(places), -np.inf), *(-each.slack(places) for each in self.surfaces)]
         for zone in self.keeping.zones:
@@ -59,7 +58,9 @@ class Standing:
         return np.asarray(np.max(lacks, axis=0))
 
     def beside(self, last: Plan, stages: Array) -> Walls:
-        """Return half-spaces beside a plan at stages (N + 1,), mission times, past its end where it stops."""
+        """Return half-spaces beside a plan at stages (N + 1,), mission times; after its end the
+        drone stops.
+        """
         if not self.surfaces:
             return NO_WALLS
         hulls = _hulls(last, stages, self.keeping)
@@ -78,7 +79,9 @@ class Standing:
 
 
 def _hulls(last: Plan, stages: Array, keeping: Keeping) -> Array:
-    """Return each stage with those beside it, and the way on which the drone stops, (N + 1, 3, 3), metres."""
+    """Return the points of each stage with its neighbours, and of the stopping path, (N + 1, 3,
+    3), metres.
+    """
     at = np.column_stack([np.interp(stages, last.times, column) for column in last.places.T])
     v = last.velocities[-1]
     seconds = keeping.reaction + float(np.linalg.norm(v)) / (2.0 * keeping.limits.usable_acceleration)

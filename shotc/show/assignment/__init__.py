@@ -1,10 +1,12 @@
 """assign-goals: GoalIR to ShowIR.
 
-Takes the goal sets of every fleet. Gives each fleet a flight on one clock: which drone goes to which goal,
-from frame to frame, and when; straight up from the pads, straight or on arcs from picture to picture, back
-over the pads, straight down. Every move keeps every limit by its own control points and takes the time that
-is asked for, or what the pace of the limits allows. The frames of an animation are the control points of a
-spline of their period (*display*, Sec. IV), which may break limits yet: ``bound-splines`` mends that.
+The pass takes the goal sets of every fleet. It gives each fleet a trajectory on one clock: which drone flies
+to which goal, from frame to frame, and when. Drones rise vertically from the pads, move on straight lines or
+arcs from picture to picture, return to above the pads, and descend vertically.
+
+Every move keeps all limits by its own control points. It takes the requested time, or the time that the pace
+of the limits allows. The frames of an animation are the control points of a spline with their period
+(*display*, Sec. IV). It may still break limits, which ``bound-splines`` repairs.
 """
 
 from __future__ import annotations
@@ -32,7 +34,7 @@ class AssignGoals:
     name: ClassVar[str] = "assign-goals"
 
     def run(self, ir: GoalIR, ctx: PassContext) -> Outcome[ShowIR]:
-        """Give every drone its goals and every fleet its times."""
+        """Return the trajectories of all fleets, with goals and times for every drone."""
         mission = ir.keyframes.mission
         images = images_of(mission)
         if isinstance(images, list):
@@ -42,7 +44,7 @@ class AssignGoals:
             ctx.progress(f"who goes where in fleet {goals.fleet}")
             fleet = mission.fleet(goals.fleet)
             directors.append(Director(mission, fleet, cast_of(fleet, goals)))
-        # A display that waits for one of another fleet comes after it, so the fleets take turns.
+        # A display may wait for one of another fleet, so the fleets advance in turn.
         ends: dict[str, float] = {}
         while any(director.advance(ends) for director in directors):
             pass
@@ -77,16 +79,16 @@ def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float
 
 
 def _own_pads(director: Director) -> list[tuple[str, float | str]]:
-    """Return on how many levels drones fly over their own pads, and how high above them the highest is."""
+    """Return statistics on the levels above own pads: their number, and the greatest height."""
     heights, name = director.levels, f"fleet {director.fleet.name} own pads"
     return [(f"{name} levels", float(len(heights))), (f"{name} highest m", heights[0])] if heights else []
 
 
 def _take_off(director: Director, flight: FleetTrajectory) -> list[tuple[str, float | str]]:
-    """Return how a fleet rises and lands in layers, if it does."""
+    """Return statistics on take-off and landing in layers, if the fleet uses them."""
     take_off, name = take_off_of(director.fleet), f"fleet {flight.fleet} take-off"
     if not take_off.layered or any(f.up is not None or f.down is not None for f in director.cast.recorded):
-        return []  # recorded flights take off and land as they were recorded
+        return []  # recorded flights have their own take-off and landing
     up, down = flight.phases[0], flight.phases[-1]
     return [
         (f"{name} layers", float(len(take_off.heights))),

@@ -1,10 +1,10 @@
-"""Fleets and groups that share the sky: where two would meet, one flies at another time, or another way.
+"""Resolves meetings of fleets and groups: one of them flies at another time, or on another path.
 
-What may be changed is what nobody asked for: when a fleet flies home, when it sets out for a picture that
-stands at a time, within what it would wait for it, and the ways themselves, which go round the places that
-others fill meanwhile. Every change keeps every picture and when it stands. It is taken if its fleet then
-meets nobody, proved for all pairs and at every instant, up to the end of what was changed; the least that
-does is taken. What is left stays as it is, for ``keep-apart`` to refuse.
+Only what the mission does not fix may change: the time of the return, the departure to a picture with a fixed
+time (within the wait before it), and the paths, which can avoid the places that others occupy. Every change
+keeps all pictures and their times. A change is accepted if its fleet then meets no other, proved for all
+pairs at every instant up to the end of the change. The least sufficient change is taken. Meetings that remain
+are rejected by ``keep-apart``.
 """
 
 from __future__ import annotations
@@ -39,19 +39,19 @@ from shotc.show.assignment.director import Director
 from shotc.show.geom.windows import stops, windows
 
 MOST_CHANGES = 24
-"""Changes at most."""
+"""Most changes."""
 SHIFTS_S = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0, 100.0)
-"""By how much a way is flown earlier or later."""
+"""Seconds by which a path may be flown earlier or later."""
 LEAST_S = 0.05
-"""Seconds that a fleet stands at least where it stood before."""
+"""Least seconds of a hold that is shortened."""
 MOTION_BOXES = 4
-"""Boxes that hold the ways of a fleet that moves."""
+"""Boxes that enclose the paths of a moving fleet."""
 SLACK_M = 1e-6
-"""Metres that rounding may take."""
+"""Metres of tolerance for rounding."""
 
 
 class FlightConflict(NamedTuple):
-    """Two flights that come too near, by their places among all, and when that begins to be so."""
+    """Two trajectories that come too near, by their indices, and the first such instant."""
 
     one: int
     other: int
@@ -60,7 +60,11 @@ class FlightConflict(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FlightChange:
-    """A flight in place of another; until : when it is again what it was, s; told : what was done, s."""
+    """A changed trajectory.
+
+    until : time from which it is unchanged, seconds
+    told : kind of the change, and its seconds
+    """
 
     of: int
     flight: FleetTrajectory
@@ -69,7 +73,7 @@ class FlightChange:
 
 
 def beside(mission: MissionIR, directors: Sequence[Director]) -> list[tuple[str, float | str]]:
-    """Change flights until none meet, or nothing helps; return what was done, as statistics."""
+    """Change trajectories until none meet or no change helps; return statistics on the changes."""
     if len(directors) < 2:
         return []
     sky = _Sky(mission, directors)
@@ -77,7 +81,7 @@ def beside(mission: MissionIR, directors: Sequence[Director]) -> list[tuple[str,
 
 
 class _Sky:
-    """All flights, and where they meet."""
+    """All trajectories, and their meetings."""
 
     def __init__(self, mission: MissionIR, directors: Sequence[Director]) -> None:
         self.mission, self.directors = mission, directors
@@ -89,7 +93,7 @@ class _Sky:
         self.told: dict[str, float] = {}
 
     def cleared(self) -> list[tuple[str, float | str]]:
-        """Resolve meeting after meeting, in the order of time, as long as there is a way."""
+        """Resolve one meeting after another in the order of time, as long as there is a change."""
         for _ in range(MOST_CHANGES):
             found = [m for m in self.met.values() if m is not None]
             if not found:
@@ -112,14 +116,14 @@ class _Sky:
         self.told[key] = self.told.get(key, 0.0) + seconds
 
     def _change(self, meeting: FlightConflict) -> FlightChange | None:
-        """Return the least change that resolves a meeting, None where there is none."""
+        """Return the least change that resolves a meeting, or None."""
         pair = (meeting.one, meeting.other)
         changes = [c for k, of in enumerate(pair) for c in self._changes(of, pair[1 - k], meeting.near)]
         changes.sort(key=lambda change: abs(change.told[1]))
         return next((change for change in changes if self._does(change, pair)), None)
 
     def _does(self, change: FlightChange, pair: tuple[int, int]) -> bool:
-        """Tell whether a fleet meets nobody once it is changed, up to when it is what it was."""
+        """Return whether a changed fleet meets no other until the end of the change."""
         fleet, flight = self.directors[change.of].fleet, change.flight
         if _airborne(flight) > fleet.endurance:
             return False
@@ -131,7 +135,7 @@ class _Sky:
         return True
 
     def _first(self, of: int, beside: int, flight: FleetTrajectory) -> FlightConflict | None:
-        """Return the first meeting of one fleet, flying so, with another one."""
+        """Return the first meeting of one fleet, on a trajectory, with another one."""
         other = self.flights[beside]
         apart = self._apart(of, beside)
         marks = np.unique(np.concatenate([_marks(flight), _marks(other)]))
@@ -148,7 +152,7 @@ class _Sky:
         return stricter(self.directors[one].fleet.apart, self.directors[other].fleet.apart)
 
     def _changes(self, of: int, other: int, near: Nearest) -> Iterator[FlightChange]:
-        """Yield what may be changed in the flight of a fleet at the time of a meeting."""
+        """Yield the possible changes of a fleet's trajectory at the time of a meeting."""
         flight, time = self.flights[of], near.time
         home = homeward(flight)
         if time >= home:
@@ -165,12 +169,12 @@ class _Sky:
         yield from self._around(of, other, block, slack)
 
     def _around(self, of: int, other: int, block: FlightBlock, slack: float) -> Iterator[FlightChange]:
-        """Yield the flight round what another one fills meanwhile, where there is time for that."""
+        """Yield a path around the places that the other fleet occupies, if there is time for it."""
         flight, way = self.flights[of], block.way
         low, high = float(flight.breaks[way.first]), float(flight.breaks[way.last])
         kind = next(phase for phase in flight.phases if phase.start - LEAST_S < high <= phase.end + LEAST_S)
         if kind.name == "land" or any(low < s.start < high - LEAST_S for s in flight.shown):
-            return  # straight down, or an animation
+            return  # vertical, or an animation
         home = kind.name == "return"
         picture, pace = (None, 1.0) if home else self._picture(flight, high)
         ends = ends_of(flight, way)
@@ -193,7 +197,9 @@ class _Sky:
         return display.pictures[shown.picture], display.pace
 
     def _slack(self, flight: FleetTrajectory, block: FlightBlock) -> float:
-        """Return how much earlier a block may begin, s: up to lift-off, or the end of a hold."""
+        """Return by how many seconds a block may begin earlier: since lift-off, or since the end
+        of a hold.
+        """
         begin = float(flight.breaks[block.first])
         before = [s for s in flight.shown if s.start <= begin + NEAR_S]
         if not before:
@@ -203,7 +209,7 @@ class _Sky:
 
 
 def _marks(flight: FleetTrajectory) -> Array:
-    """Return when a flight stops and goes on, s."""
+    """Return the times at which a trajectory stops and continues, seconds."""
     moving = windows(flight.coef)
     at = [0, *stops(flight.coef), *(w.first for w in moving), *(w.last for w in moving), -1]
     return np.asarray(flight.breaks[at])
@@ -216,9 +222,11 @@ def _airborne(flight: FleetTrajectory) -> float:
 def _filled(
     track: FleetTrajectory, span: tuple[float, float], apart: Apart, ends: tuple[Array, Array]
 ) -> Iterator[Clearance]:
-    """Yield boxes that hold a fleet over a span of time, with the room that is kept from it.
+    """Yield boxes that enclose a fleet over a time interval, with the clearance from it.
 
-    ends : of who flies beside it; a box in which these stand already is none to go round
+    A box that contains a start or goal is left out, because no path could avoid it.
+
+    ends : positions of the other fleet before and after its move
     """
     ctrl = pieces(track.breaks, track.coef)
     inside = (track.breaks[1:] > span[0]) & (track.breaks[:-1] < span[1])

@@ -1,7 +1,7 @@
-"""A flight changed after it was written: later on its way home, earlier to a picture, or on other arcs.
+"""Changes of a finished trajectory: a later return, an earlier departure to a picture, or other arcs.
 
-Between two stops a flight is a spline of its own, so that a stretch can be flown at another time, or another
-way, and all others stay what they were. Every change here keeps every picture and when it stands.
+Between two stops a trajectory is a spline of its own. So one stretch can change its time or path while all
+others stay the same. Every change here keeps all pictures and their times.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from shotc.show.geom.windows import Window, at_rest, windows
 from shotc.show.solvers.arc_move import ArcMove
 
 NEAR_S = 1e-6
-"""Seconds by which times that are one differ at most."""
+"""Seconds, below which two times count as equal."""
 
 
 @dataclass(frozen=True, slots=True)
 class FlightBlock:
-    """Stretches of a flight one right after the other, such as the rise and the way to the first picture."""
+    """Consecutive stretches of a trajectory, for example the rise and the transit to the first picture."""
 
     stretches: tuple[Window, ...]
 
@@ -40,15 +40,15 @@ class FlightBlock:
 
 
 def homeward(flight: FleetTrajectory) -> float:
-    """Return when the way home begins, s."""
+    """Return the time at which the return begins, seconds."""
     return next(phase.start for phase in flight.phases if phase.name == "return")
 
 
 def block_at(flight: FleetTrajectory, time: float) -> FlightBlock | None:
-    """Return what is flown at a time, with what is flown right before it; None where the fleet stands.
+    """Return the stretch flown at a time, with those directly before it; None if the fleet stands.
 
-    All up to the first picture is one block, though the fleet may rest above its pads. No picture stands
-    within a block, not even for an instant.
+    Everything up to the first picture is one block, although the fleet may rest above its pads. No picture
+    stands within a block, not even for an instant.
     """
     known, breaks = windows(flight.coef), flight.breaks
     shown = [s.start for s in flight.shown]
@@ -69,7 +69,7 @@ def block_at(flight: FleetTrajectory, time: float) -> FlightBlock | None:
 
 
 def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:
-    """Return the flight of which the way home begins so much later, from where the last picture stood."""
+    """Return the trajectory with a return that begins later, after a longer hold of the last picture."""
     start = homeward(flight)
     at = int(np.searchsorted(flight.breaks, start - NEAR_S))
     breaks = np.concatenate([flight.breaks[: at + 1], flight.breaks[at:] + seconds])
@@ -78,7 +78,7 @@ def later_home(flight: FleetTrajectory, seconds: float) -> FleetTrajectory:
 
 
 def earlier(flight: FleetTrajectory, block: FlightBlock, seconds: float) -> FleetTrajectory:
-    """Return the flight that comes to a picture so much earlier, and stands there until it is shown."""
+    """Return the trajectory that arrives at a picture earlier and waits there until its time."""
     flight, block = _ready(flight, block)
     low, high = float(flight.breaks[block.first]), float(flight.breaks[block.way.last])
     first, last = block.first, block.way.last
@@ -89,9 +89,10 @@ def earlier(flight: FleetTrajectory, block: FlightBlock, seconds: float) -> Flee
 
 
 def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> FleetTrajectory:
-    """Return the flight with another way at the end of a block.
+    """Return the trajectory with another path at the end of a block.
 
-    The way home takes what it takes; one to a picture begins so much earlier that it ends when it did.
+    A return takes the time that it needs. A path to a picture departs earlier, so that it ends at the same
+    time.
     """
     flight, block = _ready(flight, block)
     way = block.way
@@ -117,7 +118,7 @@ def on_arcs(flight: FleetTrajectory, block: FlightBlock, move: ArcMove) -> Fleet
 
 
 def _ready(flight: FleetTrajectory, block: FlightBlock) -> tuple[FleetTrajectory, FlightBlock]:
-    """Return a flight that stands before a block in one piece, and the block in it."""
+    """Return a trajectory whose hold before a block is one piece, and the block in it."""
     rest = set(at_rest(flight.coef).tolist())
     first = block.first
     since = first
@@ -131,17 +132,17 @@ def _ready(flight: FleetTrajectory, block: FlightBlock) -> tuple[FleetTrajectory
 
 
 def _repeated(coef: Array, at: int) -> Array:
-    """Return control points with one more of a stop, for a piece in which everybody stands there."""
+    """Return control points with a stop repeated, which adds a piece of standing."""
     return np.insert(coef, at + 1, coef[:, at], axis=1)
 
 
 def _timed(flight: FleetTrajectory, at: Callable[[float], float]) -> FleetTrajectory:
-    """Return a flight whose phases and frames are at other times."""
+    """Return a trajectory with its phases and frames moved to other times."""
     phases = tuple(replace(p, start=at(p.start), end=at(p.end)) for p in flight.phases)
     shown = tuple(replace(s, start=at(s.start), end=at(s.end)) for s in flight.shown)
     return replace(flight, phases=phases, shown=shown)
 
 
 def ends_of(flight: FleetTrajectory, way: Window) -> tuple[Array, Array]:
-    """Return where all drones are before and after a stretch, shape (n, 3) each."""
+    """Return the positions of all drones before and after a stretch, shape (n, 3) each."""
     return flight.coef[:, way.first], flight.coef[:, way.last]

@@ -1,4 +1,4 @@
-"""When each picture of a fleet stands, and how long every move to it takes."""
+"""Determines when each picture of a fleet stands, and how long every move takes."""
 
 from __future__ import annotations
 
@@ -21,11 +21,13 @@ from shotc.show.assignment.score import FlightScore, Motion
 from shotc.show.assignment.waves import Waves
 
 TINY_S = 1e-6
-"""A time missed by less is met, seconds."""
+"""Seconds, below which a missed time counts as met."""
 
 
 class Director:
-    """Writes the flight of one fleet, display by display, as far as what they wait for is known."""
+    """Writes the trajectory of one fleet display by display, as far as the displays it waits for
+    are known.
+    """
 
     def __init__(self, mission: MissionIR, fleet: Fleet, cast: DroneOrder) -> None:
         self.mission, self.fleet, self.cast = mission, fleet, cast
@@ -43,7 +45,10 @@ class Director:
         self._recorded = {flight.display: flight for flight in cast.recorded}
 
     def advance(self, ends: dict[str, float]) -> bool:
-        """Write the next displays; tell whether there were any. ends : of the displays so far, added to."""
+        """Write the next displays; return whether there were any.
+
+        ends : end times of the displays so far, which are added to
+        """
         before = self._done
         while self._done < len(self._displays):
             display, scenes = self._displays[self._done]
@@ -56,7 +61,7 @@ class Director:
         return self._done > before
 
     def finish(self) -> list[Diagnostic]:
-        """Bring the fleet home; return what is wrong with its times."""
+        """Write the return of the fleet; return the faults of its times."""
         if self._done < len(self._displays):
             raise ValueError("displays wait for each other in a circle")
         if self.score.phases[-1].name != "land":
@@ -67,11 +72,11 @@ class Director:
 
     @property
     def arcs(self) -> int:
-        """Return how many moves are on arcs."""
+        """Return the number of moves on arcs."""
         return self.score.arcs
 
     def trajectory(self, images: Images) -> tuple[FleetTrajectory, list[Diagnostic]]:
-        """Return the flight with its lights, and what is to be said of their effects."""
+        """Return the trajectory with its lights, and diagnostics on their effects."""
         score = self.score
         standing = list(map(StandingFrame, self.cast.scenes, score.shown))
         dark = self._dark()
@@ -80,12 +85,12 @@ class Director:
         return score.trajectory(self.fleet.name, lit), told
 
     def _followed(self) -> list[tuple[Recorded, float]]:
-        """Return the recorded flights and when each begins, by when its first frame is shown."""
+        """Return the recorded flights with the time at which each begins."""
         first = {shown.display: shown.start for shown in reversed(self.score.shown)}
         return [(flight, first[flight.display] - flight.shown[0]) for flight in self.cast.recorded]
 
     def _dark(self) -> tuple[float, float]:
-        """Return until when and from when on no light is lit; recorded flights may light their way."""
+        """Return the end of the dark time at the start, and the beginning of that at the end, seconds."""
         phases, followed = self.score.phases, self._followed()
         up = bool(followed) and followed[0][0].up is not None
         down = bool(followed) and followed[-1][0].down is not None
@@ -93,7 +98,7 @@ class Director:
         return begin, phases[-1].end if down else phases[-1].start
 
     def _present(self, display: Display, scenes: tuple[OrderedFrame, ...], ready: float) -> None:
-        """Write a display and the way to its first picture, which stands when it is to begin."""
+        """Write a display with the transit to its first picture, which stands at the display's start."""
         first, score = display.pictures[scenes[0].frame.picture], self.score
         flight = self._recorded.get(display.id)
         if flight is not None and flight.up is not None:
@@ -120,7 +125,9 @@ class Director:
         score.phase("shot", display.id)
 
     def _follow(self, display: Display, flight: Recorded) -> None:
-        """Fly a recorded flight from where the fleet stands, its take-off and landing where it has them."""
+        """Write a recorded flight from the fleet's positions, with its take-off and landing if it
+        has them.
+        """
         score, origin = self.score, self.score.clock
         score.fly(flight.breaks, flight.coef)
         if flight.up is not None:
@@ -153,7 +160,7 @@ class Director:
             self._found.append(faults.no_time(self.mission, display))
 
     def _stand_until(self, picture: Picture, duration: float) -> None:
-        """Have the picture before one that is to stand at a time stand until the way to it begins."""
+        """Let the picture before one with a fixed time stand until the move to the latter begins."""
         if picture.at is None:
             return
         slack = picture.at - duration - self.score.clock
@@ -176,7 +183,7 @@ class Director:
             score.shown.append(FrameTimes(display.id, scene.frame.picture, scene.frame.index, start, end))
 
     def _way(self, display: Display, picture: Picture, here: Array, there: Array) -> tuple[Motion, float]:
-        """Return the move to a picture, and how long it takes."""
+        """Return the move to a picture, and its duration."""
         if picture.wave is not None:
             wave = self.waves.move((here, there), display, picture)
             return wave, wave.duration
@@ -184,7 +191,7 @@ class Director:
         return move, self._duration(picture, here, there, move)
 
     def _duration(self, picture: Picture, here: Array, there: Array, move: Motion) -> float:
-        """Return how long a move takes: as long as is asked for, if that can be."""
+        """Return the duration of a move: the requested one, if it is feasible."""
         if picture.transition is None:
             return move.duration
         full = self.mover.move(here, there, 1.0, picture)

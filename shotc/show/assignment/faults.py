@@ -1,4 +1,4 @@
-"""What is wrong with a fleet's times, as diagnostics: what was asked, what is possible, whom it binds."""
+"""Diagnostics of a fleet's times: what was requested, what is possible, and which drone limits it."""
 
 from __future__ import annotations
 
@@ -23,11 +23,12 @@ from shotc.show.labels import moments, transition_key, transition_label, wave_ke
 
 
 class TriedWave(NamedTuple):
-    """What was tried of a wave in vain.
+    """The attempts to make a wave possible.
 
-    nearest : who comes nearest, and when after its beginning; longest : wave that keeps all apart, s, or 0
-    spacings : least distances before and after, metres, heights stretched
-    wider : by how much larger both would do, None where nothing tried does
+    nearest : the nearest pair, and the time after the start
+    longest : longest wave that keeps the separation, seconds; 0 if there is none
+    spacings : least distances before and after the move, metres, with scaled heights
+    wider : factor on both that would suffice; None if no tried factor does
     """
 
     nearest: Nearest
@@ -40,7 +41,10 @@ UNITS = {"speed": "m/s", "climb": "m/s", "descent": "m/s", "acceleration": "m/s^
 
 
 def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, way: float) -> Diagnostic:
-    """Return D080: a transition is asked to be shorter than the limits allow; way : of whom it binds, m."""
+    """Return D080: a requested transition is shorter than the limits allow.
+
+    way : distance of the limiting drone, metres
+    """
     origins, name = mission.origins, drone_names(fleet)[least.drone]
     eased = "" if picture.easing == "ease-in-out" else f" with `easing: {picture.easing}`"
     if picture.wave is not None:
@@ -65,7 +69,7 @@ def too_fast(mission: MissionIR, fleet: Fleet, picture: Picture, least: Motion, 
 
 
 def too_early(mission: MissionIR, display: Display, earliest: float) -> Diagnostic:
-    """Return D081: the fleet does not yet stand in its first picture at the display's start."""
+    """Return D081: the fleet cannot reach its first picture by the display's start."""
     asked, possible = display.start or 0.0, at_least(earliest)
     if display.pictures[0].at is not None:
         help_ = moments(mission, earliest)
@@ -84,7 +88,10 @@ def too_early(mission: MissionIR, display: Display, earliest: float) -> Diagnost
 
 
 def too_late(mission: MissionIR, picture: Picture, earliest: float, way: float) -> Diagnostic:
-    """Return D124: a picture cannot stand when it is to; way : seconds of the way to it."""
+    """Return D124: a picture cannot stand at its fixed time.
+
+    way : seconds of the move to it
+    """
     return Diagnostic(
         "D124",
         f"the picture is to stand at {plain(picture.at or 0.0)} s, but {at_least(earliest)} s is the "
@@ -99,9 +106,9 @@ def too_late(mission: MissionIR, picture: Picture, earliest: float, way: float) 
 
 
 def high_levels(mission: MissionIR, fleet: Fleet, heights: Sequence[float]) -> list[Diagnostic]:
-    """Return D138 where drones on their ways to their own pads need more room above than there is.
+    """Return D138 if drones returning to their own pads need more height than there is.
 
-    heights : of their levels over the pads, falling, metres
+    heights : of their levels above the pads, descending, metres
     """
     high, most = max(pad[2] for pad in fleet.pads) + heights[0], mission.rules.max_height
     many = len(heights) > MOST_LAYERS
@@ -119,7 +126,10 @@ def high_levels(mission: MissionIR, fleet: Fleet, heights: Sequence[float]) -> l
 
 
 def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: float) -> Diagnostic:
-    """Return D082: the flight outlasts the endurance; waited : seconds on the pads, which do not count."""
+    """Return D082: the flight exceeds the endurance.
+
+    waited : seconds on the pads, which do not count
+    """
     total = phases[-1].end - waited
     labels = [mission.origins.value((*fleet.path, "endurance"), "the endurance")]
     longest = sorted((p for p in phases if p.shot is not None), key=lambda p: p.start - p.end)
@@ -141,7 +151,7 @@ def too_long(mission: MissionIR, fleet: Fleet, phases: Sequence[Phase], waited: 
 
 
 def no_time(mission: MissionIR, display: Display) -> Diagnostic:
-    """Return D083: one picture that does not stand."""
+    """Return D083: the display's only picture has no hold."""
     return Diagnostic(
         "D083",
         f"display `{display.id}` takes no time",
@@ -155,7 +165,7 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
 
 
 def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: SwellLack) -> Diagnostic:
-    """Return D089: the fleet swells on its arcs into the ground, above its height, or into what stands."""
+    """Return D089: on arcs the fleet expands into the ground, above its height limit, or into an obstacle."""
     origins, metres = mission.origins, at_least(lack.metres)
     if lack.of is None:
         what, beside = "the ground or its greatest height", origins.key(("rules",), "the rules")
@@ -180,7 +190,7 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Swe
 
 
 def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: TriedWave) -> Diagnostic:
-    """Return D141: two drones come too near while they set out one after another."""
+    """Return D141: two drones come too near in a wave."""
     names, near, key = drone_names(fleet), tried.nearest, wave_key(mission, picture)
     before, after = tried.spacings
     x, y, z = near.position
@@ -212,7 +222,10 @@ def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tri
 
 
 def wave_without_extent(mission: MissionIR, picture: Picture, wave: Wave, able: Sequence[Way]) -> Diagnostic:
-    """Return D142: all places that a wave goes through are alike along it; able : where they are not."""
+    """Return D142: a wave has no extent, because all places are equal along its direction.
+
+    able : directions with an extent
+    """
     places = "of this picture" if wave.by == "goal" else "before this picture"
     path = (*picture.path, "transition", "wave")
     along = (*path, "along")
@@ -226,7 +239,7 @@ def wave_without_extent(mission: MissionIR, picture: Picture, wave: Wave, able: 
 
 
 def never_seen(mission: MissionIR, effect: Effect, why: str) -> Diagnostic:
-    """Say that an effect lasts no time."""
+    """Return D099: an effect lasts no time."""
     label = mission.origins.value(effect.path)
     whole = effect.over == "display"
     help_ = "begin it earlier" if whole else "write `over: both`, or give the picture that time"
@@ -234,6 +247,6 @@ def never_seen(mission: MissionIR, effect: Effect, why: str) -> Diagnostic:
 
 
 def bad_image(mission: MissionIR, effect: Effect, name: str, fault: FileFault) -> Diagnostic:
-    """Say that an image cannot be read."""
+    """Return D100: an image cannot be read."""
     label = mission.origins.value((*effect.path, "image", "file"))
     return Diagnostic("D100", f"image `{name}` cannot be read", (label,), (fault.message,), fault.help)

@@ -1,8 +1,8 @@
-"""Flashes of a whole fleet, which can set off seizures: counted as WCAG 2.2, 2.3.1, counts them.
+"""Detects flashes of a whole fleet, which can cause seizures, as WCAG 2.2, 2.3.1 counts them.
 
-A flash is a pair of opposing changes of relative luminance by a tenth or more of the most there is, of which
-the darker is below 0.8. More than three in any second are too many. Judged by the mean of the lights, for
-what all of them do at once: lights that sparkle one by one are none.
+A flash is a pair of opposing changes of relative luminance by at least a tenth of the maximum, the darker of
+which is below 0.8. More than three in any second are too many. The mean of the lights is judged, so lights
+that sparkle individually do not count.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ from shotc.ir.mission import MissionIR
 from shotc.rounding import as_minutes
 
 LUMINANCE = (0.2126, 0.7152, 0.0722)
-"""Of red, green and blue light."""
+"""Weights of red, green and blue light."""
 CHANGE, BRIGHT = 0.1, 0.8
 MOST_FLASHES_PER_S = 3
-"""Flashes in any second."""
+"""Most flashes in any second."""
 SAMPLED_LIGHTS = 200
-"""Lights of a fleet that are looked at, evenly by their numbers, at least; all of fewer."""
+"""Sampled lights of a fleet, uniformly by number; all of a smaller fleet."""
 BATCH_TIMES = 500
-"""Evaluated at once."""
+"""Samples that are evaluated together."""
 
 
 class Flashes(NamedTuple):
-    """The most flashes in any second, and when that begins, seconds."""
+    """The most flashes in any second, and the start of that second, seconds."""
 
     number: int
     time: float
 
 
 def flashing(mission: MissionIR, flight: FleetTrajectory) -> list[Diagnostic]:
-    """Return the warning of a fleet that flashes more than three times in a second."""
+    """Return the warning on a fleet that flashes more than three times in a second."""
     if not flight.lights.looks:
         return []
     worst = most_flashes(luminance(flight))
@@ -64,7 +64,7 @@ def flashing(mission: MissionIR, flight: FleetTrajectory) -> list[Diagnostic]:
 
 
 def luminance(flight: FleetTrajectory) -> Array:
-    """Return the mean relative luminance of a fleet's lights moment by moment, 0 to 1."""
+    """Return the mean relative luminance of a fleet's lights at each light tick, 0 to 1, shape (T,)."""
     some = slice(None, None, max(1, len(flight.coef) // SAMPLED_LIGHTS))
     ticks = np.arange(ceil(float(flight.breaks[-1]) * LIGHT_RATE_HZ) + 1)
     parts = [
@@ -75,7 +75,7 @@ def luminance(flight: FleetTrajectory) -> Array:
 
 
 def most_flashes(levels: Array) -> Flashes:
-    """Return the most flashes in any second of a luminance, moment by moment."""
+    """Return the most flashes in any second of a luminance at light ticks (T,)."""
     changes = _changes(levels)
     best = Flashes(0, 0.0)
     for k, first in enumerate(changes):
@@ -86,7 +86,7 @@ def most_flashes(levels: Array) -> Flashes:
 
 
 def _changes(levels: Array) -> list[int]:
-    """Return the moments at which changes that count are complete; each goes against the one before."""
+    """Return the ticks at which counted changes are complete; successive ones have opposite signs."""
     found: list[int] = []
     low = high = float(levels[0])
     rising: bool | None = None

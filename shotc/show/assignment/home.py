@@ -1,4 +1,4 @@
-"""The way up from the pads of a fleet, and the way home: over its pads, and down."""
+"""The rise of a fleet from its pads, its return over them, and the descent."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from shotc.show.solvers.move import fastest
 
 
 def way_up(fleet: Fleet, up: RiseColumns) -> Motion | LayeredMove:
-    """Return how a fleet rises from its pads."""
+    """Return the rise of a fleet from its pads."""
     take_off = take_off_of(fleet)
     if not take_off.layered:
         return fastest(up.above - up.pads, fleet.limits, 1.0)
@@ -23,9 +23,9 @@ def way_up(fleet: Fleet, up: RiseColumns) -> Motion | LayeredMove:
 
 
 def come_home(score: FlightScore, mover: Mover) -> tuple[float, ...]:
-    """Bring a fleet that rests home, each drone to any pad or to its own, as the fleet says.
+    """Write the return of a resting fleet, each drone to any pad or to its own, as the fleet states.
 
-    Returns the heights over the pads at which drones change places, falling, metres: none to any pad.
+    Returns the heights above the pads at which drones change places, descending, metres; empty for any pad.
     """
     return (_come_to_own if mover.fleet.returns == "own" else _come_to_any)(score, mover)
 
@@ -59,7 +59,7 @@ def _gather(score: FlightScore, mover: Mover, places: Array) -> None:
 def _sink(
     score: FlightScore, fleet: Fleet, down: RiseColumns, layers: tuple[tuple[float, ...], float]
 ) -> None:
-    """Come down straight, in layers where the pads are nearer to each other than the separation."""
+    """Write the vertical descent, in layers if the pads are nearer to each other than the separation."""
     ways = down.pads - down.above
     if take_off_of(fleet).layered:
         score.move(down.pads, sinking(*layers, down.layer, fleet.limits))

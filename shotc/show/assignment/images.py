@@ -1,4 +1,4 @@
-"""The images of a mission's effects, read once each."""
+"""Reads the images of a mission's effects, once each."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from shotc.show.goals.footage import ImageFrames, read_frames
 
 
 def images_of(mission: MissionIR) -> dict[str, ImageFrames] | list[Diagnostic]:
-    """Return the frames of every image, by its name, or what is wrong with those that cannot be read."""
+    """Return the frames of every image by name, or the faults of those that cannot be read."""
     files = dict(mission.files)
     found: dict[str, ImageFrames] = {}
     wrong: dict[str, Diagnostic] = {}

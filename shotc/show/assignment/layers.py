@@ -1,4 +1,4 @@
-"""One effect put into space and time: where it goes through a picture, and when it counts."""
+"""Puts an effect into space and time: its direction through a picture, and its active interval."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ COMPASS: dict[Way, Vec3] = {
     "south": (0.0, -1.0, 0.0),
 }
 FAR_M = 10_000.0
-"""How far south the eye of a display without a viewpoint is, metres: it sees along parallel lines, nearly."""
+"""Distance of the eye of a display without a viewpoint, metres south, for almost parallel lines of sight."""
 LEAST_M = 1e-3
-"""Metres that a picture is large, at least, for what goes through it."""
+"""Least extent of a picture for an effect, metres."""
 
 
 class Times(NamedTuple):
-    """When a picture is under way, stands, no longer does, and is no more; seconds.
+    """The times of a picture, seconds: departure to it, start and end of its hold, and arrival at the next.
 
-    Of an effect over a display, it begins, begins, ends, and a colour that it fades to is no more.
+    For an effect of a display: its start, its start, its end, and the end of a colour to which it fades.
     """
 
     away: float
@@ -53,7 +53,12 @@ class Times(NamedTuple):
 
 
 class EffectContext(NamedTuple):
-    """What effects go through: places (k, 3) of lit drones, the audience's eye, how many drones there are."""
+    """The input of effects.
+
+    places : positions (k, 3) of lit drones, metres
+    viewpoint : the audience's eye, or None
+    drones : number of drones
+    """
 
     places: Array
     viewpoint: Vec3 | None
@@ -62,25 +67,28 @@ class EffectContext(NamedTuple):
 
 
 def layer_of(effect: Effect, stage: EffectContext, times: Times, seed: int) -> Layer:
-    """Return the layer of an effect; seed : that no other effect of the mission has."""
+    """Return the layer of an effect.
+
+    seed : unique among the effects of the mission
+    """
     own = times._replace(start=times.away, end=times.start) if effect.over == "transition" else times
     paint = _paint(effect, stage, own, seed)
     return Layer(paint, effect.blend, effect.opacity, _span(effect, times))
 
 
 def counts(effect: Effect, times: Times) -> tuple[float, float]:
-    """Return when an effect begins and ends to count, seconds."""
+    """Return the start and the end of an effect, seconds."""
     away, start, end, gone = times
     return {"both": (away, gone), "transition": (away, start)}.get(effect.over, (start, end))
 
 
 def _span(effect: Effect, times: Times) -> tuple[float, float, float, float]:
-    """Return when the layer comes and goes, as ``Layer.span``."""
+    """Return the times of the layer's fade-in and fade-out, as ``Layer.span``."""
     first, last = counts(effect, times)
     if isinstance(effect.paint, Fade):
         return _fade(effect.paint, effect.over, times)
     if effect.over == "both":
-        # It stands with its picture: it comes and goes while that stands.
+        # It appears with its picture, so it fades while that stands.
         rise = (times.start, times.start + effect.fade_in) if effect.fade_in else (first, first)
         fall = (times.end - effect.fade_out, times.end) if effect.fade_out else (last, last)
         return (*rise, *fall)
@@ -117,13 +125,16 @@ def _gradient(ramp: Ramp, stage: EffectContext, times: Times) -> Gradient:
     along = None if ramp.along is None else along_of(ramp.along, ramp.center, stage)
     rate = 0.0 if ramp.period is None else 1.0 / ramp.period
     if along is None:
-        # By the time the colours come in their order, not one behind the other.
+        # Over time, the colours follow in their order.
         rate = -rate if rate else -1.0 / max(times.end - times.start, 1e-9)
     return Gradient(ramp.colors, ramp.at, along, rate, times.start, ramp.period is not None)
 
 
 def along_of(way: Way, center: Vec3 | None, stage: EffectContext) -> Along:
-    """Return what goes a way through the places of a stage; center : from which `out` and `in` count."""
+    """Return the coordinate of a direction through the places of a stage.
+
+    center : origin of `out` and `in`
+    """
     if way == "index":
         return Order(stage.drones)
     low, high = stage.places.min(axis=0), stage.places.max(axis=0)
@@ -137,7 +148,7 @@ def along_of(way: Way, center: Vec3 | None, stage: EffectContext) -> Along:
 
 
 def _seen(way: Way, stage: EffectContext) -> Vec3:
-    """Return the level direction of a word that the audience means."""
+    """Return the horizontal direction of a word that is relative to the audience."""
     right, _, _ = _axes(stage)
     level = np.array([-right[1], right[0], 0.0])
     return _vec({"right": right, "left": -right, "away": level, "near": -level}[way])
@@ -151,7 +162,7 @@ def _eye(stage: EffectContext) -> Array:
 
 
 def _axes(stage: EffectContext) -> tuple[Array, Array, Array]:
-    """Return right, up and forward of who looks at the middle of the picture."""
+    """Return right, up and forward of a viewer who looks at the middle of the picture."""
     look = (stage.places.min(axis=0) + stage.places.max(axis=0)) / 2.0 - _eye(stage)
     forward = look / max(float(np.linalg.norm(look)), 1e-9)
     level = float(np.hypot(forward[0], forward[1]))
@@ -168,7 +179,7 @@ def _footage(image: Image, stage: EffectContext, times: Times) -> Footage:
 
 
 def _screen(image: Image, frames: ImageFrames, stage: EffectContext) -> Screen:
-    """Return where the image is: about the middle of the lights as the audience sees them."""
+    """Return the rectangle of the image: around the middle of the lights as the audience sees them."""
     right, up, forward = _axes(stage)
     away = stage.places - _eye(stage)
     depth = np.maximum(away @ forward, LEAST_M)

@@ -1,7 +1,7 @@
-"""The lights of a fleet: dark on the way up and down, each frame's colours while it stands, faded between.
+"""The lights of a fleet: off during rise and descent, each frame's colours while it stands, fades in between.
 
-Effects of a picture are laid over its own colours, so that they come and go with these; effects of a way, of
-a stand or of a whole display are laid over all of that (``ir.light_layers``).
+Effects of a picture are applied to its own colours and fade with them. Effects of a transition, a hold or a
+whole display are applied on top of all (``ir.light_layers``).
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ from shotc.show.assignment.order import OrderedFrame
 from shotc.show.goals.footage import ImageFrames
 
 SAME_S = 1e-4
-"""Seconds by which times that are meant to be the same may differ."""
+"""Seconds, below which two times count as equal."""
 
 Images = Mapping[str, ImageFrames]
 """The images of a mission's effects, by name."""
 
 
 class StandingFrame(NamedTuple):
-    """A frame and when it stands."""
+    """A frame and its times."""
 
     scene: OrderedFrame
     shown: FrameTimes
 
 
 class _Stood(NamedTuple):
-    """A picture of a display: its frames, when it stands, and when the pictures beside it do."""
+    """A picture of a display: its frames, its times, and those of the neighbouring pictures."""
 
     display: Display
     number: int
@@ -48,14 +48,14 @@ class _Stood(NamedTuple):
 
 
 class LightRow(NamedTuple):
-    """What all lights show at a time: their colours, (n, 3), and the frame that these belong to, if any."""
+    """The colours of all lights at a time, (n, 3), and the frame that they belong to, if any."""
 
     colors: Colors
     of: StandingFrame | None
 
 
 Rows = Mapping[float, LightRow]
-"""What is shown by the times between which lights fade."""
+"""Colours by time; lights fade linearly between these times."""
 
 
 def rows_of(
@@ -63,10 +63,12 @@ def rows_of(
     standing: Sequence[StandingFrame],
     recorded: Sequence[tuple[Recorded, float]] = (),
 ) -> Rows:
-    """Return what lights show without effects.
+    """Return the lights without effects.
 
-    dark : until when and from when on no light is lit, seconds, but where a recorded flight lights it
-    standing : every frame, in their order; recorded : flights with lights of their own, and when each begins
+    dark : end of the dark time at the start, and beginning of that at the end, seconds; recorded flights may
+        light it
+    standing : all frames in order
+    recorded : flights with lights of their own, and their start times
     """
     known = {flight.display for flight, _ in recorded}
     black = np.zeros_like(standing[0].scene.colors)
@@ -91,7 +93,7 @@ def with_effects(
     dark: tuple[float, float],
     images: Images,
 ) -> tuple[Lights, list[Diagnostic]]:
-    """Return the programme with the effects of its displays, and what is to be said of these."""
+    """Return the light programme with the effects of its displays, and diagnostics on them."""
     plain = Lights(np.array(list(rows)), np.stack([row.colors for row in rows.values()], axis=1))
     names = dict.fromkeys(one.shown.display for one in standing)
     displays = [mission.display(name) for name in names]
@@ -137,7 +139,7 @@ def _pictures(
 def _of_picture(
     mission: MissionIR, picture: _Stood, images: Images, known: tuple[int, list[Diagnostic]]
 ) -> tuple[tuple[Layer, ...], list[Layer]]:
-    """Return the effects that come and go with a picture's colours, and those that are laid over all."""
+    """Return the effects that fade with a picture's colours, and those on top of all."""
     seed, told = known
     stage = _stage(picture.display, [picture], images)
     with_it: list[Layer] = []
@@ -180,7 +182,7 @@ def _of_display(
 
 
 def _moment(mark: DisplayTime, pictures: Sequence[_Stood], *, until: bool) -> float:
-    """Return when a moment of a display is, seconds of mission time."""
+    """Return a moment of a display in seconds of mission time."""
     if mark.time is not None:
         return mark.time
     if mark.picture is None:

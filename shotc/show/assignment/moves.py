@@ -1,4 +1,4 @@
-"""How a fleet gets from one formation to the next: straight where that is proved, else on arcs."""
+"""Moves of a fleet between formations: straight where separation is proved, else on arcs."""
 
 from __future__ import annotations
 
@@ -24,12 +24,14 @@ from shotc.show.solvers.arc_move import ArcMove, fastest_arc
 from shotc.show.solvers.move import fastest
 
 MARGIN_SHARE = 5e-4
-"""Share of the distance by which arcs keep more of it, where both formations do: half of
-``apart.ROOMIER``."""
+"""Share by which arcs keep more than the separation, if both formations do: half of ``apart.ROOMIER``."""
 
 
 class Mover:
-    """Finds the moves of one fleet; ``faults`` : of moves that have no room."""
+    """Finds the moves of one fleet.
+
+    faults : of moves without enough free space
+    """
 
     def __init__(self, mission: MissionIR, fleet: Fleet) -> None:
         self.mission, self.fleet = mission, fleet
@@ -41,7 +43,10 @@ class Mover:
         self._heights = Heights(self._room.lowest, high)
 
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
-        """Return the fastest move; picture : to which, None for the way home."""
+        """Return the fastest move.
+
+        picture : its goal; None for the return
+        """
         path = "auto" if picture is None else picture.transition_path
         ends = here, there
         free = self._free(ends)
@@ -56,9 +61,9 @@ class Mover:
     def around(
         self, ends: Ends, pace: float, picture: Picture | None, beside: tuple[Clearance, ...]
     ) -> ArcMove | None:
-        """Return the fastest arcs that are clear of more than what stands, None where none are found.
+        """Return the fastest arcs that also keep clear of ``beside``, or None.
 
-        ends : places before and after, shape (n, 3) each
+        ends : positions before and after, shape (n, 3) each
         """
         if picture is not None and picture.transition_path == "straight":
             return None
@@ -69,9 +74,10 @@ class Mover:
     def _arcs(
         self, ends: Ends, free: Free | None, pace: float, picture: Picture | None, room: DisplaySurroundings
     ) -> tuple[ArcMove, SwellLack]:
-        """Return the fastest arcs found that have room, or those that lack least, and what they lack."""
+        """Return the fastest clear arcs, or those with the least lack, and the lack."""
         easing = "ease-in-out" if picture is None else picture.easing
-        # Asked for where straight ways do: a quarter of an ellipse is wider than they are everywhere.
+        # Arcs are requested although straight paths are free; a quarter of an ellipse is always wider than
+        # these.
         kept = Gaps(1.0, 1.0) if free is None else free
 
         def about(pivot: Array) -> ArcMove:
@@ -80,7 +86,9 @@ class Mover:
         return led(ends, self._heights, room, about)
 
     def _free(self, ends: Ends) -> Free | None:
-        """Return where the two scalars of a common move may be; None where straight ways are free."""
+        """Return the free region of the two scalars of a common move; None if straight paths keep the
+        separation.
+        """
         apart, places = self.fleet.apart, [e * self._scale for e in ends]
         if apart.shape == "cylinder":
             size = least_size(*(p / (apart.across * (1.0 + MARGIN_SHARE)) for p in places))
@@ -88,7 +96,7 @@ class Mover:
         least = [nearest_pair(p) for p in places]
         if _gaps(least, apart.across).straight:
             return None
-        # What stands as near as it may, such as on pads, has no share to spare.
+        # Formations at exactly the separation, for example on pads, have no share to spare.
         return _gaps(least, max(apart.across, min(apart.across * (1.0 + MARGIN_SHARE), *least)))
 
 

@@ -1,4 +1,4 @@
-"""Who stands where in every frame, from the pads and back to them."""
+"""Assigns drones to the goals of every frame, from the pads and back to them."""
 
 from __future__ import annotations
 
@@ -15,12 +15,16 @@ from shotc.planning.take_off import take_off_of
 from shotc.show.solvers.match import Index, matched
 
 CONTROL_DECIMALS = 6
-"""Decimals of a metre that control points keep, so that a plan stays short."""
+"""Decimals of control points in metres, which keep a plan short."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OrderedFrame:
-    """A frame in the order of the drones; places, colors : shape (n, 3); spare : numbers of dark drones."""
+    """A frame in the order of the drones.
+
+    places, colors : shape (n, 3)
+    spare : numbers of dark drones
+    """
 
     frame: Frame
     places: Array
@@ -29,15 +33,16 @@ class OrderedFrame:
 
     @property
     def shown(self) -> Array:
-        """Return the places of the drones that show it, (k, 3)."""
+        """Return the positions of the drones that show it, (k, 3)."""
         return np.delete(self.places, self.spare, axis=0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RiseColumns:
-    """The ways straight up from pads, one a drone, in the order of their numbers.
+    """The vertical lines from pads, one for each drone, in the order of their numbers.
 
-    pads, above : their ends, shape (n, 3) each; layer : in which layer each rises or sinks, shape (n,)
+    pads, above : their ends, shape (n, 3) each
+    layer : layer in which each drone rises or descends, shape (n,)
     """
 
     pads: Array
@@ -47,9 +52,9 @@ class RiseColumns:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DroneOrder:
-    """What the drones of a fleet do: rise by their own columns, and show scenes.
+    """The assignment of a fleet's drones: rise columns and frames.
 
-    recorded : the displays that are recorded flights; the last one may bring the fleet down itself
+    recorded : displays that are recorded flights; the last one may include the landing
     """
 
     up: RiseColumns
@@ -58,7 +63,7 @@ class DroneOrder:
 
 
 def cast_of(fleet: Fleet, goals: FleetGoals) -> DroneOrder:
-    """Match every frame with the one before it, by squared distance where heights are stretched."""
+    """Match every frame with the one before it by least squares, with scaled heights."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     up = columns_of(fleet)
     scenes, last = [], up.above
@@ -70,7 +75,7 @@ def cast_of(fleet: Fleet, goals: FleetGoals) -> DroneOrder:
         if flight is None or (frame.index == 0 and flight.up is None):
             order = matched(last * scale, frame.points * scale)
         if flight is not None and frame.index == 0:
-            # Who has come to a track stays on it to its end; from its pad everybody is on its own.
+            # A drone on a recorded track stays on it to the end; from pads, drone k flies track k.
             recorded.append(_in_order(flight, order))
         places = np.round(frame.points[order], CONTROL_DECIMALS)
         spare = np.flatnonzero(order >= len(order) - frame.spare).tolist()
@@ -85,12 +90,12 @@ def _in_order(flight: Recorded, order: Index) -> Recorded:
 
 
 def pads_of(fleet: Fleet) -> Array:
-    """Return the pads of a fleet, shape (n, 3)."""
+    """Return the pads of a fleet, shape (n, 3), metres."""
     return np.round(np.array(fleet.pads), CONTROL_DECIMALS)
 
 
 def columns_of(fleet: Fleet) -> RiseColumns:
-    """Return the columns over a fleet's pads, by which its drones rise."""
+    """Return the columns over a fleet's pads in which its drones rise."""
     take_off = take_off_of(fleet)
     layer = np.array(take_off.layer, dtype=np.intp)
     pads = pads_of(fleet)
@@ -100,7 +105,7 @@ def columns_of(fleet: Fleet) -> RiseColumns:
 
 
 def way_down(fleet: Fleet, places: Array) -> RiseColumns:
-    """Return the columns by which drones at places of shape (n, 3) come down, each to any pad."""
+    """Return the columns in which drones at positions (n, 3) descend, each to any pad."""
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
     home = columns_of(fleet)
     order = matched(places * scale, home.above * scale)

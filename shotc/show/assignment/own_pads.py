@@ -1,11 +1,13 @@
-"""The way home to its own pad for every drone, whatever the formation: at heights of their own.
+"""The return of every drone to its own pad from any formation, by levels.
 
-From where they rest all go, matched by least squares, to columns that are the separation apart: those over
-the pads, or over pads drawn out as far as that takes. There each climbs or sinks upright to a level, flies
-over its own pad, straight and all at once, and comes down. In columns nobody comes nearer, whatever the
-heights. On the way two of one level are r0 + s (r1 - r0) apart, s from 0 to 1 for all, where their columns
-are r0 apart and their pads r1. Only those share a level that are the horizontal separation apart all that
-while, s = 1 included; levels are the vertical one apart. So however many change places, it is one flight.
+All drones first move, matched by least squares, to columns that are the separation apart: those over the
+pads, or over pads scaled outwards as far as necessary. In its column each drone climbs or descends to its
+level, flies straight to over its own pad, all at the same time, and descends.
+
+In columns no two drones come too near, whatever the heights. During the horizontal flight two drones of one
+level are r0 + s (r1 - r0) apart, with a common s from 0 to 1, r0 between their columns and r1 between their
+pads. Drones share a level only if they keep the horizontal separation all that time, at s = 1 as well. Levels
+are the vertical separation apart. So one such flight is enough for any number of exchanges.
 """
 
 from __future__ import annotations
@@ -27,10 +29,13 @@ ROUNDING_M = 1e-7
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WayToOwn:
-    """Places of all drones on their way, in the order of their numbers, shape (n, 3) each.
+    """Positions of all drones on their return, in the order of their numbers, shape (n, 3) each.
 
-    columns : to which they go first; raised : at their levels there; down : from there on over their own pads
-    heights : of the levels over the pads, falling, metres; step : by which one is above the next, at least
+    columns : first goals
+    raised : at their levels in the columns
+    down : from there on over their own pads
+    heights : of the levels above the pads, descending, metres
+    step : least distance between levels, metres
     """
 
     columns: Array
@@ -41,7 +46,7 @@ class WayToOwn:
 
 
 def way_to_own(fleet: Fleet, places: Array) -> WayToOwn:
-    """Return the way home from places of shape (n, 3)."""
+    """Return the return from positions (n, 3)."""
     pads = pads_of(fleet)
     columns = _columns(fleet, pads)
     scale = np.array([1.0, 1.0, stretch(fleet.apart)])
@@ -58,10 +63,10 @@ def way_to_own(fleet: Fleet, places: Array) -> WayToOwn:
 
 
 def levels(starts: Array, ends: Array, least: float) -> NDArray[np.intp]:
-    """Return a level for everybody who goes straight from (n, 2) to (n, 2), all at once, from 0 on.
+    """Return a level, from 0, for each drone that flies straight from (n, 2) to (n, 2), all at the same time.
 
-    Two of one level never come nearer than ``least`` metres. Who goes farthest chooses first, the lowest
-    level that is free.
+    Two drones of one level never come nearer than ``least`` metres. The drone with the longest path chooses
+    first, the lowest free level.
     """
     found = np.full(len(starts), -1, dtype=np.intp)
     ways = ends - starts
@@ -75,7 +80,7 @@ def levels(starts: Array, ends: Array, least: float) -> NDArray[np.intp]:
 
 
 def _nearest(starts: Array, ways: Array, one: int, others: NDArray[np.intp]) -> Array:
-    """Return how near one comes to others on their ways, shape (m,)."""
+    """Return the least distances of one drone from others during the flight, shape (m,), metres."""
     apart, change = starts[others] - starts[one], ways[others] - ways[one]
     size = np.einsum("nd,nd->n", change, change)
     along = -np.einsum("nd,nd->n", apart, change)
@@ -84,7 +89,7 @@ def _nearest(starts: Array, ways: Array, one: int, others: NDArray[np.intp]) -> 
 
 
 def _columns(fleet: Fleet, pads: Array) -> Array:
-    """Return the places over the pads, drawn out about their middle as far as the separation asks for."""
+    """Return the positions over the pads, scaled about their middle as far as the separation demands."""
     level = pads[:, :2]
     nearest = cKDTree(level).query(level, k=2)[0][:, 1].min() if len(pads) > 1 else np.inf
     wide = (

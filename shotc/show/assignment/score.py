@@ -1,8 +1,8 @@
-"""A flight as it is written down: pieces of time and control points, phases, and what is shown when.
+"""A trajectory under construction: pieces of time and control points, phases, and shown frames.
 
-Three equal control points in a row are a stop (``geom.fleet_spline``): at the break where they alone count
-everybody stands exactly there. Between two stops the pieces are even, so what happens between them does not
-depend on what is beyond them.
+Three equal control points in a row are a stop (``geom.fleet_spline``): at the break where only they count,
+every drone stands exactly there. Pieces between two stops are uniform, so what happens between them does not
+depend on the rest.
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ Motion = CommonMove | ArcMove | WaveMove
 
 
 class FlightScore:
-    """The flight of a fleet while it is written.
+    """The trajectory of a fleet under construction.
 
-    places : where it begins, shape (n, 3); start : when, seconds
+    places : initial positions, shape (n, 3)
+    start : initial time, seconds
     """
 
     def __init__(self, places: Array, start: float = 0.0) -> None:
@@ -40,44 +41,50 @@ class FlightScore:
 
     @staticmethod
     def after(breaks: Array, coef: Array) -> FlightScore:
-        """Return a flight that goes on where a spline ends in a stop; breaks, coef as of FleetTrajectory."""
+        """Return a trajectory that continues a spline from its final stop.
+
+        breaks, coef : as in FleetTrajectory
+        """
         score = FlightScore(coef[:, -1])
         score._points, score._breaks = list(np.moveaxis(coef, 1, 0)), breaks.tolist()
         return score
 
     @property
     def clock(self) -> float:
-        """Return the time up to which the flight is written, seconds."""
+        """Return the time up to which the trajectory is written, seconds."""
         return self._breaks[-1]
 
     def stand(self, seconds: float) -> None:
-        """Stay at the last places."""
+        """Append a hold at the last positions."""
         if seconds > 0.0:
             self._add([self.places], seconds)
 
     def move(self, places: Array, move: Motion | LayeredMove, duration: float | None = None) -> None:
-        """Go from stop to stop, in so many seconds if they are given."""
+        """Append a move from stop to stop, in ``duration`` seconds if given."""
         between = [np.round(points, CONTROL_DECIMALS) for points in move.between(self.places, places)]
         self._add([*between, places, places, places], (duration or move.duration) / move.pieces)
         self.places = places
         self.arcs += isinstance(move, ArcMove)
 
     def retrace(self, breaks: Array, coef: Array, slower: float = 1.0) -> None:
-        """Go a flight between two stops back, from its end, in so many times the time."""
+        """Append a flight between two stops, backwards and ``slower`` times as long."""
         self._points += list(np.moveaxis(coef[:, -4::-1], 1, 0))
         origin, passed = self.clock, slower * (breaks[-1] - breaks[-2::-1])
         self._breaks += [round(origin + seconds, 9) for seconds in passed.tolist()]
         self.places = coef[:, 0]
 
     def fly(self, breaks: Array, coef: Array) -> None:
-        """Fly a flight from the stop that the last places are to a stop; breaks, coef as of Recorded."""
+        """Append a flight from the last positions to a stop.
+
+        breaks, coef : as in Recorded
+        """
         origin = self.clock
         self._points += list(np.moveaxis(coef[:, DEGREE:], 1, 0))
         self._breaks += [round(origin + seconds, 9) for seconds in breaks[1:].tolist()]
         self.places = coef[:, -1]
 
     def animate(self, frames: Sequence[Array], period: float) -> list[float]:
-        """Show frames one after another, the last one at a stop; return the time of each.
+        """Append frames, one after another, the last one as a stop; return the time of each.
 
         The first three control points are the last stop, which is the frame before these.
         """
@@ -89,25 +96,28 @@ class FlightScore:
         return [*times[:-1], self.clock]
 
     def phase(self, name: PhaseName, shot: str | None = None, end: float | None = None) -> None:
-        """Call what was written since the last phase by a name; end : of it, s, else all of that."""
+        """Name what was written since the last phase.
+
+        end : end of the phase, seconds; None for all of it
+        """
         start = self.phases[-1].end if self.phases else self._breaks[0]
         self.phases.append(Phase(name, shot, start, self.clock if end is None else end))
 
     def spline(self) -> tuple[Array, Array]:
-        """Return breaks and control points of what is written, as of FleetTrajectory."""
+        """Return breaks and control points written so far, as in FleetTrajectory."""
         return np.array(self._breaks), np.stack(self._points, axis=1)
 
     def trajectory(self, fleet: str, lights: Lights) -> FleetTrajectory:
-        """Return the whole flight."""
+        """Return the whole trajectory."""
         return FleetTrajectory(fleet, *self.spline(), tuple(self.phases), tuple(self.shown), lights)
 
     def follow(self, flight: FleetTrajectory) -> None:
-        """Take over a flight that was changed after it was written."""
+        """Replace the trajectory by a changed one."""
         self.phases, self.shown, self.places = list(flight.phases), list(flight.shown), flight.coef[:, -1]
         self._points, self._breaks = list(np.moveaxis(flight.coef, 1, 0)), flight.breaks.tolist()
 
     def _add(self, points: list[Array], piece: float) -> None:
         origin = self.clock
         self._points += points
-        # Counted from one place, so that the pieces are even to the last digit that matters.
+        # All times are counted from one origin, so that the pieces are uniform up to rounding.
         self._breaks += [round(origin + (k + 1) * piece, 9) for k in range(len(points))]

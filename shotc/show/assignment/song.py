@@ -1,4 +1,4 @@
-"""How long a song is, against the show that is flown to it."""
+"""Compares the length of a song with the show that is flown to it."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from shotc.rounding import at_least, plain
 
 
 def song_faults(mission: MissionIR, end: float) -> list[Diagnostic]:
-    """Return what is wrong with the song of a show; end : of its last picture, s of the mission's clock.
+    """Return the faults of a show's song.
 
-    A plan does not carry the song: nothing is said of it where its file is not at hand.
+    A plan does not contain the song; there is no diagnostic if its file is not available.
+
+    end : end of the last picture, mission time, seconds
     """
     music = mission.music
     data = None if music is None or music.file is None else dict(mission.files).get(music.file)
@@ -36,7 +38,7 @@ def song_faults(mission: MissionIR, end: float) -> list[Diagnostic]:
 
 
 def seconds(name: str, data: bytes) -> float | None:
-    """Return how long a song is, s, or None where its bytes do not tell."""
+    """Return the length of a song, seconds; None if it cannot be read."""
     try:
         length = TinyTag.get(name, file_obj=BytesIO(data)).duration
     except (TinyTagException, ValueError, ArithmeticError, LookupError, OSError):

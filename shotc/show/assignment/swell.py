@@ -1,9 +1,11 @@
-"""Where a fleet that moves on arcs swells: held to the ground, to heights, and to what stands; led past it.
+"""Keeps the expansion of a fleet on arcs within its heights and clear of obstacles, by moving the arcs'
+centre.
 
-On arcs about a point c a formation is wider half-way than before and after. With n.c + a u0 + b u1 as the
-support of the drones along n, where u0 and u1 are how far either formation reaches beyond c, control points
-of (a, b) bound where anybody is, along every n: on a full arc by the root of u0^2 + u1^2. The point c may be
-any: lower, and all pass higher. Above the lowest of both formations it takes nobody below that.
+On arcs about a point c a formation is wider half-way than before and after. Along a direction n the support
+of the drones is n.c + a u0 + b u1, where u0 and u1 are how far the two formations reach beyond c. So the
+control points of (a, b) bound all positions along every n; on a full arc the bound is the root of u0^2 +
+u1^2. The point c is free: with a lower c all drones pass higher. If c is above the lowest drone of both
+formations, no drone goes below that one.
 """
 
 from __future__ import annotations
@@ -24,24 +26,28 @@ from shotc.show.goals.room import DisplaySurroundings
 from shotc.show.solvers.arc_move import ArcMove
 
 GAP_M = 1e-3
-"""How sharp the bounds are that tell whether somebody comes too near, metres."""
+"""Accuracy of the distance bounds, metres."""
 BEYOND_M = 0.05
-"""By how much more than is missing the fleet is led aside, metres."""
+"""Metres by which the fleet is moved aside in addition to the lack."""
 WIDEST_SHARE = 0.41
-"""Share of a shift of c by which the fleet passes farther half-way, the other way: root two less one."""
+"""Shift of the fleet half-way over the opposite shift of c: sqrt(2) - 1."""
 SAFE_SHARE = 0.95
-"""Share of the way from the height of c that is safe to the one that just does."""
+"""Weight of the just sufficient height of c against the safe one."""
 HEIGHT_LEVELS = 8
-"""Heights of c that are tried one after another."""
+"""Most heights of c that are tried."""
 FARTHEST_M = 1000.0
-"""Metres beyond which c is not taken: arcs that are so wide take longer than any show."""
+"""Largest distance of c, metres; wider arcs take longer than any show."""
 
 Ends = tuple[Array, Array]
-"""Places of all drones before and after a move, shape (n, 3) each."""
+"""Positions of all drones before and after a move, shape (n, 3) each."""
 
 
 class SwellLack(NamedTuple):
-    """What the swell lacks most: metres; of : what stands there, or None for the ground and the height."""
+    """The largest lack of a move.
+
+    metres : the lack
+    of : the obstacle; None for the ground and the height limit
+    """
 
     metres: float
     of: Clearance | None
@@ -49,15 +55,13 @@ class SwellLack(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Heights:
-    """z between which the centres of all drones are to stay, metres."""
+    """Lowest and highest z for the centres of all drones, metres."""
 
     low: float
     high: float
 
     def lack(self, ends: Ends, ctrl: Array, pivot: Array) -> float:
-        """Return by how much the closed bound leaves them; what the formations themselves lack is not
-        counted.
-        """
+        """Return the lack of height by the closed-form bound; the formations' own lack is not counted."""
         low, high = self._of(ends)
         before, after = (e[:, 2] - pivot[2] for e in ends)
         down = float((ctrl @ [before.min(), after.min()]).min()) + pivot[2]
@@ -65,14 +69,14 @@ class Heights:
         return float(max(low - down, up - high, 0.0))
 
     def pivot(self, ends: Ends, ctrl: Array, wanted: float) -> float:
-        """Return the height of c that is nearest to the wanted one and keeps both, or the least of them."""
+        """Return the height of c nearest to the wanted one that keeps both heights, or the lower one."""
         low, high = self._of(ends)
         swell = 1.0 - ctrl.sum(axis=1)
         out = swell < -1e-6
         (l0, l1), (h0, h1) = ((e[:, 2].min() for e in ends), (e[:, 2].max() for e in ends))
         most = float(((low - ctrl @ [l0, l1])[out] / swell[out]).min(initial=np.inf))
         least = float(((high - ctrl @ [h0, h1])[out] / swell[out]).max(initial=-np.inf))
-        # Nearer to what is safe whatever the control points, for those of another c are others.
+        # The height is moved towards the safe one, because another c has other control points.
         most = most if most == np.inf else SAFE_SHARE * most + (1.0 - SAFE_SHARE) * min(l0, l1)
         least = least if least == -np.inf else SAFE_SHARE * least + (1.0 - SAFE_SHARE) * max(h0, h1)
         return min(max(wanted, least), most)
@@ -86,9 +90,9 @@ class Heights:
 def led(
     ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
 ) -> tuple[ArcMove, SwellLack]:
-    """Return a move that is clear of everything, or that which lacks least, and what it lacks.
+    """Return a move that is clear of everything, or that with the least lack, and the lack.
 
-    fastest : from the point c, shape (3,), to the fastest move about it
+    fastest : returns the fastest move about a point c, shape (3,)
     """
     best: tuple[ArcMove, SwellLack] | None = None
     for move in _tries(ends, heights, room, fastest):
@@ -104,7 +108,7 @@ def led(
 def _tries(
     ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
 ) -> Iterator[ArcMove]:
-    """Yield the move about the middle, at a height that has room; if that is not clear, those led aside."""
+    """Yield the move about the middle at a suitable height, then moves led aside if that is not clear."""
     middle = 0.25 * sum((e.min(axis=0) + e.max(axis=0) for e in ends), np.zeros(3))
     first = _level(ends, heights, fastest, middle)
     yield first
@@ -115,7 +119,7 @@ def _tries(
 
 
 def _shifts(ends: Ends, move: ArcMove, lack: SwellLack) -> Iterator[Array]:
-    """Yield how far c would go, each to the other side, for the fleet to pass an obstacle on one of six."""
+    """Yield shifts of c with which the fleet passes an obstacle on each of six sides."""
     assert lack.of is not None
     boxes = _boxes(ends, move)
     swell = np.lib.stride_tricks.sliding_window_view(move.ctrl.sum(axis=1) - 1.0, 4).min(axis=1)
@@ -133,13 +137,13 @@ def _shifts(ends: Ends, move: ArcMove, lack: SwellLack) -> Iterator[Array]:
 
 
 def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pivot: Array) -> ArcMove:
-    """Return the move about a point, or above or below it, whichever of those tried lacks least height."""
+    """Return the move about a point or above or below it, whichever lacks least height."""
     move = best = fastest(pivot)
     lack = least = heights.lack(ends, move.ctrl, move.pivot)
     for _ in range(HEIGHT_LEVELS):
         if lack <= ROUNDING_M:
             return move
-        # Arcs about another point are others, and may need it lower or higher still.
+        # Arcs about another point differ, and may need it lower or higher still.
         move = fastest(np.array([*pivot[:2], heights.pivot(ends, move.ctrl, float(pivot[2]))]))
         lack = heights.lack(ends, move.ctrl, move.pivot)
         if lack < least:
@@ -161,11 +165,11 @@ def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove
 
 
 def _boxes(ends: Ends, move: ArcMove) -> Array:
-    """Return two corners of a box for each control point in which everybody has his, shape (K, 2, 3)."""
+    """Return boxes, one for each piece, which contain all drones, shape (K, 2, 3)."""
     reach = [(e.min(axis=0) - move.pivot, e.max(axis=0) - move.pivot) for e in ends]
     boxes = [np.einsum("k,cd->kcd", move.ctrl[:, k], np.array(reach[k])) for k in range(2)]
     corners = boxes[0] + boxes[1] + move.pivot
-    # A piece lies in the hull of four control points in a row, and so in the box round their boxes.
+    # A piece lies in the hull of four consecutive control points, and so in the box around their boxes.
     windows = np.lib.stride_tricks.sliding_window_view(corners, 4, axis=0)
     return np.stack([windows[:, 0].min(axis=-1), windows[:, 1].max(axis=-1)], axis=1)
 
@@ -178,7 +182,7 @@ def _flown(ends: Ends, move: ArcMove) -> FleetPieces:
 
 
 def _beside(obstacle: Clearance, flown: FleetPieces) -> float:
-    """Return by how much anybody comes too near to what stands, at most 0 where nobody does."""
+    """Return the largest missing clearance from an obstacle; at most 0 if there is none."""
     bag = flown.bag()
     if obstacle.inside:
         return sup_outside(bag, obstacle.solid, _gap).proven + obstacle.metres

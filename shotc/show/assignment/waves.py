@@ -1,9 +1,9 @@
-"""Drones that set out one after another: who when, and the proof that they stay apart.
+"""Waves: drones depart one after another, with a proof of their separation.
 
-Two drones that are s_i and s_j along their ways are nearer than if both were s_i, by up to |s_j - s_i| times
-the way of the second: what straight ways prove of places that are matched does not hold, and nothing in
-closed form does that is sharp. So every wave is proved by ``geom.separation`` as it is flown, and what comes
-too near is a fault. Nobody is pushed aside for it: that would bend the wave.
+Two drones at shares s_i and s_j of their paths are nearer than if both were at s_i, by up to |s_j - s_i|
+times the path of the second. So the proof for straight paths between matched formations does not hold, and no
+sharp closed form exists. Every wave is therefore verified by ``geom.separation`` as flown, and a violation is
+a fault. Drones are not pushed aside, because that would bend the wave.
 """
 
 from __future__ import annotations
@@ -30,22 +30,20 @@ from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.wave_move import WaveMove, fastest_wave
 
 MOST_HALVINGS = 6
-"""Waves, and spacings, that are tried between what is not enough and what is."""
+"""Bisection steps between an insufficient and a sufficient value."""
 FACTORS = (1.25, 1.5, 2.0, 3.0, 4.0)
-"""By which places are farther apart, in turn, until that is enough; the last one not being enough, nothing
-is said.
-"""
+"""Factors on the spacing that are tried in turn; if none suffices, the diagnostic proposes none."""
 TINY_S = 1e-6
-"""A time missed by less is met, seconds."""
+"""Seconds, below which a missed time counts as met."""
 
 Ends = tuple[Array, Array]
-"""Places of all drones before and after a move, shape (n, 3) each."""
+"""Positions of all drones before and after a move, shape (n, 3) each."""
 
 
 def departures(wave: Wave, viewpoint: Vec3 | None, ends: Ends) -> Array | None:
-    """Return when each drone sets out after the first, shape (n,), seconds; None where all places are alike.
+    """Return the delay of each drone's departure, shape (n,), seconds; None if all places are equal.
 
-    The last one sets out ``wave.time`` after the first, all others by where they are between the two.
+    The last drone departs ``wave.time`` after the first; the others are in proportion to their coordinate.
     """
     places = ends[1] if wave.by == "goal" else ends[0]
     along = along_of(wave.along, wave.center, EffectContext(places, viewpoint, len(places), {}))
@@ -59,14 +57,19 @@ def departures(wave: Wave, viewpoint: Vec3 | None, ends: Ends) -> Array | None:
 
 
 class Waves:
-    """Finds the moves of one fleet whose drones set out one after another; ``faults`` fills up."""
+    """Finds the waves of one fleet.
+
+    faults : collects their diagnostics
+    """
 
     def __init__(self, mission: MissionIR, fleet: Fleet) -> None:
         self.mission, self.fleet = mission, fleet
         self.faults: list[Diagnostic] = []
 
     def move(self, ends: Ends, display: Display, picture: Picture) -> WaveMove:
-        """Return the move to a picture that has a wave, as long as it is asked for or as the pace allows."""
+        """Return the move to a picture with a wave, in the requested time or the time that the
+        pace allows.
+        """
         wave = picture.wave
         assert wave is not None
         departs = departures(wave, display.viewpoint, ends)
@@ -88,20 +91,20 @@ class Waves:
         return move
 
     def _timed(self, ends: Ends, departs: Array, display: Display, picture: Picture) -> WaveMove:
-        """Return the move as it is flown, which takes longer than asked for where that cannot be."""
+        """Return the flown move, which takes longer than requested if that is not feasible."""
         asked, limits = picture.transition, self.fleet.limits
         pace = display.pace if asked is None else 1.0
         move = fastest_wave(ends[1] - ends[0], departs, limits, pace, picture.easing)
         return move if asked is None or asked < move.duration else move.lasting(asked)
 
     def _nearest(self, ends: Ends, move: WaveMove) -> Nearest:
-        """Return how near two drones come, proved, of the control points that are flown."""
+        """Return the nearest pair, proved on the flown control points."""
         score = FlightScore(ends[0])
         score.move(ends[1], move)
         return closest(*score.spline(), self.fleet.apart)
 
     def _too_near(self, ends: Ends, display: Display, picture: Picture, nearest: Nearest) -> Diagnostic:
-        """Return D141, with the wave and the spacing that would do."""
+        """Return D141 with a sufficient wave and a sufficient spacing."""
         wave, apart = picture.wave, self.fleet.apart
         assert wave is not None
 
@@ -126,7 +129,7 @@ class Waves:
 
 
 def _larger(places: Array, factor: float) -> Array:
-    """Return places farther apart about their middle, shape (n, 3)."""
+    """Return positions scaled about their middle, shape (n, 3)."""
     middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
     return np.asarray(middle + factor * (places - middle))
 
@@ -134,7 +137,10 @@ def _larger(places: Array, factor: float) -> Array:
 def _closed_in(
     ends: tuple[float, float], enough: Callable[[float], bool], rounded: Callable[[float], float]
 ) -> float:
-    """Return what is enough and nearer to what is not; ends : the one and the other."""
+    """Return a sufficient value near the insufficient one, by bisection.
+
+    ends : a sufficient and an insufficient value
+    """
     good, bad = ends
     for _ in range(MOST_HALVINGS):
         middle = rounded(0.5 * (good + bad))

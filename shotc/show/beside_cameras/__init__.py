@@ -1,7 +1,7 @@
-"""join-flights: the flights of cameras that were planned beside a show, and the show, made one TrajectoryIR.
+"""join-flights: joins the trajectories of cameras, which were planned beside a show, with the show.
 
-A show is planned first. The cameras that film it stay out of its airspace, which they know as keep-out zones
-of their own mission; the trajectory that is verified has the mission as it is written, and all flights.
+The show is planned first. The cameras that film it keep out of its airspace, which is a set of keep-out zones
+in their own mission. The verified trajectory has the mission as written, and all drones.
 """
 
 from __future__ import annotations
@@ -22,13 +22,16 @@ from shotc.show.beside_cameras.airspace import airspace
 
 @dataclass(frozen=True, slots=True)
 class JoinFlights:
-    """The pass; show : the trajectory of the fleets alone."""
+    """The pass.
+
+    show : the trajectory of the fleets alone
+    """
 
     show: TrajectoryIR
     name: ClassVar[str] = "join-flights"
 
     def run(self, ir: TrajectoryIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
-        """Return the flights of cameras and fleets, of the mission as it is written."""
+        """Return the trajectories of cameras and fleets, with the mission as written."""
         ctx.progress("cameras and fleets together")
         stats = (*self.show.stats, *ir.stats)
         joined = replace(ir, keyframes=self.show.keyframes, fleets=self.show.fleets, stats=stats)
@@ -36,11 +39,12 @@ class JoinFlights:
 
 
 def timed(show: TrajectoryIR, shot: Shot, begun: float = -inf) -> Shot:
-    """Return the shot of a camera with the times that the show gives it.
+    """Return the shot of a camera with the times that the show determines.
 
-    begun : the latest time, s, at which a shot of its drone before it begins, as far as that is known
-    One that waits for a display begins when that has ended, one that films a picture by its name when it
-    stands, unless it says otherwise, or its drone films that picture already.
+    A shot that waits for a display begins at its end. A shot that films a picture by name begins when the
+    picture stands, unless the shot has a start or its drone already films that picture.
+
+    begun : latest known start of an earlier shot of its drone, seconds
     """
     timing = shot.timing
     ends = _ends(show)
@@ -54,7 +58,9 @@ def timed(show: TrajectoryIR, shot: Shot, begun: float = -inf) -> Shot:
 
 
 def too_early(show: TrajectoryIR) -> Iterator[tuple[Shot, float]]:
-    """Yield the shots whose `start` comes before the end of the display that they wait for, and that, s."""
+    """Yield the shots with a `start` before the end of the display that they wait for, and that
+    end, seconds.
+    """
     ends = _ends(show)
     for shot in show.keyframes.mission.shots:
         start, end = shot.timing.start, ends.get(shot.timing.after or "", 0.0)
@@ -63,12 +69,12 @@ def too_early(show: TrajectoryIR) -> Iterator[tuple[Shot, float]]:
 
 
 def _ends(show: TrajectoryIR) -> dict[str, float]:
-    """Return when each display ends, s."""
+    """Return the end of each display, seconds."""
     return {phase.shot: phase.end for fleet in show.fleets for phase in fleet.phases if phase.shot}
 
 
 def beside(show: TrajectoryIR) -> KeyframeIR:
-    """Return what cameras are planned from: the mission with the airspace of its show kept out of."""
+    """Return the input for planning cameras: the mission with the show's airspace as keep-out zones."""
     mission = show.keyframes.mission
     zones = (zone for fleet in show.fleets for zone in airspace(mission, fleet))
     by_id: dict[str, Shot] = {}

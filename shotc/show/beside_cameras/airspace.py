@@ -1,7 +1,7 @@
-"""The airspace of a show: prisms that hold every way of its fleets, which cameras stay out of all the time.
+"""The airspace of a show: prisms that contain all paths of its fleets, which cameras always keep out of.
 
-Cameras could fly between the drones of a fleet as far as proofs go, but nobody would let them. What
-verification proves of a camera and a fleet knows nothing of these prisms.
+Proofs would allow cameras to fly between the drones of a fleet, but operators would not. Verification of
+cameras and fleets does not use these prisms.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from shotc.ir.mission import MissionIR, Zone
 from shotc.ir.show import kept_from_cameras
 
 HEIGHT_LAYERS = 6
-"""Layers of height in which the ways of a fleet are held, each by a prism of its own."""
+"""Layers of height, each with a prism around the paths in it."""
 THINNEST_M = 4.0
-"""Metres that a layer is high at least."""
+"""Least height of a layer, metres."""
 PRISM_SIDES = 16
 """Sides of a prism."""
 
 
 def airspace(mission: MissionIR, fleet: FleetTrajectory) -> Iterator[Zone]:
-    """Yield keep-out zones that hold all ways of a fleet, and the separation of cameras round them."""
+    """Yield keep-out zones around all paths of a fleet, with the separation of cameras."""
     own = mission.fleet(fleet.fleet)
     ctrl = pieces(fleet.breaks, fleet.coef).reshape(-1, 4, 3)
     low, high = ctrl[..., 2].min(axis=1), ctrl[..., 2].max(axis=1)
@@ -42,7 +42,9 @@ def airspace(mission: MissionIR, fleet: FleetTrajectory) -> Iterator[Zone]:
 
 
 def _about(points: Array, room: float) -> tuple[tuple[float, float], ...]:
-    """Return the corners of a polygon about points (N, 2), so far away, counter-clockwise, (SIDES, 2)."""
+    """Return the corners of a polygon at a distance ``room`` around points (N, 2), counter-clockwise, (SIDES,
+    2).
+    """
     turn = 2.0 * np.pi * np.arange(PRISM_SIDES) / PRISM_SIDES
     sides = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     reach = np.array([(points @ side).max() for side in sides]) + room

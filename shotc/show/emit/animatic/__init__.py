@@ -1,4 +1,4 @@
-"""animatic.gif: a show as its audience sees it, at the pace at which it is flown."""
+"""animatic.gif: a show as its audience sees it, in real time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from shotc.ir.trajectory import VerifiedIR
 
 @dataclass(frozen=True, slots=True)
 class AnimaticEmitter:
-    """Draws the animatic; needs Pillow, and raises ModuleNotFoundError without it."""
+    """Draws the animatic.
+
+    It needs Pillow; without it, it raises ModuleNotFoundError.
+    """
 
     name: ClassVar[str] = "animatic"
     summary: ClassVar[str] = "animatic.gif: a show's lights as its audience sees them, from beginning to end"
@@ -22,7 +25,7 @@ class AnimaticEmitter:
         import shotc.show.emit.animatic.film  # noqa: F401
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return animatic.gif, nothing where no fleet shows anything; the same plan gives the same bytes."""
+        """Return animatic.gif; the same plan gives the same bytes. Without pictures there is no file."""
         if not any(flight.shown for flight in plan.trajectory.fleets):
             return Emission(
                 (), notes=("animatic.gif is left out: it shows fleets, and the mission has none",)

@@ -1,4 +1,4 @@
-"""The frames of an animatic: lights of all fleets in a dark sky, few and small, one palette for all."""
+"""The frames of an animatic: the lights of all fleets in a dark sky, with one palette for all frames."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ from shotc.show.emit.contact_sheet.night import GLOW_M, backdrop
 
 WIDTH, HEIGHT = 480, 270
 RATE, MOST = 4.0, 180
-"""Frames a second, and of the whole film; a longer show has fewer a second, at its own pace all the same."""
+"""Frames a second, and most frames of the film; a longer show has fewer frames a second in real time."""
 
 SPOT_PX, SPREAD_PX = 1.3, 7.0
-"""How wide a light is, and how far it spills over, as standard deviations."""
+"""Standard deviations of a light's spot and of its bloom, pixels."""
 LIGHT, BLOOM = 9.0, 5.0
-"""How strong both are, in a sky of which light takes a share that is exponential."""
+"""Strengths of spot and bloom; brightness saturates exponentially."""
 
 COARSE_PX = 5
-"""Pixels in a row that share what spills over."""
+"""Side of the pixel blocks on which the bloom is computed."""
 PALETTE_FRAMES = 12
-"""Frames by which the palette is chosen."""
+"""Frames from which the palette is chosen."""
 BRIGHT, SKY_COLORS = 40, 40
-"""Level from which a pixel shows a light, and colours of the palette for all others."""
+"""Level from which a pixel counts as a light, and palette colours of all other pixels."""
 DIM_LEVEL = 170
-"""Grey of the time."""
+"""Grey of the time stamp."""
 
 
 def film(plan: VerifiedIR) -> bytes:
-    """Return the whole film as a GIF, which plays over and over."""
+    """Return the whole film as a GIF that repeats."""
     times, step = _times(plan)
     pictures = list(_pictures(plan, times))
     palette = _palette(pictures)
@@ -55,9 +55,9 @@ def film(plan: VerifiedIR) -> bytes:
 
 
 def _times(plan: VerifiedIR) -> tuple[Array, float]:
-    """Return the times of the frames, from the first light to the last, and from each to the next.
+    """Return the times of the frames, from the first light to the last, and their period.
 
-    The latter in whole hundredths of a second, as GIF has it.
+    The period is a whole number of hundredths of a second, as GIF demands.
     """
     flights = plan.trajectory.fleets
     seconds = np.arange(0.0, max(float(flight.breaks[-1]) for flight in flights) + 1.0)
@@ -69,7 +69,7 @@ def _times(plan: VerifiedIR) -> tuple[Array, float]:
 
 
 def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
-    """Yield a picture of each time, from where the audience of what is shown then, or next, looks."""
+    """Yield a picture of each time, seen by the audience of the current or next display."""
     flights = plan.trajectory.fleets
     marks = [-np.inf, *_ends(plan)[:-1], np.inf]
     for display, (first, last) in zip(_shown(plan), pairwise(marks), strict=True):
@@ -87,7 +87,7 @@ def _pictures(plan: VerifiedIR, times: Array) -> Iterator[Image.Image]:
 
 
 def _shown(plan: VerifiedIR) -> list[str]:
-    """Return the displays in the order in which they begin."""
+    """Return the displays in the order of their start."""
     starts = {s.display: s.start for f in plan.trajectory.fleets for s in reversed(f.shown)}
     return sorted(starts, key=lambda name: starts[name])
 
@@ -98,9 +98,9 @@ def _ends(plan: VerifiedIR) -> list[float]:
 
 
 def _seen(flight: FleetTrajectory, times: Array, seen: Audience) -> tuple[Array, Levels]:
-    """Return where lights are in the picture and how large (column, row, pixels), and how they shine.
+    """Return the lights in the picture (column, row, radius of the glow in pixels) and their colours.
 
-    Shapes (n, T, 3) both; pixels : radius of a light's glow, 0 for one that is not seen
+    Both have shape (n, T, 3); the radius is 0 for a light outside the picture.
     """
     away = places(flight.breaks, flight.coef, times) - np.array(seen.eye)
     view = seen.view(WIDTH / HEIGHT)
@@ -113,7 +113,7 @@ def _seen(flight: FleetTrajectory, times: Array, seen: Audience) -> tuple[Array,
 
 
 def _add(light: Levels, spots: Array, colors: Levels) -> None:
-    """Add lights to a picture, each shared by the four pixels about it."""
+    """Add lights to a picture, each distributed over the four nearest pixels."""
     shown = spots[:, 2] > 0
     x, y, pixels = spots[shown].T
     glow = colors[shown] * np.clip(pixels, 0.7, 2.0)[:, None].astype(np.float32) ** 2
@@ -143,7 +143,9 @@ def _wide(channel: Levels) -> NDArray[np.float32]:
 
 
 def _palette(pictures: list[Image.Image]) -> Image.Image:
-    """Return an image with the palette of all frames: most of it for lights, which few pixels show."""
+    """Return an image with the palette of all frames; lights get most of it, although they cover
+    few pixels.
+    """
     chosen = pictures[:: max(1, len(pictures) // PALETTE_FRAMES)]
     pixels = np.concatenate([np.asarray(picture).reshape(-1, 3) for picture in chosen])
     bright = pixels.max(axis=1) >= BRIGHT
@@ -154,7 +156,7 @@ def _palette(pictures: list[Image.Image]) -> Image.Image:
 
 
 def _colors(pixels: NDArray[np.uint8], count: int) -> list[int]:
-    """Return the colours, three levels each, that stand for pixels (n, 3); none where there are none."""
+    """Return colours, three levels each, that represent pixels (n, 3)."""
     if not len(pixels):
         return []
     strip = Image.fromarray(pixels[None])

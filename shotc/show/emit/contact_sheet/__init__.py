@@ -13,7 +13,10 @@ DPI = 120.0
 
 @dataclass(frozen=True, slots=True)
 class ContactSheetEmitter:
-    """Draws the contact sheet; needs matplotlib, and raises ModuleNotFoundError without it."""
+    """Draws the contact sheet.
+
+    It needs matplotlib; without it, it raises ModuleNotFoundError.
+    """
 
     name: ClassVar[str] = "contact-sheet"
     summary: ClassVar[str] = "contact-sheet.png: a show's pictures as its audience sees them, with a map"
@@ -24,7 +27,7 @@ class ContactSheetEmitter:
         import shotc.show.emit.contact_sheet.page  # noqa: F401
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return contact-sheet.png, nothing where no fleet flies; the same plan gives the same bytes."""
+        """Return contact-sheet.png; the same plan gives the same bytes. Without fleets there is no file."""
         if not plan.trajectory.fleets:
             return Emission(
                 (), notes=("contact-sheet.png is left out: it shows fleets, and the mission has none",)

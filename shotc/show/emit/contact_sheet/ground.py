@@ -1,4 +1,4 @@
-"""The map of a display: pads, zones, where its pictures stand, and where the audience is."""
+"""The map of a display: pads, zones, pictures, and the audience."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from shotc.show.emit.contact_sheet.moments import Board
 from shotc.show.emit.contact_sheet.stands import draw_stands, outlines
 
 BORDER_IN = 0.35
-"""Between what is on the map and its edge, inches."""
+"""Border between the content and the map's edge, inches."""
 
 PAD_HALF_WIDTH_IN = 0.02
 """Half the width of a pad, inches."""
@@ -51,14 +51,14 @@ def draw_ground(canvas: Canvas, box: PageRectangle, board: Board, mission: Missi
 
 
 def map_height(board: Board, width: float, seen: Audience) -> float:
-    """Return the height that a map of some width needs, inches."""
+    """Return the height of a map of some width, inches."""
     low, high = _reach(board, seen)
     span = np.maximum(high - low, 10.0)
     return float((width - 2 * BORDER_IN) / span[0] * span[1]) + 2 * BORDER_IN
 
 
 def _reach(board: Board, seen: Audience) -> tuple[Array, Array]:
-    """Return the corners, (2,) each, of all that is to be on the map, metres."""
+    """Return the corners of the map's content, (2,) each, metres."""
     times = np.array([moment.time for moment in board.moments])
     at = places(board.flight.breaks, board.flight.coef, np.array([0.0, *times])).reshape(-1, 3)
     cloud = np.concatenate([at[:, :2], [seen.eye[:2]]])
@@ -73,7 +73,7 @@ def _sheet(box: PageRectangle, board: Board, seen: Audience) -> Sheet:
 
 
 def _look(canvas: Canvas, sheet: Sheet, seen: Audience) -> None:
-    """Draw what is in the audience's frame, as a fan across the map."""
+    """Draw the audience's field of view as a fan across the map."""
     reach = 2.0 * max(sheet.box.width, sheet.box.height) / sheet.inches
     turn = np.linspace(seen.yaw - seen.hfov / 2, seen.yaw + seen.hfov / 2, 25)
     rim = np.array(seen.eye[:2]) + reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1)

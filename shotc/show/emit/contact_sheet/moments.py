@@ -1,4 +1,4 @@
-"""Which moments of a display stand on the sheet: its pictures, and how the fleet comes to each."""
+"""The moments of a display on the sheet: its pictures, and the transitions to them."""
 
 from __future__ import annotations
 
@@ -13,21 +13,24 @@ from shotc.ir.show import Display, fleet_name
 from shotc.ir.trajectory import VerifiedIR
 
 MOST_MOMENTS = 12
-"""Pictures of one display on a sheet; of more, they are chosen evenly."""
+"""Most pictures of one display on a sheet; from more, a uniform choice is shown."""
 
 MOST_FRAMES = 4
-"""Of one animation."""
+"""Most frames of one animation."""
 
 FRAMES_BETWEEN = 3
-"""Small frames of the way to a picture."""
+"""Small frames of the transition to a picture."""
 
 
 @dataclass(frozen=True, slots=True)
 class SheetFrame:
     """A frame of the sheet.
 
-    name : of the picture; time : when it is drawn; start, end : when it stands, seconds
-    way : times on the way to it; part : of an animation its frame and the number of frames, both from 1
+    name : of the picture
+    time : of the drawing, seconds
+    start, end : of the hold, seconds
+    way : times during the transition to it, seconds
+    part : number of an animation's frame and of all its frames, both from 1
     """
 
     name: str
@@ -40,9 +43,10 @@ class SheetFrame:
 
 @dataclass(frozen=True, slots=True)
 class Board:
-    """One display of the sheet; total : frames that it has, which may be more than its moments.
+    """One display of the sheet.
 
-    beside : flights of the other groups of its fleet, whose lights are seen with its own
+    total : number of its frames, which may exceed its moments
+    beside : trajectories of the other groups of its fleet, whose lights are visible as well
     """
 
     display: Display
@@ -53,12 +57,12 @@ class Board:
 
     @property
     def span(self) -> tuple[float, float]:
-        """When its first picture stands, and when the last one is over, seconds."""
+        """Start of its first picture and end of the last one, seconds."""
         return self.moments[0].start, self.moments[-1].end
 
 
 def boards(plan: VerifiedIR) -> tuple[Board, ...]:
-    """Return every display that is shown, in the order they are written."""
+    """Return all displays that are shown, in the mission's order."""
     found = []
     for display in plan.trajectory.keyframes.mission.displays:
         flight = flight_of(plan, display.fleet)
@@ -94,10 +98,10 @@ def _moments(display: Display, flight: FleetTrajectory, shown: list[FrameTimes])
 
 
 def lights(flight: FleetTrajectory, time: float) -> int:
-    """Return how many drones of a fleet show a picture at a time, seconds."""
+    """Return the number of drones that show a picture at a time, seconds."""
     return int(lit_drones(flight, np.array([time])).sum())
 
 
 def _evenly(count: int, most: int) -> list[int]:
-    """Return at most ``most`` of the first ``count`` numbers, the first and the last among them."""
+    """Return at most ``most`` of the numbers below ``count``, with the first and the last."""
     return sorted({round(float(i)) for i in np.linspace(0, count - 1, min(count, most))})

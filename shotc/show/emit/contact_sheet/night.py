@@ -1,4 +1,4 @@
-"""What the audience sees at one instant: lights in a dark sky over the ground, as pixels."""
+"""The audience's view at one instant as pixels: lights in a dark sky over the ground."""
 
 from __future__ import annotations
 
@@ -20,22 +20,25 @@ EARTH, FAR = (0.022, 0.026, 0.028), (0.050, 0.056, 0.058)
 LINE = (0.20, 0.23, 0.27)
 
 UNLIT_GREY_LEVEL = 26.0
-"""Grey of a drone whose light is off, of 255: it is there, though nobody would see it."""
+"""Grey, of 255, of a drone whose light is off; it is drawn although the audience would not see it."""
 
 GLOW_M = 0.35
 """Radius of the glow of a light, metres."""
 
 SMALLEST, LARGEST = 0.0022, 0.011
-"""Of it in a frame, as shares of its width."""
+"""Smallest and largest radius of the glow in a picture, over the picture's width."""
 
 BLOOM, SPREAD = 5.0, 0.011
-"""How strongly a light spills over, and how far, as a share of the width."""
+"""Strength and width of a light's bloom, the latter over the picture's width."""
 
 
 def night(
     flights: Sequence[FleetTrajectory], time: float, seen: Audience, size: tuple[int, int]
 ) -> NDArray[np.uint8]:
-    """Return the picture of fleets at a time, shape (rows, columns, 3); size : columns, rows."""
+    """Return the picture of fleets at a time, shape (rows, columns, 3).
+
+    size : columns, rows
+    """
     at = [places(flight.breaks, flight.coef, np.array([time]))[:, 0] for flight in flights]
     colors = [light_colors(flight, np.array([time]))[:, 0] for flight in flights]
     light = _lights(np.concatenate(at), np.concatenate(colors), seen, size)
@@ -45,7 +48,7 @@ def night(
 
 
 def backdrop(seen: Audience, size: tuple[int, int]) -> Array:
-    """Return sky and ground; the horizon is where the eye's own height is."""
+    """Return sky and ground, shape (rows, columns, 3); the horizon is at the height of the eye."""
     columns, rows = size
     view = seen.view(columns / rows)
     v = 1.0 - 2.0 * (np.arange(rows) + 0.5) / rows
@@ -60,7 +63,7 @@ def backdrop(seen: Audience, size: tuple[int, int]) -> Array:
 
 
 def _lights(at: Array, colors: Colors, seen: Audience, size: tuple[int, int]) -> Array:
-    """Return the light that falls on every pixel: each drone a round spot, the larger the nearer."""
+    """Return the light on every pixel, shape (rows, columns, 3); a nearer drone is a larger spot."""
     columns, rows = size
     picture = np.zeros((rows, columns, 3))
     away = at - np.array(seen.eye)

@@ -1,4 +1,4 @@
-"""The sheet's page: for each display a map, and its pictures with the way to each, in the order of time."""
+"""The page: for each display a map, and its pictures with the transitions to them, in the order of time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WIDTH, MARGIN, GAP = 16.0, 0.55, 0.34
 HEADING, FOOTING, BAND, CAPTION = 1.30, 0.35, 0.60, 0.46
 MAP, COLUMNS = 3.9, 2
 SLIT_IN = 0.05
-"""Between small frames, and between them and the large one, inches."""
+"""Gap between small frames, and between them and the large one, inches."""
 
 CELL = (WIDTH - 2 * MARGIN - MAP - 0.35 + GAP) / COLUMNS - GAP
 BIG = (CELL - SLIT_IN + 2 * SLIT_IN / FRAMES_BETWEEN * ASPECT * (FRAMES_BETWEEN - 1) / 2) / (
@@ -74,7 +74,7 @@ def _heading(canvas: Canvas, height: float, plan: VerifiedIR) -> None:
 
 
 def _take_offs(plan: VerifiedIR) -> list[str]:
-    """Say which fleets take off in layers, and how long that takes."""
+    """Return which fleets take off in layers, with the number and the time, in words."""
     known, facts = dict(plan.trajectory.stats), []
     for flight in plan.trajectory.fleets:
         layers, seconds = (known.get(f"fleet {flight.fleet} take-off {key}") for key in ("layers", "s"))
@@ -97,7 +97,7 @@ def _board(canvas: Canvas, top: float, what: tuple[Board, float], plan: Verified
     for i, moment in enumerate(board.moments):
         row, column = divmod(i, COLUMNS)
         x, y = left + column * (CELL + GAP), start - row * (HEIGHT + CAPTION) - HEIGHT
-        # The first way comes from the ground, which none of the pictures shows.
+        # The first transition starts on the ground, which no picture shows.
         way = audience(plan, board.display, ASPECT, moment.way) if i == 0 else seen
         _cell(canvas, (x, y), (board, moment), ((seen, way), dpi))
 
@@ -118,7 +118,7 @@ def _band(canvas: Canvas, top: float, board: Board, seen: Audience) -> None:
 
 
 def _distance(board: Board, seen: Audience) -> float:
-    """Return how far from the audience the middle of the pictures is, over the ground, metres."""
+    """Return the horizontal distance of the middle of the pictures from the audience, metres."""
     middle = _middle(board.flight, board.moments[0].time)
     return hypot(middle[0] - seen.eye[0], middle[1] - seen.eye[1])
 
@@ -135,9 +135,9 @@ def _cell(
     what: tuple[Board, SheetFrame],
     how: tuple[tuple[Audience, Audience], float],
 ) -> None:
-    """Draw a picture with the way to it on its left, and say what and when it is.
+    """Draw a picture with the transition to it on its left, and a caption with its name and times.
 
-    how : who sees the picture and the way to it, and dots an inch
+    how : the audiences of the picture and of the transition, and dots an inch
     """
     (x, y), (board, moment), (seen, wide) = at, what, how[0]
     width = SMALL * ASPECT
@@ -148,7 +148,7 @@ def _cell(
     box = PageRectangle(x + width + SLIT_IN, y, BIG, HEIGHT)
     _sky(canvas, box, (board, moment.time), (seen, how[1]))
     _scale(canvas, box, _depth(board, moment, seen))
-    if board.flight.lights.looks:  # its lights change while it stands
+    if board.flight.lights.looks:  # the lights change while the picture stands
         canvas.text(box.x + 0.08, box.y + 0.07, as_minutes(moment.time), Type(7.5, WHITE))
     name = (
         moment.name if moment.part is None else f"{moment.name}, frame {moment.part[0]} of {moment.part[1]}"
