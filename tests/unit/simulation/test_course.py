@@ -12,7 +12,7 @@ import pytest
 from shotc.geom.bernstein import Array
 from shotc.ir.phases import Phase
 from shotc.simulation.guidance import COURSE_S, PERIOD_S, Guidance
-from shotc.simulation.kalman import STATES, WAY, Estimate
+from shotc.simulation.kalman import STATE_COUNT, WAY, Estimate
 from shotc.simulation.seen import Foreseen
 from shotc.simulation.situations import Chased
 
@@ -40,9 +40,9 @@ class Taken:
 
 
 def known(way: tuple[float, ...] = (1.3, 0.0, 0.0), height: float = 0.9) -> dict[str, Foreseen]:
-    mean = np.zeros((1, STATES))
+    mean = np.zeros((1, STATE_COUNT))
     mean[0, 2], mean[0, WAY] = height, way
-    now = Estimate(0.0, mean, np.zeros((1, STATES, STATES)))
+    now = Estimate(0.0, mean, np.zeros((1, STATE_COUNT, STATE_COUNT)))
     return {"walker": Foreseen(now, np.zeros((1, 1, 3)), np.zeros((1, 1, 3)))}
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from shotc.plugin_api.replanner import Plan, Traffic
 from shotc.simulation.film import film_of
-from shotc.simulation.kalman import STATES, Estimate
+from shotc.simulation.kalman import STATE_COUNT, Estimate
 from shotc.simulation.seen import Foreseen
 from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
 from tests.support.compiled import compiled_text
@@ -45,7 +45,7 @@ def test_a_pose_beside_a_target_goes_with_the_estimate_and_a_place_of_the_world_
         mean = np.array([[16.0, 3.0, 0.9, 2.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0]])
         velocity = np.tile(mean[:, 3:6], (len(stages), 1, 1))
         runner = Foreseen(
-            Estimate(at, mean, np.eye(STATES)[None]),
+            Estimate(at, mean, np.eye(STATE_COUNT)[None]),
             mean[:, :3] + (stages - at)[:, None, None] * velocity,
             velocity,
         )

@@ -16,7 +16,7 @@ from shotc.simulation.conditions import Conditions
 from shotc.simulation.film import film_of
 from shotc.simulation.flight import fly_all
 from shotc.simulation.judge import judged
-from shotc.simulation.kalman import STATES, Estimate
+from shotc.simulation.kalman import STATE_COUNT, Estimate
 from shotc.simulation.seen import Foreseen
 from shotc.simulation.sensors import Gps
 from shotc.simulation.situations import STAGE_S, ReplanInstant, replanned
@@ -136,10 +136,10 @@ def test_a_target_that_is_taken_to_be_in_the_ground_leads_no_drone_there():
     (shot,) = replanned(mission, film.track)
     at = shot.phase.start + 2.0
     stages = at + STAGE_S * np.arange(shot.stages + 1)
-    sunk = np.zeros((1, STATES))
+    sunk = np.zeros((1, STATE_COUNT))
     sunk[0, :3] = 24.0, 0.0, -50.0
     there = np.tile(sunk[:, :3], (len(stages), 1, 1))
-    known = {"walker": Foreseen(Estimate(at, sunk, np.eye(STATES)[None]), there, 0.0 * there)}
+    known = {"walker": Foreseen(Estimate(at, sunk, np.eye(STATE_COUNT)[None]), there, 0.0 * there)}
     drone = (film.position[film.step(at)], film.velocity[film.step(at)])
     free = Traffic(np.empty((0, len(stages), 3)))
     places, moves = (np.tile(each, (len(stages), 1)) for each in drone)

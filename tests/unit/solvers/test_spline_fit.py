@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from shotc.solvers.spline_fit import TOUCH, within
+from shotc.solvers.spline_fit import TOUCH_TOLERANCE, within
 
 
 def test_what_is_out_of_its_bounds_is_moved_to_them_and_rounding_is_left() -> None:
-    points = np.array([-3.0, -1.0 - 0.5 * TOUCH, 0.2, 1.0 + 0.5 * TOUCH, 1.0 + 2.0 * TOUCH, 9.0])
+    points = np.array(
+        [
+            -3.0,
+            -1.0 - 0.5 * TOUCH_TOLERANCE,
+            0.2,
+            1.0 + 0.5 * TOUCH_TOLERANCE,
+            1.0 + 2.0 * TOUCH_TOLERANCE,
+            9.0,
+        ]
+    )
     found = within(points, -1.0, 1.0)
     assert found.tolist() == [-1.0, points[1], 0.2, points[3], 1.0, 1.0]
 
