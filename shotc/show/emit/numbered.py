@@ -1,4 +1,4 @@
-"""The drones of a show in the order in which files number them: fleet by fleet, groups among each other."""
+"""The drones of a show in the order of their numbers in files: fleet by fleet, with groups merged."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ Of = TypeVar("Of")
 
 
 def by_number(mission: MissionIR, drones: Mapping[str, Iterable[Of]]) -> Iterator[tuple[int, Of]]:
-    """Yield (number, what) of every drone that flies: its number in the whole fleet, from 1, after those
-    of the fleets before.
+    """Yield (number, item) for every drone that flies.
 
-    drones : of each fleet, or group of one, in the order of its own drones; read no faster than needed
+    The number counts from 1 in the whole fleet, after the drones of the fleets before.
+
+    drones : items of each fleet or group, in the order of its drones; they are consumed lazily
     """
     whole: dict[str, list[str]] = {}
     for name in drones:

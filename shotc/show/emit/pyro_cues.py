@@ -1,4 +1,4 @@
-"""Which products each drone of a fleet carries."""
+"""The pyrotechnic products of each drone in a fleet."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from shotc.ir.show import Display, Fleet, PyroCue, rows_of
 
 
 def carried(displays: Sequence[Display], fleet: Fleet) -> list[list[PyroCue]]:
-    """Return the pyro cues of every drone of a fleet, in the order of their ignition."""
+    """Return the pyro cues of every drone of a fleet, in the order of ignition."""
     found: list[list[PyroCue]] = [[] for _ in fleet.pads]
     cues = [cue for display in displays if display.fleet == fleet.name for cue in display.pyro]
     for cue in sorted(cues, key=lambda cue: cue.ignition):

@@ -1,4 +1,4 @@
-"""The drones of all fleets one after another, at times that all share: for files that have a part a drone."""
+"""The drones of all fleets one after another, sampled at common times, for files with one part a drone."""
 
 from __future__ import annotations
 
@@ -19,9 +19,12 @@ from shotc.show.emit.pyro_cues import carried
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampled:
-    """One drone: its places (T, 3), metres, W, the colours of its light (L, 3), and the products it fires.
+    """One drone, sampled.
 
-    number : from 1, among those of all fleets that fly
+    places : (T, 3), W, metres
+    colors : of its light, (L, 3)
+    pyro : products that it fires
+    number : from 1, among the drones of all fleets that fly
     """
 
     fleet: str
@@ -33,7 +36,11 @@ class Sampled:
 
 
 def sampled(plan: VerifiedIR, times: Array, lit: Array) -> Iterator[Sampled]:
-    """Yield all drones by their numbers; times : of places, lit : of colours, s, shape (T,) and (L,)."""
+    """Yield all drones in the order of their numbers.
+
+    times : of positions, (T,), seconds
+    lit : of colours, (L,), seconds
+    """
     mission = plan.trajectory.keyframes.mission
     flights = {f.fleet: _sampled(mission, f, times, lit) for f in plan.trajectory.fleets}
     for number, drone in by_number(mission, flights):
@@ -52,5 +59,5 @@ def _sampled(mission: MissionIR, flight: FleetTrajectory, times: Array, lit: Arr
 
 
 def count(plan: VerifiedIR) -> int:
-    """Return how many drones all fleets have."""
+    """Return the number of drones of all fleets."""
     return sum(len(flight.coef) for flight in plan.trajectory.fleets)

@@ -1,8 +1,8 @@
-"""<mission>.vviz: the show for viewers, in the interchange format of Verge that Finale 3D and FWsim read.
+"""<mission>.vviz: the show for viewers, in the interchange format of Verge, which Finale 3D and FWsim read.
 
-Format: docs.verge.aero (VVIZ format) and finale3d.com/documentation/vviz-file-format. JSON; X is right, Y up
-and Z forward, which are East, Up and North here. Places are steps from the sample before; their sums are
-what is rounded, so that nothing adds up. Colours stand for a number of frames.
+Format: docs.verge.aero (VVIZ format) and finale3d.com/documentation/vviz-file-format. It is JSON; X is right,
+Y up and Z forward, here East, Up and North. Positions are differences from the sample before. The absolute
+positions are rounded, so rounding errors do not accumulate. A colour lasts for a number of frames.
 """
 
 from __future__ import annotations
@@ -28,24 +28,24 @@ from shotc.ir.trajectory import VerifiedIR
 from shotc.show.emit.sampled import Sampled, count, sampled
 
 PLACES_HZ, COLORS_HZ = 4, 24
-"""Samples a second, as Skybrush writes them."""
+"""Samples a second, as in files of Skybrush."""
 
 NORTH_DEG = 0.0
-"""Heading of every drone, clockwise from Z."""
+"""Heading of every drone, degrees clockwise from Z."""
 
 Json = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class VvizEmitter:
-    """Writes one file of all fleets, drone by drone; the same plan gives the same bytes."""
+    """Writes one file for all fleets, drone by drone; the same plan gives the same bytes."""
 
     name: ClassVar[str] = "vviz"
     summary: ClassVar[str] = "<mission>.vviz: the show of all fleets, for Finale 3D and other viewers"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the file; nothing where no fleet flies."""
+        """Return the file; no file without fleets."""
         mission, drones = plan.trajectory.keyframes.mission, count(plan)
         if drones == 0:
             return Emission(
@@ -114,7 +114,7 @@ def _performance(plan: VerifiedIR, drone: Sampled) -> Json:
 
 
 def _fired(cue: PyroCue, number: int) -> Json:
-    """Return the payload of a product: one event a payload; pan and tilt of nothing point up."""
+    """Return the payload of a product, with one event; pan and tilt 0 point up."""
     return {
         "id": number,
         "type": "Pyro",
@@ -126,9 +126,9 @@ def _fired(cue: PyroCue, number: int) -> Json:
 
 
 def _steps(millimetres: NDArray[np.int64]) -> list[Json]:
-    """Return the steps between samples, as few as stand for all: one step stands for all that do not move.
+    """Return the steps between samples; a standing drone needs one step for any time.
 
-    The first one says that the flight is at home at 0 s, for readers that count the first step as any other.
+    The first step states that the drone is at home at 0 s, for readers that count it like any other.
     """
     steps: list[Json] = [{"dx": 0.0, "dy": 0.0, "dz": 0.0, "dt": 0.0}]
     still = 0
@@ -147,7 +147,7 @@ def _standing(samples: int) -> list[Json]:
 
 
 def _actions(colors: Colors) -> list[Json]:
-    """Return the colours, each with the frames for which it stands, where these are more than one."""
+    """Return the colours, each with its number of frames if that is above one."""
     changes = np.flatnonzero((colors[1:] != colors[:-1]).any(axis=1)) + 1
     starts: Array = np.concatenate([[0], changes, [len(colors)]])
     return [

@@ -1,6 +1,7 @@
-"""<mission>-csv.zip: a table a drone, as Skybrush and its tools for Blender write and read them.
+"""<mission>-csv.zip: one table for each drone, in the format of Skybrush and its tools for Blender.
 
-A row is a time in whole milliseconds, a place in metres and a light from 0 to 255, as it is sent to the lamp.
+A row is a time in whole milliseconds, a position in metres, and the light's levels from 0 to 255 as sent to
+the lamp.
 """
 
 from __future__ import annotations
@@ -28,14 +29,14 @@ ROW = "%d,%.3f,%.3f,%.3f,%d,%d,%d"
 
 @dataclass(frozen=True, slots=True)
 class ZippedCsv:
-    """Writes one archive of all fleets, drone by drone; the same plan gives the same bytes."""
+    """Writes one archive for all fleets, drone by drone; the same plan gives the same bytes."""
 
     name: ClassVar[str] = "zipped-csv"
     summary: ClassVar[str] = "<mission>-csv.zip: a table of places and lights for each drone, for Skybrush"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the archive; nothing where no fleet flies."""
+        """Return the archive; no file without fleets."""
         mission, drones = plan.trajectory.keyframes.mission, count(plan)
         if drones == 0:
             return Emission(
@@ -51,7 +52,7 @@ class ZippedCsv:
 
 @dataclass(frozen=True, slots=True)
 class _Members:
-    """The tables of a plan, made anew each time they are asked for."""
+    """The tables of a plan, generated anew for each iteration."""
 
     plan: VerifiedIR
 

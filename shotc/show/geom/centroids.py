@@ -1,7 +1,8 @@
 """Goals of a fleet for a shape given by points: k-means in space, then adjusted for a viewpoint.
 
-*display* Section III: the goals are the centroids of a Voronoi tessellation of the points (Eq. 2); with a
-viewpoint they move in the plane across the line of sight, drawn back to where they were (Eq. 1 and 3).
+*display* Section III: the goals are the centroids of a Voronoi tessellation of the points (Eq. 2). With a
+viewpoint they move in the plane perpendicular to the line of sight, with a cost on the distance from their
+former positions (Eq. 1 and 3).
 """
 
 from __future__ import annotations
@@ -18,23 +19,27 @@ from shotc.geom.bernstein import Array
 Labels = NDArray[np.intp]
 
 MOST_STEPS = 100
-"""Steps after which the goals are taken as they are."""
+"""Most iterations."""
 GAIN, LARGEST, PATIENCE = 3e-6, 3e-3, 3
-"""Share of the cost, for every goal and at most, that so many steps have to gain, or else they end. Of many
-goals the rest is less than points drawn at random tell; of few each one is seen, and steps are cheap."""
+"""Stopping rule: relative gain of the cost in PATIENCE iterations, for each goal and at most. For many goals,
+further gains are below the noise of random points. For few goals each one is visible, and iterations are
+cheap.
+"""
 STEP_RATIO = 1.6
-"""Factor on the steps of the tessellation in space. A goal's share of the cost is quadratic about its
-centroid, so that any factor up to 2 lowers it; this one ends 1 to 2 per cent lower than 1, as fast."""
+"""Over-relaxation of the tessellation in space. A goal's share of the cost is quadratic about its centroid,
+so any factor up to 2 lowers it. This one ends 1 to 2 per cent lower than 1, at the same speed.
+"""
 MOMENTUM_SHARE = 0.5
-"""Share of the last step that the next one goes on by. It takes a third of the steps to the same cost, and
-ends about 1 per cent below. Where it goes too far and the cost rises, the step is taken back."""
+"""Share of the last step that is added to the next one. It needs a third of the iterations for the same cost,
+and ends about 1 per cent lower. A step that raises the cost is undone.
+"""
 NEIGHBOUR_COUNT = 12
-"""Goals about each one whose moves are told from those of all others."""
+"""Goals around each one whose motion is bounded individually."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Clusters:
-    """Goals (n, 3); for each point (M,) the number of its nearest goal; the cost before every step."""
+    """Goals (n, 3), the index of the nearest goal of each point (M,), and the cost before every iteration."""
 
     goals: Array
     labels: Labels
@@ -44,11 +49,13 @@ class Clusters:
 def centroids(points: Array, n: int, start: Array | None = None) -> Clusters:
     """Return n goals that are the centroids of the points nearest to them.
 
-    points : shape (M, D), M >= n, metres; start : shape (n, D), goals to begin with, such as those of the
-    frame before; without it the points are halved until there are n groups of even size. The result
-    depends on nothing but the arguments.
+    The result depends only on the arguments. Source: *display* Section III, Eq. 2 and c -> 0 in Eq. 1.
 
-    ValueError : there are fewer points than goals. Source: *display* Section III, Eq. 2 and c -> 0 in Eq. 1.
+    points : shape (M, D), M >= n, metres
+    start : initial goals, shape (n, D), for example those of the frame before; without it the points are
+        bisected into n groups of equal size
+
+    Raises ValueError if there are fewer points than goals.
     """
     if n < 1 or n > len(points):
         raise ValueError(f"{len(points)} points cannot have {n} centroids")
@@ -57,13 +64,17 @@ def centroids(points: Array, n: int, start: Array | None = None) -> Clusters:
 
 
 def viewpoint_centroids(points: Array, goals: Array, viewpoint: Array, weight: float) -> Clusters:
-    """Return the goals adjusted for the view from a viewpoint, at the depth they had.
+    """Return the goals adjusted for the view from a viewpoint, at unchanged depth.
 
-    points : shape (M, 3); goals : shape (n, 3), centroids of them; viewpoint : shape (3,), metres
-    weight : the paper's c-bar: 0 covers the view best, infinity leaves the goals alone; the cost of Eq. 1
-    is weighed by c = c-bar M / n. ``costs`` is that of Eq. 1 before each step and never rises.
+    ``costs`` is that of Eq. 1 before each iteration and never rises. Source: *display* Eq. 1 to 3.
 
-    ValueError : the viewpoint is in the middle of the points. Source: *display* Eq. 1 to 3.
+    points : shape (M, 3), metres
+    goals : their centroids, shape (n, 3)
+    viewpoint : shape (3,), metres
+    weight : the paper's c-bar: 0 covers the view best, infinity leaves the goals unchanged; Eq. 1 is weighted
+        by c = c-bar M / n
+
+    Raises ValueError if the viewpoint is in the middle of the points.
     """
     centre = points.mean(axis=0)
     across, normal = view_plane(centre, viewpoint)
@@ -77,9 +88,9 @@ def viewpoint_centroids(points: Array, goals: Array, viewpoint: Array, weight: f
 
 
 def view_plane(centre: Array, viewpoint: Array) -> tuple[Array, Array]:
-    """Return two unit vectors (2, 3) that span the plane across the line of sight, and the sight's own (3,).
+    """Return two unit vectors (2, 3) perpendicular to the line of sight, and its own direction (3,).
 
-    The first is to the viewer's right, the second up. ValueError : the viewpoint is the centre.
+    The first points to the viewer's right, the second up. Raises ValueError if the viewpoint is the centre.
     """
     sight = centre - viewpoint
     length = float(np.linalg.norm(sight))
@@ -93,7 +104,7 @@ def view_plane(centre: Array, viewpoint: Array) -> tuple[Array, Array]:
 
 
 def halved(points: Array, n: int) -> Array:
-    """Return the means (n, D) of n groups of points, halved again and again across their longest side."""
+    """Return the means (n, D) of n groups of points, bisected repeatedly across their longest side."""
     means = np.empty((n, points.shape[1]))
     groups = [(points, 0, n)]
     while groups:
@@ -110,13 +121,13 @@ def halved(points: Array, n: int) -> Array:
 
 
 def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clusters:
-    """Lower Eq. 1 step by step: assign the points, move every goal to (or past) the minimum of Eq. 3."""
+    """Lower Eq. 1 iteratively: assign the points, and move every goal to or past the minimum of Eq. 3."""
     goals, way = start, np.zeros_like(start)
     near = _Nearest(points, goals)
     costs: list[float] = []
     enough = min(LARGEST, GAIN * len(goals))
     for _ in range(MOST_STEPS):
-        # Not a product of BLAS: its threads cost more than a sum this short.
+        # BLAS threads would cost more than such a short sum.
         cost = float(np.einsum("m,m->", near.own, near.own) + anchor * np.sum((goals - start) ** 2))
         if costs and cost > costs[-1]:
             goals, way = near.follow(goals, -way), np.zeros_like(way)
@@ -131,7 +142,7 @@ def _lloyd(points: Array, start: Array, anchor: float, boldness: float) -> Clust
 
 
 def _step(points: Array, labels: Labels, goals: Array, anchored: tuple[Array, float]) -> Array:
-    # From every goal to its minimum by Eq. 3; a goal without points and anchor stays.
+    # The step from every goal to its minimum by Eq. 3; a goal without points and anchor does not move.
     start, anchor = anchored
     n = len(goals)
     sums = np.column_stack([np.bincount(labels, column, n) for column in points.T])
@@ -141,30 +152,32 @@ def _step(points: Array, labels: Labels, goals: Array, anchored: tuple[Array, fl
 
 
 class _Nearest:
-    """Every point's goal, kept up as the goals move: only points whose goal may have changed are searched.
+    """The nearest goal of each point, updated as goals move; only points that may change are searched.
 
-    After Hamerly: ``own`` is the exact distance to the goal, ``_other`` a lower bound on that to any other.
-    Other goals come nearer by no more than the goal's neighbours move, or else from far off.
+    After Hamerly: ``own`` is the exact distance to the goal, ``_other`` a lower bound of that to any other.
+    Other goals approach by at most the motion of the goal's neighbours, or from far away.
     """
 
     def __init__(self, points: Array, goals: Array) -> None:
         self._look(goals)
         distances, found = self._tree.query(points, k=2)
-        # Points of one goal side by side: searching a tree for neighbours in turn is twice as fast.
+        # Points are sorted by goal, because searching a tree for neighbouring points is twice as fast.
         self._order: Labels = np.argsort(found[:, 0], kind="stable")
         self.points = points[self._order]
         self.labels: Labels = found[self._order, 0]
         self.own, self._other = np.ascontiguousarray(distances[self._order].T)
 
     def in_order(self) -> Labels:
-        """Return the goals' numbers in the order in which the points were given."""
+        """Return the goals' indices in the original order of the points."""
         labels = np.empty_like(self.labels)
         labels[self._order] = self.labels
         return labels
 
     def follow(self, goals: Array, way: Array) -> Array:
-        """Take the goals by a way, shape (n, D); return where they are then."""
-        moves = np.append(np.sqrt(np.einsum("nd,nd->n", way, way)), 0.0)  # the last for want of neighbours
+        """Return the goals moved by steps of shape (n, D), and update the assignment."""
+        moves = np.append(
+            np.sqrt(np.einsum("nd,nd->n", way, way)), 0.0
+        )  # the last one represents missing neighbours
         near = moves[self._who].max(axis=1)[self.labels]
         far = np.maximum(self._other, self._far[self.labels] - self.own) - moves.max()
         bound = np.minimum(self._other - near, far)
@@ -180,7 +193,7 @@ class _Nearest:
         return goals
 
     def _look(self, goals: Array) -> None:
-        """Find each goal's neighbours, itself among them, and how far the first and the next are off."""
+        """Find each goal's neighbours, itself included, and the distances of the first and the next one."""
         self._tree = cKDTree(goals)
         distances, who = self._tree.query(goals, k=NEIGHBOUR_COUNT + 2)
         self._gap, self._far, self._who = distances[:, 1], distances[:, -1], who[:, :-1]

@@ -1,7 +1,7 @@
-"""Points drawn evenly inside closed meshes and outlines, by the columns that run through them.
+"""Draws points uniformly inside closed meshes and outlines, from vertical lines through them.
 
-A column is an upright line. Between the places where it enters and leaves a shape lie its spans; places
-drawn evenly along the spans of evenly spread columns lie evenly in the shape.
+A column is a vertical line. Its spans lie between its crossings with the shape's surface. Points drawn
+uniformly from the spans of uniformly spread columns are uniform in the shape.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from shotc.geom.bernstein import Array
 Numbers = NDArray[np.intp]
 
 CHUNK_FACES = 1_000_000
-"""Faces and columns that are brought together at a time: some hundred megabytes."""
+"""Pairs of faces and columns that are processed together: some hundred megabytes."""
 
 
 class Columns(NamedTuple):
-    """Columns, one at a place of its own in every cell of a grid.
+    """Columns, one in every cell of a grid.
 
-    low, cell : (D,), corner and cell of the grid, D = 2 below meshes and 1 below outlines; counts : cells
-    places : (C, D), in the order of the cells, the last axis running fastest
+    low, cell : (D,), corner and cell size of the grid; D = 2 for meshes and 1 for outlines
+    counts : number of cells along each axis
+    places : (C, D), in the order of the cells, the last axis fastest
     """
 
     low: Array
@@ -34,7 +35,7 @@ class Columns(NamedTuple):
 
 
 class Crossings(NamedTuple):
-    """Where columns meet a surface: their numbers (K,), heights (K,), and +1 to enter it, -1 to leave."""
+    """Crossings of columns with a surface: columns (K,), heights (K,), and sign, +1 to enter, -1 to leave."""
 
     column: Numbers
     height: Array
@@ -42,7 +43,7 @@ class Crossings(NamedTuple):
 
 
 class ColumnPieces(NamedTuple):
-    """Pieces of columns inside a shape: numbers of the columns (K,), lower and upper ends (K,)."""
+    """Spans of columns inside a shape: columns (K,), lower and upper ends (K,)."""
 
     column: Numbers
     low: Array
@@ -50,7 +51,7 @@ class ColumnPieces(NamedTuple):
 
 
 def columns_below(low: Array, high: Array, count: int, rng: np.random.Generator) -> Columns:
-    """Return about ``count`` columns spread evenly over a box, given by two corners of shape (D,)."""
+    """Return about ``count`` columns spread uniformly over a box with two corners of shape (D,)."""
     size = np.maximum(high - low, 1e-9 * max(1.0, float((high - low).max())))
     side = (float(size.prod()) / count) ** (1.0 / len(size))
     counts = tuple(int(min(max(1, round(s / side)), count)) for s in size)
@@ -66,13 +67,13 @@ def column_at(place: Array) -> Columns:
 
 
 def through_triangles(columns: Columns, corners: Array) -> Crossings:
-    """Return where columns meet triangles (T, 3, 3), whose corners run counter-clockwise from outside."""
+    """Return the crossings of columns with triangles (T, 3, 3), counter-clockwise seen from outside."""
     crossings = [_through(columns, corners[part], cells) for part, cells in _chunks(columns, corners)]
     return _joined(crossings)
 
 
 def through_edges(columns: Columns, edges: Array) -> Crossings:
-    """Return where columns of a plane meet edges (E, 2, 2), which are given as from (x, y) to (x, y)."""
+    """Return the crossings of columns in a plane with directed edges (E, 2, 2)."""
     crossings = []
     for part, cells in _chunks(columns, edges):
         a, b = edges[part, 0], edges[part, 1]
@@ -85,9 +86,9 @@ def through_edges(columns: Columns, edges: Array) -> Crossings:
 
 
 def spans(crossings: Crossings, parity: bool) -> ColumnPieces:
-    """Return what lies inside: where a surface winds round, or where an odd number of faces is crossed.
+    """Return the spans inside: by non-zero winding number, or by an odd number of crossings if ``parity``.
 
-    A column that meets an edge between two faces may count it twice or not at all; it is left out.
+    A column through an edge between two faces may count it twice or not at all; such columns are left out.
     """
     order = np.lexsort((crossings.height, crossings.column))
     column, height = crossings.column[order], crossings.height[order]
@@ -101,19 +102,19 @@ def spans(crossings: Crossings, parity: bool) -> ColumnPieces:
 
 
 def united(shapes: list[ColumnPieces]) -> ColumnPieces:
-    """Return the spans of what lies in any of several shapes."""
+    """Return the spans inside any of several shapes."""
     entered = [Crossings(s.column, s.low, np.ones(len(s.column), dtype=np.intp)) for s in shapes]
     left = [Crossings(s.column, s.high, -np.ones(len(s.column), dtype=np.intp)) for s in shapes]
     return spans(_joined([*entered, *left]), False)
 
 
 def volume(columns: Columns, inside: ColumnPieces) -> float:
-    """Return the volume (or area) inside, as the columns tell it, m^3 (m^2)."""
+    """Return the volume (or area) inside, estimated from the columns, m^3 (m^2)."""
     return float((inside.high - inside.low).sum() * columns.cell.prod())
 
 
 def drawn(columns: Columns, inside: ColumnPieces, count: int, rng: np.random.Generator) -> Array:
-    """Return ``count`` points drawn evenly from the spans, shape (count, D + 1); there must be a span."""
+    """Return ``count`` points drawn uniformly from at least one span, shape (count, D + 1)."""
     ends = np.cumsum(inside.high - inside.low)
     along = (np.arange(count) + rng.random(count)) / count * ends[-1]
     k = np.minimum(np.searchsorted(ends, along, side="right"), len(ends) - 1)
@@ -122,7 +123,7 @@ def drawn(columns: Columns, inside: ColumnPieces, count: int, rng: np.random.Gen
 
 
 def _through(columns: Columns, corners: Array, cells: Numbers) -> Crossings:
-    # The column's place in each triangle's own coordinates, seen from above.
+    # Barycentric coordinates of the columns in each triangle, seen from above.
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     ab, ac, ap = (b - a)[:, :2], (c - a)[:, :2], columns.places[cells] - a[:, :2]
     area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
@@ -135,9 +136,11 @@ def _through(columns: Columns, corners: Array, cells: Numbers) -> Crossings:
 
 
 def candidates(columns: Columns, corners: Array) -> tuple[Numbers, Numbers]:
-    """Return the first cell below the box of each face (T, D) and how many it covers (T, D).
+    """Return the first cell below the box of each face (T, D), and the number of covered cells (T, D).
 
-    corners : shape (T, 3, 3), or (E, 2, 2) for edges. The product of the second tells the work to be done.
+    The product of the latter measures the work.
+
+    corners : shape (T, 3, 3), or (E, 2, 2) for edges
     """
     width = len(columns.counts)
     low, high = corners.min(axis=1)[:, :width], corners.max(axis=1)[:, :width]
@@ -148,7 +151,7 @@ def candidates(columns: Columns, corners: Array) -> tuple[Numbers, Numbers]:
 
 
 def _chunks(columns: Columns, corners: Array) -> Iterator[tuple[Numbers, Numbers]]:
-    """Yield numbers of faces and of the cells below their boxes, pair by pair, in handy parts."""
+    """Yield pairs of faces and cells below their boxes, in parts of limited size."""
     width = len(columns.counts)
     first, across = candidates(columns, corners)
     each = across.prod(axis=1)

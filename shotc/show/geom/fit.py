@@ -1,8 +1,8 @@
-"""How many drones a shape can hold at most: an upper bound, so that nobody is refused who might fit.
+"""An upper bound of the number of drones in a shape, so that no feasible picture is rejected.
 
-Goals of a picture are at least the separation apart, in space stretched along z by the horizontal over the
-vertical distance. Balls of that diameter about them do not overlap, whether the drones keep those free or
-cylinders.
+Goals of a picture are at least the separation apart, in space scaled along z by the horizontal over the
+vertical distance. Balls of that diameter around them do not overlap, whether the drones keep balls or
+cylinders free.
 """
 
 from __future__ import annotations
@@ -14,28 +14,28 @@ from shotc.ir.show import Apart, Box, Picture, Sphere, Torus
 from shotc.show.geom.sizes import resized
 
 MOST_DARK_SHARE = 0.95
-"""Share of a fleet that may stay dark in a picture, since it has no room for more."""
+"""Largest share of a fleet that may stay dark in a picture without enough room."""
 ROGERS_SHARE = 0.7797
-"""Most of a truncated Voronoi cell that its ball fills, in space (Rogers 1958)."""
+"""Largest share of a truncated Voronoi cell that its ball fills in space (Rogers 1958)."""
 TRUNCATED = sqrt(1.5)
-"""Radius at which the cells are truncated in that theorem, in radii of the ball."""
+"""Radius of truncation in that theorem, in radii of the ball."""
 ROUNDING = 1e-9
-GROWTH_STEP_SHARE = 0.01  # to which a growth is found
+GROWTH_STEP_SHARE = 0.01  # accuracy of the growth factor
 
 
 def most_drones(picture: Picture, apart: Apart) -> float:
-    """Return a number that the drones of a picture cannot exceed; infinity where its size is not known."""
+    """Return an upper bound of the number of drones in a picture; infinity if its size is unknown."""
     source, gap = picture.source, spacing(apart)
     if isinstance(source, Sphere | Box | Torus):
         factor = stretch(apart)
         inside = _in_volume(source, gap, factor)
-        # The edges of a cube lie on its surface.
+        # The edges of a box lie on its surface.
         return inside if picture.fill == "volume" else min(inside, _on_surface(source, gap, factor))
     return inf
 
 
 def growth(picture: Picture, apart: Apart, count: int) -> float:
-    """Return how many times as large a picture has to be, at least, to hold so many drones."""
+    """Return a lower bound of the factor by which a picture has to grow to hold ``count`` drones."""
     low, high = 1.0, 2.0
     while most_drones(_scaled(picture, high), apart) < count:
         low, high = high, 2.0 * high
@@ -51,9 +51,9 @@ def _scaled(picture: Picture, factor: float) -> Picture:
 
 
 def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:
-    """Bound by volume: every ball has a truncated cell of its own, within reach of the shape."""
+    """Bound by volume: every ball has its own truncated cell near the shape."""
     reach = TRUNCATED * gap / 2
-    wide = reach * max(1.0, 1 / stretch)  # which holds the cells' reach in space as it is
+    wide = reach * max(1.0, 1 / stretch)  # contains the cells' reach in unscaled space
     if isinstance(source, Sphere):
         room = stretch * 4 / 3 * pi * (source.radius + wide) ** 3
     elif isinstance(source, Torus):
@@ -64,14 +64,14 @@ def _in_volume(source: Sphere | Box | Torus, gap: float, stretch: float) -> floa
 
 
 def _round_box(a: float, b: float, c: float, r: float) -> float:
-    """Return the volume of all that is within ``r`` of a box (Steiner's formula)."""
+    """Return the volume within ``r`` of a box (Steiner's formula)."""
     return a * b * c + 2 * (a * b + b * c + c * a) * r + pi * (a + b + c) * r**2 + 4 / 3 * pi * r**3
 
 
 def _on_surface(source: Sphere | Box | Torus, gap: float, stretch: float) -> float:
-    """Bound by area: on a sphere as Fejes Toth, on a box by its faces, each as Oler."""
+    """Bound by area: on a sphere by Fejes Toth, on a box face by face by Oler."""
     if isinstance(source, Sphere):
-        # Space that is pressed together brings no two drones farther apart.
+        # Compressing space never increases a distance.
         return _on_sphere(gap / max(1.0, stretch) / source.radius)
     if isinstance(source, Box):
         a, b, c = source.size[0], source.size[1], source.size[2] * stretch
@@ -80,7 +80,7 @@ def _on_surface(source: Sphere | Box | Torus, gap: float, stretch: float) -> flo
 
 
 def _on_sphere(gap: float) -> float:
-    """Return how many points of a unit sphere are ``gap`` apart: at most 2q / (q - 1) (Fejes Toth 1943)."""
+    """Return the most points on a unit sphere ``gap`` apart: at most 2q / (q - 1) (Fejes Toth 1943)."""
     if gap > sqrt(3.0) + ROUNDING:
         return 2.0 if gap <= 2 + ROUNDING else 1.0
     q = 6 / pi * asin(min(1.0, 1 / sqrt(4 - gap * gap)))
@@ -88,5 +88,5 @@ def _on_sphere(gap: float) -> float:
 
 
 def _on_face(a: float, b: float, gap: float) -> float:
-    """Return how many points of a rectangle are ``gap`` apart at most (Oler 1961)."""
+    """Return the most points in a rectangle ``gap`` apart (Oler 1961)."""
     return 2 / sqrt(3) * a * b / gap**2 + (a + b) / gap + 1

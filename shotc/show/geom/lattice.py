@@ -1,10 +1,10 @@
-"""The densest places of a shape: lattices, and how many of their points it holds.
+"""Lattices: the densest formations in a shape, and their number of points in it.
 
-In the metric of a fleet whose drones keep a ball free, points of space are densest as face-centred cubic,
-sqrt 2 of them in a cube of their distance, and those of a plane as hexagons, 2 / sqrt 3 in a square. Upright
-cylinders are densest in layers of hexagons, each above the other. So no volume V holds more than about
-sqrt 2 V / s^3, no area A more than 2 A / (sqrt 3 s^2), no line L more than L / s. Near its border a shape
-holds more, so they are counted.
+For drones that keep a ball free, the densest packing in space is face-centred cubic, with sqrt 2 points in a
+cube of their distance. In a plane it is hexagonal, with 2 / sqrt 3 points in a square. For vertical cylinders
+it is hexagonal layers, each directly above the other. So a volume V holds at most about sqrt 2 V / s^3
+points, an area A 2 A / (sqrt 3 s^2), a line L L / s. Shapes hold more near their border, so the points are
+counted.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from scipy.spatial import cKDTree
 from shotc.geom.bernstein import Array
 
 MOST_BISECTIONS = 10
-"""Halvings by which the widest lattice is found that has points enough."""
+"""Bisection steps of the search for the widest lattice with enough points."""
 MOST_POINTS = 4_000_000
-"""Points of a lattice round a shape beyond which the shape is too thin for one to be laid."""
+"""Most points of a lattice around a shape; a shape that needs more is too thin for a lattice."""
 PHASES = (0.0, 0.5)
-"""Shares of the step by which a lattice is shifted along all axes, to have the most points in the shape."""
+"""Shifts of a lattice along all axes, over its step, of which the one with most points is taken."""
 
 
 class Mould(NamedTuple):
-    """What a lattice is laid in.
+    """The region that a lattice fills.
 
-    shape : points (M, D) of a shape, as densely as they are drawn, heights last, in the metric of the fleet
-    slack : how far a point of the lattice may be off them, metres; upright : whether drones keep cylinders
-    free
+    shape : points (M, D) of a shape, heights last, in the metric of the fleet
+    slack : largest distance of a lattice point from them, metres
+    upright : whether drones keep cylinders free
     """
 
     shape: cKDTree
@@ -39,13 +39,13 @@ class Mould(NamedTuple):
 
 
 def lattice(low: Array, high: Array, step: float, upright: bool) -> Array:
-    """Return the points of a lattice of a step in a box given by two corners of shape (D,), shape (K, D)."""
+    """Return the points of a lattice in a box with two corners of shape (D,), shape (K, D)."""
     if len(low) == 2:
         return rows_of(low, high, step, upright)
     wide, tall = step, step * sqrt(3.0) / 2.0
     deep = step * (1.0 if upright else sqrt(2.0 / 3.0))
     size = high - low
-    # Layers lie in the hollows of those below, which comes round after three of them; rows after two.
+    # Layers repeat after three, because each lies in the hollows of the one below; rows repeat after two.
     k, j, i = np.meshgrid(
         np.arange(floor(size[2] / deep) + 1),
         np.arange(-1, floor(size[1] / tall) + 1),
@@ -59,7 +59,7 @@ def lattice(low: Array, high: Array, step: float, upright: bool) -> Array:
 
 
 def rows_of(low: Array, high: Array, step: float, square: bool) -> Array:
-    """Return the points of a lattice of squares or hexagons in a rectangle of corners (2,), shape (K, 2)."""
+    """Return the points of a square or hexagonal lattice in a rectangle with corners (2,), shape (K, 2)."""
     tall, size = step * (1.0 if square else sqrt(3.0) / 2.0), high - low
     j, i = np.meshgrid(
         np.arange(floor(size[1] / tall) + 1), np.arange(-1, floor(size[0] / step) + 1), indexing="ij"
@@ -73,7 +73,7 @@ def _within(low: Array, size: Array, points: Array) -> Array:
 
 
 def laid(mould: Mould, step: float) -> Array:
-    """Return the points of a lattice in a mould, shape (K, D), those nearest to the shape first."""
+    """Return the points of a lattice in a mould, shape (K, D), the nearest to the shape first."""
     points = np.asarray(mould.shape.data)
     low, high = points.min(axis=0) - mould.slack, points.max(axis=0) + mould.slack
     dimensions = len(low)
@@ -91,7 +91,7 @@ def laid(mould: Mould, step: float) -> Array:
 
 
 def widest(mould: Mould, number: int, least: float) -> Array | None:
-    """Return so many points of the widest lattice that has them in a mould; None where it is finer than
+    """Return ``number`` points of the widest lattice with enough points in a mould; None if it is finer than
     ``least``.
     """
     best = laid(mould, least)

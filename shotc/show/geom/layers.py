@@ -1,9 +1,9 @@
-"""Flat pictures in layers behind each other: lights that look nearer than the drones are.
+"""Flat pictures in layers one behind another, whose lights appear nearer to each other than the drones are.
 
-Every layer is a lattice as dense as the separation d allows, and its places stand in the gaps of the others.
-Of two layers of squares neighbours look d / sqrt 2 apart, of three of hexagons d / sqrt 3, of four d / 2;
-each layer is so far behind the one before that neighbours are d apart in space. Drones that keep upright
-cylinders free stand in squares, and their layers d apart.
+Every layer is a lattice as dense as the separation d allows, and the layers are shifted into each other's
+gaps. With two square layers, neighbours appear d / sqrt 2 apart; with three hexagonal ones d / sqrt 3; with
+four d / 2. The depth between layers is such that neighbours are d apart in space. Drones that keep vertical
+cylinders free stand in squares, with layers d apart.
 """
 
 from __future__ import annotations
@@ -29,10 +29,12 @@ _HEXAGON = {
 
 
 class Layers(NamedTuple):
-    """How layers stand: where each lattice is shifted to, in steps, and how far it is behind the one before.
+    """The arrangement of layers.
 
-    square : whether the lattice is of squares, else of hexagons; depth : in steps
-    seen : how near two lights look, in steps
+    square : whether the lattice is square, else hexagonal
+    shifts : shift of each layer, in steps
+    depth : distance of consecutive layers, in steps
+    seen : apparent distance of two lights, in steps
     """
 
     square: bool
@@ -42,7 +44,10 @@ class Layers(NamedTuple):
 
 
 def layers_of(count: int, upright: bool) -> Layers:
-    """Return how so many layers stand; upright : for drones that keep upright cylinders free."""
+    """Return the arrangement of ``count`` layers.
+
+    upright : whether drones keep vertical cylinders free
+    """
     square = upright or count == 2
     shifts = ((0.0, 0.0), *(_SQUARE if square else _HEXAGON)[count])
     low = rows_of(np.full(2, -2.0), np.full(2, 4.0), 1.0, square)
@@ -53,7 +58,7 @@ def layers_of(count: int, upright: bool) -> Layers:
 
 
 def layered(mould: Mould, layers: Layers, step: float) -> tuple[Array, Array]:
-    """Return the places of all layers in a shape, (K, 2), and the number of each one's layer, (K,)."""
+    """Return the places of all layers in a shape, (K, 2), and the layer of each, (K,)."""
     points = np.asarray(mould.shape.data)
     low, high = points.min(axis=0) - mould.slack, points.max(axis=0) + mould.slack
     if np.prod(np.ceil((high - low) / step) + 1.0) > MOST_POINTS:
@@ -66,7 +71,9 @@ def layered(mould: Mould, layers: Layers, step: float) -> tuple[Array, Array]:
 
 
 def widest_layers(mould: Mould, layers: Layers, number: int, least: float) -> tuple[Array, Array]:
-    """Return places as ``layered`` in the widest lattice with so many, or in the densest where none has."""
+    """Return places as ``layered`` of the widest lattice with ``number`` places, or else of the
+    densest one.
+    """
     best = layered(mould, layers, least)
     if len(best[0]) < number:
         return best

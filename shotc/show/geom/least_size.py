@@ -37,18 +37,20 @@ from shotc.geom.bernstein import Array
 from shotc.show.geom.arcs import evenly, sampled
 
 COARSE, FINE = 40, 16
-"""Intervals of the direction, and parts of each in which it is looked at closer."""
+"""Intervals of the direction, and parts of each in the fine search."""
 NEAREST_AXIS = 1e-5
-"""Ratio of b to a, or of a to b, from which on directions are told from the axes; they are spread by its
-logarithm, as pairs far apart at one end ask for a size in narrow directions."""
+"""Least ratio of b to a, and of a to b, that is distinguished from the axes. Directions are spread by the
+logarithm of the ratio, because pairs far apart at one end need a size only in a narrow range of directions.
+"""
 REACH = 2.0
-"""Pairs farther apart than this both before and after ask for no size."""
+"""Distance, above which before and after a pair needs no size."""
 TOGETHER_PAIRS = 20_000
 ROUNDED_SHARES = (0.03, 0.06, 0.1, 0.15, 0.2)
-"""Shares of the way over which its corners are rounded, on either side: a fleet need not slow down so much
-there, which may be worth more than the way is longer."""
+"""Shares of the path over which its corners are rounded on either side. The fleet slows down less there,
+which may outweigh the longer path.
+"""
 ROUNDS = 8
-"""Times that control points of a spline are moved out at most."""
+"""Most iterations in which a spline's control points are moved outwards."""
 SAMPLES = 16
 ROUNDING = 1e-9
 
@@ -72,31 +74,33 @@ class LeastSize:
 
     @property
     def most(self) -> float:
-        """Return the largest size that any direction asks for."""
+        """Return the largest size in any direction."""
         return float(self.size.max())
 
     @property
     def _at(self) -> Array:
-        """Return a size for each of ``DIRECTIONS`` so that chords between them are large enough."""
+        """Return a size for each of ``DIRECTIONS`` such that the chords between them are large enough."""
         at: Array = np.maximum(np.append(self.size, 1.0), np.insert(self.size, 0, 1.0))
         at[[0, -1]] = 1.0  # the formations themselves
         return at
 
     def ways(self) -> Iterator[Array]:
-        """Yield (a, b) along the shortest way, then along wider ones with rounder corners, (N, 2) each."""
+        """Yield (a, b) along the shortest path, then along wider ones with rounder corners, (N, 2) each."""
         line = self._shortest()
         yield line
         for share in ROUNDED_SHARES:
             yield self._rounded(line, round(share * len(line)))
 
     def _rounded(self, line: Array, reach: int) -> Array:
-        """Return the means of a way over so many points on either side, moved out to where they are free."""
+        """Return the moving averages of a path over ``reach`` points on either side, moved outwards until
+        free.
+        """
         ends = 2.0 * line[[0, -1]]
         mirrored = [ends[0] - line[reach:0:-1], line, ends[1] - line[-2 : -reach - 2 : -1]]
         smooth = uniform_filter1d(np.concatenate(mirrored), 2 * reach + 1, axis=0)[reach:-reach]
         size = smooth.sum(axis=1)
         lacking = np.maximum(np.interp(smooth[:, 1] / size, DIRECTIONS, self._at) / size, 1.0)
-        # A mean of what is the largest round each point is no less than what that point lacks.
+        # An average of local maxima is at least the value at each point.
         factor = uniform_filter1d(maximum_filter1d(lacking, 2 * reach + 1), 2 * reach + 1)
         steps = np.arange(len(line))
         inner = np.minimum(np.minimum(steps, steps[::-1]) / reach, 1.0)
@@ -112,8 +116,8 @@ class LeastSize:
         return evenly(np.array(line))
 
     def pushed_out(self, ctrl: Array) -> Array:
-        """Return control points (..., K, 2) of (a, b) moved out, so that their splines are large enough, too,
-        or nearly.
+        """Return control points (..., K, 2) of (a, b) moved outwards, so that their splines are large enough,
+        or nearly so.
         """
         ctrl = ctrl.copy()
         pieces = ctrl.shape[-2] - 3
@@ -121,18 +125,18 @@ class LeastSize:
             lacking = 1.0 / np.minimum(self._shares(ctrl), 1.0)
             if lacking.max() <= 1.0 + ROUNDING:
                 break
-            # A control point takes part in four pieces.
+            # A control point is part of four pieces.
             wide = np.pad(lacking, [(0, 0)] * (lacking.ndim - 1) + [(3, 3)], constant_values=1.0)
             factor = np.max([wide[..., k : k + pieces + 3] for k in range(4)], axis=0)
             ctrl[..., 3:-3, :] *= factor[..., 3:-3, None]
         return ctrl
 
     def least_share(self, ctrl: Array) -> Array:
-        """Return the least size of splines of control points (..., K, 2) in shares of what is asked for."""
+        """Return the least size of splines with control points (..., K, 2), over the required size."""
         return np.asarray(self._shares(ctrl).min(axis=-1))
 
     def _shares(self, ctrl: Array) -> Array:
-        """Return the least share of each piece, shape (..., K - 3)."""
+        """Return the least ratio of each piece, shape (..., K - 3)."""
         a, b = sampled(ctrl, SAMPLES)
         size = a + b
         return np.asarray((size / np.interp(b / size, DIRECTIONS, self._at)).min(axis=-1))
@@ -143,9 +147,9 @@ def _turn(a: Array, b: Array, c: Array) -> float:
 
 
 def least_size(before: Array, after: Array) -> LeastSize:
-    """Return what all pairs together ask for.
+    """Return the size that all pairs together need.
 
-    before, after : places, shape (n, 3), heights stretched, in units of the distance to be kept
+    before, after : positions, shape (n, 3), heights scaled, in units of the separation
     """
     r0, r1 = _pairs(before, after)
     most = np.ones(len(DIRECTIONS) - 1)
@@ -154,7 +158,7 @@ def least_size(before: Array, after: Array) -> LeastSize:
     coarse = DIRECTIONS[::FINE]
     low, high = _coarse(r0, r1, coarse)
     for k, (first, last) in enumerate(pairwise(range(0, len(DIRECTIONS), FINE))):
-        # Whoever is always farther apart than another pair at its farthest asks for nothing.
+        # A pair that is always farther apart than another pair's maximum determines nothing.
         asking = low[:, k] < min(high[k], 1.0)
         if asking.any():
             bound = _bounds(r0[asking], r1[asking], DIRECTIONS[first : last + 1]).min(axis=0)
@@ -163,7 +167,7 @@ def least_size(before: Array, after: Array) -> LeastSize:
 
 
 def _pairs(before: Array, after: Array) -> tuple[Array, Array]:
-    """Return r0 and r1 of the pairs that may ask for a size, shape (P, 3) each."""
+    """Return r0 and r1 of the pairs that may need a size, shape (P, 3) each."""
     near = [cKDTree(p).query_pairs(REACH, output_type="ndarray").astype(np.int64) for p in (before, after)]
     count = len(before)
     both = np.unique(np.concatenate([pairs @ [count, 1] for pairs in near]))
@@ -176,7 +180,9 @@ def _pairs(before: Array, after: Array) -> tuple[Array, Array]:
 
 
 def _coarse(r0: Array, r1: Array, directions: Array) -> tuple[Array, Array]:
-    """Return bounds below M of each pair in each interval, (P, K - 1); above the least of all, (K - 1,)."""
+    """Return lower bounds of M for each pair and interval, (P, K - 1); an upper bound of the least M, (K -
+    1,).
+    """
     low, high = np.empty((len(r0), len(directions) - 1)), np.full(len(directions) - 1, np.inf)
     for at in range(0, len(r0), TOGETHER_PAIRS):
         some = slice(at, at + TOGETHER_PAIRS)
@@ -187,7 +193,7 @@ def _coarse(r0: Array, r1: Array, directions: Array) -> tuple[Array, Array]:
 
 
 def _bounds(r0: Array, r1: Array, directions: Array) -> Array:
-    """Return a bound below M of each pair in each interval, by the tangents at its ends, (P, K - 1)."""
+    """Return a lower bound of M for each pair and interval, by the tangents at its ends, (P, K - 1)."""
     sizes, slopes = _sizes(r0, r1, directions)
     first, last, fall, rise = sizes[:, :-1], sizes[:, 1:], slopes[:, :-1], slopes[:, 1:]
     wide = np.diff(directions)
@@ -198,7 +204,7 @@ def _bounds(r0: Array, r1: Array, directions: Array) -> Array:
 
 
 def _sizes(r0: Array, r1: Array, directions: Array) -> tuple[Array, Array]:
-    """Return M of each pair in each direction and a slope of it, shape (P, K) each."""
+    """Return M of each pair in each direction, and a subgradient of it, shape (P, K) each."""
     way = r1 - r0
     x, y, z = (r0[:, k, None] + way[:, k, None] * directions for k in range(3))
     level, upright = np.hypot(x, y), np.abs(z)

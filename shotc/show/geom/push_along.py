@@ -1,4 +1,4 @@
-"""Goals that stay on thin strokes: pushed apart along them, and those for which no room is left taken out."""
+"""Goals on thin strokes: pushed apart along them, with those removed for which there is no room."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ from shotc.geom.bernstein import Array
 from shotc.show.geom.push_apart import Hold, Leash, Numbers, close_pairs, grain, leashed, settled
 
 FALL_SHARE = 0.5
-"""Goals that go at a time, for each least distance that all pairs lack together; the rest may part then."""
+"""Goals removed in one step, over the number of least distances that all pairs lack together."""
 ASUNDER_RATIO = 4.0
-"""How far apart those are, in least distances: what they leave is shared by all around."""
+"""Least distance of goals removed in one step, in least distances; their neighbours share the space."""
 
 
 def push_along(
     goals: Array, shape: Array, least: float, slack: float, hold: Hold, *, upright: bool = False
 ) -> Array | None:
-    """Return goals on a shape, none nearer than ``least`` to another, or None where they find no room.
+    """Return goals on a shape, no two nearer than ``least``, or None if they do not fit.
 
-    goals : shape (n, D); shape : points (M, D) that are to be shown, in the metric of the fleet, both
+    Goals are first drawn to the shape, because a centroid of two strokes lies between them.
+
+    goals : shape (n, D), in the metric of the fleet
+    shape : points (M, D) to be shown, in the metric of the fleet
+    slack : largest distance of a goal from the shape, metres, to which the gaps between its points are added
     upright : whether distances are those of ``push_apart.Close``
-    slack : metres that a goal may be off the shape, to which the gaps between its points are added. Goals
-    are drawn that near first, wherever they come from: a centroid of two strokes lies between them.
     """
     leash = _leash(cKDTree(shape), slack, len(goals))
     goals, apart = settled(leashed(goals, leash.shape, leash.lengths), leash, least, hold, upright=upright)
@@ -34,7 +36,7 @@ def push_along(
 def thinned(
     goals: Array, shape: Array, least: float, slack: float, hold: Hold, *, upright: bool = False
 ) -> Array:
-    """Return as many of the goals as find room, (m, D), pushed as by ``push_along``, the worst taken out."""
+    """Return as many goals as fit, (m, D), pushed as by ``push_along``, with the worst ones removed."""
     leash = _leash(cKDTree(shape), slack, len(goals))
     goals = leashed(goals, leash.shape, leash.lengths)
     while True:
@@ -51,7 +53,7 @@ def _leash(tree: cKDTree, slack: float, number: int) -> Leash:
 
 
 def _in_the_way(goals: Array, least: float, upright: bool) -> Numbers:
-    """Return a few goals that are too near to others, far from each other, the worst first."""
+    """Return a few goals that are too near to others and far from each other, the worst first."""
     close = close_pairs(goals, least, upright)
     lack = least - close.distance
     lacks = np.bincount(np.concatenate([close.first, close.second]), np.tile(lack, 2), len(goals))

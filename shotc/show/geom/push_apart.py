@@ -1,4 +1,4 @@
-"""Goals pushed apart to a least distance, moved as little as it takes, and not off the shape they show."""
+"""Pushes goals apart to a least distance, with small moves and near the shape that they show."""
 
 from __future__ import annotations
 
@@ -13,19 +13,21 @@ from scipy.spatial import cKDTree
 from shotc.geom.bernstein import Array
 
 MOST_ROUNDS = 400
-"""Rounds after which goals count as too many; those that fit are apart after 5 to 100."""
+"""Most iterations; goals that fit are apart after 5 to 100."""
 BEYOND_SHARE = 1e-3
-"""Share of the distance that a push aims beyond it, so that the last pairs are apart after finite rounds."""
+"""Share of the distance by which a push exceeds it, so that the last pairs are apart after finitely many
+steps.
+"""
 SLACK_SHARE = 0.25
-"""Share of the distance by which a goal may stand off the shape: less than is seen between two lights."""
+"""Distance of a goal from the shape over the least distance; it is not visible between two lights."""
 LOOSER_SHARE = 0.2
-"""Share by which that grows up to the last round: one pair at its end would ground a thousand drones."""
+"""Growth of that distance up to the last iteration, so that one pair cannot block a thousand drones."""
 STALLED_ROUNDS = 25
-"""Rounds in which what is missing has to fall by a twentieth, or else so many goals do not fit."""
+"""Iterations in which the total lack has to fall by a twentieth, or else the goals do not fit."""
 
 Numbers = NDArray[np.intp]
 Hold = Callable[[Array, Array], Array]
-"""From goals (n, 3) and where a push takes them, to where they may go."""
+"""From goals (n, 3) and their pushed positions to the allowed positions."""
 
 
 def push_apart(
@@ -39,7 +41,7 @@ def push_apart(
     than ``SLACK_SHARE`` from the shape, or where ``hold`` does not let it.
     """
     tree = cKDTree(shape)
-    # Where a centroid is off its shape from the first, as inside a bent surface, it may stay as far off.
+    # A centroid that is off its shape at first, as inside a curved surface, may stay at that distance.
     leash = np.maximum(SLACK_SHARE * least + grain(tree), tree.query(goals)[0])
     goals, apart = settled(goals, Leash(tree, leash, LOOSER_SHARE), least, hold, upright=upright)
     return goals if apart else None
@@ -47,10 +49,11 @@ def push_apart(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Leash:
-    """How far goals may be off a shape.
+    """The allowed distance of goals from a shape.
 
-    shape : its points; lengths : of every goal, shape (n,), metres
-    looser : share that they grow by up to the last round
+    shape : its points
+    lengths : of every goal, shape (n,), metres
+    looser : relative growth up to the last iteration
     """
 
     shape: cKDTree
@@ -58,14 +61,14 @@ class Leash:
     looser: float = 0.0
 
     def drawn(self, goals: Array, which: Numbers, done: int) -> Array:
-        """Draw goals of those numbers back that are farther off, after so many rounds."""
+        """Return goals with those that are too far drawn back, after ``done`` iterations."""
         return leashed(goals, self.shape, self.lengths[which] * (1.0 + self.looser * done / MOST_ROUNDS))
 
 
 def settled(
     goals: Array, leash: Leash, least: float, hold: Hold, *, upright: bool = False
 ) -> tuple[Array, bool]:
-    """Push goals apart until they are, or until that leads no further; return them, and whether they are."""
+    """Return goals pushed apart until they are or no progress is made, and whether they are apart."""
     missing = float("inf")
     for done in range(MOST_ROUNDS):
         push, lacking = _pushes(goals, least, BEYOND_SHARE * (1.0 + done / 20), upright)
@@ -83,7 +86,7 @@ def settled(
 
 
 def nearest_pair(goals: Array) -> float:
-    """Return the least distance of two goals, infinite for a single one."""
+    """Return the least distance of two goals; infinite for a single one."""
     if len(goals) < 2:
         return float("inf")
     return float(cKDTree(goals).query(goals, k=2)[0][:, 1].min())
@@ -92,9 +95,10 @@ def nearest_pair(goals: Array) -> float:
 class Close(NamedTuple):
     """Pairs of goals that are too near.
 
-    first, second : their numbers, (P,); apart : from the second to the first, (P, D), of drones that keep
-    upright cylinders free the part of it that keeps them more apart, level or upright; distance : its
-    length, (P,)
+    first, second : their indices, (P,)
+    apart : vector from the second to the first, (P, D); for cylinders only its horizontal or vertical part,
+        whichever is larger
+    distance : length of that vector, (P,)
     """
 
     first: Numbers
@@ -104,7 +108,10 @@ class Close(NamedTuple):
 
 
 def close_pairs(goals: Array, least: float, upright: bool) -> Close:
-    """Return the pairs of goals nearer than a distance; upright : whether that is of cylinders."""
+    """Return the pairs of goals nearer than a distance.
+
+    upright : whether distances are those of cylinders
+    """
     least *= 1.0 - 1e-12
     pairs = cKDTree(goals).query_pairs(least * (np.sqrt(2.0) if upright else 1.0), output_type="ndarray")
     first, second = pairs[np.lexsort(pairs.T[::-1])].T
@@ -121,14 +128,14 @@ def close_pairs(goals: Array, least: float, upright: bool) -> Close:
 
 
 def _pushes(goals: Array, least: float, beyond: float, upright: bool) -> tuple[Array, float]:
-    """Return by how much each goal is pushed, (n, D), and how much distance all pairs lack together.
+    """Return the push of each goal, (n, D), and the lack of distance of all pairs together.
 
-    beyond : share of the least distance that a push aims beyond it
+    beyond : share of the least distance by which a push exceeds it
     """
     first, second, apart, distance = close_pairs(goals, least, upright)
     if not len(first):
         return np.zeros_like(goals), 0.0
-    apart[distance < 1e-9] = np.eye(goals.shape[1])[0]  # at one place: any way will do
+    apart[distance < 1e-9] = np.eye(goals.shape[1])[0]  # coinciding goals: any direction will do
     share = (least * (1.0 + beyond) - distance) / 2.0 / np.maximum(distance, 1e-9)
     share[distance < 1e-9] = least / 2.0
     push = share[:, None] * apart
@@ -138,7 +145,7 @@ def _pushes(goals: Array, least: float, beyond: float, upright: bool) -> tuple[A
 
 
 def grain(tree: cKDTree) -> float:
-    """Return how wide the gaps between drawn points are, which belong to the shape as well."""
+    """Return the width of the gaps between drawn points, which belong to the shape as well."""
     if tree.n < 2:
         return 0.0
     sample = np.asarray(tree.data)[:: max(1, tree.n // 5000)]
@@ -146,7 +153,7 @@ def grain(tree: cKDTree) -> float:
 
 
 def leashed(goals: Array, tree: cKDTree, leash: Array) -> Array:
-    """Draw goals that are farther off the shape than their leash back to its end."""
+    """Return goals with those beyond their allowed distance from the shape drawn back."""
     off, nearest = tree.query(goals)
     foot = np.asarray(tree.data)[nearest]
     share = np.minimum(1.0, leash / np.maximum(off, 1e-12))

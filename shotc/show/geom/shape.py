@@ -1,4 +1,4 @@
-"""The shapes of pictures as far as they are known without a mesh or a font: as balls, and as boxes."""
+"""Approximations of pictures that need no mesh or font: balls, and bounding boxes."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from shotc.geom.solids import box, signed_distance
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Box, Drawing, Lettering, Model, Picture, RecordedFlight, Source, Sphere, Torus
 
-NARROW_SHARE = 0.3  # share of a capital's height that a letter is wide at least
-SMALL_LETTER_SHARE = 0.5  # share of it that small letters are high at least
+NARROW_SHARE = 0.3  # least width of a letter over the height of a capital
+SMALL_LETTER_SHARE = 0.5  # least height of small letters over that of capitals
 RING_BALLS = 24  # balls in a ring
 ALONG = (-1.0, -0.5, 0.0, 0.5, 1.0)
 
 
 class Ball(NamedTuple):
-    """A ball that a shape holds."""
+    """A ball inside a shape."""
 
     centre: Vec3
     radius: float
 
 
 def balls(source: Source) -> tuple[Ball, ...]:
-    """Return balls, or points, of which a shape holds all; none where its place is not known.
+    """Return balls, or points, that are inside a shape; none if its place is unknown.
 
-    Those of a sphere are all of it. The lowest and the highest of the others reach as low and as high as
-    the shape; a text and a drawing are taken as small as they may be.
+    For a sphere they are all of it. For other shapes the lowest and the highest of them are as low and as
+    high as the shape; the size of a text and a drawing is a lower bound.
     """
     if isinstance(source, Sphere):
         return (Ball(source.centre, source.radius),)
@@ -48,7 +48,7 @@ def balls(source: Source) -> tuple[Ball, ...]:
 
 
 def bounds(source: Source) -> tuple[Vec3, Vec3] | None:
-    """Return the lowest and highest corner of a box round all of a shape; None where that is not known."""
+    """Return the corners of a shape's bounding box; None if it is unknown."""
     if not isinstance(source, Sphere | Box | Torus):
         return None
     c = source.centre
@@ -74,9 +74,9 @@ def highest(shape: tuple[Ball, ...]) -> float:
 
 
 def depth_in(picture: Picture, p: Vec3, thick: float) -> float:
-    """Return how deep a point lies in a shape, metres; negative, or not known, is outside.
+    """Return the depth of a point in a shape, metres; negative if it is outside or unknown.
 
-    thick : metres before and behind a flat text that count as in it
+    thick : metres before and behind a flat text that count as inside
     """
     source = picture.source
     if isinstance(source, Sphere):
@@ -92,7 +92,7 @@ def depth_in(picture: Picture, p: Vec3, thick: float) -> float:
 
 
 def _of_box(source: Box) -> Iterator[Ball]:
-    """Yield points of a box, its corners among them."""
+    """Yield points of a box, its corners included."""
     c, s = cos(source.heading), sin(source.heading)
     for i, j, k in product(ALONG, repeat=3):
         x, y, z = (share * side / 2 for share, side in zip((i, j, k), source.size, strict=True))
@@ -101,16 +101,16 @@ def _of_box(source: Box) -> Iterator[Ball]:
 
 
 def _axis(source: Torus) -> Vec3:
-    """Return the direction of a ring's axis: up at tilt 0, along its heading at a quarter turn."""
+    """Return the direction of a ring's axis: up at tilt 0, along its heading at 90 degrees."""
     across = sin(source.tilt)
     return (across * sin(source.heading), across * cos(source.heading), cos(source.tilt))
 
 
 def _of_ring(source: Torus) -> Iterator[Ball]:
-    """Yield balls along the middle of a ring's tube; its lowest and highest places are among them."""
+    """Yield balls along the middle of a ring's tube, its lowest and highest place included."""
     level = (cos(source.heading), -sin(source.heading), 0.0)
     n = _axis(source)
-    # level x n, which points as far up as the ring does
+    # level x n, the steepest direction in the ring's plane
     steep = (level[1] * n[2], -level[0] * n[2], level[0] * n[1] - level[1] * n[0])
     for i in range(RING_BALLS):
         a, b = source.radius * cos(2 * pi * i / RING_BALLS), source.radius * sin(2 * pi * i / RING_BALLS)
@@ -119,7 +119,7 @@ def _of_ring(source: Torus) -> Iterator[Ball]:
 
 
 def _ring_reach(source: Torus) -> Vec3:
-    """Return how far a ring reaches from its centre along each axis of W."""
+    """Return the reach of a ring from its centre along each axis of W."""
     east, north, up = (source.radius * max(0.0, 1 - n * n) ** 0.5 + source.tube for n in _axis(source))
     return (east, north, up)
 
@@ -139,7 +139,7 @@ def _upright(centre: Vec3, height: float) -> Iterator[Ball]:
 
 
 def _of_text(source: Lettering) -> Iterator[Ball]:
-    """Yield points of the least room that a text takes: narrow letters, as high as the lowest."""
+    """Yield points of the smallest extent of a text: narrow letters, as high as the lowest."""
     half, c, s = _width(source) / 2, cos(source.heading), sin(source.heading)
     x, y, z = source.centre
     for i, k in product(ALONG, repeat=2):

@@ -1,4 +1,4 @@
-"""Pictures made larger, and the words that a mission has for their sizes. Plain Python."""
+"""Enlarged pictures, and their sizes in the mission language. Plain Python."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from shotc.show.geom.shape import balls, lowest
 
 
 def resized(source: Source, change: Callable[[float], float]) -> Source:
-    """Return a picture with all its sizes changed alike, metres; a model without a height stays as it is."""
+    """Return a picture with all its sizes in metres changed by a function; a model without a height is
+    unchanged.
+    """
     if isinstance(source, Sphere):
         return source._replace(radius=change(source.radius))
     if isinstance(source, Torus):
@@ -24,9 +26,9 @@ def resized(source: Source, change: Callable[[float], float]) -> Source:
 
 
 def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
-    """Return what a picture shows a number of times as large, sizes rounded up to what is written of them.
+    """Return a picture enlarged by a factor, with its written sizes rounded up.
 
-    tall : height that it has now, metres, of a model that is not given one
+    tall : present height of a model without a written one, metres
     """
     if isinstance(source, Model) and source.height is None:
         source = source._replace(height=tall)
@@ -34,7 +36,7 @@ def larger(source: Source, factor: float, tall: float = 0.0) -> Source:
 
 
 def raised(source: Source, floor: float) -> Source:
-    """Return it as far up as it takes to be above a height, to a decimetre, if its centre is known."""
+    """Return a picture raised to above a height, rounded up to a decimetre, if its centre is known."""
     lack = floor - lowest(balls(source)) if balls(source) else 0.0
     if lack <= 1e-6 or source.centre is None:
         return source
@@ -43,7 +45,7 @@ def raised(source: Source, floor: float) -> Source:
 
 
 def size_words(before: Source, after: Source) -> str:
-    """Return what to write for a picture made larger, and moved up if that is what it takes."""
+    """Return the text to write for an enlarged, and possibly raised, picture."""
     words = _sizes(after)
     if after.centre != before.centre and after.centre is not None:
         words += f", center: [{', '.join(f'{c:g}' for c in after.centre)}]"
@@ -51,7 +53,7 @@ def size_words(before: Source, after: Source) -> str:
 
 
 def enlarged(picture: Picture, factor: float, floor: float, tall: float = 0.0) -> Picture:
-    """Return a picture made larger that stays above a height, metres."""
+    """Return an enlarged picture that stays above a height, metres."""
     return picture._replace(source=raised(larger(picture.source, factor, tall), floor))
 
 

@@ -1,7 +1,7 @@
-"""Where a fleet stops, and what lies between: each stretch from stop to stop is a spline of its own.
+"""The stops of a fleet, and the stretches in between, each of which is a spline of its own.
 
-A fleet stops at a break where all three control points that count there are equal, for every drone. Nothing
-beyond it counts on either side: the derivatives' control points that reach over it are zero.
+A fleet stops at a break where the three control points that count there are equal, for every drone. Neither
+side depends on the other: the derivatives' control points across the stop are zero.
 """
 
 from __future__ import annotations
@@ -25,31 +25,37 @@ class Window:
 
     @property
     def points(self) -> slice:
-        """Return which control points count in it."""
+        """Return the range of its control points."""
         return slice(self.first, self.last + DEGREE)
 
     @property
     def pieces(self) -> slice:
-        """Return which pieces it has."""
+        """Return the range of its pieces."""
         return slice(self.first, self.last)
 
     def breaks(self, breaks: Array) -> Array:
-        """Return its own of the breaks."""
+        """Return its own breaks."""
         return breaks[self.first : self.last + 1]
 
 
 def at_rest(coef: Array) -> NDArray[np.intp]:
-    """Return the breaks at which all drones stop; coef : shape (n, P + 3, 3)."""
+    """Return the breaks at which all drones stop.
+
+    coef : shape (n, P + 3, 3)
+    """
     still = (np.diff(coef, axis=1) == 0.0).all(axis=(0, 2))
     return np.flatnonzero(still[:-1] & still[1:])
 
 
 def windows(coef: Array) -> list[Window]:
-    """Return the stretches in which anybody moves; coef : shape (n, P + 3, 3)."""
+    """Return the stretches in which a drone moves.
+
+    coef : shape (n, P + 3, 3)
+    """
     return [Window(int(a), int(b)) for a, b in pairwise(at_rest(coef)) if b - a > 1]
 
 
 def stops(coef: Array) -> list[int]:
-    """Return the breaks at which a fleet stops, the first of each stretch that it stands."""
+    """Return the breaks at which a fleet stops, the first of each hold."""
     at = at_rest(coef)
     return [int(b) for k, b in enumerate(at) if k == 0 or b - at[k - 1] > 1]

@@ -1,11 +1,13 @@
 """place-goals: KeyframeIR to GoalIR.
 
-Takes the pictures of a mission's displays and gives a goal set for every frame: points of the shape, their
-centroids, adjusted for the audience (*display* Section III), then moved apart. It guarantees that no two
-goals of a frame are nearer than the separation allows, and no nearer than straight moves between pictures
-need where that has room; and that all are clear of what stands and of the ground. Frames of one picture
-follow each other: each begins with the goals of the one before. A recorded flight is brought within the
-limits of the drones (``show.recorded``), and its frames are moments of it.
+The pass takes the pictures of a mission's displays and gives a goal set for every frame: points of the shape,
+their centroids, adjusted for the audience (*display* Section III), then moved apart.
+
+It guarantees that no two goals of a frame are nearer than the separation allows. Where there is room, goals
+are as far apart as straight moves between pictures need. All goals are clear of obstacles and of the ground.
+
+Each frame of one picture begins with the goals of the frame before. A recorded flight is brought within the
+limits of the drones (``show.recorded``), and its frames are samples of it.
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ class PlaceGoals:
     name: ClassVar[str] = "place-goals"
 
     def run(self, ir: KeyframeIR, ctx: PassContext) -> Outcome[GoalIR]:
-        """Place the goals of every display, fleet by fleet; all faults of all pictures are told."""
+        """Return the goals of every display, fleet by fleet; the faults of all pictures are reported."""
         shows: list[FleetGoals] = []
         drawn: list[PictureResult | RecordedPicture] = []
         showing = {display.fleet for display in ir.mission.displays}

@@ -1,4 +1,4 @@
-"""What a picture is of, once its source is read: something that points can be drawn from."""
+"""The shape of a picture after its source is read: something from which points can be drawn."""
 
 from __future__ import annotations
 
@@ -13,26 +13,30 @@ Fill = Literal["volume", "surface", "outline"]
 
 
 class PlacedShape(Protocol):
-    """A shape in its place in W, metres."""
+    """A shape at its place in W, metres."""
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return points drawn evenly from its inside, surface or edges, shape (count, 3); None without such.
+        """Return points drawn uniformly from its inside, surface or edges, shape (count, 3); None if it has
+        none.
 
         A point cloud gives its own points, at most ``count`` of them.
         """
         ...
 
     def encloses(self, place: Array) -> bool:
-        """Tell whether a place (3,) is inside."""
+        """Return whether a place (3,) is inside."""
         ...
 
     def colors(self, places: Array) -> Colors | None:
-        """Return its own colours at places (n, 3), shape (n, 3), or None where it has none."""
+        """Return its own colours at places (n, 3), shape (n, 3); None if it has none."""
         ...
 
 
 class SourceFault(NamedTuple):
-    """Why a source cannot be drawn; key : of the source's, to blame; file : that it is about, if any."""
+    """The reason why a source cannot be drawn.
+
+    key : faulty key of the source
+    """
 
     code: str
     key: str
@@ -42,6 +46,6 @@ class SourceFault(NamedTuple):
 
 
 def upright_axes(heading: float) -> Array:
-    """Return the axes (right, ahead, up), one a row, of who looks along a compass heading, rad."""
+    """Return the axes (right, ahead, up), one a row, of a viewer who looks along a compass heading, rad."""
     c, s = np.cos(heading), np.sin(heading)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

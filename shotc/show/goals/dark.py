@@ -1,8 +1,9 @@
-"""Where drones stand for which a picture has no room: dark, in a block behind the picture.
+"""Places of drones for which a picture has no room: dark, in a block behind the picture.
 
-The block is a grid upright and square to the way the audience looks. Its places are as far apart as goals
-have to be, and as far from the picture, so that straight moves between pictures keep the separation. Where
-something stands behind the picture the block goes on in front of it, by one layer, and then beyond.
+The block is a vertical grid perpendicular to the audience's viewing direction. Its places are as far apart,
+and as far from the picture, as goals have to be, so that straight moves between pictures keep the separation.
+If an obstacle is behind the picture, the block has one layer in front of it and continues behind the
+obstacle.
 """
 
 from __future__ import annotations
@@ -18,14 +19,14 @@ from shotc.show.goals.spaced import SpacingTask
 BEHIND_SPACINGS = 1.001
 """Distance of dark drones from the picture and from each other, in spacings."""
 MOST_LAYERS = 100
-"""Layers of the block behind which no place is looked for."""
+"""Most layers of the block."""
 NORTH = np.array([0.0, 1.0, 0.0])
 
 
 def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = NORTH) -> Array | None:
-    """Return so many places behind goals (n, 3), shape (spare, 3), or None where there is no room.
+    """Return ``spare`` places behind goals (n, 3), shape (spare, 3); None if there is no room.
 
-    facing : (3,), level: how the picture is looked at where there is no audience
+    facing : (3,), horizontal viewing direction for a picture without an audience
     """
     found: list[Array] = []
     for places in _layers(shown, setting, _away(shown, setting, facing)):
@@ -38,7 +39,7 @@ def dark_places(shown: Array, spare: int, setting: SpacingTask, facing: Array = 
 
 
 def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
-    """Yield the free places of one layer after another, in the order in which they are taken."""
+    """Yield the free places of one layer after another, in the order of use."""
     across = np.array([-away[1], away[0], 0.0])
     step = BEHIND_SPACINGS * setting.least
     middle = shown.mean(axis=0)
@@ -61,7 +62,7 @@ def _layers(shown: Array, setting: SpacingTask, away: Array) -> Iterator[Array]:
 
 
 def _away(shown: Array, setting: SpacingTask, facing: Array) -> Array:
-    """Return the level direction in which the picture is looked at."""
+    """Return the horizontal viewing direction of the picture, (3,)."""
     if setting.viewpoint is None:
         return facing
     east, north = (shown.mean(axis=0) - setting.viewpoint)[:2]
@@ -70,6 +71,6 @@ def _away(shown: Array, setting: SpacingTask, facing: Array) -> Array:
 
 
 def _steps(along: Array, step: float) -> Array:
-    """Return the multiples of a step, about 0, that a picture spans along one axis."""
+    """Return the multiples of a step around 0 that a picture spans along one axis."""
     most = floor(float(np.abs(along).max()) / step)
     return step * np.arange(-most, most + 1, dtype=np.float64)

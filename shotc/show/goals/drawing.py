@@ -1,4 +1,4 @@
-"""SVG files as flat pictures. What is drawn is in the file: nothing is run, and nothing is fetched."""
+"""SVG files as flat pictures. A file must be self-contained: no script is run and nothing is fetched."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from shotc.show.goals.body import SourceFault
 from shotc.show.goals.flat import FlatBody, FlatPart, chain, standing
 
 CURVE_LINES = 16
-"""Lines that a Bezier curve becomes."""
+"""Lines that replace a Bezier curve."""
 ARC_LINES = 48
-"""Lines that an elliptic arc becomes: a circle is off by a five-hundredth of its radius at most."""
+"""Lines that replace an elliptic arc; the error of a circle is at most a five-hundredth of its radius."""
 MOST_ELEMENTS = 100_000
-"""Elements, with those that `use` repeats, and lines in all."""
+"""Most elements, with the repetitions by `use`, and most lines."""
 
 DARK_LEVEL = 32
-"""Largest part of a colour, of 255, below which a light that shows it would not be seen."""
+"""Largest channel of a colour, of 255, below which a light with it would not be visible."""
 
 _FOREIGN = re.compile(r"url\(\s*['\"]?\s*(?![#'\"\s])|@import", re.IGNORECASE)
-_DEEPEST_LEVEL = 200  # elements in elements, with those that `use` puts there
+_DEEPEST_LEVEL = 200  # depth of elements, with those inserted by `use`
 _REFUSED = {
     "script": ("a script", "remove the script"),
     "foreignObject": ("a foreign object", "remove it"),
@@ -38,9 +38,9 @@ _REFUSED = {
 
 
 def drawing_body(source: Drawing, data: bytes) -> FlatBody | SourceFault:
-    """Return an SVG's shapes about the middle of their bounding box, or why it is not drawn.
+    """Return an SVG's shapes about the middle of their bounding box, or a fault.
 
-    A shape has an inside where it is filled; one that is not is a line of its stroke's width.
+    A filled shape has an inside; a shape without fill is a line of its stroke's width.
     """
     root = parse_xml(data)
     if isinstance(root, XmlFault):
@@ -81,7 +81,7 @@ def _scaled(source: Drawing, shapes: list[FlatPart]) -> FlatBody | SourceFault:
 
 
 def _refused(root: Node) -> Iterator[tuple[str, str]]:
-    """Yield what of a file is refused, each as a fact and a remedy."""
+    """Yield the refused parts of a file, each as a fact and a remedy."""
     for node in root.everything():
         where = f"line {node.line}: "
         if _name(node.tag) in _REFUSED:
@@ -99,7 +99,7 @@ def _refused(root: Node) -> Iterator[tuple[str, str]]:
 
 
 def _repeated(root: Node) -> tuple[str, str] | None:
-    """Refuse elements that use themselves, and too many of them."""
+    """Return the fault of elements that contain themselves, or of too many elements."""
     by_id = {node.attributes["id"]: node for node in root.everything() if "id" in node.attributes}
     sizes: dict[int, int | None] = {}
 
@@ -108,7 +108,7 @@ def _repeated(root: Node) -> tuple[str, str] | None:
             return MOST_ELEMENTS + 1
         if id(node) in sizes:
             known = sizes[id(node)]
-            return MOST_ELEMENTS + 1 if known is None else known  # None: it is inside itself
+            return MOST_ELEMENTS + 1 if known is None else known  # None: it contains itself
         sizes[id(node)] = None
         total = 1 + sum(size(child, depth + 1) for child in node.children)
         if _name(node.tag) == "use":
@@ -130,7 +130,7 @@ def _name(tag: str) -> str:
 
 
 def _shapes(data: bytes) -> list[FlatPart]:
-    """Return the shapes that are drawn, in the file's units, up positive."""
+    """Return the drawn shapes in the file's units, up positive."""
     from svgelements import SVG
     from svgelements import Path as Curves
     from svgelements import Shape as Drawn
@@ -151,7 +151,7 @@ def _shapes(data: bytes) -> list[FlatPart]:
 
 
 def _color(paint: Any) -> Color | None:
-    """Return a colour that a light can have, or None: what the reader cannot read is black to it."""
+    """Return a colour that a light can have, or None; colours that the reader cannot read count as black."""
     if paint is None or paint.value is None or paint.alpha == 0:
         return None
     color = (int(paint.red), int(paint.green), int(paint.blue))
@@ -163,7 +163,7 @@ def _hidden(values: dict[str, Any]) -> bool:
 
 
 def _edges(path: Any, filled: bool) -> Array:
-    """Return the lines of a path, (E, 2, 2); every part of a filled one is closed."""
+    """Return the lines of a path, (E, 2, 2); every part of a filled path is closed."""
     parts = []
     for sub in path.as_subpaths():
         corners = _corners(sub)

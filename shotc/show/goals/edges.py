@@ -1,4 +1,4 @@
-"""Lights along the edges of a flat picture: on its corners, and evenly between them."""
+"""Lights along the edges of a flat picture: on its corners, and uniformly in between."""
 
 from __future__ import annotations
 
@@ -13,13 +13,16 @@ from shotc.geom.bernstein import Array
 from shotc.geom.vec import wrapped
 
 CORNER_RAD = np.radians(40.0)
-"""Change of direction from which a place is a corner, which a letter without a light there loses."""
+"""Change of direction of a corner, which must have a light for a letter to be legible."""
 RING_LIGHTS = 3
-"""Lights that a closed line without corners takes at least."""
+"""Least lights of a closed line without corners."""
 
 
 class _Part(NamedTuple):
-    """A line (K, 2) from corner to corner; open : that its end is no other part's start."""
+    """A line (K, 2) between corners.
+
+    open : whether its end is not the start of another part
+    """
 
     line: Array
     open: bool
@@ -34,11 +37,13 @@ class _Part(NamedTuple):
 
 
 def along_edges(edges: Sequence[Array], count: int, least: float, metric: Array) -> Array:
-    """Return ``count`` places evenly along edges, shape (count, 2).
+    """Return ``count`` places uniformly along edges, shape (count, 2).
 
-    edges : of each shape (E, 2, 2), one after another along its lines, as ``flat.Shape`` has them
-    least : of corners that are nearer to each other, by the factors of ``metric`` (2,), the sharpest has a
-    light. Where there are fewer lights than corners they follow the lines alone, the longest first.
+    If there are fewer lights than corners, they follow the lines alone, the longest first.
+
+    edges : of each shape (E, 2, 2), consecutive along its lines, as in ``flat.FlatPart``
+    least : of corners nearer to each other than this, scaled by ``metric`` (2,), only the sharpest has a
+        light
     """
     lines = [line for each in edges for line in _lines(each)]
     parts = [part for line in lines for part in _parts(line, least, metric)]
@@ -50,7 +55,7 @@ def along_edges(edges: Sequence[Array], count: int, least: float, metric: Array)
 
 
 def _shared(parts: Sequence[_Part], count: int) -> list[int]:
-    """Give lights to parts one by one, each to that which has them farthest apart."""
+    """Return the number of lights of each part; each light goes to the part with the largest spacing."""
     shares = [part.fewest for part in parts]
     if sum(shares) > count:
         shares = [1] * len(shares)
@@ -65,7 +70,7 @@ def _shared(parts: Sequence[_Part], count: int) -> list[int]:
 
 
 def _lines(edges: Array) -> Iterator[Array]:
-    """Yield the lines, (K, 2), that edges follow from end to start, without those of no length."""
+    """Yield the lines, (K, 2), of consecutive edges, without edges of zero length."""
     edges = edges[np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1) > 1e-9]
     if len(edges):
         breaks = np.flatnonzero(np.linalg.norm(edges[1:, 0] - edges[:-1, 1], axis=1) > 1e-6) + 1
@@ -78,7 +83,7 @@ def _closed(line: Array) -> bool:
 
 
 def _parts(line: Array, least: float, metric: Array) -> list[_Part]:
-    """Cut a line at its corners; of those nearer to each other than ``least`` at the sharper one."""
+    """Return a line cut at its corners; of corners nearer than ``least``, only the sharpest counts."""
     way = np.diff(line, axis=0)
     angle = np.arctan2(way[:, 1], way[:, 0])
     turn = np.abs(wrapped(np.roll(angle, -1) - angle))  # at the end of each edge
@@ -104,7 +109,9 @@ def _steps(line: Array) -> Array:
 
 
 def _spread(part: _Part, count: int) -> Array:
-    """Return places along a part from its start to its end, or a step before an end that begins another."""
+    """Return places along a part, from its start to its end, or to one step before the start of
+    another part.
+    """
     line = part.line
     ends = np.concatenate([[0.0], np.cumsum(_steps(line))])
     at = np.arange(count) / max(1, count - part.open) * ends[-1]

@@ -1,4 +1,4 @@
-"""What to say of pictures that cannot be flown: too many drones, too few, something in the way."""
+"""Diagnostics of pictures that cannot be flown: too many drones, too few, or an obstacle."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from shotc.show.goals.spaced import SpacingTask
 from shotc.show.labels import word_of
 
 BETWEEN = (0.0, 0.25, 0.5, 0.75)
-"""Shares of the way from the middle of a picture to its goals at which places within it are looked at."""
+"""Shares of the path from a picture's middle to its goals, at which places inside it are examined."""
 FEWEST_DRONES = 8
-"""Drones below which no solid can be told from a box: they are its corners."""
+"""Least drones that show a solid: those at the corners of a box."""
 
 
 def place_of(mission: MissionIR, picture: Picture, key: str = "") -> Label:
-    """Return the label on a key of a picture's source, or on the nearest thing that is written down."""
+    """Return the label on a key of a picture's source, or on the nearest written key."""
     word = word_of(picture)
     paths = [(*picture.path, word, key), (*picture.path, key), (*picture.path, word), picture.path]
     written = next((path for path in paths if path in mission.origins.values), picture.path)
@@ -33,13 +33,13 @@ def place_of(mission: MissionIR, picture: Picture, key: str = "") -> Label:
 
 
 def of_source(mission: MissionIR, picture: Picture, fault: SourceFault) -> Diagnostic:
-    """Return what is wrong with a source."""
+    """Return the diagnostic of a faulty source."""
     label = place_of(mission, picture, fault.key)
     return Diagnostic(fault.code, fault.message, (label,), fault.notes, fault.help)
 
 
 def no_points(mission: MissionIR, picture: Picture) -> Diagnostic:
-    """Say that there is nothing to fill that way."""
+    """Return D060: the picture has no points for its fill."""
     flat = isinstance(picture.source, Lettering | Drawing)
     help_ = "use `fill: surface`" if picture.fill == "volume" else "use `fill: volume`"
     if flat or picture.fill == "surface":
@@ -54,14 +54,14 @@ def no_points(mission: MissionIR, picture: Picture) -> Diagnostic:
 
 
 def too_few_points(mission: MissionIR, picture: Picture, points: int, number: int) -> Diagnostic:
-    """Say that a point cloud is too thin."""
+    """Return D061: a point cloud has too few points."""
     message = f"a point cloud of {points} points cannot show {number} drones"
     help_ = f"give a denser cloud or a mesh, or at most {points} drones"
     return Diagnostic("D061", message, (place_of(mission, picture, "files"),), (), help_)
 
 
 def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> Diagnostic:
-    """Say that the audience is in the picture."""
+    """Return D059: the viewpoint is inside the picture."""
     labels = (
         mission.origins.value((*display.path, "viewpoint")),
         place_of(mission, picture)._replace(text="the picture"),
@@ -78,7 +78,7 @@ def viewpoint_inside(mission: MissionIR, display: Display, picture: Picture) -> 
 def too_many(
     mission: MissionIR, fleet: Fleet, picture: Picture, ways: PictureRemedies, setting: SpacingTask
 ) -> Diagnostic:
-    """Say that a fleet does not fit into a picture, how many would, and what else would do."""
+    """Return D056: a fleet does not fit into a picture, with the number that would and other remedies."""
     message = f"{len(fleet.pads)} drones do not fit into the picture"
     if ways.number is not None:
         message += f"; about {ways.number} would"
@@ -94,7 +94,7 @@ def too_dark(
     number: int,
     setting: SpacingTask,
 ) -> Diagnostic:
-    """Warn of drones for which a picture has no room, and whose lights are off."""
+    """Return D062, a warning on drones that stay dark because the picture has no room."""
     dark, full = len(fleet.pads) - number, len(fleet.pads)
     message = f"{dark} of {full} drones find no room in the picture and stay dark, behind it"
     labels = (place_of(mission, picture), mission.origins.key(fleet.path, "the fleet"))
@@ -103,7 +103,7 @@ def too_dark(
 
 
 def apart(setting: SpacingTask) -> str:
-    """Say how far apart goals are, and why."""
+    """Return the distance of goals and its reason, in words."""
     upright = setting.least / setting.stretch
     far = f"{setting.least:.2f} m apart on a level and {upright:.2f} m one above the other"
     if setting.least < setting.straight:
@@ -125,7 +125,7 @@ def _ways(fleet: Fleet, ways: PictureRemedies, otherwise: str) -> str:
 
 
 def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | None:
-    """Warn of a fleet too small to show anything."""
+    """Return D057, a warning on a fleet too small to show a shape; None if it is large enough."""
     number = len(fleet.pads)
     if number >= FEWEST_DRONES:
         return None
@@ -141,11 +141,13 @@ def too_few(mission: MissionIR, fleet: Fleet, picture: Picture) -> Diagnostic | 
 def in_the_way(
     mission: MissionIR, fleet: Fleet, picture: Picture, frames: Sequence[Array], room: DisplaySurroundings
 ) -> list[Diagnostic]:
-    """Return one fault for each obstacle in which goals of a picture's frames are, and for the ground."""
+    """Return one fault for each obstacle that contains goals of a picture's frames, and one for
+    the ground.
+    """
     goals = np.concatenate(frames)
     if not (room.lack(goals) > ROUNDING_M).any():
         return []
-    # Where something stands between its goals, drones would have to come by it on their way.
+    # With an obstacle between its goals, drones would have to avoid it during their moves.
     shift = least_shift(_whole(goals), room)
     shift = least_shift(goals, room) if shift is None else shift
     help_ = "make the picture smaller, or place it elsewhere" if shift is None else _moved(picture, shift)
@@ -166,7 +168,7 @@ def in_the_way(
 
 
 def _whole(goals: Array) -> Array:
-    """Return goals (n, 3) with places between them: on the ways to the middle, and to neighbours."""
+    """Return goals (n, 3) with places between them: towards the middle, and between neighbours."""
     middle = goals.mean(axis=0)
     rays = [middle + share * (goals - middle) for share in BETWEEN]
     rows = [goals[np.lexsort((goals[:, (k + 1) % 3], goals[:, k]))] for k in range(3)]

@@ -1,4 +1,4 @@
-"""Flat pictures that stand upright: polygons that are filled, and lines."""
+"""Flat vertical pictures: filled polygons, and lines."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from shotc.show.geom.columns import (
 from shotc.show.goals.body import Fill, upright_axes
 
 COLUMNS_PER_POINT = 0.25
-"""Columns drawn for each point: most of them carry several, and thin strokes are hit often enough."""
+"""Columns drawn for each point: most columns carry several points, and thin strokes are hit often enough."""
 
 FINE_COLUMNS, MOST_POINTS = 2000, 200_000
-"""Columns, and points of each shape's edges and of all, by which it is told what is seen at a place."""
+"""Columns, and points of each shape's edges and of all edges, to determine the visible shape at a place."""
 UNPAINTED: Color = (255, 255, 255)
 
 
@@ -37,9 +37,10 @@ class FlatPart:
     """A part of a flat picture.
 
     edges : shape (E, 2, 2), from (right, up) to (right, up), metres from the picture's middle
-    filled : whether its inside is seen; parity : whether that is what an odd number of edges is round
-    width : of its lines, metres, which are drawn with the fills where it has no inside to be seen
-    color : in which it is painted, None where lights have none of it
+    filled : whether its inside is visible
+    parity : whether the inside follows the even-odd rule
+    width : of its lines, metres, which are drawn with the fills if it has no visible inside
+    color : its paint; None if a light cannot show it
     """
 
     edges: Array
@@ -51,14 +52,14 @@ class FlatPart:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FlatBody:
-    """Shapes in the upright plane that is seen by who looks along a heading; axes as in ``upright_axes``."""
+    """Shapes in a vertical plane, perpendicular to a heading; axes as in ``upright_axes``."""
 
     shapes: tuple[FlatPart, ...]
     centre: Array
     axes: Array
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return points of the filled areas, or of the edges."""
+        """Return points of the filled areas or of the edges, shape (count, 3); None if it has none."""
         lines = [s for s in self.shapes if fill == "outline" or not s.filled]
         edges = np.concatenate([s.edges for s in lines]) if lines else np.zeros((0, 2, 2))
         if fill == "outline":
@@ -73,11 +74,11 @@ class FlatBody:
         return self.standing(np.concatenate(parts)) if parts else None
 
     def encloses(self, place: Array) -> bool:
-        """Return no: it has no inside."""
+        """Return False, because it has no inside."""
         return False
 
     def colors(self, places: Array) -> Colors | None:
-        """Return the colours of the shapes that are seen at places, or of the nearest edges beside them."""
+        """Return the colours of the visible shapes at places, or of the nearest edges, shape (n, 3)."""
         if all(shape.color is None for shape in self.shapes):
             return None
         seen = _seen(self.shapes, self.flat(places))
@@ -90,7 +91,7 @@ class FlatBody:
 
     @property
     def stroke(self) -> float:
-        """Width that strokes of this area and these edges have, metres."""
+        """Width of strokes with this area and these edges, metres."""
         columns, inside = self._inside(FINE_COLUMNS, np.random.default_rng(0))
         return 2.0 * volume(columns, inside) / self.outlines
 
@@ -102,21 +103,25 @@ class FlatBody:
         return columns, united(found)
 
     def flat(self, places: Array) -> Array:
-        """Return how far right and up in the picture's plane places (n, 3) are, shape (n, 2)."""
+        """Return the (right, up) coordinates of places (n, 3) in the picture's plane, shape (n, 2)."""
         return np.asarray(((places - self.centre) @ self.axes.T)[:, [0, 2]])
 
     def standing(self, flat: Array) -> Array:
-        """Return the places in W of (right, up), shape (n, 2)."""
+        """Return the places in W of (right, up), (n, 2), shape (n, 3)."""
         return np.asarray(self.centre + flat[:, :1] * self.axes[0] + flat[:, 1:] * self.axes[2])
 
 
 def standing(shapes: Sequence[FlatPart], centre: Sequence[float], heading: float) -> FlatBody:
-    """Return shapes in their place; centre : p_W of their middle, heading : of who reads them, rad."""
+    """Return shapes at their place.
+
+    centre : of their middle, W, metres
+    heading : of the reader, rad
+    """
     return FlatBody(tuple(shapes), np.array(centre), upright_axes(heading))
 
 
 def closed(corners: Array) -> Array:
-    """Return the edges (E, 2, 2) of a closed polygon of corners (E, 2)."""
+    """Return the edges (E, 2, 2) of a closed polygon with corners (E, 2)."""
     return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
 
 
@@ -139,7 +144,7 @@ def _along(edges: Array, count: int, rng: np.random.Generator) -> Array:
 
 
 def _seen(shapes: Sequence[FlatPart], places: Array) -> Numbers:
-    """Return which shape is seen at places (n, 2): of the filled ones there the last, or else the nearest."""
+    """Return the visible shape at places (n, 2): the last filled one there, or else the nearest."""
     rng = np.random.default_rng(0)
     count = max(4, min(FINE_COLUMNS, MOST_POINTS // len(shapes)))
     points = np.concatenate([_along(s.edges, count, rng) for s in shapes])
@@ -152,7 +157,7 @@ def _seen(shapes: Sequence[FlatPart], places: Array) -> Numbers:
     for k, shape in enumerate(shapes):
         if shape.filled:
             inside = spans(through_edges(columns, shape.edges), shape.parity)
-            # Spans one above another, column after column, as one line on which every place has its own.
+            # The spans of all columns are laid on one line, with an interval for each column.
             ends = inside.column * tall + inside.low - low[1]
             below = np.searchsorted(ends, column * tall + places[:, 1] - low[1], side="right") - 1
             some = np.flatnonzero(below >= 0)

@@ -1,4 +1,4 @@
-"""A display that is a recorded flight: its formations as frames, and the flight itself."""
+"""A display that is a recorded flight: the flight, and samples of it as frames."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from shotc.show.recorded.tracks import UnreadableFlight, read_tracks
 
 
 class RecordedPicture(NamedTuple):
-    """A recorded flight with its frames, none where it cannot be flown, and what is to be said."""
+    """A recorded flight with its frames, empty if it cannot be flown, and diagnostics."""
 
     frames: tuple[Frame, ...]
     flight: Recorded | None
@@ -27,12 +27,12 @@ class RecordedPicture(NamedTuple):
 
 
 def is_recorded(display: Display) -> bool:
-    """Tell whether a display is a recorded flight."""
+    """Return whether a display is a recorded flight."""
     return isinstance(display.pictures[0].source, RecordedFlight)
 
 
 def flown(mission: MissionIR, fleet: Fleet, display: Display) -> RecordedPicture:
-    """Return the recorded flight of a display, or all that keeps it from being flown."""
+    """Return the recorded flight of a display, or its faults."""
     source = display.pictures[0].source
     assert isinstance(source, RecordedFlight)
     tracks = read_tracks(source.file, dict(mission.files)[source.file], mission.origin)

@@ -1,4 +1,4 @@
-"""Images read by Pillow, frame by frame, and made as small as a fleet can show."""
+"""Reads images with Pillow, frame by frame, reduced to the size that a fleet can show."""
 
 from __future__ import annotations
 
@@ -15,15 +15,18 @@ from PIL import Image, ImageSequence
 from shotc.kinds.files import FileFault
 
 PIXELS_PER_LIGHT = 4
-"""Pixels of a frame for every light: a light then shows the mean of what is about it."""
+"""Pixels of a frame for each light, so that a light shows the mean of its surroundings."""
 MOST_KEPT_PIXELS = 4_000_000
-"""Pixels of all frames of an image that a plan holds."""
+"""Most pixels of all frames of an image in a plan."""
 SLOW_S = 0.1
-"""Seconds of a frame of a GIF that says none: what browsers do."""
+"""Seconds of a GIF frame without a duration, as in browsers."""
 
 
 class ImageFrames(NamedTuple):
-    """The frames of an image as ``ir.light_layers.Footage`` has them; wide : of a pixel, over its height."""
+    """The frames of an image, as in ``ir.light_layers.Footage``.
+
+    wide : width of a pixel over its height
+    """
 
     rgba: str
     rows: int
@@ -33,7 +36,7 @@ class ImageFrames(NamedTuple):
 
 
 def read_frames(data: bytes, lights: int) -> ImageFrames | FileFault:
-    """Return the frames of an image for so many lights; ``kinds.image_file`` has looked at its size."""
+    """Return the frames of an image for a number of lights; ``kinds.image_file`` has checked its size."""
     frames: list[bytes] = []
     seconds: list[float] = []
     try:
@@ -52,15 +55,15 @@ def read_frames(data: bytes, lights: int) -> ImageFrames | FileFault:
 
 
 def _size(size: tuple[int, int], pixels: int) -> tuple[int, int]:
-    """Return columns and rows of an image with at most about so many pixels, of the same shape."""
+    """Return columns and rows of an image with at most about ``pixels`` pixels and the same shape."""
     share = min(1.0, sqrt(pixels / (size[0] * size[1])))
     return max(1, round(size[0] * share)), max(1, round(size[1] * share))
 
 
 def _reduced(image: Image.Image, size: tuple[int, int]) -> bytes:
-    """Return the bytes of an image made small: the mean of what each pixel covers, by how opaque it is."""
+    """Return the bytes of a reduced image: the mean over each pixel's area, weighted by opacity."""
     if image.size == size:
         return image.tobytes()
-    # Premultiplied, so that what is transparent lends no colour.
+    # With premultiplied alpha, transparent pixels contribute no colour.
     small = np.asarray(image.convert("RGBa").resize(size, Image.Resampling.BOX))
     return Image.fromarray(small, "RGBa").convert("RGBA").tobytes()

@@ -1,4 +1,4 @@
-"""The frames of a model source: every file in its place, all scaled and turned alike."""
+"""The frames of a model source: every file at its place, all with one scale and rotation."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from shotc.show.goals.model import mesh_body, open_edges
 from shotc.show.goals.model_file import ModelMesh, UnreadableModel, read_model
 
 LARGEST_M = 1000.0
-"""Extent of a picture, metres, beyond which its file is in another unit."""
+"""Largest extent of a picture, metres; a larger file must be in another unit."""
 UNITS = (("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254), ("ft", 0.3048))
 LIKELY_M = 20.0
-"""Extent that pictures tend to have, metres: of the units that make sense, the nearest to it is named."""
+"""Typical extent of pictures, metres; of the plausible units the one nearest to it is proposed."""
 LEAP_RATIO = 5.0
-"""Factor between the extents of one frame and the next beyond which they cannot be in one unit."""
+"""Largest factor between the extents of consecutive frames in one unit."""
 
 
 def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[PlacedShape] | SourceFault:
-    """Return the body of every frame in its place in W, or what is wrong with the first bad one."""
+    """Return the body of every frame at its place in W, or the fault of the first faulty one."""
     meshes: list[ModelMesh] = []
     for name in source.files:
         mesh = read_model(name, files[name], source.up)
@@ -45,7 +45,7 @@ def model_bodies(source: Model, files: Mapping[str, bytes], fill: Fill) -> list[
 
 
 class _Place:
-    """From a file's coordinates to W: about the middle of the first frame's bounding box."""
+    """Maps a file's coordinates to W, about the middle of the first frame's bounding box."""
 
     def __init__(self, source: Model, first: Array) -> None:
         low, high = first.min(axis=0), first.max(axis=0)

@@ -1,4 +1,4 @@
-"""Flat pictures in layers: their goals, and what a seat beside the middle of the audience sees of them."""
+"""Goals of flat pictures in layers, and their appearance from a seat beside the middle of the audience."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from shotc.show.goals.spaced import Draw, SpacingTask
 POINTS_PER_PLACE = 20
 """Points of the picture for each place of its layers."""
 ASIDE_M, AWAY_M = 20.0, 100.0
-"""How far off the axis a seat is of which it is told, and how far away it is without a viewpoint, metres."""
+"""Metres off the axis of a reported seat, and its distance without a viewpoint."""
 
 
 def in_layers(body: FlatBody, setting: SpacingTask, draw: Draw, count: int) -> Lit:
-    """Return goals in so many layers, as many as find room there, the others dark behind the last of them.
+    """Return goals in ``count`` layers, as many as fit, with the other drones dark behind the last layer.
 
-    Dark ones are left out where more than ``MOST_DARK_SHARE`` have no room, or have none behind either.
+    Dark drones are left out if more than ``MOST_DARK_SHARE`` do not fit, or if there is no room behind.
     """
     layers = layers_of(count, setting.upright)
     scale = np.array([1.0, setting.stretch])
@@ -36,7 +36,7 @@ def in_layers(body: FlatBody, setting: SpacingTask, draw: Draw, count: int) -> L
         tree = cKDTree(body.flat(draw(max(LEAST_FLAT_POINTS, number))) * scale)
         return Mould(tree, SLACK_SHARES[0] * layers.seen * setting.least + grain(tree), setting.upright)
 
-    # Points as dense as the places can be, however many drones there are.
+    # The density of points follows that of the places, whatever the number of drones.
     first, _ = widest_layers(mould(0), layers, 2**31, setting.least)
     places, layer = widest_layers(mould(POINTS_PER_PLACE * len(first)), layers, setting.number, setting.least)
     back = (layer - 0.5 * (count - 1)) * layers.depth * setting.least
@@ -52,7 +52,9 @@ def in_layers(body: FlatBody, setting: SpacingTask, draw: Draw, count: int) -> L
 def layer_stats(
     name: str, picture: Picture, body: FlatBody, setting: SpacingTask
 ) -> list[tuple[str, float | str]]:
-    """Return how deep a picture is, how near its lights look, and what a seat off the axis sees, metres."""
+    """Return the depth of a picture, the apparent distance of its lights, and the shift from a seat off the
+    axis.
+    """
     layers: Layers = layers_of(picture.layers, setting.upright)
     deep = (picture.layers - 1) * layers.depth * setting.least
     away = AWAY_M if setting.viewpoint is None else float(np.linalg.norm(body.centre - setting.viewpoint))
@@ -65,12 +67,12 @@ def layer_stats(
 
 
 def filled_in_layers(fill: Fill | Literal["legible"]) -> Fill:
-    """Return what layers fill: the inside of strokes, where nothing else is asked for."""
+    """Return the fill of layers: the inside of strokes by default."""
     return "volume" if fill == "legible" else fill
 
 
 def seen_spacing(picture: Picture, setting: SpacingTask) -> float:
-    """Return how near lights of a picture may look, in the metric of the fleet, metres."""
+    """Return the apparent distance of a picture's lights, in the metric of the fleet, metres."""
     if picture.layers == 1:
         return setting.least
     return setting.least * layers_of(picture.layers, setting.upright).seen

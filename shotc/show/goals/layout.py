@@ -1,4 +1,6 @@
-"""Goals of all frames of a picture: placed, then apart; of a text without a `fill` where it reads best."""
+"""Goals of all frames of a picture: placed, then pushed apart; a text without `fill` in its most legible
+form.
+"""
 
 from __future__ import annotations
 
@@ -42,18 +44,21 @@ DENSE, THIN = 40, 20
 """Points a goal: of few goals, and of more than ``MANY_DRONES``, where the tessellation costs most."""
 MANY_DRONES = 2000
 LEAST_POINTS = 2000
-"""Points of any picture that is not flat."""
+"""Least points of a picture that is not flat."""
 FEWER_RATIO = 1.06
-"""Factor from one number of lights that is tried to the next."""
+"""Factor between consecutive tried numbers of lights."""
 CROWDED_SHARE = 0.58
-"""Share of the places of a lattice in a solid beyond which the centroids of a large fleet do not part."""
+"""Share of a lattice's places in a solid, above which centroids of a large fleet cannot be pushed apart."""
 AS_MANY_SHARE = 0.9
-"""Share of the lights that the inside of a text holds with which its outline reads better."""
+"""Least lights of an outline, over those of a text's inside, for which the outline is more legible."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PictureTask:
-    """One picture of a display to be drawn; seed : of its points, the same for all its frames."""
+    """One picture of a display to be drawn.
+
+    seed : of its points, the same for all its frames
+    """
 
     mission: MissionIR
     fleet: Fleet
@@ -69,9 +74,10 @@ class PictureTask:
 
 
 class GoalLayout(NamedTuple):
-    """Goals of all frames as placed, and as spaced: None from the first frame on that they do not fit.
+    """Goals of all frames as placed and as spaced; the latter are None from the first frame that does not
+    fit.
 
-    setting : how far apart they are
+    setting : the required distances
     """
 
     fill: Fill
@@ -81,31 +87,32 @@ class GoalLayout(NamedTuple):
 
     @property
     def lattice(self) -> bool:
-        """Tell whether the goals had to be put in a lattice."""
+        """Return whether the goals are in a lattice."""
         return any(frame is not None and frame.lattice for frame in self.spaced)
 
     @property
     def flown(self) -> bool:
-        """Tell whether every drone has a place in every frame."""
+        """Return whether every drone has a place in every frame."""
         return all(f is not None and len(f.points) == self.setting.number for f in self.spaced)
 
     @property
     def held(self) -> int:
-        """Return how many lights there is room for in the worst frame, as far as that is known, or else 0."""
+        """Return the number of lights that fit into the worst frame, 0 if it is unknown."""
         return min(0 if frame is None else frame.number for frame in self.spaced)
 
     @property
     def bright(self) -> int:
-        """Return how many lights show the picture, 0 where it cannot be flown."""
+        """Return the number of lights that show the picture, 0 if it cannot be flown."""
         return self.held if self.flown else 0
 
 
 def laid_out(
     task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape]
 ) -> GoalLayout | Diagnostic:
-    """Return the goals of all frames: so far apart that all moves are straight, if all find room so.
+    """Return the goals of all frames, far enough apart for straight moves if all drones fit then.
 
-    Else as near as the separation allows, if that is flown on arcs; drones that find no room then stay dark.
+    Otherwise they are as near as the separation allows, if the moves are on arcs. Drones that do not fit stay
+    dark.
     """
     layouts = _Layouts(task, bodies)
     if flown_straight(task, bodies):
@@ -117,21 +124,21 @@ def laid_out(
 
 
 def flown_straight(task: PictureTask, bodies: Sequence[PlacedShape]) -> bool:
-    """Tell whether a picture is an animation, or drones come to it or go from it on straight ways alone."""
+    """Return whether a picture is an animation, or has only straight moves to it or from it."""
     next_ones = task.display.pictures[task.index : task.index + 2]
     straight = (p.transition_path == "straight" or p.wave is not None for p in next_ones)
     return len(bodies) > 1 or any(straight)
 
 
 class _Layouts:
-    """Lays out one picture. Its centroids are found once, however far apart they are to be."""
+    """Lays out one picture; its centroids are computed once for all distances."""
 
     def __init__(self, task: PictureTask, bodies: Sequence[PlacedShape]) -> None:
         self.task, self.bodies = task, bodies
         self._known: dict[tuple[Fill, int], list[PlacedGoals] | Diagnostic] = {}
 
     def legible(self, setting: SpacingTask, *, dark: bool) -> GoalLayout | Diagnostic:
-        """Return the goals of all frames; of a text without a ``fill`` where it reads best."""
+        """Return the goals of all frames; a text without ``fill`` in its most legible form."""
         fill = self.task.picture.fill
         if self.task.picture.layers > 1:
             return self._layered(setting, filled_in_layers(fill))
@@ -144,7 +151,7 @@ class _Layouts:
             return inside
         if isinstance(inside, Diagnostic) or setting.number < lights_needed(source, flat, "outline"):
             return inside
-        # Where all find room inside, an outline is taken only if they do there, too.
+        # If all drones fit inside, an outline is taken only if all fit there as well.
         outline = self._filled(setting, "outline", dark=dark and inside.bright < setting.number)
         if isinstance(outline, Diagnostic):
             return inside
@@ -152,8 +159,8 @@ class _Layouts:
         return inside if few and outline.bright < setting.number else outline
 
     def _filled(self, setting: SpacingTask, fill: Fill, *, dark: bool) -> GoalLayout | Diagnostic:
-        """Return goals that all find room; or if others may stay dark, as many as do, in a lattice if
-        need be.
+        """Return goals for all drones, or, if others may stay dark, for as many as fit, in a lattice if
+        necessary.
         """
         flat = self.bodies[0]
         if setting.number > TRIED_DRONES and isinstance(flat, FlatBody):
@@ -182,8 +189,8 @@ class _Layouts:
     def _crowded_strokes(
         self, setting: SpacingTask, fill: Fill, body: FlatBody, *, dark: bool
     ) -> GoalLayout | Diagnostic | None:
-        """Return how a flat picture shows a large fleet that has too little room to be spread evenly, if
-        so.
+        """Return the layout of a flat picture with too little room for uniform spacing of a large fleet; None
+        if there is enough.
         """
         points = body.draw(fill, LEAST_FLAT_POINTS, np.random.default_rng(list(self.task.seed)))
         wrong = _wrong(self.task, setting, body, points)
@@ -199,7 +206,7 @@ class _Layouts:
         return GoalLayout(fill, (goals,), (shown,), setting)
 
     def _layered(self, setting: SpacingTask, fill: Fill) -> GoalLayout | Diagnostic:
-        """Return a flat picture in layers, one behind the other."""
+        """Return a flat picture in layers, one behind another."""
         (body,) = self.bodies
         assert isinstance(body, FlatBody)
         points = body.draw(fill, LEAST_FLAT_POINTS, np.random.default_rng(list(self.task.seed)))
@@ -213,7 +220,7 @@ class _Layouts:
     def _apart(
         self, setting: SpacingTask, what: tuple[Fill, Sequence[PlacedGoals]], *, dark: bool
     ) -> GoalLayout:
-        """Return the goals of all frames moved apart, up to the first frame in which they do not fit."""
+        """Return the goals of all frames pushed apart, up to the first frame that does not fit."""
         fill, goals = what
         apart: list[Lit | None] = []
         for body, frame in zip(self.bodies, goals, strict=True):
@@ -228,15 +235,15 @@ class _Layouts:
         return GoalLayout(fill, tuple(goals), tuple(apart), setting)
 
     def _is_solid(self, fill: Fill) -> bool:
-        """Tell whether there is an inside to lay a lattice in."""
+        """Return whether there is an inside for a lattice."""
         return fill == "volume" and len(self.bodies) == 1 and isinstance(self.bodies[0], SolidBody | MeshBody)
 
     def _crowded(self, setting: SpacingTask, fill: Fill) -> bool:
-        """Tell whether centroids of a large fleet would hardly part: a solid has not enough room for them."""
+        """Return whether a solid has too little room to push the centroids of a large fleet apart."""
         return setting.number > CROWDED_SHARE * places_held(setting, self.points(setting, fill), 1.0)
 
     def points(self, setting: SpacingTask, fill: Fill) -> Array:
-        """Return points of a solid, as dense as its goals can be."""
+        """Return points of a solid, as dense as its goals can be, shape (M, 3)."""
         return drawn(setting, self._draw(fill), 3)
 
     def _lattice(self, setting: SpacingTask, fill: Fill) -> GoalLayout:
@@ -248,7 +255,7 @@ class _Layouts:
         return layout._replace(placed=(goals,))
 
     def _one(self, setting: SpacingTask, fill: Fill, found: Array, *, lattice: bool) -> GoalLayout:
-        """Return the layout of a single frame whose goals are found, other drones dark behind them."""
+        """Return the layout of a single frame with given goals, and the other drones dark behind them."""
         points = self._draw(fill)(LEAST_POINTS)
         goals = PlacedGoals(found, found, points)
         shown = Lit(found, len(found), lattice)
@@ -257,7 +264,7 @@ class _Layouts:
         return GoalLayout(fill, (goals,), (frame,), setting)
 
     def _fewer(self, setting: SpacingTask, what: tuple[Fill, Sequence[PlacedGoals]]) -> GoalLayout | None:
-        """Return the frames of as many drones as find room in every one, the others dark behind, or None."""
+        """Return the frames with as many drones as fit into every one, the others dark behind, or None."""
         fill, goals = what
         power = 3 if fill == "volume" else 2
         number = min(setting.number - 1, *(held_of(setting, frame, power) for frame in goals))
@@ -272,17 +279,17 @@ class _Layouts:
         return None
 
     def _draw(self, fill: Fill) -> Draw:
-        """Return how points of the first frame are drawn, about so many."""
+        """Return the function that draws about a number of points of the first frame."""
 
         def points(count: int) -> Array:
             found = self.bodies[0].draw(fill, count, np.random.default_rng(list(self.task.seed)))
-            assert found is not None  # it has been drawn before
+            assert found is not None  # it was drawn before
             return found
 
         return points
 
     def _goals(self, setting: SpacingTask, fill: Fill) -> list[PlacedGoals] | Diagnostic:
-        """Return the goals of all frames, not apart yet, or what keeps them from being placed."""
+        """Return the goals of all frames before they are pushed apart, or a fault."""
         key = (fill, setting.number)
         if key not in self._known:
             self._known[key] = _placed(self.task, setting, self.bodies, fill)
@@ -290,7 +297,7 @@ class _Layouts:
 
 
 def growth(task: PictureTask, bodies: Sequence[PlacedShape], layout: GoalLayout) -> float:
-    """Return how many times as large a picture should show all drones, of which it holds some."""
+    """Return the factor by which a picture should grow to show all drones."""
     setting, body, number = layout.setting, bodies[0], layout.setting.number
     known = max(1, layout.held)
     if isinstance(body, FlatBody):
@@ -308,7 +315,7 @@ def growth(task: PictureTask, bodies: Sequence[PlacedShape], layout: GoalLayout)
 
 
 def _with_dark(frame: Lit, setting: SpacingTask) -> Lit | None:
-    """Return the goals of a frame with places for all other drones, or None where there is no room."""
+    """Return the goals of a frame with places for all other drones; None if there is no room."""
     if frame.number == setting.number:
         return frame
     behind = dark_places(frame.points, setting.number - frame.number, setting)
@@ -338,7 +345,7 @@ def _placed(
 def _wrong(
     task: PictureTask, setting: SpacingTask, body: PlacedShape, points: Array | None
 ) -> Diagnostic | None:
-    """Return what keeps a body from being drawn: it has no such points, or the audience is in it."""
+    """Return the fault of a body that has no points, or that contains the audience; None if there is none."""
     if points is None:
         return no_points(task.mission, task.picture)
     if setting.viewpoint is not None and _within(setting.viewpoint, body, points):
@@ -347,6 +354,6 @@ def _wrong(
 
 
 def _within(viewpoint: Array, body: PlacedShape, points: Array) -> bool:
-    # A hollow shape does not enclose its middle, but from there no way of looking is the right one.
+    # A hollow shape does not enclose its middle, but from there no viewing direction is correct.
     off = float(np.linalg.norm(points.mean(axis=0) - viewpoint))
     return body.encloses(viewpoint) or off < 0.05 * float(np.ptp(points, axis=0).max())

@@ -1,4 +1,4 @@
-"""Texts as outlines of their letters, by FreeType as matplotlib brings it."""
+"""Texts as outlines of their letters, by matplotlib's FreeType."""
 
 from __future__ import annotations
 
@@ -16,13 +16,15 @@ from shotc.show.goals.flat import FlatBody, FlatPart, closed, standing
 from shotc.spec.words import closest
 
 OUTLINE_PX = 200.0
-"""Size at which letters are outlined: curves become lines of a pixel or so, less than a hundredth of them."""
+"""Size at which letters are outlined; curves become lines of about a pixel, which is below a hundredth of
+them.
+"""
 
 
 def lettering_body(source: Lettering, files: Mapping[str, bytes]) -> FlatBody | SourceFault:
-    """Return a text as a flat picture about the middle of its bounding box, or what is wrong with its font.
+    """Return a text as a flat picture about the middle of its bounding box, or a fault of its font.
 
-    files : bytes of the mission's files by name; a font that is none of them is one of the system's
+    files : bytes of the mission's files by name; any other font is one of the system's
     """
     font = _font(source.font, files)
     if isinstance(font, SourceFault):
@@ -87,7 +89,7 @@ def _sized(font: Any) -> Any:
 
 
 def _outlined(font: Any, text: str) -> list[Array]:
-    """Return the closed polygons of a line of text, kerned, in pixels."""
+    """Return the closed polygons of a line of text with kerning, in pixels."""
     from matplotlib.ft2font import Kerning, LoadFlags
     from matplotlib.path import Path as Curve
 
@@ -109,7 +111,7 @@ def _outlined(font: Any, text: str) -> list[Array]:
 
 
 def _capital(font: Any, corners: Array) -> float:
-    """Return the height of a capital; of a font without, that of the text."""
+    """Return the height of a capital, or that of the text if the font has none."""
     if font.get_char_index(ord("H")):
         capital = _outlined(font, "H")
         if capital:

@@ -1,4 +1,4 @@
-"""When letters are read: how many lights that takes, how high they have to be, and when as an outline."""
+"""Legibility of letters: how many lights they need, how high they must be, and when an outline is better."""
 
 from __future__ import annotations
 
@@ -15,17 +15,20 @@ from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.spaced import SpacingTask
 
 LETTER_LIGHTS = 5
-"""Lights in the height of a letter, fewer of which make none: the smallest fonts have five."""
+"""Least lights in the height of a letter, as in the smallest pixel fonts."""
 SMALL_LETTER_RATIO = 0.7
-"""Height of small letters, in capitals, of most fonts."""
+"""Height of small letters over that of capitals in most fonts."""
 RESOLVED_RATIO = 1.5
-"""Distance of lights on an outline, in widths of its strokes, at which both sides of a stroke are seen."""
+"""Distance of lights on an outline, in widths of its strokes, at which both sides of a stroke are
+distinct.
+"""
 
 
 def lights_needed(source: Lettering, body: FlatBody, fill: Fill) -> int:
-    """Return how many lights a text takes: as far apart along its strokes as in a letter of five.
+    """Return the number of lights that a text needs: spaced along its strokes as in a letter five lights
+    high.
 
-    Along an outline they are nearer where it takes that to show both sides of a stroke.
+    On an outline the lights are nearer, if both sides of a stroke would not be distinct otherwise.
     """
     return ceil(_strokes(body, fill) / _step(source, body, fill))
 
@@ -33,7 +36,10 @@ def lights_needed(source: Lettering, body: FlatBody, fill: Fill) -> int:
 def too_few_lights(
     mission: MissionIR, picture: Picture, strokes: tuple[FlatBody, Fill], numbers: tuple[int, int | None]
 ) -> Diagnostic:
-    """Warn of a fleet that is too small for a text; numbers : of drones, and of those that do, if any do."""
+    """Return D057, a warning on a fleet too small for a text.
+
+    numbers : of drones, and a sufficient number, if there is one
+    """
     source, (body, fill), (number, enough) = picture.source, strokes, numbers
     assert isinstance(source, Lettering)
     length = _strokes(body, fill)
@@ -56,9 +62,10 @@ def too_few_lights(
 def too_small(
     mission: MissionIR, fleet: Fleet, picture: Picture, seen: float, setting: SpacingTask
 ) -> Diagnostic | None:
-    """Warn of letters so low that lights of a stroke are as near to the next one as to each other.
+    """Return D063, a warning on letters so low that lights within a stroke and between strokes are equally
+    near.
 
-    seen : how near lights may look, in the metric of the fleet, metres
+    seen : apparent distance of lights, in the metric of the fleet, metres
     """
     source = picture.source
     if not isinstance(source, Lettering):
@@ -81,7 +88,7 @@ def too_small(
 
 
 def _step(source: Lettering, body: FlatBody, fill: Fill) -> float:
-    """Return how far apart lights may be along what they stand on, metres."""
+    """Return the largest distance of lights along strokes or edges, metres."""
     step = source.height / (LETTER_LIGHTS - 1)
     return min(step, RESOLVED_RATIO * body.stroke) if fill == "outline" else step
 

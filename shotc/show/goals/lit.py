@@ -1,4 +1,4 @@
-"""Goals of flat pictures: on their strokes and apart; those for which there is no room dark, behind them."""
+"""Goals of flat pictures: on their strokes and apart; those that do not fit are dark, behind the picture."""
 
 from __future__ import annotations
 
@@ -22,27 +22,33 @@ from shotc.show.goals.flat import FlatBody
 from shotc.show.goals.spaced import TRIED_DRONES, Draw, PlacedGoals, SpacingTask, evenly
 
 LEAST_FLAT_POINTS = 10_000
-"""Points of any flat picture, where a light beside a stroke is seen."""
+"""Least points of a flat picture, in which a light beside a stroke is visible."""
 SLACK_SHARES = (0.1, 0.2)
-"""Shares of the spacing by which a light may be off its stroke. The second, at which letters look uneven,
-is for where it gives all lights room."""
+"""Distances of a light from its stroke over the spacing. The second, with which letters look uneven, is used
+only if all lights fit with it.
+"""
 CROWDED_SHARE = 0.8
-"""Share of the lights that strokes could hold at most beyond which those of a large fleet do not part."""
+"""Share of the lights that strokes can hold at most, above which those of a large fleet cannot be pushed
+apart.
+"""
 WORTH_SHARE = 0.8
-"""Share of the lights that strokes could hold at most with which a lattice of a large fleet is taken at
-once."""
+"""Share of the lights that strokes can hold at most, with which a lattice of a large fleet is
+taken at once.
+"""
 SPARE_RATIO = 1.1
-"""Lights with which thinning begins, for each that strokes of their area and length could hold at most."""
+"""Lights at the start of thinning, over those that strokes of their area and length can hold at most."""
 ONE_IN = 20
-"""One in so many lights more has a lattice to hold to be taken: it looks regular, and strokes do not."""
+"""A lattice is taken if it holds at least one more in so many lights, because it looks regular and strokes do
+not.
+"""
 DENSE_POINTS = 20
-"""Points a light of what is drawn to find how many lights strokes hold."""
+"""Points for each light, to determine how many lights strokes hold."""
 
 
 class Lit(NamedTuple):
-    """Goals of a frame, shape (n, 3): the first ``number`` show it, the others are dark, behind it.
+    """Goals of a frame, shape (n, 3): the first ``number`` show it, the others are dark behind it.
 
-    lattice : whether those are in a lattice
+    lattice : whether the former are in a lattice
     """
 
     points: Array
@@ -61,7 +67,7 @@ def on_strokes(body: FlatBody, fill: Fill, goals: PlacedGoals, setting: SpacingT
 
 
 def all_lit(strokes: Strokes) -> Lit | None:
-    """Return goals apart on the picture's strokes, or None where they do not hold all."""
+    """Return goals apart on the picture's strokes; None if not all fit."""
     if strokes.crowded:
         return None
     tries = (strokes.all_of(strokes.setting.number, slack) for slack in SLACK_SHARES)
@@ -70,9 +76,9 @@ def all_lit(strokes: Strokes) -> Lit | None:
 
 
 def lit(strokes: Strokes) -> Lit:
-    """Return goals apart on the picture's strokes, as many as find room there, the others behind it.
+    """Return goals apart on the picture's strokes, as many as fit, and the others behind it.
 
-    Those are left out where more than ``MOST_DARK_SHARE`` have no room, or have none behind either.
+    Dark drones are left out if more than ``MOST_DARK_SHARE`` do not fit, or if there is no room behind.
     """
     found = all_lit(strokes) or strokes.in_lattice()
     if found is not None:

@@ -172,14 +172,14 @@ def _sky(canvas: Canvas, box: PageRectangle, what: tuple[Board, float], how: tup
 
 
 def _depth(board: Board, moment: SheetFrame, seen: Audience) -> float:
-    """Return the width of the audience's frame at the middle of a picture, metres."""
+    """Return the width of the audience's frame at the distance of a picture, metres."""
     middle = np.array(_middle(board.flight, moment.time)) - np.array(seen.eye)
     view = seen.view(ASPECT)
     return float(2.0 * view.half_width * max(view.to_camera((middle[0], middle[1], middle[2]))[2], 1.0))
 
 
 def _scale(canvas: Canvas, box: PageRectangle, metres: float) -> None:
-    """Draw a length as it looks at the picture's distance."""
+    """Draw a scale bar at the picture's distance."""
     length = round_length(0.22 * metres)
     width = length / metres * box.width
     right, y = box.right - 0.1, box.y + 0.1

@@ -1,4 +1,4 @@
-"""Where each picture of a display stands on the map: an outline in its own colour, with its number."""
+"""The pictures of a display on the map: an outline in its own colour for each, with its number."""
 
 from __future__ import annotations
 
@@ -23,28 +23,28 @@ NUMBER_IN = 0.095
 """Radius of a picture's number, inches."""
 
 BODY_IN = 0.03
-"""How far an outline is from the lights, so that flat pictures have one, too, inches."""
+"""Distance of an outline from the lights, inches, so that flat pictures have an outline, too."""
 
 FINE_IN = 0.04
-"""Between two points of an outline, inches."""
+"""Distance of points on an outline, inches."""
 
 APART_IN = 0.25
-"""Distance from all other outlines beyond which a place on an outline is as good as any, inches."""
+"""Distance from all other outlines, above which all places on an outline are equally good, inches."""
 
 FACE_SHARE = 0.28
-"""How much of its colour the insides of all outlines have together, of 1."""
+"""Sum of the opacities of all outlines' insides."""
 
 CELL_IN = 0.12
-"""Width of the squares of which an outline's inside is made, inches."""
+"""Width of the squares that represent an outline's inside, inches."""
 
 
 def color_of(index: int) -> Rgb:
-    """Return the colour of a display's picture, by its place on the sheet."""
+    """Return the colour of a display's picture by its index on the sheet."""
     return PICTURES[index % len(PICTURES)]
 
 
 def number(canvas: Canvas, at: tuple[float, float], index: int) -> None:
-    """Draw the number of a picture, by its place on the sheet, on a disc of its colour."""
+    """Draw the number of a picture on a disc of its colour."""
     canvas.disc(at, NUMBER_IN, color_of(index), WHITE, 0.8)
     canvas.text(*at, str(index + 1), Type(7.5, WHITE, True, "center", "center_baseline"))
 
@@ -66,13 +66,15 @@ def outlines(board: Board, sheet: Sheet) -> list[Array]:
 def draw_stands(
     canvas: Canvas, sheet: Sheet, shapes: Sequence[Array], taken: Sequence[PageRectangle]
 ) -> list[PageRectangle]:
-    """Draw outlines and their numbers beside them; return the room that numbers and their lines take.
+    """Draw outlines with their numbers beside them; return the rectangles of the numbers.
 
-    taken : where no number may stand; it stands outside all outlines where there is room
+    A number is outside all outlines if there is room.
+
+    taken : rectangles that numbers must not overlap
     """
     for k, shape in enumerate(shapes):
         canvas.polygons([shape], (*color_of(k), FACE_SHARE / max(len(shapes), 4)), clip=sheet.box)
-    # The longest first: what coincides with a part of it stays to be seen.
+    # The longest outline is drawn first, so that coinciding parts of others stay visible.
     closed = [np.concatenate([shape, shape[:1]]) for shape in shapes]
     for k in sorted(range(len(shapes)), key=lambda k: -_length(closed[k])):
         canvas.lines([closed[k]], color_of(k), 1.3, sheet.box)
@@ -94,7 +96,9 @@ def draw_stands(
 
 
 def anchors(shapes: Sequence[Array]) -> list[Array]:
-    """Return the place on each outline to which its number leads: where no other is near, or all round."""
+    """Return the place on each outline to which its number leads: far from other outlines, else spread
+    around.
+    """
     edges = [_fine(shape) for shape in shapes]
     found = []
     middle = np.concatenate(edges).mean(axis=0)
@@ -109,7 +113,7 @@ def anchors(shapes: Sequence[Array]) -> list[Array]:
 
 
 def _fine(shape: Array) -> Array:
-    """Return points along a closed outline, ``FINE_IN`` apart."""
+    """Return points along a closed outline, ``FINE_IN`` apart, shape (M, 2)."""
     parts = []
     for start, end in zip(shape, np.roll(shape, -1, axis=0), strict=True):
         count = max(1, int(np.linalg.norm(end - start) / FINE_IN))
@@ -122,7 +126,7 @@ def _length(line: Array) -> float:
 
 
 def _inside(shape: Array) -> Array:
-    """Return points in a convex outline, counter-clockwise, ``CELL_IN`` apart along both axes."""
+    """Return points inside a convex, counter-clockwise outline, ``CELL_IN`` apart along both axes, (M, 2)."""
     low, high = shape.min(axis=0), shape.max(axis=0)
     x, y = (np.arange(low[i] + CELL_IN / 2, high[i], CELL_IN) for i in (0, 1))
     at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
@@ -130,7 +134,7 @@ def _inside(shape: Array) -> Array:
 
 
 def _squares(points: Sequence[Array], width: float) -> list[PageRectangle]:
-    """Return the squares of a grid on the page in which points are, each once."""
+    """Return the grid squares of the page that contain points, once each."""
     cells = np.unique(np.round(np.concatenate(points) / width), axis=0)
     return [_square(at * width, width / 2) for at in cells]
 

@@ -1,4 +1,4 @@
-"""<mission>.skyc: the show of all fleets as Skybrush reads it."""
+"""<mission>.skyc: the show of all fleets in the format of Skybrush."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from shotc.show.emit.skyc.song import song_of
 
 @dataclass(frozen=True, slots=True)
 class SkycEmitter:
-    """Writes one show file of all fleets; the same plan gives the same bytes."""
+    """Writes one show file for all fleets; the same plan gives the same bytes."""
 
     name: ClassVar[str] = "skyc"
     summary: ClassVar[str] = "<mission>.skyc: the flights and lights of fleets, for Skybrush"
     api: ClassVar[int] = 1
 
     def emit(self, plan: VerifiedIR) -> Emission:
-        """Return the show file; nothing where no fleet flies, or more drones than a file may have."""
+        """Return the show file; no file without fleets, or with too many drones."""
         mission = plan.trajectory.keyframes.mission
         count = sum(len(flight.coef) for flight in plan.trajectory.fleets)
         if count == 0:

@@ -1,6 +1,6 @@
-"""The file itself: a ZIP archive with ``show.json`` in its root and the song beside it; what it leaves out.
+"""The file: a ZIP archive with ``show.json`` in its root and the song beside it; and diagnostics.
 
-The same show has the same bytes.
+The same show gives the same bytes.
 """
 
 from __future__ import annotations
@@ -17,7 +17,10 @@ from shotc.show.emit.skyc.show import MOST_DRONES
 
 
 def archive(content: Mapping[str, object], assets: Mapping[str, bytes]) -> bytes:
-    """Return the archive of a show; assets : the files that ``content`` refers to, by name."""
+    """Return the archive of a show.
+
+    assets : files that ``content`` refers to, by name
+    """
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     stream = BytesIO()
     with ZipFile(stream, "w") as zipped:
@@ -28,7 +31,7 @@ def archive(content: Mapping[str, object], assets: Mapping[str, bytes]) -> bytes
 
 
 def no_origin(mission: MissionIR) -> Diagnostic:
-    """Say that the show has no place on the globe."""
+    """Return the warning that the show has no origin."""
     return Diagnostic(
         "E111",
         "the show file has no place on the globe: the mission has no world.origin",
@@ -39,7 +42,7 @@ def no_origin(mission: MissionIR) -> Diagnostic:
 
 
 def too_large(mission: MissionIR, count: int) -> Diagnostic:
-    """Say that no show file is written."""
+    """Return the warning that no show file is written, because there are too many drones."""
     return Diagnostic(
         "E112",
         f"the show file is skipped: {count} drones are more than the {MOST_DRONES} that one may have",
@@ -50,7 +53,7 @@ def too_large(mission: MissionIR, count: int) -> Diagnostic:
 
 
 def left_out(mission: MissionIR, zone: Zone) -> Diagnostic:
-    """Say that a zone is not part of the show's geofence."""
+    """Return the warning that a zone is not in the show's geofence."""
     return Diagnostic(
         "E113",
         f"the geofence of the show leaves out zone {zone.name}: the fleet's ground track leaves it",

@@ -1,7 +1,8 @@
-"""A fleet's splines as the key points of a show file: fewer, at whole milliseconds, and next to exact.
+"""Converts a fleet's splines to the key points of a show file: fewer points, at whole milliseconds, with a
+bounded error.
 
-A piece between two key points is the cubic that has the spline's place and velocity at both. Over pieces
-of the spline it differs from them by a cubic whose control points bound how far it is off at any time.
+A piece between two key points is the cubic with the spline's position and velocity at both. Its difference
+from each piece of the spline is a cubic, whose control points bound the error at every time.
 """
 
 from __future__ import annotations
@@ -16,24 +17,25 @@ from shotc.geom.fleet_spline import places
 from shotc.ir.fleet import FleetTrajectory
 
 TOLERANCE_M = 5e-4
-"""How far key points may be off for there to be fewer of them, metres."""
+"""Largest error by which key points are saved, metres."""
 
 COORDINATE_DECIMALS = 4
-"""Of coordinates, metres: a tenth of a millimetre."""
+"""Decimals of coordinates in metres: a tenth of a millimetre."""
 
 LONGEST_PIECES = 32
-"""Pieces of a spline that one of a file may stand for, which bounds the work of trying."""
+"""Most pieces of a spline for one piece of the file, which bounds the search."""
 
 MOVES_M = 1e-6
-"""How far a drone that stands is from where it stood, at most, metres."""
+"""Largest distance from its place of a drone that counts as standing, metres."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Curves:
-    """A fleet's motion from the first instant it moves to the last.
+    """A fleet's motion from the first motion to the last.
 
-    millis : shape (K,), of mission time; control : shape (n, K - 1, 4, 3), Bernstein control points in metres
-    error : how far it is from the fleet's splines, at most, metres, rounding included
+    millis : mission times, shape (K,)
+    control : Bernstein control points, shape (n, K - 1, 4, 3), metres
+    error : bound of the distance from the fleet's splines, metres, rounding included
     """
 
     millis: NDArray[np.int64]
@@ -42,9 +44,9 @@ class Curves:
 
 
 def curves(flight: FleetTrajectory) -> Curves:
-    """Return the key points of a fleet's flight, at times that all of its drones share.
+    """Return the key points of a fleet's flight, at common times of all its drones.
 
-    The fleet moves by one clock: where one drone's curve needs a point, so do nearly all others'.
+    The fleet moves on one clock, so nearly all drones need key points at the same times.
     """
     millis = np.unique(np.round(flight.breaks * 1e3).astype(np.int64))
     times = millis / 1e3
@@ -62,7 +64,7 @@ def curves(flight: FleetTrajectory) -> Curves:
 
 
 def _moving(at: Array) -> tuple[int, int]:
-    """Return the last break before anything has moved and the first one after which nothing does."""
+    """Return the last break before the first motion, and the first break after the last motion."""
     away = np.linalg.norm(at - at[:, :1], axis=-1).max(axis=0) > MOVES_M
     back = np.linalg.norm(at - at[:, -1:], axis=-1).max(axis=0) > MOVES_M
     if not away.any():
@@ -71,7 +73,9 @@ def _moving(at: Array) -> tuple[int, int]:
 
 
 def _thinned(times: Array, at: Array, rate: Array, span: tuple[int, int]) -> tuple[list[int], float]:
-    """Return the breaks that are kept, each as far from the one before as the tolerance lets it be."""
+    """Return the indices of the kept breaks, as few as the tolerance allows, and the largest
+    error, metres.
+    """
     keys, last, worst, reached = [span[0]], span[1], 0.0, 0.0
     for k in range(span[0] + 1, last + 1):
         if k - keys[-1] > 1:
@@ -85,7 +89,7 @@ def _thinned(times: Array, at: Array, rate: Array, span: tuple[int, int]) -> tup
 
 
 def _error(times: Array, at: Array, rate: Array, ends: tuple[int, int]) -> float:
-    """Return how far one cubic from break to break is from the spline between them, at most, metres."""
+    """Return a bound of the distance of one cubic between two breaks from the spline, metres."""
     a, b = ends
     t, h = times[a : b + 1], float(times[b] - times[a])
     s = ((t - t[0]) / h)[None, :, None]

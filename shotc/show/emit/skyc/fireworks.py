@@ -1,4 +1,4 @@
-"""Pyro cues in a show file: an event a product and drone, each on a channel of its own."""
+"""Pyro cues in a show file: one event for each product and drone, on a channel of its own."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from shotc.show.emit.pyro_cues import carried
 
 
 def programs_of(displays: Sequence[Display], fleet: Fleet) -> list[dict[str, Any] | None]:
-    """Return the pyro programme of every drone of a fleet, None of one that carries nothing."""
+    """Return the pyro programme of every drone of a fleet; None for a drone without products."""
     return [_program(cues) if cues else None for cues in carried(displays, fleet)]
 
 
 def _program(cues: Sequence[PyroCue]) -> dict[str, Any]:
-    """Return events [s of the ignition, channel from 0, product] and the products, by channel from 1."""
+    """Return events [ignition in seconds, channel from 0, product] and the products, by channel from 1."""
     return {
         "version": 1,
         "events": [[round(cue.ignition, 3), k, str(k + 1)] for k, cue in enumerate(cues)],

@@ -1,10 +1,11 @@
-"""The lights of a show file: programs of bytes that fade and set colours, in steps of 20 ms.
+"""The lights of a show file: bytecode programs that fade and set colours, in steps of 20 ms.
 
-Opcodes: 0 end, 4 set a colour for a time, 8 fade to a colour over a time; a time is a variable-length number
-of steps, seven bits a byte, the low ones first. A program begins at the show's first instant.
+Opcodes: 0 ends the program, 4 sets a colour for a duration, 8 fades to a colour over a duration. A duration
+is a variable-length number of steps, with seven bits a byte, the low ones first. A program begins at time 0
+of the show.
 
-Lights with effects change evenly between moments 40 ms apart, which are steps. Of these moments a program
-keeps those from which to the next one an even change stays near all that are left out.
+Lights with effects change linearly between ticks 40 ms apart. A program keeps only those ticks between which
+linear fades stay within a tolerance of all others.
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ STEP_S = 0.02
 END, SET, FADE = 0x00, 0x04, 0x08
 
 TOLERANCE_LEVELS = 2.0
-"""Levels, of 255, by which a program may be off the lights of the plan in any channel, at any time."""
+"""Largest error of a program in any channel at any time, in levels of 255."""
 
 BATCH_TIMES = 100
-"""Moments of all drones that are evaluated at once."""
+"""Ticks of all drones that are evaluated together."""
 
 
 def programs(flight: FleetTrajectory) -> Iterator[bytes]:
@@ -60,11 +61,11 @@ def kept_moments(flight: FleetTrajectory) -> Iterator[tuple[NDArray[np.intp], Co
 
 
 class _Thinning:
-    """Colours of n lights, moment by moment: which are kept.
+    """Selects the kept ticks of n lights, tick by tick.
 
-    A change that is even leaves each moment's colour by less than the tolerance if its slope is in a cone;
-    the cones of all moments since the last that was kept are cut with each other (swing-door trending,
-    Bristol 1990), and the slope to a moment that may be kept next is in all of them.
+    A linear fade is within the tolerance of a tick if its slope is in an interval. The intervals of all ticks
+    since the last kept one are intersected (swing-door trending, Bristol 1990). The slope to the next kept
+    tick must be in the intersection.
     """
 
     def __init__(self, colors: Colors) -> None:
@@ -78,7 +79,7 @@ class _Thinning:
         self._kept: list[tuple[int, NDArray[np.intp], Colors]] = [(0, np.arange(n), colors)]
 
     def add(self, colors: Colors) -> None:
-        """Add the colours of the next moment, (n, 3)."""
+        """Add the colours of the next tick, (n, 3)."""
         here = self._tick + 1
         wanted = colors.astype(np.float32)
         span = (here - self._since)[:, None].astype(np.float32)
@@ -94,7 +95,7 @@ class _Thinning:
         self._tick, self._last = here, colors
 
     def kept(self) -> Iterator[tuple[NDArray[np.intp], Colors]]:
-        """Yield of every light the moments that are kept and its colours there, the last one among them."""
+        """Yield for every light the kept ticks, the last one included, and its colours there."""
         if self._tick:
             self._keep(np.arange(len(self._last)))
         which = np.concatenate([which for _, which, _ in self._kept])
@@ -114,21 +115,21 @@ class _Thinning:
 
 
 def program(steps: list[int], colors: list[bytes]) -> bytes:
-    """Return the program that has these colours, of three bytes, at these steps, which do not fall."""
+    """Return the program with the given colours, three bytes each, at non-decreasing steps."""
     code = bytearray()
     now, color, stands, faded = 0, colors[0], 0, False
     for step, wanted in zip(steps, colors, strict=True):
         if wanted == color:
             stands += step - now
         else:
-            # A fade begins where what was before ends; a jump is a colour that is set.
+            # A fade begins where the last order ends; a jump is a set colour.
             if stands or not faded:
                 code += _order(SET, color, stands)
             stands, faded = 0, step > now
             if faded:
                 code += _order(FADE, wanted, step - now)
         now, color = step, wanted
-    # Players go on along a last fade: a program ends with a colour that stands.
+    # Players extrapolate a last fade, so a program ends with a constant colour.
     code += _order(SET, color, max(stands, 1))
     return bytes([*code, END])
 

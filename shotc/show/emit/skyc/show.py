@@ -1,4 +1,4 @@
-"""What a show file says: everything in metres and seconds, North, West and Up of the mission's origin."""
+"""The content of a show file, in metres and seconds, North, West and Up of the mission's origin."""
 
 from __future__ import annotations
 
@@ -28,16 +28,22 @@ from shotc.show.emit.skyc.lights import programs
 Json = dict[str, Any]
 
 MOST_DRONES = 5000
-"""Drones that a show file may have."""
+"""Most drones of a show file."""
 
 
 STRAIGHT_M = 1.5e-4
-"""How far inner control points may be from thirds of a chord that stands for them, metres."""
+"""Distance of inner control points from the thirds of a chord, below which the chord replaces
+them, metres.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShowFile:
-    """A show file's content, how far its flights are from the plan's (metres), and the zones it lacks."""
+    """A show file's content, and its differences from the plan.
+
+    error : largest distance of its flights from the plan's, metres
+    left_out : zones that its geofence lacks
+    """
 
     content: Json
     error: float
@@ -73,12 +79,12 @@ def show_of(plan: VerifiedIR) -> ShowFile:
         },
         "swarm": {"drones": drones},
     }
-    # Inner control points of a chord are moved by no more than this.
+    # Inner control points replaced by a chord move by at most this.
     return ShowFile(content, max(curve.error for curve in flown) + STRAIGHT_M, left)
 
 
 def _turned(points: Array) -> list[list[float]]:
-    """Return points of W, East-North-Up, as North-West-Up."""
+    """Return points of W (East, North, Up) as North, West, Up."""
     turned = np.stack([points[..., 1], -points[..., 0], points[..., 2]], axis=-1)
     return list((np.round(turned, COORDINATE_DECIMALS) + 0.0).tolist())
 
@@ -119,7 +125,7 @@ def _drones(mission: MissionIR, flight: FleetTrajectory, found: Curves) -> Itera
 
 
 def _segments(flights: tuple[FleetTrajectory, ...]) -> dict[str, list[float]]:
-    """Return when fleets take off, when they show, and when they land."""
+    """Return the time intervals of take-off, show and landing."""
     up = max(p.end for f in flights for p in f.phases if p.name == "takeoff")
     down = min(p.start for f in flights for p in f.phases if p.name == "land")
     end = max(float(f.breaks[-1]) for f in flights)
@@ -153,13 +159,15 @@ def _camera(plan: VerifiedIR, index: int) -> Json:
 
 
 def _orientation(looks: View) -> list[float]:
-    """Return the quaternion (w, x, y, z) of a camera that, unturned, looks down with North to its right."""
-    # to_camera is linear: its rows are the camera's axes in W.
+    """Return the quaternion (w, x, y, z) of a camera; without rotation it looks down, with North to its
+    right.
+    """
+    # to_camera is linear, so its rows are the camera's axes in W.
     east, north, up = np.eye(3)
     right, down, forward = (np.array(axis) for axis in looks.to_camera((east, north, up)))
     axes = np.stack([right, -down, -forward], axis=1)
     turn = np.stack([axes[1], -axes[0], axes[2]])
-    # Shepperd's method, by the largest of the four: stable for every turn.
+    # Shepperd's method, with the largest of the four components, is stable for every rotation.
     squares = np.array([np.trace(turn), *np.diag(turn)])
     w, x, y, z = _from(int(np.argmax(squares)), turn)
     return [round(float(c), 9) + 0.0 for c in np.array([w, x, y, z]) / np.linalg.norm([w, x, y, z])]

@@ -1,4 +1,4 @@
-"""The song of a show in its show file, which plays MP3 alone."""
+"""The song of a show in its show file, which can carry only MP3."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ASSET = "assets/music.mp3"
 
 @dataclass(frozen=True, slots=True)
 class Song:
-    """What a show file says of its music, the files that this refers to, and what it cannot carry."""
+    """The music entry of a show file, the files that it refers to, and what cannot be carried."""
 
     media: Mapping[str, object] | None = None
     assets: Mapping[str, bytes] = field(default_factory=dict)
@@ -21,7 +21,7 @@ class Song:
 
 
 def song_of(mission: MissionIR) -> Song:
-    """Return the song of a mission as show files carry it."""
+    """Return the song of a mission in the form of show files."""
     music = mission.music
     if music is None or music.file is None:
         return Song()
