@@ -82,7 +82,7 @@ class Since(NamedTuple):
     way: float
 
 
-class Appearance(NamedTuple):
+class SubjectAppearance(NamedTuple):
     """The appearance of a subject compared with the required one.
 
     screen : distance from its required place, half frames; size : over the frame's height
@@ -181,7 +181,7 @@ def stand(wanted: Wanted, lens: Lens, room: PlaceBounds, azimuth: float, size: f
     return at(high)
 
 
-def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Appearance | None:
+def judged(pose: Pose, lens: Lens, wanted: Wanted) -> SubjectAppearance | None:
     """Return the appearance of a subject from a pose; None if it extends behind the camera."""
     camera = view(pose[3], pose[4], lens.hfov, lens.aspect)
     offset = minus(wanted.centre, (pose[0], pose[1], pose[2]))
@@ -192,7 +192,7 @@ def judged(pose: Pose, lens: Lens, wanted: Wanted) -> Appearance | None:
     screen = 0.0 if wanted.uv is None else hypot(u - wanted.uv[0], v - wanted.uv[1])
     chord = hypot(*_off_view(wanted, offset))
     out = max(0.0, -left - 1.0, right - 1.0, -low - 1.0, high - 1.0) if wanted.whole else 0.0
-    return Appearance(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
+    return SubjectAppearance(screen, 0.5 * (high - low), 2 * asin(min(1.0, 0.5 * chord)), out)
 
 
 def whole(pose: Pose, lens: Lens, wanted: Wanted) -> bool:

@@ -15,7 +15,7 @@ from shotc.ir.mission import MissionIR
 from shotc.ir.phases import UPRIGHT, Phase
 
 
-class TransitClearance(NamedTuple):
+class SolidClearance(NamedTuple):
     """The clearance from one solid on ways.
 
     metres : from the drone's body; required : whether the mission states it; key : of the rule
@@ -46,22 +46,22 @@ def filmed(mission: MissionIR) -> frozenset[str]:
     return frozenset(part for name in names if name is not None for part in mission.parts_of(name))
 
 
-def from_target(mission: MissionIR, name: str) -> TransitClearance | None:
+def from_target(mission: MissionIR, name: str) -> SolidClearance | None:
     """Return the clearance from a target on ways, None if it does not exceed the target clearance."""
     rules = mission.rules.transits
     seen = name in filmed(mission)
     apart = (
-        TransitClearance(rules.filmed, rules.filmed_required, "filmed")
+        SolidClearance(rules.filmed, rules.filmed_required, "filmed")
         if seen
-        else TransitClearance(rules.other, rules.other_required, "other")
+        else SolidClearance(rules.other, rules.other_required, "other")
     )
     return apart if apart.metres > mission.rules.target_clearance else None
 
 
-def from_zones(mission: MissionIR) -> TransitClearance | None:
+def from_zones(mission: MissionIR) -> SolidClearance | None:
     """Return the clearance from keep-out zones on ways, None if it is 0."""
     rules = mission.rules.transits
-    return TransitClearance(rules.other, rules.other_required, "other") if rules.other > 0.0 else None
+    return SolidClearance(rules.other, rules.other_required, "other") if rules.other > 0.0 else None
 
 
 def ways(phases: Sequence[Phase]) -> tuple[TransitInterval, ...]:

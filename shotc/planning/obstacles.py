@@ -12,7 +12,7 @@ from shotc.geom.solids import Cylinder, Prism, convex_parts, edges, hull_and_poc
 from shotc.ir.drone import Drone
 from shotc.ir.mission import MissionIR
 from shotc.ir.owners import CEILING, GROUND, Owner, mesh_owner, target_owner, zone_owner
-from shotc.ir.transits import TransitClearance, from_target, from_zones
+from shotc.ir.transits import SolidClearance, from_target, from_zones
 from shotc.planning.beside_mesh import BesideMesh
 from shotc.planning.clearances import Clearance, clearances_of, from_parked
 from shotc.planning.free_space import MARGIN_M, Disc, FreeSpace, Obstacle, Wall
@@ -66,7 +66,7 @@ def free_spaces_of(mission: MissionIR, drone: Drone) -> FreeSpaces:
     return FreeSpaces(space, replace(space, obstacles=tuple(map(widened, space.obstacles))), required)
 
 
-def _kept_on_ways(mission: MissionIR) -> dict[Owner, TransitClearance | None]:
+def _kept_on_ways(mission: MissionIR) -> dict[Owner, SolidClearance | None]:
     zones = from_zones(mission)
     kept = {zone_owner(z): zones for z in mission.zones if z.keep == "out"}
     return kept | {target_owner(t): from_target(mission, t.name) for t in mission.targets}

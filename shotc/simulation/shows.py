@@ -16,7 +16,7 @@ from shotc.ir.show import Apart, Fleet, kept_from_cameras, stricter
 from shotc.ir.trajectory import TrajectoryIR
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.fleets.fly import PERIOD_S
-from shotc.simulation.fleets.near import Across, NearestPair
+from shotc.simulation.fleets.near import Across, ClosestPair
 from shotc.simulation.fleets.rehearse import FleetRehearsal, Watch, moments
 from shotc.simulation.fleets.vehicle import Gusts
 from shotc.simulation.flight import DroneRuns
@@ -35,7 +35,7 @@ class FleetCourse:
     radius: float
 
     @property
-    def nearest(self) -> NearestPair | None:
+    def nearest(self) -> ClosestPair | None:
         """The nearest pair, in the air or on pads; None for a fleet of one."""
         found = [near for near in (self.flown.near, self.flown.beside) if near is not None]
         return min(found, key=lambda near: near.distance, default=None)
@@ -60,7 +60,7 @@ class FleetPair:
 
     one: str
     other: str
-    near: NearestPair
+    near: ClosestPair
     asked: float
     radii: float
 

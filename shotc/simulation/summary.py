@@ -11,7 +11,7 @@ import numpy as np
 from shotc.geom.camera import heading_of
 from shotc.ir.show import drone_names
 from shotc.rounding import as_minutes, at_least, at_most, plain, up
-from shotc.simulation.fleets.near import NearestPair
+from shotc.simulation.fleets.near import ClosestPair
 from shotc.simulation.judge import Run, TargetFraming, TrackingError
 from shotc.simulation.rehearsal import Rehearsed, alike
 from shotc.simulation.shows import FleetCourse, FleetPair
@@ -266,7 +266,7 @@ def _met(done: Rehearsed, every: list[FleetPair]) -> str:
     return f"{text}, {how}" + (f", nearer than the {worst.asked:g} m asked" if near.below else "")
 
 
-def _beside_pads(fleet: Fleet, every: list[NearestPair]) -> Iterator[str]:
+def _beside_pads(fleet: Fleet, every: list[ClosestPair]) -> Iterator[str]:
     """Yield the remark on the nearest pair while one of them stands on its pad."""
     if not every:
         return

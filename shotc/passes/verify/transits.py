@@ -18,7 +18,7 @@ from shotc.geom.solids import Solid, distance
 from shotc.geom.taper import TAPER_SLOPE, Taper
 from shotc.ir.sampling import beside
 from shotc.ir.trajectory import Claim
-from shotc.ir.transits import TransitClearance, TransitInterval, from_target, from_zones, ways
+from shotc.ir.transits import SolidClearance, TransitInterval, from_target, from_zones, ways
 from shotc.passes.verify.claims import JudgedFlight, Limit, bounded, gap, less
 
 ENDING = " on transits"
@@ -39,7 +39,7 @@ def transits(flight: JudgedFlight) -> Iterator[Claim]:
 
 
 def _kept(
-    flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart: TransitClearance
+    flight: JudgedFlight, name: str, near: tuple[Solid, Piecewise], apart: SolidClearance
 ) -> Iterator[Claim]:
     """Yield the claim on the clearance of one solid; near : the solid, and the flight relative to it."""
     clearance = apart.metres + flight.drone.radius

@@ -33,7 +33,7 @@ class FleetConditions:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FleetRun:
+class FlownFleet:
     """The simulated flight of a fleet, sampled every ``PERIOD_S``: times (T,), all else (n, T, 3).
 
     position, velocity : of the drones over ground
@@ -60,7 +60,7 @@ class FleetRun:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FleetSample:
-    """One time of ``FleetRun``: the time, and (n, 3) of each other array."""
+    """One time of ``FlownFleet``: the time, and (n, 3) of each other array."""
 
     time: float
     position: Array
@@ -92,10 +92,10 @@ def flying(
         state = replace(state, gust=conditions.gusts.after(state.gust, PERIOD_S, rng))
 
 
-def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> FleetRun:
+def fly(breaks: Array, coef: Array, conditions: FleetConditions, avoid: Avoid | None = None) -> FlownFleet:
     """Return all samples of ``flying`` together; a thousand drones take megabytes for each second."""
     moments = list(flying(breaks, coef, conditions, avoid))
-    return FleetRun(
+    return FlownFleet(
         np.array([each.time for each in moments]),
         np.stack([each.position for each in moments], axis=1),
         np.stack([each.velocity for each in moments], axis=1),

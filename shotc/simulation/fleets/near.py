@@ -23,7 +23,7 @@ MOST_NARROWINGS = 30
 
 
 @dataclass(frozen=True, slots=True)
-class NearestPair:
+class ClosestPair:
     """The nearest pair of drones, metres of horizontal distance as in ``geom.separation``.
 
     first, second : their rows
@@ -38,12 +38,12 @@ class NearestPair:
     below: int
 
 
-def nearest(times: Array, position: Array, apart: Distances, limit: float) -> NearestPair:
+def nearest(times: Array, position: Array, apart: Distances, limit: float) -> ClosestPair:
     """Return the nearest of all pairs.
 
     times : (T,), seconds, at least two
     position : (n, T, 3), metres, at least two drones
-    limit : horizontal distance for ``NearestPair.below``, metres
+    limit : horizontal distance for ``ClosestPair.below``, metres
     """
     search = NearestSearch(apart, limit)
     for time, places in zip(times.tolist(), np.moveaxis(position, 1, 0), strict=True):
@@ -55,14 +55,14 @@ class Across:
     """The nearest pair of drones from different fleets, whose positions (n, 3) and (m, 3) are added over
     time.
 
-    limit : horizontal distance for ``NearestPair.below``, metres
+    limit : horizontal distance for ``ClosestPair.below``, metres
     """
 
     def __init__(self, apart: Distances, limit: float) -> None:
         self._height = np.array([1.0, 1.0, stretch(apart)])
         self._upright = apart.shape == "cylinder"
         self._limit = limit
-        self._best = NearestPair(np.inf, 0, 0, 0.0, 0)
+        self._best = ClosestPair(np.inf, 0, 0, 0.0, 0)
         self._low: set[tuple[int, int]] = set()
         self._last: tuple[float, Array, Array] | None = None
 
@@ -73,7 +73,7 @@ class Across:
             self._between(*self._last, (time, one, other))
         self._last = (time, one, other)
 
-    def found(self) -> NearestPair:
+    def found(self) -> ClosestPair:
         """Return the nearest pair so far; ``first`` is a row of the one fleet, ``second`` of the other."""
         return replace(self._best, below=len(self._low))
 
@@ -95,7 +95,7 @@ class Across:
         m = int(np.argmin(least))
         if least[m] < self._best.distance:
             when = float(before + share[m] * (after - before))
-            self._best = NearestPair(float(least[m]), int(i[m]), int(j[m]), when, 0)
+            self._best = ClosestPair(float(least[m]), int(i[m]), int(j[m]), when, 0)
 
 
 class NearestSearch:
@@ -105,7 +105,7 @@ class NearestSearch:
         self._height = np.array([1.0, 1.0, stretch(apart)])
         self._upright = apart.shape == "cylinder"
         self._limit = limit
-        self._best = NearestPair(np.inf, 0, 0, 0.0, 0)
+        self._best = ClosestPair(np.inf, 0, 0, 0.0, 0)
         self._low: set[tuple[int, int]] = set()
         self._last: tuple[float, Array] | None = None
 
@@ -121,7 +121,7 @@ class NearestSearch:
             self._between(*self._last, (time, seen), rows)
         self._last = (time, seen)
 
-    def found(self) -> NearestPair:
+    def found(self) -> ClosestPair:
         """Return the nearest pair so far."""
         return replace(self._best, below=len(self._low))
 
@@ -137,7 +137,7 @@ class NearestSearch:
         m = int(np.argmin(least))
         if least[m] < self._best.distance:
             when = float(before + share[m] * (after - before))
-            self._best = NearestPair(float(least[m]), int(rows[one[m]]), int(rows[other[m]]), when, 0)
+            self._best = ClosestPair(float(least[m]), int(rows[one[m]]), int(rows[other[m]]), when, 0)
 
 
 def _candidates(start: Array, end: Array, reach: float, upright: bool) -> Pairs:

@@ -14,7 +14,7 @@ from shotc.ir.show import Fleet
 from shotc.planning.on_pads import standing as standing_in
 from shotc.planning.take_off import bodies_of
 from shotc.simulation.fleets.fly import FleetConditions, FleetSample, flying
-from shotc.simulation.fleets.near import NearestPair, NearestSearch
+from shotc.simulation.fleets.near import ClosestPair, NearestSearch
 from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 
 HEADROOM_RATIO = 2.0
@@ -39,8 +39,8 @@ class FleetRehearsal:
     farthest: float
     drone: int
     time: float
-    near: NearestPair | None
-    beside: NearestPair | None = None
+    near: ClosestPair | None
+    beside: ClosestPair | None = None
 
 
 class Watch:

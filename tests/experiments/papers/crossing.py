@@ -19,7 +19,7 @@ from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, FleetRun, fly
+from shotc.simulation.fleets.fly import PERIOD_S, FleetConditions, FlownFleet, fly
 from shotc.simulation.fleets.near import nearest
 from shotc.simulation.fleets.vehicle import FleetVehicle, Gusts
 from tests.experiments.papers import bodies
@@ -108,7 +108,7 @@ def row(n: int, case: Case) -> tuple[str, ...]:
     )
 
 
-def flight(breaks: Array, coef: Array, case: Case) -> FleetRun:
+def flight(breaks: Array, coef: Array, case: Case) -> FlownFleet:
     """Fly a plan as the case says."""
     avoid = None
     if case.avoids:

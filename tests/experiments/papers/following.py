@@ -15,7 +15,7 @@ from shotc.geom.separation import closest
 from shotc.ir.show import Apart
 from shotc.show.geom.centroids import centroids, viewpoint_centroids
 from shotc.show.solvers.match import matched
-from shotc.simulation.fleets.fly import FleetConditions, FleetRun, fly
+from shotc.simulation.fleets.fly import FleetConditions, FlownFleet, fly
 from shotc.simulation.fleets.follow import Gains
 from shotc.simulation.fleets.near import nearest
 from shotc.simulation.fleets.vehicle import Gusts
@@ -71,7 +71,7 @@ def squares_table() -> Table:
     )
 
 
-def _errors(flown: FleetRun) -> str:
+def _errors(flown: FlownFleet) -> str:
     return f"{flown.rmse:.3f} / {flown.error.max():.2f}"
 
 
@@ -121,11 +121,11 @@ def corners_table() -> Table:
     )  # fmt: skip
 
 
-def _speeds(breaks: Array, coef: Array, flown: FleetRun) -> Array:
+def _speeds(breaks: Array, coef: Array, flown: FlownFleet) -> Array:
     return places(breaks, coef[:1], flown.times, 1)[0]
 
 
-def dip(flown: FleetRun, velocity: Array) -> tuple[float, float]:
+def dip(flown: FlownFleet, velocity: Array) -> tuple[float, float]:
     """Return when the speed is least about a corner, s after the corner's own time, and how little; means."""
     found = []
     for corner in (5.0, 10.0, 15.0):
@@ -137,7 +137,7 @@ def dip(flown: FleetRun, velocity: Array) -> tuple[float, float]:
     return float(when), float(least)
 
 
-def _square_drawn(breaks: Array, coef: Array, flown: FleetRun) -> bytes:
+def _square_drawn(breaks: Array, coef: Array, flown: FlownFleet) -> bytes:
     figure = Figure(figsize=(11, 4.5), layout="tight")
     above, speeds = figure.subplots(1, 2)
     above.plot(*flown.position.mean(axis=0)[:, :2].T, "k-", linewidth=1)
@@ -227,7 +227,7 @@ def human_table() -> Table:
     )  # fmt: skip
 
 
-def _human_drawn(flown: FleetRun) -> bytes:
+def _human_drawn(flown: FlownFleet) -> bytes:
     figure = Figure(figsize=(11, 5), layout="tight")
     axes = figure.add_subplot()
     for drone in flown.position:

@@ -23,7 +23,7 @@ from shotc.planfile.write import document
 from shotc.simulation.clearance import ClosestApproach
 from shotc.simulation.conditions import Conditions
 from shotc.simulation.document import FLIGHT, json_text
-from shotc.simulation.fleets.near import NearestPair
+from shotc.simulation.fleets.near import ClosestPair
 from shotc.simulation.fleets.rehearse import FleetRehearsal
 from shotc.simulation.guidance import Replans
 from shotc.simulation.judge import TargetFraming, TrackingError
@@ -72,7 +72,7 @@ def test_every_part_of_simulate_json_is_explained():
     ir, conditions = orbit_plan().trajectory, Conditions()
     done = rehearse(ir, conditions, simulated(ir, conditions, 1, 1), lambda _runs: None)
     run = json.loads(json_text(done))
-    of_fleets = (NearestPair, FleetRehearsal, FleetCourse, FleetPair)
+    of_fleets = (ClosestPair, FleetRehearsal, FleetCourse, FleetPair)
     records = (
         TrackingError,
         TargetFraming,

@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
 from shotc.geom.pose_search import Pose
 from shotc.geom.vec import wrapped
-from shotc.geom.viewpoint import Appearance, Wanted, direction, judged, nearest, size_from
+from shotc.geom.viewpoint import SubjectAppearance, Wanted, direction, judged, nearest, size_from
 from shotc.ir.begins import first_start
 from shotc.ir.framed import StartedFraming, course_of
 from shotc.ir.framed_scene import lens_of, wanted_at
@@ -320,7 +320,7 @@ def _apart(
     mission: MissionIR,
     course: StartedFraming,
     subject: Subject,
-    seen: Sequence[tuple[float, Appearance, Wanted]],
+    seen: Sequence[tuple[float, SubjectAppearance, Wanted]],
 ) -> Diagnostic | None:
     """Return the fault of a subject that is out of the picture, or much too small because of others,
     or None.
@@ -360,7 +360,7 @@ def _apart(
     )
 
 
-def _compromise(subject: Subject, seen: Sequence[tuple[float, Appearance, Wanted]]) -> list[str]:
+def _compromise(subject: Subject, seen: Sequence[tuple[float, SubjectAppearance, Wanted]]) -> list[str]:
     """Return notes on how far one subject is from what was asked of it, where that is notable."""
     notes = []
     t, worst, wanted = max(seen, key=lambda found: found[1].screen)
