@@ -167,7 +167,7 @@ def test_missions_without_exposure_have_no_columns_of_it() -> None:
     ("camera", "extra", "code", "words"),
     [
         (f"{LENS}, aperture: f/2.8", ", focus: mst", "N001", "unknown target `mst`"),
-        (LENS, ", focus: tree", "K021", "whose camera has no aperture"),
+        (LENS, ", focus: tree", "K021", "but the camera of `cam` has no aperture"),
         (f"{LENS}, aperture: f/0.2", "", "S014", "no lens has an aperture of `f/0.2`"),
         (f"{LENS}, aperture: wide", "", "S007", "expected an aperture"),
         (f"{LENS}, shutter: 0 s", "", "S014", "no time of exposure"),
