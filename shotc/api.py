@@ -352,7 +352,7 @@ def verify_plan(data: bytes, name: str, against: MissionFile | None = None) -> P
         return report
     # If the mission leaves the choice of drones open, the plan's choice is valid.
     asked = lower(*against, verdict.written.mission.source.chosen)
-    differing = differs_from(verdict.written, asked)
+    differing = differs_from(verdict.written, verdict.lowered, asked)
     plan = None if has_errors(differing) else report.plan
     return PlanReport(
         plan, report.certificate, (*report.diagnostics, *differing), {**sources, against.name: asked.file}

@@ -71,13 +71,16 @@ def taking_off(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
 
 
 def dense(stats: Iterable[tuple[str, float | str]]) -> Iterator[str]:
-    """Yield the number of moves on arcs of each fleet, and the pictures that are lattices."""
+    """Yield the moves of each fleet on arcs or over something, and the pictures that are lattices."""
     for name, value in stats:
         arcs = re.fullmatch(r"fleet (.+) arcs", name)
         lattice = re.fullmatch(r"goals (.+)/(\d+) lattice", name)
         if arcs and value:
             moves = "move" if value == 1 else "moves"
             yield f"{value:.0f} {moves} of {arcs[1]} on arcs: its drones stand too near for straight lines"
+        lifted = re.fullmatch(r"fleet (.+) lifted m", name)
+        if lifted:
+            yield f"{lifted[1]} rises by up to {value:.1f} m over what is in its way"
         if lattice:
             where = f"picture {lattice[2]} of {lattice[1]}"
             yield f"{where} is a lattice of {value:.0f} lights: spread evenly, they have no room"

@@ -76,3 +76,11 @@ def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
         radius = least / (2 * sin(pi / len(fleet.pads)))
         return f"give the circle a radius of {at_least(radius)} m or more"
     return f"put the pads {at_least(least)} m or more apart"
+
+
+def pads_path(mission: MissionIR, fleet: Fleet) -> KeyPath:
+    """Return where the mission says where the pads of a fleet are: a place, a file, or else the layout."""
+    path = (*fleet.path, "layout")
+    ways = (("grid", "origin"), ("circle", "center"), ("file",))
+    written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
+    return next(written, path)

@@ -16,6 +16,7 @@ from shotc.spec.fields import (
     RelativePath,
     Stand,
 )
+from shotc.spec.heights import STANDING
 from shotc.spec.model import Model, OneOf, section
 from shotc.spec.quantities import Quantity
 from shotc.spec.shorthand import QuantityModel
@@ -26,14 +27,20 @@ class GridSpec(Model):
     """Drones in a square grid, row by row."""
 
     spacing: PositiveLength = Field(description="distance between neighbours")
-    origin: Stand = Field(default=(0.0, 0.0, 0.0), description="south-west corner of the grid")
+    origin: Stand = Field(
+        default=(0.0, 0.0, STANDING),
+        description="south-west corner of the grid; every pad is on the ground, or as high, as it is",
+    )
 
 
 class CircleSpec(Model):
     """Drones evenly spaced on a circle."""
 
     radius: PositiveLength = Field(description="radius")
-    center: Stand = Field(default=(0.0, 0.0, 0.0), description="middle of the circle")
+    center: Stand = Field(
+        default=(0.0, 0.0, STANDING),
+        description="middle of the circle; every pad is on the ground, or as high, as it is",
+    )
 
 
 class LayoutSpec(Model):
@@ -44,7 +51,8 @@ class LayoutSpec(Model):
     grid: GridSpec | None = Field(default=None, description="a square grid")
     circle: CircleSpec | None = Field(default=None, description="a circle")
     file: RelativePath | None = Field(
-        default=None, description="a CSV file with x,y,z or lat,lon,height, one row a drone"
+        default=None,
+        description="a CSV file with x,y,z or lat,lon,height, one row a drone; on the ground without heights",
     )
 
 

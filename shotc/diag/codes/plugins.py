@@ -69,9 +69,8 @@ CODES: tuple[CodeInfo, ...] = (
         "not-planned-yet",
         Severity.ERROR,
         "the mission uses a part of the language that this version checks but cannot plan",
-        "The whole language is parsed and validated, so that missions can be written and reviewed today. Shows "
-        "over terrain or beside scenes are planned by later versions; until then `shotc plan` refuses the mission instead of "
-        "flying a part of it.",
+        "A shot kind may say of a part of its shot that it is checked and cannot be planned yet. Missions with it can be "
+        "written and reviewed; `shotc plan` refuses them instead of flying a part of them. No kind of shotc itself does.",
         "",
         "",
         "other",

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from shotc import __version__
 from shotc.diag.model import Diagnostic, Label
 from shotc.diag.registry import has_errors
+from shotc.geom.surface.tree import Surface
 from shotc.ir.keyframes import KeyframeIR
 from shotc.ir.lowered import Lowered
+from shotc.ir.mission import MissionIR
 from shotc.ir.passes import PassContext
 from shotc.ir.source import MissionSource
 from shotc.ir.trajectory import Claim, VerifiedIR
@@ -41,6 +45,7 @@ class FileVerdict:
     certificate : every claim as proved now, broken ones included
     mission : text of the mission in the plan, where the plan can be read
     written : the plan's data of its mission, then
+    lowered : the mission lowered again, with its terrain and meshes, where that is possible
     """
 
     plan: VerifiedIR | None
@@ -48,6 +53,7 @@ class FileVerdict:
     diagnostics: tuple[Diagnostic, ...]
     mission: SourceFile | None = None
     written: KeyframeIR | None = None
+    lowered: KeyframeIR | None = None
 
 
 def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileVerdict:
@@ -72,11 +78,14 @@ def verify_file(data: bytes, name: str, ctx: PassContext, lower: Lower) -> FileV
         diagnostics += _against_the_file(read, verdict.certificate, name)
     verified = VerifiedIR(ir, verdict.certificate, verdict.covered)
     plan = None if has_errors(diagnostics) else verified
-    return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file, written)
+    return FileVerdict(plan, verdict.certificate, tuple(diagnostics), asked.file, written, asked.keyframes)
 
 
-def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
-    """Return the differences between a plan and a mission that was lowered from a separate file."""
+def against(written: KeyframeIR, lowered: KeyframeIR | None, asked: Lowered) -> list[Diagnostic]:
+    """Return the differences between a plan and a mission that was lowered from a separate file.
+
+    written, lowered : as of ``FileVerdict``
+    """
     if asked.keyframes is None:
         text = "this mission cannot be lowered, so no plan can be held to it"
         fault = Diagnostic("V043", text, (Label(asked.file.name, WHOLE_FILE),), help="mend its faults first")
@@ -92,8 +101,28 @@ def against(written: KeyframeIR, asked: Lowered) -> list[Diagnostic]:
             MissionDifference((), f"`{name}` is another file than the plan was made with")
             for name in _changed(source.linked, now.linked)
         ),
+        *([] if lowered is None else _other_world(lowered.mission, asked.keyframes.mission)),
     ]
     return told(diagnostics, asked.keyframes, "V043", ())
+
+
+def _other_world(mine: MissionIR, true: MissionIR) -> Iterator[MissionDifference]:
+    """Yield the terrain, the scene and the buildings that are others than those that a plan was made with."""
+    ground = [None if m.terrain is None else m.terrain.ground.surface for m in (mine, true)]
+    if not _alike(*ground):
+        yield MissionDifference(("world", "terrain"), "the terrain is another than the plan was made with")
+    for kind in ("scene", "buildings"):
+        meshes = (next((mesh.surface for mesh in m.meshes if mesh.kind == kind), None) for m in (mine, true))
+        if not _alike(*meshes):
+            words = f"the {kind} {'is' if kind == 'scene' else 'are'}"
+            yield MissionDifference(("world", kind), f"{words} another than the plan was made with")
+
+
+def _alike(one: Surface | None, other: Surface | None) -> bool:
+    """Tell whether two surfaces are of the same triangles, or there are none."""
+    if one is None or other is None:
+        return one is other
+    return np.array_equal(one.triangles, other.triangles)
 
 
 def _changed(mine: Digests, true: Digests) -> list[str]:

@@ -2,7 +2,7 @@
 
 The pass takes the goal sets of every fleet. It gives each fleet a trajectory on one clock: which drone flies
 to which goal, from frame to frame, and when. Drones rise vertically from the pads, move on straight lines or
-arcs from picture to picture, return to above the pads, and descend vertically.
+arcs from picture to picture, over what is in the way, return to above the pads, and descend vertically.
 
 Every move keeps all limits by its own control points. It takes the requested time, or the time that the pace
 of the limits allows. The frames of an animation are the control points of a spline with their period
@@ -72,6 +72,7 @@ def _stats(director: Director, flight: FleetTrajectory) -> list[tuple[str, float
         (f"fleet {name} drones", float(len(flight.coef))),
         (f"fleet {name} control points", float(flight.coef.shape[1])),
         (f"fleet {name} arcs", float(director.arcs)),
+        *([(f"fleet {name} lifted m", director.lifted)] if director.lifted else []),
         (f"fleet {name} time", float(flight.breaks[-1])),
         *_take_off(director, flight),
         *_own_pads(director),

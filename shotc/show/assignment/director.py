@@ -33,7 +33,7 @@ class Director:
         self.mission, self.fleet, self.cast = mission, fleet, cast
         self.score = FlightScore(cast.up.pads)
         self.mover = Mover(mission, fleet)
-        self.waves = Waves(mission, fleet)
+        self.waves = Waves(mission, fleet, self.mover.sky)
         self.waited = 0.0
         self.levels: tuple[float, ...] = ()
         self._found: list[Diagnostic] = []
@@ -74,6 +74,11 @@ class Director:
     def arcs(self) -> int:
         """Return the number of moves on arcs."""
         return self.score.arcs
+
+    @property
+    def lifted(self) -> float:
+        """Return by how much the fleet rises over what lies between its places, at most, metres."""
+        return self.score.lifted
 
     def trajectory(self, images: Images) -> tuple[FleetTrajectory, list[Diagnostic]]:
         """Return the trajectory with its lights, and diagnostics on their effects."""

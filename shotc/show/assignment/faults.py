@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from math import ceil
 from typing import NamedTuple
 
-from shotc.diag.model import Diagnostic
+from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing, straight_spacing, stretch
 from shotc.geom.separation import Nearest
 from shotc.ir.effects import Effect, Way
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import CEILING
 from shotc.ir.phases import Phase
 from shotc.ir.show import Display, Fleet, Picture, Wave, drone_names
 from shotc.kinds.files import FileFault
@@ -18,7 +19,7 @@ from shotc.planning.clearances import ROUNDING_M
 from shotc.planning.take_off import MOST_LAYERS
 from shotc.rounding import at_least, plain
 from shotc.show.assignment.score import Motion
-from shotc.show.assignment.swell import SwellLack
+from shotc.show.goals.room import RoomLack
 from shotc.show.labels import moments, transition_key, transition_label, wave_key
 
 
@@ -164,7 +165,7 @@ def no_time(mission: MissionIR, display: Display) -> Diagnostic:
     )
 
 
-def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: SwellLack) -> Diagnostic:
+def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: RoomLack) -> Diagnostic:
     """Return D089: on arcs the fleet expands into the ground, above its height limit, or into an obstacle."""
     origins, metres = mission.origins, at_least(lack.metres)
     if lack.of is None:
@@ -187,6 +188,51 @@ def no_room(mission: MissionIR, fleet: Fleet, picture: Picture | None, lack: Swe
         f"place its pictures {metres} m farther away from there, make them "
         f"{at_least(far / spacing(fleet.apart))} times as large, or use fewer drones",
     )
+
+
+def no_way_over(
+    mission: MissionIR, fleet: Fleet, picture: Picture | None, lacks: tuple[RoomLack, RoomLack]
+) -> Diagnostic:
+    """Return D160: something is in the straight ways of a fleet, and it cannot rise over it.
+
+    lacks : what the straight ways lack, and what the best lacks of those that rise
+    """
+    straight, risen = lacks
+    what, beside = _in_the_way(mission, straight)
+    where = mission.origins.key(fleet.path if picture is None else picture.path)
+    to = "home" if picture is None else "to this picture"
+    note = f"its straight ways lack {at_least(straight.metres)} m there"
+    help_ = "place the pictures, or the pads, where the way between them is free, or higher"
+    labels = [where, beside]
+    if risen is not straight:
+        over, rule = _in_the_way(mission, risen)
+        note += f"; where all rise over it by the same, {at_least(risen.metres)} m are missing of {over}"
+        most = mission.rules.max_height
+        if risen.of is None or risen.of.owner == CEILING:
+            help_ = f"write `rules: {{max_height: {ceil((most or 0.0) + risen.metres)}}}`, or {help_}"
+        labels += [] if rule == beside else [rule]
+    return Diagnostic(
+        "D160", f"{fleet.words} has no way {to} that is clear of {what}", tuple(labels), (note,), help_
+    )
+
+
+def wave_in_the_way(mission: MissionIR, fleet: Fleet, picture: Picture, lack: RoomLack) -> Diagnostic:
+    """Return D161: drones of a wave come too near to something on their straight ways."""
+    what, beside = _in_the_way(mission, lack)
+    return Diagnostic(
+        "D161",
+        f"in this wave {fleet.words} comes too near to {what}: {at_least(lack.metres)} m are missing",
+        (mission.origins.key(wave_key(mission, picture)), beside),
+        ("drones of a wave fly straight, each at its own time, so they cannot rise over something together",),
+        "leave `wave` out, for the fleet to rise over it, or place the pictures where the ways are free",
+    )
+
+
+def _in_the_way(mission: MissionIR, lack: RoomLack) -> tuple[str, Label]:
+    """Return what a move lacks room of, and where the mission says so."""
+    if lack.of is None:
+        return CEILING.words, mission.origins.key(CEILING.path, "the rule")
+    return lack.of.owner.words, mission.origins.key(lack.of.owner.path, "what stands there")
 
 
 def wave_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: TriedWave) -> Diagnostic:

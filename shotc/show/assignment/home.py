@@ -43,9 +43,10 @@ def _come_to_own(score: FlightScore, mover: Mover) -> tuple[float, ...]:
     fleet, way = mover.fleet, way_to_own(mover.fleet, score.places)
     mover.faults += high_levels(mover.mission, fleet, way.heights)
     _gather(score, mover, way.columns)
-    for places in (way.raised, way.down.above):
-        if (score.places != places).any():
-            score.move(places, fastest(places - score.places, fleet.limits, 1.0))
+    if (score.places != way.raised).any():
+        score.move(way.raised, fastest(way.raised - score.places, fleet.limits, 1.0))
+    if (score.places != way.down.above).any():
+        score.move(way.down.above, mover.straight((score.places, way.down.above), 1.0, None))
     score.phase("return")
     _sink(score, fleet, way.down, (way.heights, way.step))
     return way.heights

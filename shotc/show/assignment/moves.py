@@ -1,4 +1,4 @@
-"""Moves of a fleet between formations: straight where separation is proved, else on arcs."""
+"""Moves of a fleet between formations: straight where separation is proved, else on arcs; over obstacles."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ from shotc.geom.bernstein import Array
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
-from shotc.show.assignment.faults import no_room
+from shotc.show.assignment.faults import no_room, no_way_over
+from shotc.show.assignment.over import MoveSurroundings, MoveTask, over
 from shotc.show.assignment.score import Motion
-from shotc.show.assignment.swell import Ends, Heights, SwellLack, led
+from shotc.show.assignment.swell import Ends, Heights, led
 from shotc.show.geom.arcs import Free, Gaps
 from shotc.show.geom.least_size import ROUNDING, least_size
 from shotc.show.geom.push_apart import nearest_pair
-from shotc.show.goals.room import DisplaySurroundings, room_of
+from shotc.show.goals.room import DisplaySurroundings, RoomLack, room_of
 from shotc.show.solvers.arc_move import ArcMove, fastest_arc
+from shotc.show.solvers.lifted_move import Course
 from shotc.show.solvers.move import fastest
 
 MARGIN_SHARE = 5e-4
@@ -37,10 +39,11 @@ class Mover:
         self.mission, self.fleet = mission, fleet
         self.faults: list[Diagnostic] = []
         self._scale = np.array([1.0, 1.0, stretch(fleet.apart)])
-        self._room = room_of(mission, fleet)
+        room = room_of(mission, fleet)
         high = mission.rules.max_height
-        high = inf if high is None or not isfinite(high) else high
-        self._heights = Heights(self._room.lowest, high)
+        # Over terrain the greatest height is one of the surfaces that are kept.
+        high = inf if high is None or not isfinite(high) or mission.terrain is not None else high
+        self.sky = MoveSurroundings(room, Heights(room.lowest, high))
 
     def move(self, here: Array, there: Array, pace: float, picture: Picture | None) -> Motion:
         """Return the fastest move.
@@ -48,15 +51,50 @@ class Mover:
         picture : its goal; None for the return
         """
         path = "auto" if picture is None else picture.transition_path
-        ends = here, there
+        ends, asked = (here, there), self._asked(pace, picture)
         free = self._free(ends)
         if path == "straight" or (path == "auto" and free is None):
-            easing = "ease-in-out" if picture is None else picture.easing
-            return fastest(there - here, self.fleet.limits, pace, easing)
-        move, lack = self._arcs(ends, free, pace, picture, self._room)
-        if lack.metres > ROUNDING_M and not self.faults:
-            self.faults.append(no_room(self.mission, self.fleet, picture, lack))
+            return self.straight(ends, pace, picture)
+        move, lack = self._arcs(ends, free, pace, picture, self.sky.room)
+        if lack.metres <= ROUNDING_M:
+            return move
+        lifted = over(ends, asked, Course(move.pivot, Gaps(1.0, 1.0) if free is None else free))
+        if lifted is not None and lifted.lack.metres <= ROUNDING_M:
+            return lifted.move
+        if lifted is not None:
+            lack = min(lack, lifted.lack, key=lambda one: one.metres)
+        self._lacking(no_room(self.mission, self.fleet, picture, lack))
         return move
+
+    def straight(self, ends: Ends, pace: float, picture: Picture | None) -> Motion:
+        """Return the fastest move on straight ways; where something is in their way lifted over it.
+
+        Where that has no room, on arcs past it, unless straight ways are asked for.
+        """
+        asked = self._asked(pace, picture)
+        move = fastest(ends[1] - ends[0], self.fleet.limits, pace, asked.easing)
+        lack = self.sky.lack(ends, move)
+        if lack.metres <= ROUNDING_M:
+            return move
+        lifted = over(ends, asked, Course(np.zeros(3)))
+        if lifted is not None and lifted.lack.metres <= ROUNDING_M:
+            return lifted.move
+        if picture is None or picture.transition_path == "auto":
+            arcs, swell = self._arcs(ends, self._free(ends), pace, picture, self.sky.room)
+            if swell.metres <= ROUNDING_M:
+                return arcs
+        least = lack if lifted is None else lifted.lack
+        self._lacking(no_way_over(self.mission, self.fleet, picture, (lack, least)))
+        return move
+
+    def _lacking(self, fault: Diagnostic) -> None:
+        """Keep the first fault of a fleet's moves: those after it begin where that one would end."""
+        if not self.faults:
+            self.faults.append(fault)
+
+    def _asked(self, pace: float, picture: Picture | None) -> MoveTask:
+        easing = "ease-in-out" if picture is None else picture.easing
+        return MoveTask(self.sky, self.fleet.limits, pace, easing)
 
     def around(
         self, ends: Ends, pace: float, picture: Picture | None, beside: tuple[Clearance, ...]
@@ -67,13 +105,13 @@ class Mover:
         """
         if picture is not None and picture.transition_path == "straight":
             return None
-        room = replace(self._room, obstacles=(*self._room.obstacles, *beside))
+        room = replace(self.sky.room, obstacles=(*self.sky.room.obstacles, *beside))
         move, lack = self._arcs(ends, self._free(ends), pace, picture, room)
         return move if lack.metres <= ROUNDING_M else None
 
     def _arcs(
         self, ends: Ends, free: Free | None, pace: float, picture: Picture | None, room: DisplaySurroundings
-    ) -> tuple[ArcMove, SwellLack]:
+    ) -> tuple[ArcMove, RoomLack]:
         """Return the fastest clear arcs, or those with the least lack, and the lack."""
         easing = "ease-in-out" if picture is None else picture.easing
         # Arcs are requested although straight paths are free; a quarter of an ellipse is always wider than
@@ -83,7 +121,7 @@ class Mover:
         def about(pivot: Array) -> ArcMove:
             return fastest_arc(ends, pivot, kept, self.fleet.limits, pace, easing)
 
-        return led(ends, self._heights, room, about)
+        return led(ends, self.sky.heights, room, about)
 
     def _free(self, ends: Ends) -> Free | None:
         """Return the free region of the two scalars of a common move; None if straight paths keep the

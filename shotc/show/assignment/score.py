@@ -18,10 +18,11 @@ from shotc.ir.phases import Phase, PhaseName
 from shotc.show.assignment.order import CONTROL_DECIMALS
 from shotc.show.solvers.arc_move import ArcMove
 from shotc.show.solvers.layered_move import LayeredMove
+from shotc.show.solvers.lifted_move import LiftedMove
 from shotc.show.solvers.move import CommonMove
 from shotc.show.solvers.wave_move import WaveMove
 
-Motion = CommonMove | ArcMove | WaveMove
+Motion = CommonMove | ArcMove | WaveMove | LiftedMove
 
 
 class FlightScore:
@@ -36,6 +37,7 @@ class FlightScore:
         self.phases: list[Phase] = []
         self.shown: list[FrameTimes] = []
         self.arcs = 0
+        self.lifted = 0.0
         self._points = [places, places, places]
         self._breaks = [start]
 
@@ -65,6 +67,7 @@ class FlightScore:
         self._add([*between, places, places, places], (duration or move.duration) / move.pieces)
         self.places = places
         self.arcs += isinstance(move, ArcMove)
+        self.lifted = max(self.lifted, move.height if isinstance(move, LiftedMove) else 0.0)
 
     def retrace(self, breaks: Array, coef: Array, slower: float = 1.0) -> None:
         """Append a flight between two stops, backwards and ``slower`` times as long."""

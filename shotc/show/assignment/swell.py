@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +21,8 @@ from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.fleet_spline import pieces
 from shotc.geom.proof import bounds, box_gap, inf_distance, sup_outside
 from shotc.planning.clearances import ROUNDING_M, Clearance
-from shotc.show.goals.room import DisplaySurroundings
+from shotc.show.assignment.score import Motion
+from shotc.show.goals.room import DisplaySurroundings, RoomLack
 from shotc.show.solvers.arc_move import ArcMove
 
 GAP_M = 1e-3
@@ -40,17 +40,6 @@ FARTHEST_M = 1000.0
 
 Ends = tuple[Array, Array]
 """Positions of all drones before and after a move, shape (n, 3) each."""
-
-
-class SwellLack(NamedTuple):
-    """The largest lack of a move.
-
-    metres : the lack
-    of : the obstacle; None for the ground and the height limit
-    """
-
-    metres: float
-    of: Clearance | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,12 +78,12 @@ class Heights:
 
 def led(
     ends: Ends, heights: Heights, room: DisplaySurroundings, fastest: Callable[[Array], ArcMove]
-) -> tuple[ArcMove, SwellLack]:
+) -> tuple[ArcMove, RoomLack]:
     """Return a move that is clear of everything, or that with the least lack, and the lack.
 
     fastest : returns the fastest move about a point c, shape (3,)
     """
-    best: tuple[ArcMove, SwellLack] | None = None
+    best: tuple[ArcMove, RoomLack] | None = None
     for move in _tries(ends, heights, room, fastest):
         lack = _lack(ends, heights, room, move)
         if lack.metres <= ROUNDING_M:
@@ -113,14 +102,14 @@ def _tries(
     first = _level(ends, heights, fastest, middle)
     yield first
     lack = _lack(ends, heights, room, first)
-    if lack.of is not None:
+    if isinstance(lack.of, Clearance):
         for shift in sorted(_shifts(ends, first, lack), key=lambda shift: float(np.linalg.norm(shift))):
             yield _level(ends, heights, fastest, first.pivot - shift)
 
 
-def _shifts(ends: Ends, move: ArcMove, lack: SwellLack) -> Iterator[Array]:
+def _shifts(ends: Ends, move: ArcMove, lack: RoomLack) -> Iterator[Array]:
     """Yield shifts of c with which the fleet passes an obstacle on each of six sides."""
-    assert lack.of is not None
+    assert isinstance(lack.of, Clearance)
     boxes = _boxes(ends, move)
     swell = np.lib.stride_tricks.sliding_window_view(move.ctrl.sum(axis=1) - 1.0, 4).min(axis=1)
     low, high = bounds(lack.of.solid)
@@ -151,16 +140,20 @@ def _level(ends: Ends, heights: Heights, fastest: Callable[[Array], ArcMove], pi
     return best
 
 
-def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove) -> SwellLack:
-    worst = SwellLack(heights.lack(ends, move.ctrl, move.pivot), None)
+def _lack(ends: Ends, heights: Heights, room: DisplaySurroundings, move: ArcMove) -> RoomLack:
+    worst = RoomLack(heights.lack(ends, move.ctrl, move.pivot), None)
     boxes = _boxes(ends, move)
     flown: FleetPieces | None = None
     for obstacle in room.obstacles:
         if not obstacle.inside and (box_gap(boxes, obstacle.solid) >= obstacle.metres).all():
             continue
-        flown = _flown(ends, move) if flown is None else flown
+        flown = flown_of(ends, move) if flown is None else flown
         lack = _beside(obstacle, flown)
-        worst = SwellLack(lack, obstacle) if lack > worst.metres else worst
+        worst = RoomLack(lack, obstacle) if lack > worst.metres else worst
+    for surface in room.surfaces:
+        flown = flown_of(ends, move) if flown is None else flown
+        lack = surface.worst(flown.bag())
+        worst = RoomLack(lack, surface) if lack > worst.metres else worst
     return worst
 
 
@@ -174,7 +167,8 @@ def _boxes(ends: Ends, move: ArcMove) -> Array:
     return np.stack([windows[:, 0].min(axis=-1), windows[:, 1].max(axis=-1)], axis=1)
 
 
-def _flown(ends: Ends, move: ArcMove) -> FleetPieces:
+def flown_of(ends: Ends, move: Motion) -> FleetPieces:
+    """Return the pieces of a move from rest to rest, on a clock of its own."""
     before, after = ([e] * 3 for e in ends)
     coef = np.stack([*before, *move.between(*ends), *after], axis=1)
     breaks = np.arange(coef.shape[1] - 2, dtype=np.float64)

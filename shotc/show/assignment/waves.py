@@ -22,9 +22,17 @@ from shotc.ir.light_paints import reached
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Display, Fleet, Picture, Wave
+from shotc.planning.clearances import ROUNDING_M
 from shotc.rounding import down, up
-from shotc.show.assignment.faults import TriedWave, too_fast, wave_too_near, wave_without_extent
+from shotc.show.assignment.faults import (
+    TriedWave,
+    too_fast,
+    wave_in_the_way,
+    wave_too_near,
+    wave_without_extent,
+)
 from shotc.show.assignment.layers import LEAST_M, EffectContext, along_of
+from shotc.show.assignment.over import MoveSurroundings
 from shotc.show.assignment.score import FlightScore
 from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.wave_move import WaveMove, fastest_wave
@@ -62,8 +70,8 @@ class Waves:
     faults : collects their diagnostics
     """
 
-    def __init__(self, mission: MissionIR, fleet: Fleet) -> None:
-        self.mission, self.fleet = mission, fleet
+    def __init__(self, mission: MissionIR, fleet: Fleet, sky: MoveSurroundings) -> None:
+        self.mission, self.fleet, self.sky = mission, fleet, sky
         self.faults: list[Diagnostic] = []
 
     def move(self, ends: Ends, display: Display, picture: Picture) -> WaveMove:
@@ -88,6 +96,10 @@ class Waves:
         nearest = self._nearest(ends, move)
         if not kept(nearest.proven, self.fleet.apart.across):
             self.faults.append(self._too_near(ends, display, picture, nearest))
+            return move
+        lack = self.sky.lack(ends, move)
+        if lack.metres > ROUNDING_M:
+            self.faults.append(wave_in_the_way(self.mission, self.fleet, picture, lack))
         return move
 
     def _timed(self, ends: Ends, departs: Array, display: Display, picture: Picture) -> WaveMove:

@@ -8,7 +8,9 @@ import numpy as np
 
 from shotc.diag.model import Diagnostic, Label
 from shotc.geom.bernstein import Array
+from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR
+from shotc.ir.owners import GROUND
 from shotc.ir.show import Display, Drawing, Fleet, Lettering, Picture
 from shotc.planning.clearances import ROUNDING_M, Clearance
 from shotc.rounding import at_least, at_most
@@ -16,6 +18,7 @@ from shotc.show.goals.body import SourceFault
 from shotc.show.goals.remedies import PictureRemedies
 from shotc.show.goals.room import DisplaySurroundings, lack_of, least_shift
 from shotc.show.goals.spaced import SpacingTask
+from shotc.show.goals.surfaces import OverTerrain, Standing
 from shotc.show.labels import word_of
 
 BETWEEN = (0.0, 0.25, 0.5, 0.75)
@@ -162,8 +165,11 @@ def in_the_way(
         )
         message = f"the picture is too low: {_of(count, fleet)}"
         diagnostics.append(Diagnostic("D058", message, (label,), (note,), help_))
+    about = (mission, fleet, label, help_, len(frames))
     for obstacle in room.obstacles:
-        diagnostics += _at_obstacle(obstacle, goals, (mission, fleet, label, help_, len(frames)))
+        diagnostics += _at_obstacle(obstacle, goals, about)
+    for surface in room.surfaces:
+        diagnostics += _at_surface(surface, goals, about)
     return diagnostics
 
 
@@ -189,6 +195,47 @@ def _at_obstacle(
     note = f"the worst is at [{place[0]:.2f}, {place[1]:.2f}, {place[2]:.2f}]: "
     labels = (label, mission.origins.key(obstacle.owner.path, "the obstacle"))
     return [Diagnostic("D058", message, labels, (note + obstacle.measure(place, fleet.radius),), help_)]
+
+
+def _at_surface(
+    surface: Standing, goals: Array, about: tuple[MissionIR, Fleet, Label, str, int]
+) -> list[Diagnostic]:
+    mission, fleet, label, help_, frames = about
+    lack = surface.lack(goals)
+    if not (lack > ROUNDING_M).any():
+        return []
+    k = int(lack.argmax())
+    worst = goals[k]
+    x, y, z = (float(c) for c in worst)
+    owner = surface.owner_at(worst)
+    count = int((lack > ROUNDING_M).sum()) // frames or 1
+    labels = (
+        label,
+        *((mission.origins.key(owner.path, "the obstacle"),) if owner.path != GROUND.path else ()),
+    )
+    note = f"the worst is at [{x:.2f}, {y:.2f}, {z:.2f}]: "
+    if isinstance(surface, OverTerrain):
+        message = f"the picture is too {'high' if surface.kept.flipped else 'low'}: {_of(count, fleet)}"
+        note += _over_ground(mission, fleet, (x, y, z), highest=surface.kept.flipped)
+    else:
+        message = f"the picture is too close to {owner.words}: {_of(count, fleet)}"
+        note += f"{at_least(float(lack[k]))} m are missing of the {surface.clearance:.2f} m that must be free"
+    return [Diagnostic("D058", message, labels, (note,), help_)]
+
+
+def _over_ground(mission: MissionIR, fleet: Fleet, place: Vec3, *, highest: bool) -> str:
+    """Say how high a place is over the ground, and how high it may be."""
+    terrain = mission.terrain
+    ground = None if terrain is None else terrain.height(place[0], place[1])
+    if ground is None:
+        return "there is no ground"
+    here = f"{place[2] - ground:.2f} m over the ground, which is z = {ground:.2f}"
+    if highest:
+        return f"{here}; `rules.max_height` allows {mission.rules.max_height or 0.0:.2f} m"
+    return (
+        f"{here}; `rules.ground_clearance` and the body radius of {fleet.radius:.2f} m ask for "
+        f"{mission.rules.over_ground(fleet.radius):.2f} m"
+    )
 
 
 def _of(count: int, fleet: Fleet) -> str:

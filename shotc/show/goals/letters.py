@@ -78,7 +78,7 @@ def too_small(
         apart(setting),
         f"{'small ' if share < 1.0 else ''}letters need {LETTER_LIGHTS} lights in their height",
     )
-    larger = enlarged(picture, needed / source.height, mission.rules.over_ground(fleet.radius))
+    larger = enlarged(picture, needed / source.height, mission.lowest(source.centre, fleet.radius))
     message = f"letters {source.height:.4g} m high are too small to be read"
     help_ = f"make them larger (`{size_words(source, larger.source)}`)"
     closer = source.height / needed * fleet.apart.across - fleet.apart.margin

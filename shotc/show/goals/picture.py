@@ -95,7 +95,8 @@ def _remedies(
     def fits(picture: Picture) -> bool:
         return _shows_all(task, setting, picture)
 
-    return remedies(fits, task.picture, held, setting.room.lowest, touching, tall)
+    lowest = task.mission.lowest(task.picture.source.centre or (0.0, 0.0, 0.0), task.fleet.radius)
+    return remedies(fits, task.picture, held, lowest, touching, tall)
 
 
 def _shows_all(task: PictureTask, setting: SpacingTask, picture: Picture) -> bool:

@@ -1,16 +1,22 @@
-"""Where goals may be: clear of zones, of targets that stand, and of the ground."""
+"""Where goals may be, and ways: clear of zones, of targets, of the ground, of scenes and of buildings."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
 from shotc.geom.bernstein import Array
+from shotc.geom.fleet_pieces import FleetPieces
+from shotc.geom.pieces import Pieces
+from shotc.geom.proof import box_gap, inf_distance, sup_outside
 from shotc.geom.solid_arrays.points import signed_distance
 from shotc.ir.mission import MissionIR
 from shotc.ir.show import Fleet
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, outward
+from shotc.show.goals.surfaces import CLOSED_M, Standing, surfaces_of
 
 FAR_M = 1000.0
 """Metres beyond which no shift is looked for."""
@@ -18,17 +24,49 @@ SHIFT_ROUNDS = 60
 DIRECTION_COUNT = 16
 
 
+class RoomLack(NamedTuple):
+    """What a flight lacks most: metres; of : what stands there, or None for flat ground and the height."""
+
+    metres: float
+    of: Clearance | Standing | None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class DisplaySurroundings:
-    """What stands around; lowest : z that the centre of a drone may have, metres."""
+    """What stands around.
+
+    lowest : z that the centre of a drone may have over flat ground, metres; minus infinity over terrain
+    surfaces : terrain, scenes and buildings
+    """
 
     obstacles: tuple[Clearance, ...]
     lowest: float
+    surfaces: tuple[Standing, ...] = ()
 
     def lack(self, goals: Array) -> Array:
         """Return by how many metres room is missing at each goal, (n,), at most 0 where there is enough."""
         lacks = [self.lowest - goals[:, 2], *(lack_of(o, goals) for o in self.obstacles)]
+        lacks += [surface.lack(goals) for surface in self.surfaces]
         return np.asarray(np.max(lacks, axis=0))
+
+    def worst(self, flown: FleetPieces) -> RoomLack:
+        """Return what a flight lacks most, proved: of zones, targets and surfaces, not of flat ground."""
+        worst, bag = RoomLack(0.0, None), flown.bag()
+        for obstacle in (*self.obstacles, *self.surfaces):
+            metres = beside(obstacle, bag) if isinstance(obstacle, Clearance) else obstacle.worst(bag)
+            worst = RoomLack(metres, obstacle) if metres > worst.metres else worst
+        return worst
+
+    def up(self, p: Array, *, every: bool) -> Array:
+        """Return by how much places (n, 3) have to rise to be clear of what lies below them; metres, (n,).
+
+        every : whether they have to be above all that is near in the plan, or only of what they lack room
+        It is infinite where rising does not help.
+        """
+        rises = [np.maximum(self.lowest - p[:, 2], 0.0)]
+        rises += [over(o, p, every=every) for o in self.obstacles if not o.inside]
+        rises += [surface.up(p, every=every) for surface in self.surfaces]
+        return np.asarray(np.max(rises, axis=0))
 
     def hold(self, before: Array, after: Array) -> Array:
         """Return goals where a push takes them, or where they were if there is less room than needed."""
@@ -40,7 +78,8 @@ class DisplaySurroundings:
 
 def room_of(mission: MissionIR, fleet: Fleet) -> DisplaySurroundings:
     """Return what a fleet's goals keep clear of."""
-    return DisplaySurroundings(tuple(clearances_of(mission, fleet)), mission.rules.over_ground(fleet.radius))
+    lowest = mission.rules.over_ground(fleet.radius) if mission.terrain is None else -inf
+    return DisplaySurroundings(tuple(clearances_of(mission, fleet)), lowest, surfaces_of(mission, fleet))
 
 
 def lack_of(obstacle: Clearance, goals: Array) -> Array:
@@ -49,11 +88,29 @@ def lack_of(obstacle: Clearance, goals: Array) -> Array:
     return obstacle.metres + (gap if obstacle.inside else -gap)
 
 
+def over(obstacle: Clearance, p: Array, *, every: bool) -> Array:
+    """Return by how much places (n, 3) have to rise to be over an obstacle; as ``DisplaySurroundings.up``."""
+    solid = obstacle.solid
+    beside_ = signed_distance(solid._replace(bottom=-inf, top=inf), p) < obstacle.metres
+    asked = beside_ if every else beside_ & (lack_of(obstacle, p) > 0.0)
+    return np.where(asked, np.maximum(solid.top + obstacle.metres - p[:, 2], 0.0), 0.0)
+
+
+def beside(obstacle: Clearance, bag: Pieces) -> float:
+    """Return by how much anybody comes too near to what stands, proved; at most 0 where nobody does."""
+    if obstacle.inside:
+        return sup_outside(bag, obstacle.solid, lambda _: CLOSED_M).proven + obstacle.metres
+    near = box_gap(bag.ctrl, obstacle.solid) < obstacle.metres
+    if not near.any():
+        return 0.0
+    return obstacle.metres - inf_distance(bag.pick(near), obstacle.solid, lambda _: CLOSED_M).proven
+
+
 def least_shift(goals: Array, room: DisplaySurroundings) -> Array | None:
     """Return the shortest shift (3,) found that gives all goals room, rounded up to centimetres, or None.
 
     Along each of a number of directions the goals go on by what is missing; as no distance grows faster
-    than they move, no place with room is passed over.
+    than they move, no place with room is passed over. Heights over slopes do: there a nearer one may be.
     """
     best: Array | None = None
     for way in _ways():

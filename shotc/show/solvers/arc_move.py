@@ -82,7 +82,7 @@ def fastest_arc(
     ends : places before and after, shape (n, 3) each; pivot : the point c, shape (3,)
     free : where (a, b) may be
     """
-    drones = _Drones.of(ends, pivot, limits, pace)
+    drones = Drones.of(ends, pivot, limits, pace)
     busy = drones.busiest()
     found = _shortest(busy, free, easing)
     least = float(free.least_share(found))
@@ -92,11 +92,11 @@ def fastest_arc(
     return ArcMove(found, pivot, float(np.ceil(pieces / TICK_S) * TICK_S), limit, drone)
 
 
-def _shortest(busy: _Drones, free: Free, easing: Easing) -> Array:
+def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
     """Return the control points of (a, b), shape (K, 2), with which the drones are there first."""
     best, found = (1.0, inf), np.zeros((0, 2))
     for line in free.ways():
-        at = _when(busy, line)
+        at = times_of(busy, line)
         share = np.linspace(0.0, 1.0, len(line))
         for pieces in PIECES:
             shapes = family(pieces, easing)[0][::PROFILE_STRIDE]
@@ -114,13 +114,17 @@ def _shortest(busy: _Drones, free: Free, easing: Easing) -> Array:
     return found
 
 
-def _when(busy: _Drones, line: Array) -> Array:
-    """Return the share of the time that the busiest drone needs up to each point of a way (N, 2)."""
+def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:
+    """Return the share of the time that the busiest drone needs up to each point of a way (N, 2).
+
+    height : by which all are higher there besides, shape (N,), metres
+    """
     step = 1.0 / (len(line) - 1)
-    rate = np.gradient(line, step, axis=0)
+    whole = np.column_stack([line, np.zeros(len(line)) if height is None else height])
+    rate = np.gradient(whole, step, axis=0)
     bend = np.gradient(rate, step, axis=0)
-    speeds = busy.shares(rate, 1)
-    needs = np.hypot(speeds, np.sqrt(busy.shares(bend, 2) / ASKED_SHARE))
+    speeds = busy.shares(rate[:, :2], 1, rate[:, 2])
+    needs = np.hypot(speeds, np.sqrt(busy.shares(bend[:, :2], 2, bend[:, 2]) / ASKED_SHARE))
     wide = max(1, round(SMOOTHED_SHARE * len(line)))
     padded = np.pad(needs, wide, mode="edge")
     smooth = np.convolve(padded, np.ones(2 * wide + 1), mode="valid")  # only shares of it count
@@ -130,7 +134,7 @@ def _when(busy: _Drones, line: Array) -> Array:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Drones:
+class Drones:
     """Drones by where they begin and end about the pivot, shape (n, 3) each, and what they may."""
 
     away: Array
@@ -138,13 +142,14 @@ class _Drones:
     ceilings: tuple[float, float, float, float, float]
 
     @staticmethod
-    def of(ends: tuple[Array, Array], pivot: Array, limits: Limits, pace: float) -> _Drones:
+    def of(ends: tuple[Array, Array], pivot: Array, limits: Limits, pace: float) -> Drones:
+        """Return drones of two formations, shape (n, 3) each, that use a share of every limit."""
         scale = LIMIT_SHARE * pace
         most = (limits.speed, limits.climb, limits.descent, limits.usable_acceleration, limits.jerk)
         speed, climb, descent, acceleration, jerk = (scale * m for m in most)
-        return _Drones(ends[0] - pivot, ends[1] - pivot, (speed, climb, descent, acceleration, jerk))
+        return Drones(ends[0] - pivot, ends[1] - pivot, (speed, climb, descent, acceleration, jerk))
 
-    def busiest(self) -> _Drones:
+    def busiest(self) -> Drones:
         """Return those of whom one has the most to do, whatever the way: the others bind nothing."""
         kept: set[int] = set()
         for a, b in angles(DIRECTION_COUNT):
@@ -154,38 +159,52 @@ class _Drones:
             kept |= {int(level.argmax()), int(whole.argmax())}
             kept |= {int(rates[:, 2].argmax()), int(rates[:, 2].argmin())}
         rows = sorted(kept)
-        return _Drones(self.away[rows], self.there[rows], self.ceilings)
+        return Drones(self.away[rows], self.there[rows], self.ceilings)
 
-    def shares(self, rates: Array, order: int) -> Array:
+    def shares(self, rates: Array, order: int, rising: Array | None = None) -> Array:
         """Return the largest share of a limit that a derivative of (a, b), shape (..., 2), asks of
-        anybody.
+        anybody; rising : that of a height besides, shape (...).
         """
-        return np.asarray(self._shares(rates, order).max(axis=(-2, -1)))
+        return np.asarray(self._shares(rates, order, rising).max(axis=(-2, -1)))
 
-    def least_pieces(self, ctrl: Array) -> Array:
-        """Return the least length of a piece for control points (..., K, 2), seconds."""
+    def least_pieces(self, ctrl: Array, lift: Array | None = None) -> Array:
+        """Return the least length of a piece for control points (..., K, 2), seconds.
+
+        lift : control points (..., K) of a height by which all are higher besides, metres
+        """
         least = np.full(ctrl.shape[:-2], LEAST_PIECE_S)
         for order in (1, 2, 3):
             rates = np.diff(ctrl, order, axis=-2)
-            most = self.shares(rates, order).max(axis=-1)
+            rising = None if lift is None else np.diff(lift, order, axis=-1)
+            most = self.shares(rates, order, rising).max(axis=-1)
             least = np.maximum(least, most ** (1.0 / order))
         return np.asarray(least)
 
-    def binding(self, ctrl: Array) -> tuple[float, int, str]:
-        """Return the least length of a piece for control points (K, 2), whom it binds, and by what."""
+    def binding(self, ctrl: Array, lift: Array | None = None) -> tuple[float, int, str]:
+        """Return the least length of a piece for control points (K, 2), whom it binds, and by what.
+
+        lift : as in ``least_pieces``, shape (K,)
+        """
         best = (LEAST_PIECE_S, 0, BINDS[0])
+        height = np.zeros(len(ctrl)) if lift is None else lift
         for order in (1, 2, 3):
-            for rate in np.diff(ctrl, order, axis=0):
-                shares = self._shares(rate, order)
+            rising = np.diff(height, order)
+            for rate, climb in zip(np.diff(ctrl, order, axis=0), rising, strict=True):
+                shares = self._shares(rate, order, climb)
                 drone, which = (int(k) for k in np.unravel_index(int(shares.argmax()), shares.shape))
                 seconds = float(shares[drone, which]) ** (1.0 / order)
                 if seconds > best[0]:
                     best = (seconds, drone, BINDS[which] if order == 1 else BINDS[order + 1])
         return best
 
-    def _shares(self, rates: Array, order: int) -> Array:
-        """Return shares of limits, shape (..., n, 3) of speeds and (..., n, 1) of what comes after them."""
+    def _shares(self, rates: Array, order: int, rising: Array | None = None) -> Array:
+        """Return shares of limits, shape (..., n, 3) of speeds and (..., n, 1) of what comes after them.
+
+        rising : the same derivative of a height that all have besides, shape (...), metres
+        """
         moved = rates[..., None, :1] * self.away + rates[..., None, 1:] * self.there
+        if rising is not None:
+            moved[..., 2] += np.asarray(rising)[..., None]
         if order == 1:
             across = np.sqrt(moved[..., 0] ** 2 + moved[..., 1] ** 2)
             up = moved[..., 2]

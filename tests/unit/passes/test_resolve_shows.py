@@ -248,7 +248,7 @@ def test_layers_above_what_the_mission_allows() -> None:
     text = show(fleet=fleet.replace("spacing: 4", "spacing: 1"), head="rules: {max_height: 58}\n")
     d = only(text.replace("58", "21"))  # four layers: 10 m, and three times 4.004 m
     assert (d.code, marked(d, text)) == ("D027", "1")
-    assert "highest is at z = 22.01" in d.notes[0]
+    assert "highest is 22.01 m above the ground" in d.notes[0]
     assert "max_height: 23" in d.help
     assert faults(text) == []
 

@@ -56,6 +56,7 @@ def _judged(ir: LoadedMission, what: PartialMission, *, order: bool) -> list[Dia
         *check_parked(ir.spec, mission),
     ]
     if ir.spec.fleets:
+        faults += _shows_beside_meshes(mission)
         faults += check_show(mission, ir.spec, order=order and not has_errors(faults))
     return faults
 
@@ -103,6 +104,19 @@ def _beside_meshes(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> _B
     told = ((shot, check_shot_beside(mission, shot, way)) for shot, way in filmed)
     places = tuple((shot, path, d) for shot, found in told for path, d in found)
     return _Beside(tuple(check_homes_beside(mission)), places)
+
+
+def _shows_beside_meshes(mission: MissionIR) -> Iterator[Diagnostic]:
+    """Yield the pads and the pictures of shows that are too near to scenes and buildings."""
+    if not mission.meshes:
+        return
+    from shotc.passes.resolve.checks.show.beside_meshes import check_pads_beside, check_pictures_beside
+
+    yield from check_pads_beside(mission)
+    fleets = {fleet.name: fleet for fleet in mission.fleets}
+    for display in mission.displays:
+        if display.fleet in fleets:
+            yield from check_pictures_beside(mission, display, fleets[display.fleet])
 
 
 def _places(mission: MissionIR, shot: Shot) -> Iterator[tuple[KeyPath, Diagnostic]]:

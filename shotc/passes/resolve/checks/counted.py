@@ -40,7 +40,7 @@ def check_counted(mission: MissionIR, spec: MissionSpec, level: frozenset[str]) 
     terrain = mission.terrain
     if terrain is None:
         return
-    for counted in (*_targets(mission, spec, level), *_zones(mission, spec)):
+    for counted in (*_targets(mission, spec, level), *_zones(mission, spec), *_audience(mission, spec)):
         worst = max(_beyond(terrain, counted.places), default=None)
         if worst is None:
             continue
@@ -89,6 +89,16 @@ def _zones(mission: MissionIR, spec: MissionSpec) -> Iterator[_Counted]:
     for zone in mission.zones:
         if zone_counts_from_ground(spec.world.zones[zone.name]):
             yield _Counted(f"zone `{zone.name}`", zone.path, tuple(_footprint(zone.solid)))
+
+
+def _audience(mission: MissionIR, spec: MissionSpec) -> Iterator[_Counted]:
+    """Yield the viewpoints of displays; pictures and pads without ground leave the terrain anyway."""
+    viewpoints = {shot.id: getattr(shot, "viewpoint", None) for shot in spec.shots}
+    for display in mission.displays:
+        written = viewpoints.get(display.id)
+        if display.viewpoint is not None and written is not None and counts_from_ground(written):
+            x, y, _ = display.viewpoint
+            yield _Counted(f"the viewpoint of `{display.id}`", (*display.path, "viewpoint"), ((x, y),))
 
 
 def _footprint(solid: Solid) -> Iterator[Vec2]:

@@ -1,4 +1,4 @@
-"""Homes and shots where the terrain of a mission has no ground."""
+"""Homes, pads, shots and pictures of shows where the terrain of a mission has no ground."""
 
 from __future__ import annotations
 
@@ -9,14 +9,17 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, Shot
 from shotc.ir.origin import KeyPath
+from shotc.ir.show import whole_fleets
 from shotc.passes.resolve.checks.heights import Way
+from shotc.show.geom.shape import balls
+from shotc.show.labels import key_of, pads_path
 
 if TYPE_CHECKING:  # missions on flat ground need no numpy
     from shotc.ir.terrain import Terrain
 
 
 def check_covered(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> Iterator[Diagnostic]:
-    """Yield the homes and shots outside of the terrain, where no height above ground is known."""
+    """Yield the homes, pads, shots and pictures outside of the terrain, without a known ground."""
     terrain = mission.terrain
     if terrain is None:
         return
@@ -25,10 +28,19 @@ def check_covered(mission: MissionIR, filmed: Sequence[tuple[Shot, Way]]) -> Ite
         yield from _outside(mission, terrain, f"the home of `{drone.name}`", home, [drone.home])
     for shot, way in filmed:
         yield from _outside(mission, terrain, f"shot `{shot.id}`", shot.path, [moment.at for moment in way])
+    for fleet in whole_fleets(mission.fleets):
+        yield from _outside(
+            mission, terrain, f"the layout of {fleet.words}", pads_path(mission, fleet), fleet.pads
+        )
+    for display in mission.displays:
+        for picture in display.pictures:
+            places = [ball.centre for ball in balls(picture.source)]
+            words = f"a picture of `{display.id}`" if picture.name is None else f"picture `{picture.name}`"
+            yield from _outside(mission, terrain, words, key_of(picture), places)
 
 
 def _outside(
-    mission: MissionIR, terrain: Terrain, words: str, path: KeyPath, way: list[Vec3]
+    mission: MissionIR, terrain: Terrain, words: str, path: KeyPath, way: Sequence[Vec3]
 ) -> Iterator[Diagnostic]:
     outside = [(terrain.beyond(x, y), x, y) for x, y, _ in way if terrain.height(x, y) is None]
     if not outside:

@@ -13,9 +13,10 @@ from shotc.ir.mission import GeoOrigin, MissionIR, Zone
 from shotc.ir.rules import Rules, TransitClearance
 from shotc.ir.source import MissionSource
 from shotc.kinds.base import Kind, placed
-from shotc.passes.resolve.lower.deferred import deferred_features
+from shotc.passes.resolve.lower.deferred import each_once
 from shotc.passes.resolve.lower.earth import check_earth, geo_origin
 from shotc.passes.resolve.lower.files import FileReader, Files, match_files
+from shotc.passes.resolve.lower.fleets import PadSite
 from shotc.passes.resolve.lower.ideals import with_framings, with_times
 from shotc.passes.resolve.lower.music import Heard, music_of
 from shotc.passes.resolve.lower.names import check_names, emitters_of, once
@@ -68,7 +69,7 @@ def lowered(
     progress("expanding the shots")
     heard = music_of(ir, world.files)
     shots = _shots(ir, world, kinds, heard)
-    show = shown(ir, world.put, world.files, shots.displays, heard.song)
+    show = shown(ir, PadSite(world.put, world.heights), world.files, shots.displays, heard.song)
     names = check_names(ir.spec, ir.origins, emitters)
     slips = check_slips(ir.spec, world.files.origin, ir.origins)
     faults = once([*world.faults, *heard.faults, *slips, *names, *shots.diagnostics, *show.diagnostics])
@@ -169,7 +170,7 @@ def _mission(ir: LoadedMission, world: _World, shots: Shots, show: ShowMaterial,
         rate=spec.output.rate or (SHOW_RATE_HZ if shots.displays and not shots.shots else RATE_HZ),
         emit=emitters_of(spec),
         source_sha256=ir.sha256,
-        deferred=deferred_features(spec, shots.deferred),
+        deferred=each_once(shots.deferred),
         origins=ir.origins,
         fleets=show.fleets,
         displays=shots.displays,

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import ceil, cos, pi, sin, sqrt
+from typing import NamedTuple
 
 from shotc.diag.model import Diagnostic
 from shotc.diag.registry import has_errors
-from shotc.ir.limits import Vec3
+from shotc.ir.ground import GroundHeight
+from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet, FleetGroup, group_name, spans
-from shotc.kinds.base import bad_file
+from shotc.kinds.base import Place, bad_file, counts_from_ground
 from shotc.kinds.files import FileFault, read_table
 from shotc.kinds.located import in_world
 from shotc.passes.resolve.lower.files import Files
@@ -18,16 +21,35 @@ from shotc.spec.fleets import CircleSpec, FleetSpec, GridSpec, in_no_group
 from shotc.spec.mission import MissionSpec
 from shotc.spec.presets import PRESETS
 
-ROWS = (("x", "y", "z"), ("lat", "lon", "height"))
+ROWS = (("x", "y", "z"), ("lat", "lon", "height"), ("x", "y"), ("lat", "lon"))
+"""Tables of pads; those without a height are of pads that stand on the ground."""
 
 
-def fleets_of(spec: MissionSpec, put: Put, files: Files) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
+class PadSite(NamedTuple):
+    """Where pads are put. put : a place into W; ground : z of the ground at x and y, metres."""
+
+    put: Put
+    ground: GroundHeight
+
+    def over(self, anchor: Place, plan: Iterable[Vec2]) -> tuple[Vec3, ...]:
+        """Return pads of a layout at places (x, y) of W; anchor : the place that the layout is given by.
+
+        All are as high as the anchor, over the ground or over the origin as that counts.
+        """
+        x, y, z = self.put(anchor)
+        if not counts_from_ground(anchor):
+            return tuple((px, py, z) for px, py in plan)
+        height = z - self.ground(x, y)
+        return tuple((px, py, self.ground(px, py) + height) for px, py in plan)
+
+
+def fleets_of(spec: MissionSpec, site: PadSite, files: Files) -> tuple[tuple[Fleet, ...], list[Diagnostic]]:
     """Return the fleets with readable layouts, and the faults of the others."""
     fleets: list[Fleet] = []
     faults: list[Diagnostic] = []
     for name, written in spec.fleets.items():
         path = ("fleets", name)
-        pads = _pads(written, put, files, path)
+        pads = _pads(written, site, files, path)
         if isinstance(pads, Diagnostic):
             faults.append(pads)
             continue
@@ -125,31 +147,35 @@ def _touching(fleet: Fleet, files: Files) -> list[Diagnostic]:
     return [Diagnostic("D003", message, (label,), (note,), f"ask for {bodies:.2f} m or more either way")]
 
 
-def _pads(written: FleetSpec, put: Put, files: Files, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
+def _pads(written: FleetSpec, site: PadSite, files: Files, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
     layout = written.layout
     if layout.grid is not None:
-        return _grid(layout.grid, written.count, put)
+        return _grid(layout.grid, written.count, site)
     if layout.circle is not None:
-        return _circle(layout.circle, written.count, put)
+        return _circle(layout.circle, written.count, site)
     assert layout.file is not None
-    return _from_file(layout.file, written.count, files, (*path, "layout", "file"))
+    return _from_file(layout.file, written.count, (site, files), (*path, "layout", "file"))
 
 
-def _grid(grid: GridSpec, count: int, put: Put) -> tuple[Vec3, ...]:
+def _grid(grid: GridSpec, count: int, site: PadSite) -> tuple[Vec3, ...]:
     """Return the pads of a square grid: rows from west to east, each further north."""
-    x, y, z = put(grid.origin)
+    x, y, _ = site.put(grid.origin)
     columns = ceil(sqrt(count))
-    return tuple((x + i % columns * grid.spacing, y + i // columns * grid.spacing, z) for i in range(count))
+    plan = ((x + i % columns * grid.spacing, y + i // columns * grid.spacing) for i in range(count))
+    return site.over(grid.origin, plan)
 
 
-def _circle(circle: CircleSpec, count: int, put: Put) -> tuple[Vec3, ...]:
+def _circle(circle: CircleSpec, count: int, site: PadSite) -> tuple[Vec3, ...]:
     """Return the pads of a circle: evenly spaced, clockwise from its north."""
-    x, y, z = put(circle.center)
+    x, y, _ = site.put(circle.center)
     turns = (2 * pi * i / count for i in range(count))
-    return tuple((x + circle.radius * sin(a), y + circle.radius * cos(a), z) for a in turns)
+    return site.over(circle.center, ((x + circle.radius * sin(a), y + circle.radius * cos(a)) for a in turns))
 
 
-def _from_file(name: str, count: int, files: Files, path: KeyPath) -> tuple[Vec3, ...] | Diagnostic:
+def _from_file(
+    name: str, count: int, where: tuple[PadSite, Files], path: KeyPath
+) -> tuple[Vec3, ...] | Diagnostic:
+    site, files = where
     data = files.read(name, path)
     if isinstance(data, Diagnostic):
         return data
@@ -164,4 +190,6 @@ def _from_file(name: str, count: int, files: Files, path: KeyPath) -> tuple[Vec3
         note = f"`{name}` has {len(pads)} rows, and the fleet has {count} drones"
         help_ = f"write `count: {len(pads)}`, or give {count} rows"
         return Diagnostic("D004", "the layout has not one row a drone", labels, (note,), help_)
+    if len(table.columns) == 2:
+        pads = [(x, y, z + site.ground(x, y)) for x, y, z in pads]
     return tuple(pads)

@@ -34,7 +34,7 @@ def relief(
     posts = read_elevation(name, data, written.epsg)
     if not isinstance(posts, Posts):
         return fault(posts)
-    every, beyond = list(about[0]) or [(0.0, 0.0, 0.0)], about[1]  # a mission of fleets alone has no place
+    every, beyond = list(about[0]) or [(0.0, 0.0, 0.0)], about[1]  # layouts from files are read after it
     box = PlanRectangle(
         (min(p[0] for p in every) - beyond, min(p[1] for p in every) - beyond),
         (max(p[0] for p in every) + beyond, max(p[1] for p in every) + beyond),

@@ -6,9 +6,8 @@ from shotc.diag.model import Diagnostic
 from shotc.ir.show import Display, Fleet
 from shotc.ir.source import KeptFiles
 from shotc.passes.resolve.lower.files import Files
-from shotc.passes.resolve.lower.fleets import fleets_of
+from shotc.passes.resolve.lower.fleets import PadSite, fleets_of
 from shotc.passes.resolve.lower.material import Material, digests, not_kept, read_material
-from shotc.passes.resolve.lower.world import Put
 from shotc.spec.load import LoadedMission
 
 
@@ -27,7 +26,7 @@ class ShowMaterial(NamedTuple):
 
 def shown(
     ir: LoadedMission,
-    put: Put,
+    site: PadSite,
     files: Files,
     displays: tuple[Display, ...],
     song: tuple[str, bytes] | None = None,
@@ -35,7 +34,7 @@ def shown(
     """Resolve the fleets, and read the files of their displays; song : (name, bytes)."""
     if not ir.spec.fleets:
         return ShowMaterial()
-    fleets, wrong = fleets_of(ir.spec, put, files)
+    fleets, wrong = fleets_of(ir.spec, site, files)
     if isinstance(ir.folder, KeptFiles):
         return ShowMaterial(fleets, (), ir.folder.drawn, (*wrong, *not_kept(displays, ir.folder, ir.origins)))
     drawn, missing = read_material(displays, ir.folder, ir.origins)

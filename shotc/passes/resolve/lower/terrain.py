@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
+from math import ceil, sqrt
 from typing import TYPE_CHECKING, Any
 
 from shotc.diag.model import Diagnostic
 from shotc.ir.limits import Vec2, Vec3
-from shotc.kinds.base import Place
+from shotc.kinds.base import Place, bad_file
+from shotc.kinds.files import FileFault
 from shotc.passes.resolve.lower.files import Files
 from shotc.passes.resolve.lower.obstacles import not_judged
 from shotc.passes.resolve.lower.world import zone_counts_from_ground
 from shotc.spec.fields import Geodetic, OnMap
 from shotc.spec.mission import MissionSpec
+from shotc.spec.shot import ShotBase
 
 if TYPE_CHECKING:
     from shotc.ir.terrain import Terrain
@@ -38,6 +41,12 @@ def read_terrain(
         return data
     if find_spec("numpy") is None:
         return not_judged("terrain", written.file, FILE, files)
+    if written.datum == "home" and not spec.drones and not any(_pads(spec)):
+        fault = FileFault(
+            "its datum is the first drone's home, and no drone, grid or circle says where one is",
+            help="write `datum: sea`, or lay the fleet out by a `grid` or a `circle`",
+        )
+        return bad_file(files.origins, FILE, written.file, fault)
     from shotc.passes.resolve.lower.relief import relief
 
     return relief(written, data, (map(put, _places(spec)), _beyond(spec)), files)
@@ -50,12 +59,15 @@ def _beyond(spec: MissionSpec) -> float:
     """
     tracks = [target.track for target in spec.targets.values() if target.track is not None]
     led = any(track.file is not None or track.velocity is not None for track in tracks)
+    led = led or any(fleet.layout.file is not None for fleet in spec.fleets.values())
+    led = led or any(hasattr(getattr(shot, "frames", None), "flight") for shot in spec.shots)
     return FAR_M if led or any(getattr(shot, "file", None) for shot in spec.shots) else AROUND_M
 
 
 def _places(spec: MissionSpec) -> Iterator[Place]:
-    """Yield the places written in a mission, homes first, whatever their heights count from."""
+    """Yield the places written in a mission, homes and pads first, whatever their heights count from."""
     yield from (drone.home for drone in spec.drones.values())
+    yield from _pads(spec)
     for target in spec.targets.values():
         track = target.track
         written: tuple[Any, ...] = (target.at,)
@@ -71,6 +83,38 @@ def _places(spec: MissionSpec) -> Iterator[Place]:
             *(k.at for k in keyframes),
         )
         yield from (spot for spot in spots if isinstance(spot, tuple | Geodetic))
+        yield from _shown(shot)
+
+
+def _pads(spec: MissionSpec) -> Iterator[Place]:
+    """Yield the places by which fleets are laid out, and how far they reach from there."""
+    for fleet in spec.fleets.values():
+        grid, circle = fleet.layout.grid, fleet.layout.circle
+        if grid is not None:
+            yield from _about(grid.origin, ceil(sqrt(fleet.count)) * grid.spacing)
+        elif circle is not None:
+            yield from _about(circle.center, circle.radius)
+
+
+def _about(place: Place, reach: float) -> Iterator[Place]:
+    """Yield a place, and two corners of a square about it where it is in metres of W."""
+    yield place
+    if not isinstance(place, Geodetic):
+        x, y, z = place
+        yield from ((x + side * reach, y + side * reach, z) for side in (-1.0, 1.0))
+
+
+def _shown(shot: ShotBase) -> Iterator[Place]:
+    """Yield where the pictures of a display are, and its audience; frames are of the kind's own models."""
+    if (viewpoint := getattr(shot, "viewpoint", None)) is not None:
+        yield viewpoint
+    frames = getattr(shot, "frames", ())
+    for frame in frames if isinstance(frames, tuple) else (frames,):
+        sources = (frame, *(getattr(frame, key, None) for key in type(frame).model_fields))
+        for source in sources:
+            center = getattr(source, "center", None)
+            if isinstance(center, tuple | Geodetic):
+                yield center
 
 
 def _zones(spec: MissionSpec) -> Iterator[Place]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,3 +97,8 @@ def bounded(
     values = value(flight.at(bound.at, order))
     drone = int(np.argmax(values) if limit.upper else np.argmin(values))
     return of_drone(flight, limit, (bound.proven, bound.at), drone, "bounded")
+
+
+def worse(limit: Limit, claims: Sequence[Claim]) -> Claim:
+    """Return the claim of several about one limit that comes nearest to breaking it, or breaks it most."""
+    return (max if limit.upper else min)(claims, key=lambda claim: claim.worst)

@@ -7,14 +7,14 @@ drones whose boxes are farther away than the nearest drone found so far are skip
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from math import inf, isfinite
+from math import inf
 
 import numpy as np
 
 from shotc.geom.bernstein import Array, Piecewise
 from shotc.geom.fleet_pieces import FleetPieces
 from shotc.geom.pieces import Pieces, cut, join
-from shotc.geom.proof import ProvedExtreme, box_gap, inf_channel, inf_distance, norm, sup_convex, sup_outside
+from shotc.geom.proof import ProvedExtreme, box_gap, inf_distance, norm, sup_convex, sup_outside
 from shotc.geom.solid_arrays.points import separation, signed_distance
 from shotc.geom.solids import Solid, convex_parts
 from shotc.geom.track_array import places
@@ -24,7 +24,9 @@ from shotc.ir.sampling import beside
 from shotc.ir.target import Target
 from shotc.ir.trajectory import Claim
 from shotc.passes.verify.claims import Limit, gap, less
-from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone
+from shotc.passes.verify.fleets.above_ground import above_ground
+from shotc.passes.verify.fleets.beside_meshes import beside_meshes
+from shotc.passes.verify.fleets.flight import FleetFlight, Span, bounded, of_drone, worse
 from shotc.passes.verify.space import DRIFT_M
 
 SEED_PIECES = 256
@@ -47,7 +49,8 @@ def space(flight: FleetFlight) -> Iterator[Claim]:
             yield from _keep_out(flight, limit, zone.solid, (free, upright))
         else:
             yield _keep_in(flight, zone, free, [pieces for pieces, _ in upright])
-    yield from _ground(flight, free)
+    yield from above_ground(flight, free)
+    yield from beside_meshes(flight, free, upright)
     rules = flight.mission.rules
     for target in flight.mission.targets:
         limit = _clear(f"target {target.name}", rules.target_clearance, ("rules", "target_clearance"))
@@ -63,20 +66,6 @@ def _clear(name: str, clearance: float, path: KeyPath) -> Limit:
     return Limit(name, clearance, "m", path, upper=False)
 
 
-def _ground(flight: FleetFlight, free: FleetPieces) -> Iterator[Claim]:
-    clearance, radius = flight.mission.rules.ground_clearance, flight.fleet.radius
-    limit = _clear("ground clearance", clearance, ("rules", "ground_clearance"))
-    if len(free.low):
-        low = inf_channel(free.bag(), 2, gap(clearance + radius))
-        yield bounded(flight, limit, less(low, radius), lambda p: p[:, 2])
-    most = flight.mission.rules.max_height
-    if most is not None and isfinite(most) and len(free.low):
-        high = sup_convex(free.bag(), lambda c: c[..., 2], gap(most))
-        yield bounded(
-            flight, Limit("height above ground", most, "m", ("rules", "max_height")), high, lambda p: p[:, 2]
-        )
-
-
 def _keep_out(
     flight: FleetFlight, limit: Limit, solid: Solid, parts: tuple[FleetPieces, Upright]
 ) -> Iterator[Claim]:
@@ -87,11 +76,7 @@ def _keep_out(
         yield bounded(flight, limit, less(bound, radius), lambda p: signed_distance(solid, p))
     if upright:
         limit = _clear(f"{limit.constraint} at home", 0.0, limit.path)
-        yield _worse(limit, [_at_home(flight, limit, solid, part) for part in upright])
-
-
-def _worse(limit: Limit, claims: list[Claim]) -> Claim:
-    return (max if limit.upper else min)(claims, key=lambda claim: claim.worst)
+        yield worse(limit, [_at_home(flight, limit, solid, part) for part in upright])
 
 
 def _at_home(flight: FleetFlight, limit: Limit, solid: Solid, part: tuple[FleetPieces, Array]) -> Claim:
@@ -135,7 +120,7 @@ def _keep_from(flight: FleetFlight, limit: Limit, target: Target) -> Iterator[Cl
         for upright, pads in flight.verticals()
     ]
     if bounds:
-        yield _worse(limit, bounds)
+        yield worse(limit, bounds)
 
 
 def _off(target: Target, points: Array) -> Array:
@@ -203,8 +188,8 @@ def _vertical(flight: FleetFlight, upright: Upright) -> Iterator[Claim]:
     path = flight.key("layout")
     aside = Limit("drift from the vertical", DRIFT_M, "m", path)
     below = Limit("depth below home", 0.0, "m", path)
-    yield _worse(aside, [_drift(flight, aside, part) for part in upright])
-    yield _worse(below, [_sunk(flight, below, part) for part in upright])
+    yield worse(aside, [_drift(flight, aside, part) for part in upright])
+    yield worse(below, [_sunk(flight, below, part) for part in upright])
 
 
 def _drift(flight: FleetFlight, limit: Limit, part: tuple[FleetPieces, Array]) -> Claim:

@@ -135,9 +135,19 @@ def test_a_swell_is_led_past_what_stands_and_all_of_it_is_proved(solid: Cylinder
 
 @pytest.mark.slow
 def test_a_wall_between_two_pictures_is_told_with_what_is_missing() -> None:
-    wall = box((15.0, 0.0, 45.0), (1.0, 400.0, 90.0), 0.0)
-    trajectory, codes, told = planned(zone(wall))
+    wall = box((15.0, 0.0, 45.0), (1.0, 4000.0, 90.0), 0.0)
+    sky = Zone("sky", "in", box((30.0, 30.0, 40.0), (800.0, 800.0, 90.0), 0.0), ("world", "zones", "sky"))
+    trajectory, codes, told = planned(zone(wall), sky)
     assert trajectory is None
     assert codes == ["D089"]
-    assert "zone `mast`" in told
+    assert "zone `mast`" in told or "zone `sky`" in told
     assert "times as large" in told
+
+
+@pytest.mark.slow
+def test_over_a_wall_between_two_pictures_the_fleet_rises_and_all_of_it_is_proved() -> None:
+    trajectory, codes, _ = planned(zone(box((15.0, 0.0, 45.0), (1.0, 400.0, 90.0), 0.0)))
+    assert not codes
+    assert trajectory is not None
+    claims = judge(trajectory, PassContext()).certificate
+    assert all(claim.holds for claim in claims)

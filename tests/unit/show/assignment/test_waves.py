@@ -18,8 +18,11 @@ from shotc.ir.passes import PassContext
 from shotc.ir.show import Picture, Wave
 from shotc.passes.verify import judge
 from shotc.show.assignment import AssignGoals
+from shotc.show.assignment.over import MoveSurroundings
 from shotc.show.assignment.score import FlightScore
+from shotc.show.assignment.swell import Heights
 from shotc.show.assignment.waves import Waves, departures
+from shotc.show.goals.room import room_of
 from shotc.show.separation import KeepApart
 from shotc.show.solvers.match import matched
 from shotc.show.splines import BoundSplines
@@ -108,7 +111,10 @@ def test_what_is_planned_is_as_far_apart_as_it_has_to_be_and_what_is_refused_is_
 ) -> None:
     ends = formations(seed, count, roomy)
     drawn = asked(wave=wave(time, along, by=by))
-    waves = Waves(goals((fleet(count),), (display(drawn),), {"show": []}).keyframes.mission, fleet(count))
+    mission = goals((fleet(count),), (display(drawn),), {"show": []}).keyframes.mission
+    waves = Waves(
+        mission, fleet(count), MoveSurroundings(room_of(mission, fleet(count)), Heights(-np.inf, np.inf))
+    )
     least = least_sampled(ends, waves, drawn)
     assume([fault.code for fault in waves.faults] != ["D142"])  # three of a lattice may be alike
     if not waves.faults:

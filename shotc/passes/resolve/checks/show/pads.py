@@ -10,7 +10,7 @@ from shotc.diag.model import Diagnostic, Label
 from shotc.geom.apart import spacing
 from shotc.geom.colouring import fewest_colours
 from shotc.geom.pads import first_nearer, nearest_pair
-from shotc.ir.limits import Vec3
+from shotc.ir.limits import Vec2, Vec3
 from shotc.ir.mission import MissionIR
 from shotc.ir.origin import KeyPath
 from shotc.ir.show import Apart, Fleet, whole_fleets
@@ -18,7 +18,7 @@ from shotc.passes.resolve.checks.home import take_off_room
 from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of
 from shotc.planning.take_off import MOST_LAYERS, bodies_of, take_off_of
 from shotc.rounding import at_least, up
-from shotc.show.labels import wider
+from shotc.show.labels import pads_path, wider
 
 UNEVEN_M = 0.1  # metres below z = 0 that are accepted: lawn, earth curvature within a kilometre
 FARTHEST, MANY = 60, 400  # largest distance of the search for a free place, metres, and most drones for it
@@ -123,10 +123,7 @@ def _layout(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
 
 def _place(mission: MissionIR, fleet: Fleet, text: str = "") -> Label:
     """Return a label on what determines the position of the pads."""
-    path = (*fleet.path, "layout")
-    ways = (("grid", "origin"), ("circle", "center"), ("file",))
-    written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)
-    return mission.origins.value(next(written, path), text)
+    return mission.origins.value(pads_path(mission, fleet), text)
 
 
 def _too_near(mission: MissionIR, one: Fleet, other: Fleet, *, advise: bool = True) -> Diagnostic | None:
@@ -162,9 +159,9 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
         ways += [(up(high + reach - first), axis, on), (-up(last + reach - low), axis, back)]
     for by, axis, way in sorted(ways, key=lambda found: abs(found[0])):
         x, y = (by, 0.0) if axis == 0 else (0.0, by)
-        there = _shifted(moved, (x, y, 0.0))
+        there = _aside(mission, moved, (x, y))
         others = [fleet for fleet in mission.fleets if fleet.name != moved.name]
-        if not any(_too_near(mission, fleet, there, advise=False) for fleet in others) and _rises(
+        if not any(_too_near(mission, fleet, there, advise=False) for fleet in others) and rises(
             mission, there
         ):
             return f"move `{moved.name}` {abs(by):.2f} m {way}{_anchored(mission, moved, there)}"
@@ -174,10 +171,12 @@ def _beside(mission: MissionIR, standing: Fleet, moved: Fleet) -> str:
 def _anchored(mission: MissionIR, fleet: Fleet, there: Fleet) -> str:
     """Return what to write for a layout that is moved; empty for one from a file."""
     path = (*fleet.path, "layout")
+    stand = mission.terrain is not None and all(abs(h) < UNEVEN_M for h in over_ground(mission, there))
+    axes = 2 if stand else 3
     if (*path, "grid") in mission.origins.keys:
-        return f", to `origin: [{', '.join(f'{c + 0.0:.2f}' for c in there.pads[0])}]`"
+        return f", to `origin: [{', '.join(f'{c + 0.0:.2f}' for c in there.pads[0][:axes])}]`"
     if (*path, "circle") in mission.origins.keys and len(there.pads) > 1:
-        middle = (sum(p[i] for p in there.pads) / len(there.pads) for i in range(3))
+        middle = (sum(p[i] for p in there.pads) / len(there.pads) for i in range(axes))
         return f", to `center: [{', '.join(f'{c + 0.0:.2f}' for c in middle)}]`"
     return ""
 
@@ -185,21 +184,33 @@ def _anchored(mission: MissionIR, fleet: Fleet, there: Fleet) -> str:
 def _placed(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     """Yield the faults of the position of pads: underground, below obstacles, or with too low a rise."""
     label = _place(mission, fleet)
-    low = min(range(len(fleet.pads)), key=lambda i: fleet.pads[i][2])
-    z = fleet.pads[low][2]
-    if z < -UNEVEN_M:
-        note = f"pad {low + 1} is {-z:.2f} m under z = 0, the ground"
+    over = over_ground(mission, fleet)
+    deepest = min(range(len(over)), key=over.__getitem__)
+    deep = -over[deepest]
+    if deep > UNEVEN_M:
+        x, y, z = fleet.pads[deepest]
+        ground = f"z = {round(z + deep, 2) + 0.0:g}"
+        note = f"pad {deepest + 1} is {deep:.2f} m under {ground}, the ground"
+        if mission.terrain is not None:
+            note += f" at [{x:.1f}, {y:.1f}]"
         message = f"{fleet.words} stands underground"
-        higher = _shifted(fleet, (0.0, 0.0, up(-z)))
-        help_ = f"raise the layout by {at_least(-z)} m{_anchored(mission, fleet, higher)}"
+        higher = _shifted(fleet, (0.0, 0.0, up(deep)))
+        help_ = f"raise the layout by {at_least(deep)} m{_anchored(mission, fleet, higher)}"
+        if mission.terrain is not None:
+            help_ += ", or leave its height out: every pad then stands on the ground at its place"
         yield Diagnostic("D006", message, (label,), (note,), help_)
         return
     obstacles = clearances_of(mission, fleet)
     blocked = [found for obstacle in obstacles if (found := _blocked(mission, fleet, obstacle)) is not None]
     yield from blocked
     if not blocked:
-        yield from _low_rise(mission, fleet, obstacles, z)
-    yield from _high_layers(mission, fleet)
+        yield from _low_rise(mission, fleet, obstacles, min(over))
+    yield from _high_layers(mission, fleet, over)
+
+
+def over_ground(mission: MissionIR, fleet: Fleet) -> list[float]:
+    """Return how high pads are over the ground at their places, metres, negative below it."""
+    return [z - mission.ground(x, y) for x, y, z in fleet.pads]
 
 
 def _blocked(mission: MissionIR, fleet: Fleet, obstacle: Clearance) -> Diagnostic | None:
@@ -227,7 +238,7 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
     others = [other for other in mission.fleets if other.name != fleet.name]
 
     def free(there: Fleet) -> bool:
-        return _rises(mission, there) and not any(
+        return rises(mission, there) and not any(
             _too_near(mission, other, there, advise=False) for other in others
         )
 
@@ -235,13 +246,13 @@ def _cleared(mission: MissionIR, fleet: Fleet) -> str:
         return "move the layout, or the obstacle"
     for metres in range(1, FARTHEST + 1):
         for x, y, way in ((1, 0, "east"), (-1, 0, "west"), (0, 1, "north"), (0, -1, "south")):
-            there = _shifted(fleet, (float(x * metres), float(y * metres), 0.0))
+            there = _aside(mission, fleet, (float(x * metres), float(y * metres)))
             if free(there):
                 return f"move the layout {metres} m {way}{_anchored(mission, fleet, there)}, or the obstacle"
     return "move the layout, or the obstacle"
 
 
-def _rises(mission: MissionIR, fleet: Fleet) -> bool:
+def rises(mission: MissionIR, fleet: Fleet) -> bool:
     """Return whether all drones of a fleet can take off from their pads."""
     least = fleet.radius - ROUNDING_M
     around, tops = clearances_of(mission, fleet), take_off_of(fleet)
@@ -252,6 +263,13 @@ def _rises(mission: MissionIR, fleet: Fleet) -> bool:
 def _shifted(fleet: Fleet, by: Vec3) -> Fleet:
     x, y, z = by
     return fleet._replace(pads=tuple((px + x, py + y, pz + z) for px, py, pz in fleet.pads))
+
+
+def _aside(mission: MissionIR, fleet: Fleet, by: Vec2) -> Fleet:
+    """Return a fleet moved on the map, each pad as high over the ground as it was."""
+    over, there = over_ground(mission, fleet), _shifted(fleet, (*by, 0.0))
+    pads = zip(there.pads, over, strict=True)
+    return there._replace(pads=tuple((x, y, mission.ground(x, y) + height) for (x, y, _), height in pads))
 
 
 def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> str:
@@ -267,12 +285,15 @@ def _least_room(fleet: Fleet, obstacle: Clearance, worst: int, room: float) -> s
     )
 
 
-def _high_layers(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
-    """Yield the fault of a fleet whose highest layer of take-off is above the mission's height limit."""
+def _high_layers(mission: MissionIR, fleet: Fleet, over: Sequence[float]) -> Iterator[Diagnostic]:
+    """Yield the fault of a fleet whose highest layer of take-off is above the mission's height limit.
+
+    over : heights of its pads above the ground, metres
+    """
     most, take_off = mission.rules.max_height, take_off_of(fleet)
     if most is None or not take_off.layered:
         return
-    high = max(pad[2] + take_off.top(i) for i, pad in enumerate(fleet.pads))
+    high = max(height + take_off.top(i) for i, height in enumerate(over))
     if high <= most + ROUNDING_M:
         return
     layers = len(take_off.heights)
@@ -280,7 +301,7 @@ def _high_layers(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
     labels = (_layout(mission, fleet), mission.origins.value(("rules", "max_height"), "the rule"))
     note = (
         f"its pads are nearer than its separation, so its layers stand {take_off.step:.2f} m above each "
-        f"other, the lowest {fleet.rise:.2f} m above its pads; the highest is at z = {high:.2f}"
+        f"other, the lowest {fleet.rise:.2f} m above its pads; the highest is {high:.2f} m above the ground"
     )
     at_once = wider(mission, fleet, spacing(fleet.apart))
     help_ = f"{at_once}, from where all rise at once, or write `rules: {{max_height: {ceil(high)}}}`"
@@ -288,21 +309,30 @@ def _high_layers(mission: MissionIR, fleet: Fleet) -> Iterator[Diagnostic]:
 
 
 def _low_rise(
-    mission: MissionIR, fleet: Fleet, obstacles: Sequence[Clearance], lowest: float
+    mission: MissionIR, fleet: Fleet, obstacles: Sequence[Clearance], over: float
 ) -> Iterator[Diagnostic]:
-    """Yield the fault of a rise that ends at a height at which the drones may not fly yet."""
-    floors: list[tuple[float, str, KeyPath]] = [
-        (mission.rules.ground_clearance, "the ground clearance", ("rules", "ground_clearance"))
+    """Yield the fault of a rise that ends at a height at which the drones may not fly yet.
+
+    over : height of the lowest pad above the ground, metres
+    """
+    lowest = min(z for _, _, z in fleet.pads)
+    floors: list[tuple[float, float, str, KeyPath]] = [
+        (mission.rules.ground_clearance, over, "the ground clearance", ("rules", "ground_clearance"))
     ]
-    floors += [(o.solid.bottom, f"the floor of {o.owner.words}", o.owner.path) for o in obstacles if o.inside]
-    floor_, what, path = max(floors, key=lambda found: found[0])
-    lacks = floor_ + fleet.radius - lowest - fleet.rise
+    floors += [
+        (o.solid.bottom, lowest, f"the floor of {o.owner.words}", o.owner.path) for o in obstacles if o.inside
+    ]
+    floor_, from_, what, path = max(floors, key=lambda found: found[0] - found[1])
+    lacks = floor_ + fleet.radius - from_ - fleet.rise
     if lacks <= ROUNDING_M:
         return
     label = mission.origins.value((*fleet.path, "rise"))
+    # Over terrain heights are over the ground; elsewhere that is z.
+    z = "" if path[-1] == "ground_clearance" and mission.terrain is not None else "z = "
+    unit = "" if z else " m over the ground"
     note = (
-        f"it rises {fleet.rise:.2f} m to z = {lowest + fleet.rise:.2f}; {what} of {floor_:.2f} m and the "
-        f"body radius of {fleet.radius:.2f} m need z = {floor_ + fleet.radius:.2f}"
+        f"it rises {fleet.rise:.2f} m to {z}{from_ + fleet.rise:.2f}{unit}; {what} of {floor_:.2f} m and the "
+        f"body radius of {fleet.radius:.2f} m need {z}{floor_ + fleet.radius:.2f}{unit}"
     )
     labels = (label, mission.origins.key(path, what)) if path in mission.origins.keys else (label,)
     message = f"{fleet.words} does not rise high enough to fly"

@@ -74,7 +74,8 @@ def _too_many(mission: MissionIR, fleet: Fleet, picture: Picture) -> Iterator[Di
         f"no more than {floor(most)} fit {where} this {word}, and {fleet.words} has {count}",
     )
     factor = growth(picture, fleet.apart, count)
-    larger = enlarged(picture, factor, mission.rules.over_ground(fleet.radius))
+    centre = picture.source.centre
+    larger = enlarged(picture, factor, mission.lowest(centre or (0.0, 0.0, 0.0), fleet.radius))
     labels = (
         mission.origins.key(key_of(picture)),
         _counted(mission, fleet),
@@ -97,11 +98,15 @@ def _counted(mission: MissionIR, fleet: Fleet) -> Label:
 def _too_low(
     mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]
 ) -> Iterator[Diagnostic]:
-    low = lowest(shape)
-    floor_ = mission.rules.over_ground(fleet.radius)
+    over = [ball.centre[2] - ball.radius - mission.ground(*ball.centre[:2]) for ball in shape]
+    deepest = min(range(len(over)), key=over.__getitem__)
+    low, floor_ = over[deepest], mission.rules.over_ground(fleet.radius)
     if low >= floor_ - ROUNDING_M:
         return
     where = f"{-low:.2f} m under the ground" if low < 0 else f"{low:.2f} m over the ground"
+    if mission.terrain is not None:
+        x, y, _ = shape[deepest].centre
+        where += f", which is z = {round(mission.ground(x, y), 2) + 0.0:g} at [{x:.1f}, {y:.1f}]"
     note = (
         f"the ground clearance of {mission.rules.ground_clearance:.2f} m and the body radius of "
         f"{fleet.radius:.2f} m need {floor_:.2f} m"
@@ -144,7 +149,7 @@ def _inside(
     labels = (centre_label(mission, picture), mission.origins.key(zone.owner.path, "the zone"))
     word = word_of(picture)
     # Below the ground clearance it is too low anyway, which is reported once.
-    low = max(lowest(shape), mission.rules.over_ground(fleet.radius))
+    low = max(lowest(shape), _floor(mission, fleet, shape))
     high = highest(shape)
     bottom, top = zone.solid.bottom + fleet.radius, zone.solid.top - fleet.radius
     if low < bottom - ROUNDING_M or high > top + ROUNDING_M:
@@ -172,23 +177,32 @@ def _inside(
     yield Diagnostic("D017", message, labels, (note,), f"{help_}; the plan refuses drones that stand there")
 
 
+def _floor(mission: MissionIR, fleet: Fleet, shape: tuple[Ball, ...]) -> float:
+    """Return the least z that a drone may have anywhere in a shape."""
+    return min(mission.lowest(ball.centre, fleet.radius) for ball in shape)
+
+
+def _high_enough(mission: MissionIR, fleet: Fleet, shape: tuple[Ball, ...]) -> bool:
+    lowest_ = ((ball.centre[2] - ball.radius, mission.lowest(ball.centre, fleet.radius)) for ball in shape)
+    return all(z >= least - ROUNDING_M for z, least in lowest_)
+
+
 def _cleared(mission: MissionIR, fleet: Fleet, picture: Picture, shape: tuple[Ball, ...]) -> str:
     """Return the shortest shift that clears a picture of everything, in words; empty where none is found."""
     centre, around = picture.source.centre, clearances_of(mission, fleet)
-    floor_ = mission.rules.over_ground(fleet.radius)
     if centre is None or len(shape) * len(around) > MANY:
         return ""
     for metres in range(1, FARTHEST + 1):
         for (x, y, z), way in WAYS:
             by = (x * metres, y * metres, z * metres)
             there = tuple(ball._replace(centre=_plus(ball.centre, by)) for ball in shape)
-            if lowest(there) >= floor_ and all(_is_clear(there, o, fleet.radius) for o in around):
+            if _high_enough(mission, fleet, there) and all(is_clear(there, o, fleet.radius) for o in around):
                 to = ", ".join(f"{c + 0.0:.2f}" for c in _plus(centre, by))
                 return f"move it {metres} m {way}, to `center: [{to}]`"
     return ""
 
 
-def _is_clear(shape: tuple[Ball, ...], obstacle: Clearance, radius: float) -> bool:
+def is_clear(shape: tuple[Ball, ...], obstacle: Clearance, radius: float) -> bool:
     """Return whether a shape is wholly outside of a zone or target, or wholly within a keep-in zone."""
     gaps = (signed_distance(obstacle.solid, ball.centre) for ball in shape)
     if obstacle.inside:

@@ -1,0 +1,44 @@
+"""Whole fleets and surfaces of triangles: what boxes tell to be far is not looked at again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from shotc.geom.pieces import Pieces
+from shotc.geom.proof import ProvedExtreme
+from shotc.geom.surface.distance import inf_distance
+from shotc.geom.surface.near import some_distance
+from shotc.geom.surface.tree import Surface, box_distances
+
+SEED_PIECES = 64
+"""Pieces, the likeliest by their middles, of which the nearest place is found first."""
+
+
+def once(pieces: Pieces) -> Pieces:
+    """Return pieces of which those that stand are there once: a drone stands for many pieces in a row."""
+    still = (pieces.ctrl == pieces.ctrl[:, :1]).all(axis=(1, 2))
+    same = np.zeros(len(pieces), dtype=bool)
+    same[1:] = still[1:] & still[:-1] & (pieces.ctrl[1:, 0] == pieces.ctrl[:-1, 0]).all(axis=1)
+    return pieces.pick(~same)
+
+
+def near_surface(pieces: Pieces, surface: Surface, gap: Callable[[float], float]) -> ProvedExtreme:
+    """Bound the infimum of the distance from a surface along many pieces, as ``inf_distance`` does."""
+    if len(pieces) <= SEED_PIECES or not len(surface):
+        return inf_distance(pieces, surface, gap)
+    some = some_distance(surface, pieces.ctrl.mean(axis=1))
+    seeds = np.zeros(len(pieces), dtype=bool)
+    seeds[np.argpartition(some, SEED_PIECES)[:SEED_PIECES]] = True
+    found = inf_distance(pieces.pick(seeds), surface, gap)
+    low, high = pieces.ctrl.min(axis=1), pieces.ctrl.max(axis=1)
+    least = np.full(len(pieces), np.inf)
+    for its_low, its_high in zip(surface.low[-1], surface.high[-1], strict=True):
+        boxes = np.broadcast_to(its_low, low.shape), np.broadcast_to(its_high, high.shape)
+        least = np.minimum(least, box_distances(low, high, *boxes))
+    rest = ~seeds & (least < found.attained)
+    if not rest.any():
+        return found
+    other = inf_distance(pieces.pick(rest), surface, gap)
+    return min(found, other, key=lambda bound: bound.proven)
