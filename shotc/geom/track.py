@@ -38,11 +38,9 @@ class Track(NamedTuple):
         """Return the position at a time, metres."""
         i, share = self._row(t)
         if i == len(self.times) - 1:
-            late = max(0.0, t - self.times[-1])
-            x, y, z = (p + v * late for p, v in zip(self.points[-1], self.after, strict=True))
-            return (x, y, z)
-        x, y, z = (a + share * (b - a) for a, b in zip(self.points[i], self.points[i + 1], strict=True))
-        return (x, y, z)
+            late, (x, y, z), (u, v, w) = max(0.0, t - self.times[-1]), self.points[-1], self.after
+            return (x + u * late, y + v * late, z + w * late)
+        return between(self.points[i], self.points[i + 1], share)
 
     def heading(self, t: float) -> float:
         """Return the heading at a time, rad; without ``headings``, from the motion of the seconds around it.
@@ -105,7 +103,8 @@ class Track(NamedTuple):
             return 0, 0.0
         if i == len(self.times) - 1:
             return i, 0.0
-        return i, (t - self.times[i]) / (self.times[i + 1] - self.times[i])
+        before = self.times[i]
+        return i, (t - before) / (self.times[i + 1] - before)
 
     def _moved(self, t: float) -> tuple[float, float] | None:
         """Return the ground displacement within HEADING_SPAN_S around a time, metres; None if it stands."""
@@ -125,6 +124,13 @@ class Track(NamedTuple):
         a = moving[max(0, bisect_right(moving, i) - 1)]
         b = a + 1
         return atan2(self.points[b][1] - self.points[a][1], self.points[b][0] - self.points[a][0])
+
+
+def between(a: Vec3, b: Vec3, share: float) -> Vec3:
+    """Return the place at a share of the way between two, metres; asked for by the thousand."""
+    x, y, z = a
+    u, v, w = b
+    return (x + share * (u - x), y + share * (v - y), z + share * (w - z))
 
 
 @lru_cache(maxsize=64)

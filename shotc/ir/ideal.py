@@ -2,7 +2,10 @@
 
 from bisect import bisect_right
 from math import cos, sin
+from operator import itemgetter
 
+from shotc.geom.track import between
+from shotc.ir.ground import counted_from
 from shotc.ir.keyed import way_at
 from shotc.ir.limits import Vec3
 from shotc.ir.mission import MissionIR, OffsetPoints, Shot
@@ -36,13 +39,14 @@ def ideal_place(mission: MissionIR, shot: Shot, start: float, t: float) -> Vec3:
         c, s = cos(facing), sin(facing)
         east, north = c * east - s * north, s * east + c * north
     place = (x + east, y + north)
-    return (*place, mission.base(ideal.above, place, target, t) + up)
+    return (*place, counted_from(ideal.above, mission.ground, place, z - target.height / 2) + up)
 
 
 def offset_at(points: OffsetPoints, share: float) -> Vec3:
     """Return the offset at a share of a shot's time, linear between two points."""
-    i = min(bisect_right([s for s, _ in points], share), len(points) - 1)
+    i = min(bisect_right(points, share, key=_share_of), len(points) - 1)
     (low, a), (high, b) = points[max(i - 1, 0)], points[i]
-    x = (share - low) / (high - low) if high > low else 0.0
-    first, second, third = (p + x * (q - p) for p, q in zip(a, b, strict=True))
-    return (first, second, third)
+    return between(a, b, (share - low) / (high - low) if high > low else 0.0)
+
+
+_share_of = itemgetter(0)

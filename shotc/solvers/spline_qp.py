@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from shotc.solvers.spline_problem import (
 
 MISS_M = 1e-6  # metres, tolerance of equalities
 SOLVER_TOLERANCE = 1e-8
+NEARLY_SHARE = 0.9  # share of a bound from which on a warm start counts as at the bound
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,28 +48,52 @@ class SplineSolution:
     excess: float
 
 
-def minimise(problem: SplineProblem, unit: float = 1.0) -> SplineSolution:
-    """Return the curve of least energy under all constraints.
+class Least(NamedTuple):
+    """The part of a problem that does not depend on its bounds.
 
-    unit : of the objective, m^2; the solver's tolerance is 1e-8 of it, or of the objective if that is larger
-    Without active bounds the solution is one linear solve. A solution that violates an equality by more than
-    MISS_M has the status FAILED.
+    centre : the origin of the solution, (3,); squares : the objective
+    free : coefficients of the curve of least energy under the equalities alone, relative to that origin,
+        (size, 3), or None if it is not unique
     """
+
+    centre: Array
+    squares: list[Square]
+    free: Array | None
+
+
+def least_of(problem: SplineProblem) -> Least:
+    """Return the solution without bounds; problems that differ only in their bounds share it."""
     centre = problem.equalities.value.mean(axis=0)
     problem = centred(problem, centre)
     squares = squares_of(problem)
-    free = _unbounded(problem, squares)
+    return Least(centre, squares, _unbounded(problem, squares))
+
+
+def minimise(
+    problem: SplineProblem, unit: float = 1.0, *, least: Least | None = None, near: Array | None = None
+) -> SplineSolution:
+    """Return the curve of least energy under all constraints.
+
+    unit : of the objective, m^2; the solver's tolerance is 1e-8 of it, or of the objective if that is larger
+    least : the result of ``least_of``, if it is known
+    near : coefficients (size, 3) of a curve whose active bounds are probably those of the solution
+    Without active bounds the solution is one linear solve. A solution that violates an equality by more than
+    MISS_M has the status FAILED.
+    """
+    centre, squares, free = least_of(problem) if least is None else least
+    problem = centred(problem, centre)
     if free is not None and _keeps(problem, free):
         return SplineSolution(Status.SOLVED, free + centre, _energy(problem, free), 0.0)
     left = problem if free is None else _leaving(problem, free)
-    solution = programme(left, squares, unit)
+    origin = centre if free is None else free + centre
+    solution = programme(left, squares, unit, None if near is None else near - origin)
     if solution.coef is None and (dear := _dearest(problem)) > unit:
         # The solver can take costs of many orders above the constraints for a certificate of infeasibility.
         solution = programme(left, squares, dear)
     if solution.coef is None:
         return solution
-    coef = solution.coef if free is None else free + solution.coef
-    return replace(solution, coef=coef + centre, objective=_energy(problem, coef))
+    coef = solution.coef + origin
+    return replace(solution, coef=coef, objective=_energy(problem, coef - centre))
 
 
 def _leaving(problem: SplineProblem, free: Array) -> SplineProblem:
@@ -170,8 +195,13 @@ def _dearest(problem: SplineProblem) -> float:
     return max([0.0, *(float(cone.price.max()) for cone in problem.cones if cone.price is not None)])
 
 
-def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) -> SplineSolution:
-    """Solve the cone programme with the objective in units of ``unit`` m^2; squares : the objective."""
+def programme(
+    problem: SplineProblem, squares: list[Square], unit: float = 1.0, near: Array | None = None
+) -> SplineSolution:
+    """Solve the cone programme with the objective in units of ``unit`` m^2.
+
+    squares : the objective; near : as in ``minimise``
+    """
     priced = [cone for cone in problem.cones if cone.price is not None]
     slacks = sum(len(cone.bound) for cone in priced)
     rows = ConeRows(3 * problem.size + slacks)
@@ -192,9 +222,11 @@ def programme(problem: SplineProblem, squares: list[Square], unit: float = 1.0) 
             at += len(one)
         bounded(rows, problem.size, cone, more)
     hessian, slope = _quadratic(problem, squares, slacks)
-    near = WarmStart(np.zeros(rows.unknowns), 1.0)
+    start = WarmStart(np.zeros(rows.unknowns), 1.0)
+    if near is not None:
+        start = WarmStart(np.concatenate([near.T.ravel(), np.zeros(slacks)]), NEARLY_SHARE)
     status, x = rows.solve(
-        (slope + np.concatenate(price)) / unit, SOLVER_TOLERANCE, hessian / unit, near=near
+        (slope + np.concatenate(price)) / unit, SOLVER_TOLERANCE, hessian / unit, near=start
     )
     if status not in {Status.SOLVED, Status.INACCURATE}:
         return SplineSolution(status, None, float("nan"), float("nan"))

@@ -24,12 +24,15 @@ Index = NDArray[np.int64]
 class Derived:
     """Functions of one stage and of the last node, and their derivatives as the solvers need them.
 
+    rows, last_rows : next state and constraints of a stage; constraints of the last node
     states, inputs, size : number of states, inputs and parameters of a stage
     bound, last_bound : number of constraints of a stage and of the last node
     """
 
     cost: Any
     last_cost: Any
+    rows: Any
+    last_rows: Any
     gradient: Any
     last_gradient: Any
     first_jacobian: Any
@@ -132,8 +135,6 @@ def differentiated(s: StageSymbols) -> Derived:
     cost, end_cost, bound = s.cost, s.end_cost, ca.vertcat(s.held, s.driven)
     weight, costate = ca.SX.sym("weight"), ca.SX.sym("costate", states)
     force, held_force = ca.SX.sym("force", bound.numel()), ca.SX.sym("force", s.held.numel())
-    lagrangian = weight * cost - ca.dot(costate, s.following) + ca.dot(force, bound)
-    end_lagrangian = weight * end_cost + ca.dot(held_force, s.held)
     exact = weight * (s.node + s.passing) - ca.dot(costate, s.following) + ca.dot(force, bound)
     end_exact = weight * s.node + ca.dot(held_force, s.held)
     roots, end_roots = ca.vertcat(s.node_roots, s.passing_roots), s.node_roots
@@ -145,20 +146,18 @@ def differentiated(s: StageSymbols) -> Derived:
         return ca.Function(name, inputs, outputs, {"cse": True})
 
     return Derived(
-        cost=function("cost", [s.z, s.p], [cost, s.following, bound]),
-        last_cost=function("last_cost", [x, s.p], [end_cost, s.held]),
+        cost=function("cost", [s.z, s.p], [cost]),
+        last_cost=function("last_cost", [x, s.p], [end_cost]),
+        rows=function("rows", [s.z, s.p], [s.following, bound]),
+        last_rows=function("last_rows", [x, s.p], [s.held]),
         gradient=function("gradient", [s.z, s.p], [cost, ca.gradient(cost, s.z)]),
         last_gradient=function("last_gradient", [x, s.p], [end_cost, ca.gradient(end_cost, x)]),
         first_jacobian=function("first_jacobian", [s.z, s.p], [s.following, bound, own]),
         jacobian=function("jacobian", [s.z, s.p], [s.following, bound, ca.vertcat(joint, own)]),
         last_jacobian=function("last_jacobian", [x, s.p], [s.held, ca.vertcat(ca.SX.eye(states), end_own)]),
-        hessian=function(
-            "hessian", [s.z, s.p, weight, costate, force], _curved(lagrangian, exact, roots, weight, s.z)
-        ),
+        hessian=function("hessian", [s.z, s.p, weight, costate, force], _curved(exact, roots, weight, s.z)),
         last_hessian=function(
-            "last_hessian",
-            [x, s.p, weight, held_force],
-            _curved(end_lagrangian, end_exact, end_roots, weight, x),
+            "last_hessian", [x, s.p, weight, held_force], _curved(end_exact, end_roots, weight, x)
         ),
         bound=bound.numel(),
         last_bound=s.held.numel(),
@@ -168,12 +167,18 @@ def differentiated(s: StageSymbols) -> Derived:
     )
 
 
-def _curved(lagrangian: Any, exact: Any, roots: Any, weight: Any, at: Any) -> list[Any]:
-    """Return the gradient of a Lagrangian and its Hessian: exact for ``exact``, Gauss-Newton for
-    ``roots``.
+def _curved(exact: Any, roots: Any, weight: Any, at: Any) -> list[Any]:
+    """Return the gradient of a Lagrangian and its Hessian: exact for ``exact``, Gauss-Newton for ``roots``.
+
+    roots : the squares of this column, times the weight, are the rest of the Lagrangian
     """
+    curvature, slope = ca.hessian(exact, at)
+    if not roots.numel():
+        return [slope, curvature]
     slopes = ca.jacobian(roots, at)
-    return [ca.gradient(lagrangian, at), ca.hessian(exact, at)[0] + 2 * weight * (slopes.T @ slopes)]
+    # Symbols do not show that this is symmetric: every entry would be computed twice.
+    squares = ca.triu2symm(ca.triu(slopes.T @ slopes))
+    return [slope + 2 * weight * (slopes.T @ roots), curvature + 2 * weight * squares]
 
 
 def _block_diagonal(d: Derived, stages: int) -> Any:

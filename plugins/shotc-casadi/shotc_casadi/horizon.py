@@ -30,10 +30,10 @@ def built(d: Derived, stages: int, solver: Solver, tolerance: float, pattern: by
     z, end = ca.reshape(x[: stages * wide], wide, stages), x[stages * wide :]
     given = ca.reshape(p, d.size, stages + 1)
     following = ca.horzcat(z[:states, 1:], end)
-    cost, gap, bound = d.cost.map(stages)(z, given[:, :stages])
-    end_cost, end_bound = d.last_cost(end, given[:, stages])
-    rows = ca.vertcat(ca.vec(ca.vertcat(following - gap, bound)), end_bound)
-    nlp = {"x": x, "p": p, "f": ca.sum2(cost) + end_cost, "g": rows}
+    gap, bound = d.rows.map(stages)(z, given[:, :stages])
+    rows = ca.vertcat(ca.vec(ca.vertcat(following - gap, bound)), d.last_rows(end, given[:, stages]))
+    cost = ca.sum2(d.cost.map(stages)(z, given[:, :stages])) + d.last_cost(end, given[:, stages])
+    nlp = {"x": x, "p": p, "f": cost, "g": rows}
     layout: dict[str, Any] = {
         "structure_detection": "manual",
         "N": stages,

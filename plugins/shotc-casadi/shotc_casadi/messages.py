@@ -27,7 +27,11 @@ def word(solution: Solution) -> str:
     """Return why a solver ended without a solution."""
     if solution.status == "nan":
         return "numbers that are none"
-    return f"{solution.iterations} iterations" if solution.iterations else f"{TIMEOUT_S:.0f} s without an end"
+    return (
+        f"{solution.iterations} iterations"
+        if solution.iterations
+        else f"{TIMEOUT_S:.0f} s of processor time without an end"
+    )
 
 
 def fallen_back(path: PathIR, shot: str, first: Solution | None, solution: Solution) -> Diagnostic | None:

@@ -65,6 +65,7 @@ class Solution:
     seconds : of the solver alone
     residual : the worst violation of a constraint, in its own unit
     stage, constraint : where, and which one; "" if all hold or there are no numbers
+    prices : multipliers of the constraints held and driven, absolute values, shape (N, kind.bound)
     """
 
     status: Status
@@ -77,6 +78,7 @@ class Solution:
     residual: float
     stage: int
     constraint: str
+    prices: Array
 
 
 class Attempt(NamedTuple):
@@ -137,7 +139,8 @@ def _pattern(*bounds: tuple[Array, Array]) -> bytes:
 
 def _nothing(status: Status, task: Instance, solver: Solver, seconds: float) -> Solution:
     """Return the initial guess as the solution, for a solver without an iterate."""
-    return Solution(status, solver, task.states, task.inputs, np.nan, 0, seconds, np.nan, 0, "")
+    free = np.zeros((task.stages, task.kind.bound))
+    return Solution(status, solver, task.states, task.inputs, np.nan, 0, seconds, np.nan, 0, "", free)
 
 
 def _judged(
@@ -146,9 +149,9 @@ def _judged(
     """Return the solver's last iterate, judged by its residuals."""
     x, g = np.array(out["x"]).ravel(), np.array(out["g"]).ravel()
     states, inputs = _nodes(x, task)
-    iterations = int(stats["iter_count"])
+    iterations, prices = int(stats["iter_count"]), _prices(out, task)
     if not (np.isfinite(x).all() and np.isfinite(g).all()):
-        return Solution("nan", solver, states, inputs, np.nan, iterations, seconds, np.nan, 0, "")
+        return Solution("nan", solver, states, inputs, np.nan, iterations, seconds, np.nan, 0, "", prices)
     violation = np.maximum(np.maximum(_rows(task, 0) - g, g - _rows(task, 1)), 0.0)
     worst = int(violation.argmax())
     residual = float(violation[worst])
@@ -163,7 +166,13 @@ def _judged(
         residual=residual,
         stage=min(worst // task.high, task.stages),
         constraint=_name(worst, task) if residual >= task.feasible else "",
+        prices=prices,
     )
+
+
+def _prices(out: Mapping[str, Any], task: Instance) -> Array:
+    stages = np.array(out["lam_g"]).ravel()[: task.stages * task.high].reshape(task.stages, task.high)
+    return np.asarray(np.abs(stages[:, task.kind.states :]))
 
 
 def _status(stats: Mapping[str, Any], feasible: bool) -> Status:

@@ -276,7 +276,7 @@ def test_a_solver_that_never_ends_is_left_behind_and_its_shot_named(monkeypatch:
     monkeypatch.setattr(solving, "within", late)
     path, told = refine_clocks(of.path, PassContext(), "ours")
     assert [d.code for d in told] == ["R011"]
-    assert "30 s without an end" in told[0].message
+    assert "30 s of processor time without an end" in told[0].message
     assert "in shot `s`" in told[0].message
     assert "left no numbers" in told[0].notes[0]  # so there is no stage to name
     assert subject_of(path, "s").leg is of.leg

@@ -130,7 +130,7 @@ def test_a_solver_that_did_not_end_is_called_so(monkeypatch):
     only(ROUND, monkeypatch)
     monkeypatch.setattr(rounds, "solve", failing("fatrop", iterations=0))
     (told,) = refined().diagnostics
-    assert told.notes == ("fatrop: 30 s without an end",)
+    assert told.notes == ("fatrop: 30 s of processor time without an end",)
 
 
 def test_one_shot_that_fails_leaves_the_other_refined(monkeypatch):

@@ -201,7 +201,7 @@ def evaluated(one: Any, made: Derived, z: Array, p: Array, rng: np.random.Genera
 @pytest.mark.parametrize(("kind", "planes"), KINDS)
 def test_all_values_and_derivatives_are_numbers(kind: Any, planes: int, where: str) -> None:
     made, rng = kind_of(kind, planes), np.random.default_rng(7)
-    assert len(functions(made)) == 9
+    assert len(functions(made)) == 11
     for _ in range(DRAWS):
         z, p = point(kind, planes, (PLACES | INSIDE)[where](drawn(rng)), rng)
         for name, one in functions(made).items():

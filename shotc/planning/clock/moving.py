@@ -184,12 +184,13 @@ def _slack(motion: LinearMotion, relative: Array, normal: Array, gap: Array) -> 
     return np.asarray((points - border[:, None] - motion.needs).min(axis=1))
 
 
-def shortfalls(motions: Sequence[LinearMotion], hulls: Array) -> Array:
+def shortfalls(motions: Sequence[LinearMotion], hulls: Array, least: float = -np.inf) -> Array:
     """Return the metres by which the clearances of each piece are not proved; shape (P,), <= 0 is proved.
 
     hulls : shape (P, m, 3), as in ``sides``
+    least : smallest value returned, metres; pieces below it are not computed
     """
-    worst = np.full(len(hulls), -np.inf)
+    worst = np.full(len(hulls), least)
     seen = [(m.what.part, m.what.clearance + m.deviation_bound, relative_to(m, hulls)) for m in motions]
     most = [needed - box_gap(relative, part) for part, needed, relative in seen]
     for k in sorted(range(len(seen)), key=lambda k: -most[k].max(initial=-np.inf)):

@@ -23,7 +23,7 @@ from shotc.planning.corridor import Around, with_corridor
 from shotc.planning.free_space import HalfSpaces, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Equalities, Goal, HalfSpaceRows, SplineProblem
-from shotc.solvers.spline_qp import SplineSolution, minimise
+from shotc.solvers.spline_qp import SplineSolution, least_of, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
 SAMPLES_PER_PIECE = 3  # samples of the ideal
@@ -158,17 +158,18 @@ def _fly(task: ClockTask, free: tuple[HalfSpaceRows, ...]) -> PositionResult:
     breaks, base = task.clock.breaks, _base(task)
     places = ideal_of(task, breaks) if task.course is None else task.course.places
     chords = np.stack([places[:-1], places[1:]], axis=1)
-    now = _Round(chords)
+    now, least = _Round(chords), least_of(base)
     while not now.ended and now.rounds < MOST_ROUNDS:
         problem = _walled(task, base, now.hulls, now.reach, now.share)
         problem = replace(problem, half_spaces=(*problem.half_spaces, *task.apart, *free))
-        solution = minimise(problem)
+        near = None if now.best is None else now.best.coef
+        solution = minimise(problem, least=least, near=near)
         now = replace(now, rounds=now.rounds + 1, status=solution.status)
         if solution.coef is None:
             now = _relaxed(task, problem, now, HOPE_SHARE if free else inf)
             continue
         points = _points(breaks, solution.coef)
-        if _lack(task, points) > PROVED_M:
+        if not _clear(task, points):
             hulls = points if now.rounds % 2 else chords
             now = replace(now, hulls=hulls, reach=2.0 * now.reach, share=SHARES[0])
         elif _astray(task, solution):
@@ -219,11 +220,15 @@ def _points(breaks: Array, coef: Array) -> Array:
     return control_rows(breaks).apply(coef).reshape(-1, 6, 3)
 
 
-def _lack(task: ClockTask, points: Array) -> float:
-    """Return the largest lack of proved clearance of a motion, metres."""
-    lacking = np.maximum(shortfall(task.walls, points), shortfalls(task.motions, points))
-    standing = (shortfalls(end.passing, end.place).max() for end in _stands(task, points))
-    return float(max(lacking.max(), *standing))
+def _clear(task: ClockTask, points: Array) -> bool:
+    """Return whether the hulls of a motion prove its clearances."""
+    if shortfall(task.walls, points).max() > PROVED_M:
+        return False
+    stands = ((end.passing, end.place) for end in _stands(task, points))
+    return all(
+        shortfalls(motions, hulls, 0.0).max() <= PROVED_M
+        for motions, hulls in ((task.motions, points), *stands)
+    )
 
 
 def _base(task: ClockTask) -> SplineProblem:
@@ -301,7 +306,7 @@ def standing_by(
 def held_where_it_rests(task: ClockTask, curve: Piecewise) -> bool:
     """Return whether a motion rests so near to something that the half-spaces there may bind."""
     return any(
-        shortfalls(end.passing, end.place).max(initial=-inf) > -NEAR_M for end in _stands(task, curve.ctrl)
+        shortfalls(end.passing, end.place, -NEAR_M).max() > -NEAR_M for end in _stands(task, curve.ctrl)
     )
 
 

@@ -80,11 +80,11 @@ class Surroundings:
         return beside(piece[nearest], normal[nearest], np.repeat(borders[:, None], 2, axis=1))
 
     def lacking(self, hulls: Array) -> Array:
-        """Return the metres by which the clearances of pieces are not proved; shape (P,), <= 0 is proved.
+        """Return the metres by which the clearances of pieces are not proved; shape (P,), 0 is proved.
 
         hulls : shape (P, 6, 3), Bernstein control points
         """
-        return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls))
+        return np.maximum(shortfall(self.walls, hulls), shortfalls(self.motions, hulls, 0.0))
 
     def half_spaces(self, hulls: Array, reach: float, share: float) -> HalfSpaces:
         """Return half-spaces between pieces and the obstacles near them.

@@ -38,9 +38,9 @@ def _swept(what: Moving, span: tuple[float, float]) -> Solid:
     part, (begin, end) = what.part, span
     at = what.at(np.append(np.arange(begin, end, STEP_S), end))
     low, high = at.min(axis=0), at.max(axis=0)
-    assert isinstance(part, Cylinder), "targets are"
     middle, bottom, top = 0.5 * (low + high), part.bottom + float(low[2]), part.top + float(high[2])
-    if np.linalg.norm(high - low) < STILL_M:
+    if isinstance(part, Cylinder) and np.linalg.norm(high - low) < STILL_M:
         return Cylinder((float(middle[0]), float(middle[1])), part.radius + STILL_M, bottom, top)
-    corners = (at[:, None, :2] + ring(part.radius, PRISM_CORNERS)).reshape(-1, 2)
+    outline = ring(part.radius, PRISM_CORNERS) if isinstance(part, Cylinder) else np.array(part.points)
+    corners = (at[:, None, :2] + outline).reshape(-1, 2)
     return Prism(convex_hull(tuple((float(x), float(y)) for x, y in corners)), bottom, top)

@@ -30,7 +30,7 @@ from shotc.planning.corridor import Around, with_corridor
 from shotc.planning.free_space import FreeSpace, shortfall
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_problem import Cones, Equalities, Goal, SplineProblem
-from shotc.solvers.spline_qp import SplineSolution, minimise
+from shotc.solvers.spline_qp import SplineSolution, least_of, minimise
 from shotc.solvers.spline_relax import Relaxation, relax
 
 PIECES_PER_CHORD = 3  # pieces per segment of the polyline
@@ -147,13 +147,14 @@ def _iterate(
     polyline = np.column_stack([np.interp(breaks, stretch.s, stretch.corners[:, k]) for k in range(3)])
     chords = np.stack([polyline[:-1], polyline[1:]], axis=1)
     base = _base_problem(stretch, limits, breaks)
+    least = least_of(base)
     reach = max(2.0, 0.25 * float(np.diff(stretch.s).max()))
     hulls, share = chords, FIRST_SHARE
     best: SplineSolution | None = None
     problem = base
     for used in range(1, MOST_ROUNDS + 1):
         problem = with_corridor(base, Around(wide, breaks, hulls, reach, share))
-        solution = minimise(problem)
+        solution = minimise(problem, least=least, near=None if best is None else best.coef)
         if solution.coef is None:
             return _Iterated(problem, best or solution.status, used)
         points = control_rows(breaks).apply(solution.coef).reshape(-1, 6, 3)

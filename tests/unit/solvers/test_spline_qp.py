@@ -18,7 +18,7 @@ from shotc.geom.bspline import (
     subdivide,
     value_rows,
 )
-from shotc.solvers import spline_qp
+from shotc.solvers import cone_rows, spline_qp
 from shotc.solvers.conic import Status
 from shotc.solvers.spline_fit import Fit, fit
 from shotc.solvers.spline_problem import (
@@ -30,7 +30,7 @@ from shotc.solvers.spline_problem import (
     centred,
     scalar_map,
 )
-from shotc.solvers.spline_qp import minimise, squares_of
+from shotc.solvers.spline_qp import least_of, minimise, squares_of
 from shotc.solvers.spline_relax import relax
 
 
@@ -127,6 +127,25 @@ def test_bounds_that_do_not_bite_need_no_programme(monkeypatch):
         asked.clear()
         minimise(tight)
         assert len(asked) == 1
+
+
+def test_a_problem_with_other_bounds_is_solved_alike_from_what_is_known(monkeypatch):
+    p, s = waypoints(7, seed=2)
+    p[:, 2] = [10, 12, 10, 10, 12, 10, 10]
+    breaks, loose = least_jerk(p, s)
+    lowest = spline(breaks, minimise(loose).coef).ctrl[:, :, 2].min()
+    known = least_of(loose)
+    half_spaces = (floor_on(breaks, (0.0, 0.0, 1.0), 0.5 * (lowest + 10)),)
+    held = replace(loose, half_spaces=half_spaces)
+    alone = minimise(held)
+    assert np.abs(minimise(held, least=known).coef - alone.coef).max() < 1e-9
+    solved, calls = cone_rows._solved, []
+    monkeypatch.setattr(cone_rows, "_solved", lambda *given: calls.append(0) or solved(*given))
+    found = minimise(held, least=known, near=alone.coef)
+    assert len(calls) == 1  # what binds is known, so nothing is asked twice
+    assert np.abs(found.coef - alone.coef).max() < 1e-5
+    far = minimise(held, near=alone.coef + 100.0)
+    assert np.abs(far.coef - alone.coef).max() < 1e-5
 
 
 def test_floors_hold_and_cost_what_they_must():

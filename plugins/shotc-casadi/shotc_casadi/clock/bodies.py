@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from shotc.plugin_api.refiner import Array, Cylinder, Solid, Surroundings, bounded
+from shotc.plugin_api.refiner import Array, Cylinder, Mask, Solid, Surroundings, bounded
 from shotc_casadi.clock import weights
 from shotc_casadi.clock.occluders import ellipse
 from shotc_casadi.clock.references import ClockReferences
@@ -115,3 +115,17 @@ def kept_from(bodies: Sequence[MovingEllipsoid], references: ClockReferences, ey
             body = bodies[int(j)]
             table[k, i] = [*body.scale.T.ravel(), *body.centres[k], 0.0, body.reach**2]
     return replace(references, bodies=table, beside=beside)
+
+
+def acts_anew(
+    bodies: Sequence[MovingEllipsoid], counted: Mask | None, references: ClockReferences, eyes: Array
+) -> bool:
+    """Tell whether places ``eyes`` are within reach of an ellipsoid that did not count before.
+
+    counted : which did, by node; one that is out of reach changes nothing where the camera is
+    """
+    if references.beside is None:
+        return False
+    new = references.beside if counted is None else references.beside & ~counted
+    acting = np.array([body.distance(eyes) < body.reach for body in bodies])
+    return bool((new & acting).any())

@@ -127,6 +127,21 @@ def with_occluders(
     return replace(references, sight_lines=sight_lines, near=near, reach=np.full(len(eyes), np.inf))
 
 
+def hides_anew(
+    occluders: Sequence[Occluder], counted: Mask | None, references: ClockReferences, eyes: Array
+) -> bool:
+    """Tell whether an ellipsoid that did not count before hides anything from places ``eyes``.
+
+    counted : which did, by node
+    """
+    if references.near is None:
+        return False
+    new = references.near if counted is None else references.near & ~counted
+    points = references.centres
+    hiding = np.array([each.occlusion(eyes, points[:, each.before]) > 0.0 for each in occluders])
+    return bool((new & hiding).any())
+
+
 def occlusion_at(occluders: Sequence[Occluder], references: ClockReferences, eyes: Array) -> Array:
     """Return the largest d_v of each line of sight, > 0 if hidden; shape (N + 1,)."""
     occlusions = [occluder.occlusion(eyes, references.centres[:, occluder.before]) for occluder in occluders]

@@ -70,8 +70,13 @@ class ClockProblem:
         """Units of all inputs, shape (N, sizes.inputs); one unit of a slack costs 1 a stage."""
         units = np.ones_like(self.inputs)
         for price, k in self.sizes.slacks.items():
-            units[:, k] = 1.0 / (self._each("length") * self._each(price))
+            units[:, k] = 1.0 / (self.length * self._each(price))
         return units
+
+    @property
+    def length(self) -> Array:
+        """How long the stages are, shape (N,), seconds."""
+        return self._each("length")
 
     def _each(self, name: str) -> Array:
         """Return a scalar parameter of all stages, shape (N,)."""
@@ -122,7 +127,8 @@ def problem(
     The initial slack of ellipsoids is one unit each.
     """
     limits = subject.drone.limits
-    table, count = _half_spaces(planes, len(breaks) - 1)
+    table = table_of(planes, len(breaks) - 1)
+    count = table.shape[1]
     windy = any(limits.wind)
     sizes = Sizes(
         count,
@@ -150,7 +156,7 @@ def problem(
     moves = start[1][:, : sizes.moves]
     made = ClockProblem(
         sizes,
-        np.column_stack([_parameters(subject, breaks, references), table, *flat]),
+        np.column_stack([_parameters(subject, breaks, references), _for_nodes(table), *flat]),
         _unit(references),
         start[0],
         np.column_stack([moves, np.ones((len(moves), sizes.inputs - sizes.moves))]),
@@ -274,17 +280,25 @@ def _shared(stages: Array) -> Array:
     return np.asarray(0.5 * (stages + np.append(0.0, stages[:-1])))
 
 
-def _half_spaces(planes: HalfSpaces, stages: int) -> tuple[Array, int]:
-    """Return the half-spaces as parameters, and their number per stage.
+def table_of(planes: HalfSpaces, stages: int) -> Array:
+    """Return half-spaces as parameters of the stages, shape (N, count, PLANE_PARAMETERS).
 
-    The parameters have shape (N + 1, count, PLANE_PARAMETERS), with the last two axes flattened.
+    ``count`` is the least of COUNTS that is enough for every stage; unused half-spaces hold everywhere.
     """
-    most = int(np.bincount(planes.piece, minlength=1).max()) if len(planes.piece) else 0
+    order = np.argsort(planes.piece, kind="stable")
+    piece = planes.piece[order]
+    slot = np.arange(len(piece)) - np.searchsorted(piece, piece)
+    most = int(slot.max(initial=-1)) + 1
     count = next((c for c in COUNTS if c >= most), most)
-    table = np.zeros((stages + 1, count, PLANE_PARAMETERS))
+    table = np.zeros((stages, count, PLANE_PARAMETERS))
     table[:, :, 3] = -FREE_M
-    filled = np.zeros(stages, dtype=np.intp)
-    for k, normal, offset in zip(planes.piece, planes.normal, planes.offset, strict=True):
-        table[k, filled[k]] = [*normal, offset[0], offset[-1] - offset[0]]
-        filled[k] += 1
-    return table.reshape(stages + 1, -1), count
+    first, last = planes.offset[order, :1], planes.offset[order, -1:]
+    table[piece, slot] = np.hstack([planes.normal[order], first, last - first])
+    return table
+
+
+def _for_nodes(table: Array) -> Array:
+    """Return half-spaces of stages as parameters of all nodes, shape (N + 1, count * PLANE_PARAMETERS)."""
+    last = np.zeros_like(table[:1])
+    last[:, :, 3] = -FREE_M
+    return np.concatenate([table, last]).reshape(len(table) + 1, -1)

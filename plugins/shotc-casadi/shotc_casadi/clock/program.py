@@ -23,7 +23,12 @@ ROWS = (*HELD, "jerk", "speed", "climb and descent")
 def solve(task: ClockProblem, solver: Solver) -> Solution:
     """Solve a problem from its initial guess."""
     solution = solved(instance(task), solver)
-    return replace(solution, inputs=solution.inputs * task.units, objective=solution.objective / task.unit)
+    return replace(
+        solution,
+        inputs=solution.inputs * task.units,
+        objective=solution.objective / task.unit,
+        prices=solution.prices / task.unit,
+    )
 
 
 def instance(task: ClockProblem) -> Instance:
@@ -51,14 +56,14 @@ def cost(task: ClockProblem, states: Array, inputs: Array) -> float:
     sizes, made = task.sizes, derived(task.sizes)
     u = np.zeros((len(inputs), sizes.inputs))
     u[:, : sizes.moves] = inputs[:, : sizes.moves]
-    rows = np.array(made.cost.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[2])
+    rows = np.array(made.rows.map(len(u))(np.hstack([states[:-1], u]).T, task.parameters[:-1].T)[1])
     lack = np.maximum(-rows[len(HELD) + sizes.limits + CONTROL_POINTS * sizes.planes :].T, 0.0)
     if sizes.occluders:
         u[:, sizes.moves] = lack[:, : sizes.occluders].max(axis=1)
     if sizes.bodies:
         u[:, -1] = lack[:, sizes.occluders :].max(axis=1)
-    value = made.cost.map(len(u))(np.hstack([states[:-1], u / task.units]).T, task.parameters[:-1].T)[0]
-    last = made.last_cost(states[-1], task.parameters[-1])[0]
+    value = made.cost.map(len(u))(np.hstack([states[:-1], u / task.units]).T, task.parameters[:-1].T)
+    last = made.last_cost(states[-1], task.parameters[-1])
     return (float(np.array(value).sum()) + float(last)) / task.unit
 
 

@@ -32,7 +32,7 @@ from shotc_casadi.clock.lens import zoomed
 from shotc_casadi.clock.proof import UnprovedMoment
 from shotc_casadi.clock.references import ClockSubject
 from shotc_casadi.clock.rounds import ClockRefined, refine_clock
-from shotc_casadi.clock.shown import as_whole, held_whole, no_less, past_occluders
+from shotc_casadi.clock.shown import as_whole, held_whole, keeps_promises, no_less, past_occluders
 from shotc_casadi.messages import UNITS, fallen_back, stats, unsolved
 from shotc_casadi.solving import MOTION
 
@@ -73,8 +73,11 @@ def refine_one(
     subject = subject_of(path, shot)
     unseen = given_up(path.stats, shot) is None
     tried = _tried(path, subject, name, unseen=unseen, keeps_whole=keeps_whole)
-    if tried.refined.leg is None and tried.why == IN_PICTURE and prefers_free_pictures(subject.mission):
-        tried = _tried(path, subject, name, unseen=False, keeps_whole=keeps_whole)
+    if tried.given_up and prefers_free_pictures(subject.mission):
+        # A preference is no reason to leave a shot as it is, nor to break what it promises.
+        leg = tried.refined.leg
+        if leg is None or not keeps_promises(subject, leg):
+            tried = _tried(path, subject, name, unseen=False, keeps_whole=keeps_whole)
     message = tried.said
     if message is None and tried.refined.leg is None:
         message = unrefined(path, shot, tried.why)
@@ -83,12 +86,17 @@ def refine_one(
 
 
 class _Tried(NamedTuple):
-    """A shot refined: the path with it, or why it does not change; said : a diagnostic of its solver."""
+    """A shot refined: the path with it, or why it does not change.
+
+    said : a diagnostic of its solver; given_up : whether a better refinement is not used because it would
+        come into a picture
+    """
 
     refined: ClockRefined
     path: PathIR
     why: str
     said: Diagnostic | None
+    given_up: bool
 
 
 def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keeps_whole: bool) -> _Tried:
@@ -103,10 +111,12 @@ def _tried(path: PathIR, subject: ClockSubject, name: str, *, unseen: bool, keep
     freed = past_occluders(subject, whole or refined, unseen=unseen)
     freed, whole = (None if one is None else _zoomed(subject, one) for one in (freed, whole))
     reasons = ((freed, SIGHT), (whole, WHOLE), (refined, CALM))
-    if any(one is not None and one.leg is not None for one, _ in reasons):
-        why = IN_PICTURE
+    first = next((one for one, _ in reasons if one is not None and one.leg is not None), None)
     taken, moved = _taken(path, reasons, unseen=unseen)
-    return _Tried(taken or replace(refined, leg=None), moved, why, message)
+    given_up = taken is not first
+    return _Tried(
+        taken or replace(refined, leg=None), moved, IN_PICTURE if given_up else why, message, given_up
+    )
 
 
 def _zoomed(subject: ClockSubject, refined: ClockRefined) -> ClockRefined:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +43,10 @@ class SubjectVisibility(NamedTuple):
     smallest: float
     largest: float
     off: float
+
+
+FLAWLESS = SubjectVisibility(Free(), 0.0, inf, 0.0, 0.0)
+"""With what is shown so no promise is broken."""
 
 
 def past_occluders(subject: ClockSubject, plain: ClockRefined, *, unseen: bool = True) -> ClockRefined | None:
@@ -103,10 +108,11 @@ def no_less(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
 def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
     """Return whether no subject is cropped in more frames than before, and promises are as well kept.
 
-    A single subject must also not be hidden more than before, in what is reported of it. Of several subjects,
-    one may be hidden for another.
+    A single subject must also not be hidden more than before, in what is reported of it, unless the shot
+    keeps a promise only then. Of several subjects, one may be hidden for another.
     """
-    against = lost if len(subject.framed) == 1 else broken
+    mends = keeps_promises(subject, after) and not keeps_promises(subject, before)
+    against = lost if len(subject.framed) == 1 and not mends else broken
     for which in range(len(subject.framed)):
         old, new = shown(subject, before, which), shown(subject, after, which)
         if new.cropped > old.cropped + SLACK_SHARE or not _promised(subject, old, new):
@@ -114,6 +120,12 @@ def as_whole(subject: ClockSubject, before: ClockLeg, after: ClockLeg) -> bool:
         if against(subject.placed, old.free, new.free) > 0.0:
             return False
     return True
+
+
+def keeps_promises(subject: ClockSubject, leg: ClockLeg) -> bool:
+    """Tell whether a leg shows all subjects of its shot as that promises."""
+    every = (shown(subject, leg, which) for which in range(len(subject.framed)))
+    return all(_promised(subject, FLAWLESS, one) for one in every)
 
 
 def _covered(subject: ClockSubject, leg: ClockLeg) -> float:

@@ -59,6 +59,15 @@ def test_a_shortfall_is_the_worst_of_all_motions(seed: int) -> None:
     assert np.allclose(shortfalls(moving, way), np.max(each, axis=0), atol=CLOSE_SHARE * 100.0)
 
 
+@given(seeds, st.floats(-5.0, 5.0))
+def test_a_shortfall_is_told_from_the_least_that_is_asked_on(seed: int, least: float) -> None:
+    random = np.random.default_rng(seed)
+    moving, way = motions(random), hulls(random)
+    found, every = shortfalls(moving, way, least), shortfalls(moving, way)
+    assert np.allclose(found, np.maximum(every, least), atol=CLOSE_SHARE * 100.0)
+    assert (found >= least).all()
+
+
 @given(seeds)
 def test_every_piece_within_reach_has_its_plane(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -16,7 +16,7 @@ from shotc.api import PlanOptions, compile_source
 from shotc.diag.model import Diagnostic
 from shotc.geom.bernstein import Array
 from shotc.geom.solid_arrays.points import distances
-from shotc.geom.solids import Cylinder, point
+from shotc.geom.solids import Cylinder, Prism, Solid, box, point
 from shotc.ir.ideal import ideal_place
 from shotc.ir.keyframes import PlacedShot
 from shotc.ir.mission import MissionIR
@@ -303,9 +303,11 @@ def test_a_way_that_meets_a_drone_is_worse_than_one_that_is_late() -> None:
     assert way.end > lasts + 1.0
 
 
-def test_a_sweep_holds_all_places_of_its_target() -> None:
-    part = Cylinder((0.0, 0.0), 0.9, -0.9, 0.9)
+VAN = box((0.0, 0.0, 0.0), (4.6, 1.9, 1.8), 0.4)  # one that goes one way keeps its sides
 
+
+@pytest.mark.parametrize("part", [Cylinder((0.0, 0.0), 0.9, -0.9, 0.9), VAN])
+def test_a_sweep_holds_all_places_of_its_target(part: Solid) -> None:
     def at(times: np.ndarray) -> np.ndarray:
         return np.column_stack([np.sin(times), 0.3 * times, 1.0 + 0.1 * times])
 
@@ -314,10 +316,21 @@ def test_a_sweep_holds_all_places_of_its_target() -> None:
     (swept,), (wide,) = flight.obstacles, transit.obstacles
     angle = np.linspace(0.0, 2 * np.pi, 24)
     rim = np.column_stack([0.89 * np.cos(angle), 0.89 * np.sin(angle), np.zeros(24)])
+    if isinstance(part, Prism):
+        rim = 0.99 * np.column_stack([np.array(part.points), np.zeros(len(part.points))])
     for t in np.arange(2.0, 5.01, 0.5):
         assert distances(swept.part, at(np.array([t])) + rim).max() == pytest.approx(0.0, abs=1e-9)
     assert (str(swept.owner), swept.clearance) == ("target x", 1.6)
     assert (wide.part, wide.clearance) == (swept.part, 5.6)
+
+
+def test_a_van_that_stands_is_swept_as_it_is() -> None:
+    moving = [Moving(owner("target x"), VAN, 1.6, lambda t: np.tile([3.0, 4.0, 1.0], (len(t), 1)))]
+    (swept,) = with_sweeps(FreeSpaces(EMPTY, EMPTY), moving, (2.0, 5.0)).flight.obstacles
+    assert isinstance(swept.part, Prism)
+    moved = {(round(x + 3.0, 9), round(y + 4.0, 9)) for x, y in VAN.points}
+    assert {(round(x, 9), round(y, 9)) for x, y in swept.part.points} == moved
+    assert (swept.part.bottom, swept.part.top) == (VAN.bottom + 1.0, VAN.top + 1.0)
 
 
 @pytest.mark.parametrize("phase", ["transit", "return"])
