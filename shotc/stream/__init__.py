@@ -1,6 +1,5 @@
-"""A proved plan sent to autopilots as it is to be flown: setpoints and gimbal angles on one clock.
+"""Flies a verified plan: sends setpoints and gimbal angles to autopilots over MAVLink, on one clock.
 
-Nothing that is proved depends on it, and nothing is sent that is not proved: positions, velocities,
-accelerations and headings are the plan's own polynomials, and all that a live target may change is where the
-camera looks.
+Only verified plans are sent, and no proof depends on this package. Positions, velocities, accelerations and
+headings come from the plan's polynomials. A live target may change only where the camera looks.
 """

@@ -1,7 +1,7 @@
-"""A live target and the camera: the gimbal follows where the target is, and nothing else changes.
+"""Aims the camera at a live target: only the gimbal angles change, never the drone's path.
 
-The target is kept at the place on screen that the plan gives it. The camera turns away from its planned
-angles no faster than the gimbal can, within its range, and comes back when nothing is heard of the target.
+The target stays at the position in the image that the plan gives it. The gimbal leaves its planned angles no
+faster than its rate limit, stays in its range, and returns to them when no position of the target arrives.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from shotc.stream.feed import Feed
 from shotc.stream.setpoints import Aim, SetpointSeries
 
 BACK_RAD = 1e-9
-"""Angles nearer than this to the plan's are the plan's."""
+"""Offsets below this count as zero: the planned angles are sent unchanged."""
 
 
 class LiveAim:
-    """Where one drone's camera looks, tick by tick."""
+    """The gimbal angles of one drone, tick by tick."""
 
     def __init__(
         self, mission: MissionIR, track: DroneTrajectory, course: SetpointSeries, feeds: tuple[Feed, ...]
@@ -43,7 +43,7 @@ class LiveAim:
         self._off = (0.0, 0.0)
 
     def at(self, tick: int, now: float) -> Aim:
-        """Return the gimbal's angles at a tick; now : on the clock of the feeds."""
+        """Return the gimbal angles at a tick; now : the time on the clock of the feeds, s."""
         planned = self._course.aim(tick)
         if not self._feeds:
             return planned
@@ -62,7 +62,7 @@ class LiveAim:
         )
 
     def _wanted(self, t: float, now: float) -> Vec2:
-        """Return by how much yaw (counter-clockwise) and pitch should differ from the plan's, rad."""
+        """Return the wanted offset from the planned yaw (counter-clockwise) and pitch, rad."""
         name = self._filmed(t)
         feed = self._feeds.get(name) if name is not None else None
         seen = feed.position(now) if feed is not None else None
@@ -95,7 +95,7 @@ class LiveAim:
         return (self._panned(float(wrapped(found[0] - yaw)), yaw, float(pose[BODY_YAW])), pitch_off)
 
     def _panned(self, off: float, yaw: float, body: float) -> float:
-        """Return as much of a turn as the gimbal's pan has room for."""
+        """Return the part of the pan offset ``off`` that the gimbal's pan range allows, rad."""
         left, right = self._drone.gimbal.yaw
         pan = direction(yaw - body)
         return min(max(pan + off, min(left, pan)), max(right, pan)) - pan

@@ -1,8 +1,8 @@
-"""What PX4 and ArduPilot want said differently, and what each does when its link is lost.
+"""Describes how PX4 and ArduPilot differ, and what each does when its link is lost.
 
 Numbers are those of MAVLink, of PX4's commander (``px4_custom_mode.h``, ``commander_params.c``) and of
-ArduCopter (``mode.h``, ``Parameters.cpp``, ``events.cpp``). What gimbal managers take is in PX4's
-``mavlink_receiver.cpp`` and ArduPilot's ``AP_Mount.cpp``.
+ArduCopter (``mode.h``, ``Parameters.cpp``, ``events.cpp``). The messages that gimbal managers accept are in
+PX4's ``mavlink_receiver.cpp`` and ArduPilot's ``AP_Mount.cpp``.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Action = Literal["hold", "return", "land"]
 
 
 class Mode(NamedTuple):
-    """A flight mode: its name, the two numbers of MAV_CMD_DO_SET_MODE, and what heartbeats say in it."""
+    """A flight mode: its name, the two numbers of MAV_CMD_DO_SET_MODE, and its custom_mode in heartbeats."""
 
     name: str
     main: int
@@ -25,12 +25,12 @@ class Mode(NamedTuple):
 
 
 class LossRule(NamedTuple):
-    """What a parameter says about a lost link.
+    """The values of a parameter that controls what happens on a lost link.
 
-    actions : the values that may be flown with, and what the autopilot does then
-    harmless : values that leave the matter to the other parameters
-    optional : whether versions without it are known
-    safe : a value to set, and in words what for
+    actions : the values allowed for a flight, each with the action of the autopilot
+    harmless : further allowed values, which leave the action to the other parameters
+    optional : whether some firmware versions lack the parameter
+    safe : a value to recommend, and its action in words
     """
 
     parameter: str
@@ -41,7 +41,7 @@ class LossRule(NamedTuple):
 
 
 class LossTime(NamedTuple):
-    """A parameter that holds how long a link is silent before that, seconds."""
+    """A parameter that holds how long the link may be silent before the autopilot acts, s."""
 
     parameter: str
     longest: float
@@ -49,7 +49,7 @@ class LossTime(NamedTuple):
 
 
 class SpeedLimit(NamedTuple):
-    """A parameter above which the autopilot follows no setpoint, m/s; axis : of the speed that it bounds."""
+    """A parameter that limits the speed of setpoints, m/s; axis : the direction that it limits."""
 
     parameter: str
     axis: Literal["level", "up", "down"]
@@ -58,16 +58,18 @@ class SpeedLimit(NamedTuple):
 class Autopilot(NamedTuple):
     """An autopilot as a sender sees it.
 
-    number : MAV_AUTOPILOT; layout : of its local frame
-    flown, hold, land : the modes that follow setpoints, stop in the air, and come down where the vehicle is
-    lead : seconds before its lift-off in the plan at which a drone begins to get ready
-    lift : metres to which it takes off by itself before it takes setpoints; 0 where it takes them on its pad
-    bytewise : whether the float of a parameter holds the bytes of an integer
-    attitudes : whether its gimbal manager takes GIMBAL_MANAGER_SET_ATTITUDE, with rates beside the angles;
-        else it takes GIMBAL_MANAGER_SET_PITCHYAW, and neither angles nor rates where both are given
-    alone : the parameter that says what it does when the ground station falls silent, in any mode
-    speeds : what bounds the speed of what follows setpoints; versions may lack them
-    station : parameters, any one of which says whose heartbeats count as the link
+    number : MAV_AUTOPILOT
+    layout : the map projection of its local frame
+    flown, hold, land : the modes that follow setpoints, stop in the air, and land at the current place
+    lead : how long before lift-off in the plan a drone starts to prepare, s
+    lift : height to which it takes off by itself before it accepts setpoints, m; 0 if it accepts them on its
+        pad
+    bytewise : whether the float of a PARAM_VALUE holds the bytes of an integer
+    attitudes : whether its gimbal manager accepts GIMBAL_MANAGER_SET_ATTITUDE, with angles and rates; else it
+        accepts GIMBAL_MANAGER_SET_PITCHYAW, which it ignores if both angles and rates are given
+    alone : the parameter that sets what it does when the ground station is silent, in any mode
+    speeds : parameters that limit the speed of setpoints; some versions lack them
+    station : parameters that hold the system id of the ground station; any one of them is enough
     """
 
     name: str
@@ -94,7 +96,7 @@ class Autopilot(NamedTuple):
         return (*(row.parameter for row in self.losses), *times, *bounds, *self.station)
 
     def can_lack(self, parameter: str) -> bool:
-        """Tell whether some versions do without a parameter."""
+        """Tell whether some firmware versions lack a parameter."""
         optional = {row.parameter for row in self.losses if row.optional}
         optional |= {row.parameter for row in self.times if row.optional}
         return parameter in optional | {row.parameter for row in self.speeds} | set(self.station)
@@ -127,7 +129,7 @@ PX4 = Autopilot(
             optional=False,
             safe=(5, "hold"),
         ),
-        # Before version 1.14 another parameter holds where no remote control is on.
+        # Versions before 1.14 use another parameter when no remote control is on.
         LossRule("COM_OBL_ACT", {0: "land", 1: "hold", 2: "return"}, frozenset(), True, (1, "hold")),
         LossRule("NAV_DLL_ACT", {1: "hold", 2: "return", 3: "land"}, frozenset({0}), False, (2, "return")),
     ),
@@ -153,7 +155,7 @@ ARDUPILOT = Autopilot(
     losses=(
         LossRule(
             "FS_GCS_ENABLE",
-            # 6 flies to where a stored mission lands, which no plan has proved.
+            # 6 flies to the landing point of a stored mission, which no plan has verified.
             {1: "return", 2: "return", 3: "return", 4: "return", 5: "land", 7: "land"},
             frozenset(),
             optional=False,
@@ -165,7 +167,7 @@ ARDUPILOT = Autopilot(
     station=("MAV_GCS_SYSID", "SYSID_MYGCS"),
 )
 AUTOPILOTS = {"px4": PX4, "ardupilot": ARDUPILOT}
-"""By the name that missions give a drone's autopilot."""
+"""The autopilots by the name that missions use."""
 NAMES = {pilot.number: pilot.name for pilot in AUTOPILOTS.values()}
 MULTIROTORS = frozenset({2, 3, 4, 13, 14, 15, 29, 35})
-"""MAV_TYPE of what hovers: 2 to 4 and more rotors, and helicopters."""
+"""MAV_TYPE of vehicles that can hover: rotorcraft with two to four or more rotors, and helicopters."""

@@ -1,6 +1,6 @@
-"""What has to be true before a vehicle is armed: pure functions over what was read of it.
+"""Checks vehicles before they are armed: pure functions over what was read from them.
 
-Each returns diagnostics; a flight begins only where none of them is an error.
+Each returns diagnostics. A flight starts only if none of them is an error.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from shotc.stream.setpoints import SetpointSeries, pitch_range, speeds
 from shotc.stream.vehicle import VehicleStatus
 
 HOME_OFF_M = 1.0
-"""How far a home may be from the pad that the plan begins and ends on."""
+"""How far the home may be from the pad on which the plan starts and ends."""
 ELSEWHERE_M = 100.0
-"""A vehicle farther from its pad is at another place than the mission means."""
+"""A vehicle farther from its pad than this is at another site than the mission's."""
 ORIGIN_FAR_M = 1000.0
-"""Farther from its frame's origin, North and Down of a vehicle are no longer the plan's."""
+"""Farther from the frame's origin than this, the vehicle's North and Down differ too much from the plan's."""
 STANDBY, ACTIVE = 3, 4
-"""MAV_STATE of a vehicle that waits to be armed, and of one whose motors run."""
+"""MAV_STATE of a vehicle that waits to be armed, and of one with running motors."""
 STATES = {
     0: "not initialised",
     1: "booting",
@@ -42,23 +42,23 @@ STATES = {
 }
 SPEED_SLACK_SHARE = 0.01
 SLACK_RAD = 0.0175
-"""A degree: what gimbals say of their range is rounded."""
+"""One degree: gimbals round the range that they report."""
 
 
 class Ready(NamedTuple):
-    """One drone of the mission, with its vehicle as it was read."""
+    """One drone of the mission, with what was read from its vehicle."""
 
     mission: MissionIR
     drone: Drone
     vehicle: VehicleStatus
 
     def label(self, *keys: str) -> Label:
-        """Return the place of a key of the drone in the mission file."""
+        """Return the location of a key of the drone in the mission file."""
         return self.mission.origins.value((*self.drone.path, *keys))
 
 
 def answered(ready: Ready) -> list[Diagnostic]:
-    """Judge who is there, and whether enough was told to judge the rest."""
+    """Check which vehicle answers, and whether it answered enough to check the rest."""
     vehicle, name = ready.vehicle, ready.drone.name
     if vehicle.heartbeat is None:
         return [_nobody(ready)]
@@ -82,16 +82,17 @@ def answered(ready: Ready) -> list[Diagnostic]:
 
 
 def ready_to_fly(ready: Ready, origin: GeoOrigin, course: SetpointSeries | None) -> list[Diagnostic]:
-    """Judge a vehicle that has told all that is needed.
+    """Check a vehicle that has answered all that is needed.
 
-    origin : of the plan; course : what would be sent to it, None where its place is not known
+    origin : origin of the plan's frame
+    course : the setpoints to send, None if the vehicle's position is unknown
     """
     found = [*_state(ready), *_losses(ready), *_place(ready, origin)]
     return found if course is None else [*found, *_gimbal(ready, course), *_speeds(ready, course)]
 
 
 def frame_of(ready: Ready, origin: GeoOrigin) -> LocalFrame | None:
-    """Return the local frame of a vehicle, None where it has not told it."""
+    """Return the local frame of a vehicle, None if it did not report it."""
     vehicle = ready.vehicle
     if vehicle.origin is None or vehicle.home is None:
         return None
@@ -99,19 +100,19 @@ def frame_of(ready: Ready, origin: GeoOrigin) -> LocalFrame | None:
 
 
 def pad_of(ready: Ready, origin: GeoOrigin) -> GlobeFix:
-    """Return where the plan begins on the globe."""
+    """Return the position of the pad on the globe."""
     lat, lon, alt = of_world(np.array([ready.drone.home]), origin)[0].tolist()
     return GlobeFix(lat, lon, alt)
 
 
 def home_offset(ready: Ready, origin: GeoOrigin) -> Vec3:
-    """Return the home of a vehicle less the drone's pad: East, North, Up, metres."""
+    """Return the vehicle's home minus the drone's pad: East, North, Up, m."""
     assert ready.vehicle.home is not None
     return minus(_in_world(ready.vehicle.home, origin), ready.drone.home)
 
 
 def actions_of(vehicle: VehicleStatus) -> dict[str, Action]:
-    """Return what each parameter makes the autopilot do when its link is lost."""
+    """Return the action of the autopilot on a lost link, by parameter."""
     known = vehicle.parameters
     found = {
         rule.parameter: rule.actions.get(_whole(known.get(rule.parameter)))
@@ -242,7 +243,7 @@ def _place(ready: Ready, origin: GeoOrigin) -> Iterator[Diagnostic]:
 
 
 def _off_its_home(ready: Ready, origin: GeoOrigin) -> Iterator[Diagnostic]:
-    """Judge where the vehicle stands now: its home may be that of another start."""
+    """Check where the vehicle stands now: its home may date from an earlier start."""
     frame, position = frame_of(ready, origin), ready.vehicle.position
     assert frame is not None
     assert position is not None
@@ -353,5 +354,5 @@ def _far(offset: Vec3) -> str:
 
 
 def _whole(value: float | None) -> int:
-    """Return a parameter as the whole number that it is, -1000 where it is none."""
+    """Return a parameter as an integer, -1000 if it is not one."""
     return round(value) if value is not None and isfinite(value) and value == round(value) else -1000

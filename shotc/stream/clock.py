@@ -1,4 +1,4 @@
-"""The clock that a flight is sent by: deadlines are absolute, so that no delay adds up."""
+"""The clock of a flight. Deadlines are absolute, so delays do not add up."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ PERIOD_S = 1.0 / RATE_HZ
 
 
 class Clock(Protocol):
-    """Seconds that only go forward, from anywhere."""
+    """Seconds that only increase, from any zero."""
 
     def now(self) -> float:
         """Return the time."""
         ...
 
     def wait_until(self, moment: float) -> None:
-        """Return at ``moment``, at once where it has passed."""
+        """Return at ``moment``, or at once if it has passed."""
         ...
 
 
 class WallClock:
-    """The clock of the machine."""
+    """The monotonic clock of the machine."""
 
     def now(self) -> float:
         """Return the time."""

@@ -1,4 +1,6 @@
-"""Ways to end a process from outside, made the same: a flight that is ended tells its drones to hold."""
+"""Treats all ways to end the process from outside alike, so that an ended flight orders its
+drones to hold.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ ENDINGS = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasat
 
 @contextmanager
 def as_interrupts() -> Iterator[None]:
-    """Make a request to end, and a terminal that is closed, what Ctrl-C is; in the main thread only."""
+    """Turn SIGTERM and SIGHUP into KeyboardInterrupt, as Ctrl-C does; in the main thread only."""
     before = {ending: signal.signal(ending, _interrupt) for ending in ENDINGS}
     try:
         yield

@@ -1,4 +1,4 @@
-"""Where a vehicle is reached: ``udp:PORT`` waits for it there, ``udpout:HOST:PORT`` calls it."""
+"""Addresses of vehicles: ``udp:PORT`` listens on a port, ``udpout:HOST:PORT`` sends first."""
 
 from __future__ import annotations
 
@@ -9,21 +9,24 @@ LARGEST_PORT = 65535
 
 
 class Endpoint(NamedTuple):
-    """A UDP address; calls : whether it is the other side's, to which the first datagram goes."""
+    """A UDP address; calls : whether it is the remote address, to which the first datagram is sent."""
 
     host: str
     port: int
     calls: bool
 
     def __str__(self) -> str:
-        """Return it as it is written."""
+        """Return the address in the form that users write."""
         if self.calls:
             return f"udpout:{self.host}:{self.port}"
         return f"udp:{self.port}" if self.host == EVERYWHERE else f"udp:{self.host}:{self.port}"
 
 
 def endpoint(text: str) -> Endpoint:
-    """Return what ``udp:[HOST:]PORT`` or ``udpout:HOST:PORT`` says; ValueError says what is wrong with it."""
+    """Parse ``udp:[HOST:]PORT`` or ``udpout:HOST:PORT``.
+
+    Raises ValueError, which says what is wrong with the text.
+    """
     scheme, _, rest = text.partition(":")
     host, _, port = rest.rpartition(":")
     if scheme not in ("udp", "udpout") or not port:

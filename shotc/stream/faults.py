@@ -1,4 +1,4 @@
-"""What is said of a flight that does not go as planned."""
+"""Diagnostics of a flight that does not go as planned."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ RESULTS = {
     4: "failed",
     6: "cancelled",
 }
-"""MAV_RESULT of what is not accepted."""
+"""MAV_RESULT of commands that are not accepted."""
 TAKE_OVER = "take over with the remote control or a ground station"
 
 
 def refused(vehicle: VehicleStatus, what: str, result: int) -> Diagnostic:
-    """Return the error of a command that the vehicle does not carry out; what : as in "refuses to arm"."""
+    """Return the error of a command that the vehicle refuses; what : completes "refuses ...", as
+    in "to arm".
+    """
     return Diagnostic(
         "A020",
         f"the vehicle of `{vehicle.drone}` refuses {what}",
@@ -27,7 +29,7 @@ def refused(vehicle: VehicleStatus, what: str, result: int) -> Diagnostic:
 
 
 def late(vehicle: VehicleStatus, what: str) -> Diagnostic:
-    """Return the error of a vehicle that is not ready when the plan has it lift off."""
+    """Return the error of a vehicle that is not ready at its lift-off in the plan."""
     return Diagnostic(
         "A021",
         f"the vehicle of `{vehicle.drone}` is not ready when the plan has it lift off",
@@ -37,7 +39,7 @@ def late(vehicle: VehicleStatus, what: str) -> Diagnostic:
 
 
 def vanished(vehicle: VehicleStatus, silence: float) -> Diagnostic:
-    """Return the error of a vehicle that is heard no more."""
+    """Return the error of a vehicle whose heartbeats have stopped."""
     return Diagnostic(
         "A022",
         f"the vehicle of `{vehicle.drone}` is heard no more",
@@ -47,7 +49,9 @@ def vanished(vehicle: VehicleStatus, silence: float) -> Diagnostic:
 
 
 def mode_left(vehicle: VehicleStatus) -> Diagnostic:
-    """Return the error of a vehicle that no longer follows setpoints: its pilot or a failsafe took it."""
+    """Return the error of a vehicle that no longer follows setpoints: its pilot or a failsafe has
+    taken over.
+    """
     mode = vehicle.autopilot.flown.name
     return Diagnostic(
         "A023",
@@ -58,7 +62,7 @@ def mode_left(vehicle: VehicleStatus) -> Diagnostic:
 
 
 def strayed(vehicle: VehicleStatus, away: float, most: float) -> Diagnostic:
-    """Return the error of a vehicle that is far from where the plan has it."""
+    """Return the error of a vehicle that is too far from its planned position."""
     return Diagnostic(
         "A024",
         f"the vehicle of `{vehicle.drone}` is {away:.1f} m from where the plan has it",
@@ -78,7 +82,7 @@ def stalled(seconds: float, most: float) -> Diagnostic:
 
 
 def stale(target: str, silence: float) -> Diagnostic:
-    """Return the warning that a live target is silent, and the camera keeps to the plan."""
+    """Return the warning that a live target is silent and the camera follows the plan."""
     return Diagnostic(
         "A026",
         f"nothing is heard of the live target `{target}`: the camera looks where the plan has it",
@@ -88,7 +92,7 @@ def stale(target: str, silence: float) -> Diagnostic:
 
 
 def not_recorded(vehicle: VehicleStatus, shot: str, *, on: bool) -> Diagnostic:
-    """Return the warning that the camera does not say that it records, or that it has ended."""
+    """Return the warning that the camera does not confirm that it started or stopped recording."""
     did = "begins" if on else "ends"
     return Diagnostic(
         "A027",
@@ -108,7 +112,7 @@ def not_landed(vehicle: VehicleStatus, seconds: float) -> Diagnostic:
 
 
 def not_holding(vehicle: VehicleStatus, seconds: float) -> Diagnostic:
-    """Return the error of a vehicle that was asked to hold and does not say that it does."""
+    """Return the error of a vehicle that does not confirm that it holds."""
     mode = vehicle.autopilot.hold.name
     return Diagnostic(
         "A029",

@@ -1,8 +1,8 @@
-"""Where a live target is: JSON or MAVLink positions that come by UDP.
+"""Receives the position of a live target by UDP, as JSON or MAVLink.
 
-A datagram is one position. As JSON it is ``{"x": .., "y": .., "z": ..}``, metres in the mission's frame, or
-``{"lat": .., "lon": .., "alt": ..}``, degrees and metres above sea level; without a height the target is as
-high as in the plan. As MAVLink it is the GLOBAL_POSITION_INT of another vehicle.
+One datagram holds one position. In JSON it is ``{"x": .., "y": .., "z": ..}``, metres in the mission's frame,
+or ``{"lat": .., "lon": .., "alt": ..}``, degrees and metres above sea level. Without a height, the target has
+its planned height. In MAVLink it is the GLOBAL_POSITION_INT of another vehicle.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from shotc.stream.messages import GlobalPosition, GlobeFix
 from shotc.stream.udp import datagrams, opened
 
 STALE_S = 1.0
-"""A target that was heard of longer ago is where the plan has it."""
+"""If the last position is older than this, the target's planned position is used."""
 FARTHEST_M = 1e5
-"""A position farther from the mission's origin is none."""
+"""Positions farther than this from the mission's origin are ignored."""
 Spot = tuple[float, float, float | None]
-"""x, y and maybe z of W, metres."""
+"""x, y and optionally z in the world frame, m."""
 Decode = Callable[[bytes], Iterable[object]]
 
 
@@ -31,7 +31,11 @@ class Feed:
     """The positions of one target."""
 
     def __init__(self, target: str, endpoint: Endpoint, origin: GeoOrigin, mavlink: Decode) -> None:
-        """Listen; OSError where the port cannot be opened. mavlink : decodes datagrams that are no JSON."""
+        """Open the socket and listen.
+
+        mavlink : decodes datagrams that are not JSON
+        Raises OSError if the port cannot be opened.
+        """
         self.target = target
         self.endpoint = endpoint
         self.seen: float | None = None
@@ -46,13 +50,13 @@ class Feed:
         self._socket.close()
 
     def listen(self, now: float) -> None:
-        """Take in what has come; the last position counts."""
+        """Read all datagrams that have arrived; the last position counts."""
         for data, _ in datagrams(self._socket):
             for spot in self._spots(data):
                 self._spot, self.seen, self.heard = spot, now, self.heard + 1
 
     def position(self, now: float) -> Spot | None:
-        """Return where the target is, None where nothing was heard for STALE_S."""
+        """Return the target's position, None if none arrived in the last STALE_S seconds."""
         if self.seen is None or now - self.seen > STALE_S:
             return None
         return self._spot

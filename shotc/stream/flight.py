@@ -1,4 +1,4 @@
-"""The flight: all drones on one clock, a setpoint at every tick, and one way out when anything is wrong."""
+"""Flies all drones on one clock: a setpoint at every tick, and one way to stop when anything is wrong."""
 
 from __future__ import annotations
 
@@ -17,15 +17,17 @@ from shotc.stream.reading import BEAT_S
 from shotc.stream.report import SendTimes, send_times
 
 STALL_S = 0.5
-"""A gap from which on the next setpoint would be a jump: half of what PX4 takes for a lost link."""
+"""After a longer gap the next setpoint would be a jump: half of the time after which PX4 reports
+a lost link.
+"""
 HOLD_S = 5.0
-"""How long holding is asked for before that is told as an error."""
+"""How long the hold mode is requested before an error is reported."""
 HOLD_AGAIN_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
 class PilotedDrone:
-    """Who flies: a drone's pilot, and where its camera looks."""
+    """One drone in flight: its pilot, and where its camera looks."""
 
     pilot: Pilot
     aim: LiveAim
@@ -33,10 +35,11 @@ class PilotedDrone:
 
 @dataclass(slots=True)
 class FlightResult:
-    """What came of a flight.
+    """The result of a flight.
 
-    landed : whether every drone stands on its pad again; interrupted : by the user
-    holding : the drones that were asked to hold, with the modes
+    landed : whether every drone stands on its pad again
+    interrupted : whether the user stopped the flight
+    holding : the drones that were ordered to hold, each with its mode
     """
 
     times: SendTimes
@@ -52,7 +55,7 @@ class StreamedFlight:
     def __init__(
         self, crew: Sequence[PilotedDrone], feeds: Sequence[Feed], clock: Clock, say: Callable[[str], None]
     ) -> None:
-        """Say : is told what happens, a line at a time."""
+        """Prepare the flight; say : receives what happens, line by line."""
         self._crew = crew
         self._feeds = feeds
         self._clock = clock
@@ -64,7 +67,9 @@ class StreamedFlight:
         self._tick = min(member.pilot.begins for member in crew)
 
     def fly(self) -> FlightResult:
-        """Fly; return when all drones have landed, or hold because something is wrong."""
+        """Fly; return when all drones have landed, or have been ordered to hold because something
+        is wrong.
+        """
         found: list[Diagnostic] = []
         interrupted = False
         try:
@@ -72,7 +77,7 @@ class StreamedFlight:
         except KeyboardInterrupt:
             interrupted = True
             self._say("interrupted: every drone in the air is asked to hold")
-        except BaseException:  # a bug of ours leaves no drone without a command
+        except BaseException:  # also after a bug in this program, order a hold
             self._hold()
             raise
         landed = all(member.pilot.done for member in self._crew)
@@ -112,7 +117,7 @@ class StreamedFlight:
             member.pilot.send(self._tick, member.aim.at(self._tick, now))
 
     def _attend(self) -> list[Diagnostic]:
-        """Listen to everybody, and let every pilot go on; return what is wrong."""
+        """Read all messages and advance every pilot; return what is wrong."""
         now = self._clock.now()
         self._keep_up(now)
         found = [d for member in self._crew for d in member.pilot.step(self._tick, now)]
@@ -148,7 +153,9 @@ class StreamedFlight:
         return found
 
     def _hold(self) -> tuple[list[tuple[str, str]], list[Diagnostic]]:
-        """Ask every drone in the air to hold until it does, but for those that somebody else has taken."""
+        """Order every drone in the air to hold until it does, except drones that somebody else has taken
+        over.
+        """
         pilots = [member.pilot for member in self._crew if not member.pilot.taken]
         start = again = self._clock.now()
         asked: dict[str, str] = {}

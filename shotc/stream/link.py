@@ -1,7 +1,7 @@
-"""The door to MAVLink: the only module that speaks to pymavlink.
+"""The MAVLink connection to a vehicle: the only module that uses pymavlink.
 
-Of pymavlink only the generated dialect is used, on sockets of our own. A link belongs to one vehicle: it
-takes what comes from the first address at which an autopilot is heard, and answers there.
+It uses only the generated dialect of pymavlink, on sockets of its own. A link belongs to one vehicle: it
+accepts datagrams from the first address that sends an autopilot's heartbeat, and sends to that address.
 """
 
 from __future__ import annotations
@@ -32,21 +32,22 @@ from shotc.stream.setpoints import Aim, LocalSetpoint
 from shotc.stream.udp import datagrams, opened
 
 STATION, OURSELVES = 255, mavlink.MAV_COMP_ID_MISSIONPLANNER
-"""System and component that ground stations have."""
+"""System and component id of ground stations."""
 AUTOPILOT = mavlink.MAV_COMP_ID_AUTOPILOT1
 USES_ALL = mavlink.POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE
 ROLL_LOCK, PITCH_LOCK, YAW_LOCK = 4, 8, 16
 INTEGERS = {1: "<B", 2: "<b", 3: "<H", 4: "<h", 5: "<I", 6: "<i"}
-"""MAV_PARAM_TYPE of integers, and how their bytes stand in the float of PARAM_VALUE where they do."""
+"""MAV_PARAM_TYPE of integers, and the ``struct`` format of their bytes in the float of PARAM_VALUE."""
 
 
 class Link:
     """One UDP socket to one vehicle."""
 
     def __init__(self, endpoint: Endpoint, *, bytewise: bool = False) -> None:
-        """Open the socket; OSError where that is not possible.
+        """Open the socket.
 
-        bytewise : whether parameters that are integers come as bytes
+        bytewise : whether integer parameters are sent as bytes
+        Raises OSError if the socket cannot be opened.
         """
         self.endpoint = endpoint
         self.system = 0
@@ -62,11 +63,11 @@ class Link:
         self._socket.close()
 
     def speak_as(self, system: int) -> None:
-        """Take the system id of the ground station whose silence the autopilot minds."""
+        """Use the system id of the ground station whose silence the autopilot monitors."""
         self._mav.srcSystem = system
 
     def receive(self) -> Iterator[Message]:
-        """Yield what has come since last time; what is no MAVLink, or of no use, is left out."""
+        """Yield the messages that have arrived since the last call; skip other data and unused messages."""
         for data, peer in datagrams(self._socket):
             if self._known and peer != self._peer:
                 continue
@@ -86,11 +87,11 @@ class Link:
         try:
             self._socket.sendto(message.pack(self._mav), self._peer)
         except OSError:
-            return  # a network that is gone shows as heartbeats that do not come
+            return  # a lost network shows as missing heartbeats
         self._mav.seq = (self._mav.seq + 1) % 256
 
     def heartbeat(self) -> None:
-        """Say that the ground station is there."""
+        """Send the heartbeat of a ground station."""
         self._send(
             self._mav.heartbeat_encode(
                 mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE
@@ -98,37 +99,37 @@ class Link:
         )
 
     def ask_parameter(self, name: str) -> None:
-        """Ask for a parameter."""
+        """Request a parameter."""
         self._send(self._mav.param_request_read_encode(self.system, AUTOPILOT, name.encode(), -1))
 
     def ask(self, message: type[Message]) -> None:
-        """Ask for a message that is not sent by itself."""
+        """Request one message of a type."""
         self.command(mavlink.MAV_CMD_REQUEST_MESSAGE, float(_NUMBERS[message]))
 
     def stream(self, message: type[Message], rate: float) -> None:
-        """Ask for a message at a rate, Hz."""
+        """Request a type of message at a rate, Hz."""
         self.command(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, float(_NUMBERS[message]), 1e6 / rate)
 
     def command(self, command: int, *params: float, component: int = AUTOPILOT) -> None:
-        """Send a command, its parameters padded with zeros."""
+        """Send a command; missing parameters are zero."""
         seven = (*params, *(0.0,) * (7 - len(params)))
         self._send(self._mav.command_long_encode(self.system, component, command, 0, *seven))
 
     def set_mode(self, mode: Mode) -> None:
-        """Ask for a flight mode."""
+        """Request a flight mode."""
         custom = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
         self.command(mavlink.MAV_CMD_DO_SET_MODE, float(custom), float(mode.main), float(mode.sub))
 
     def arm(self, *, armed: bool) -> None:
-        """Ask the vehicle to arm or disarm; nothing is forced."""
+        """Request to arm or disarm, without forcing it."""
         self.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, float(armed))
 
     def take_off(self, height: float) -> None:
-        """Ask the vehicle to rise straight up to a height above its home, metres."""
+        """Request a vertical take-off to a height above the vehicle's home, m."""
         self.command(mavlink.MAV_CMD_NAV_TAKEOFF, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height)
 
     def record(self, *, on: bool, component: int) -> None:
-        """Ask the camera to begin or to end recording."""
+        """Request the camera to start or stop recording."""
         video = mavlink.MAV_CMD_VIDEO_START_CAPTURE if on else mavlink.MAV_CMD_VIDEO_STOP_CAPTURE
         self.command(video, component=component)
 
@@ -150,7 +151,7 @@ class Link:
         )  # fmt: skip
 
     def aim(self, aim: Aim, gimbal: GimbalManager, *, pans: bool) -> None:
-        """Send gimbal angles, level with the horizon; without pan the camera looks where its body does."""
+        """Send gimbal angles relative to the horizon; without pan, the camera keeps the body's yaw."""
         yaw = aim.yaw if pans else 0.0
         self._send(
             self._mav.gimbal_manager_set_pitchyaw_encode(
@@ -159,7 +160,7 @@ class Link:
         )
 
     def attitude(self, aim: Aim, gimbal: GimbalManager, *, pans: bool) -> None:
-        """Send what ``aim`` sends as an attitude (w, x, y, z) without roll, with its rates."""
+        """Send the angles of ``aim`` as a quaternion (w, x, y, z) without roll, with the angular rates."""
         yaw, yaw_rate = (aim.yaw, aim.yaw_rate) if pans else (0.0, 0.0)
         cp, sp, cy, sy = cos(aim.pitch / 2), sin(aim.pitch / 2), cos(yaw / 2), sin(yaw / 2)
         self._send(
@@ -175,7 +176,7 @@ def _flags(*, pans: bool) -> int:
 
 
 def decoded(mav: Any, data: bytes) -> list[Any]:
-    """Return the MAVLink messages in a datagram; none where it holds something else."""
+    """Return the MAVLink messages in a datagram; an empty list if it holds other data."""
     try:
         return mav.parse_buffer(data) or []
     except (mavlink.MAVError, struct.error, ValueError):
@@ -183,14 +184,14 @@ def decoded(mav: Any, data: bytes) -> list[Any]:
 
 
 def decoder() -> Any:
-    """Return what decodes datagrams of one sender."""
+    """Return a decoder for the datagrams of one sender."""
     mav = mavlink.MAVLink(None)
     mav.robust_parsing = True
     return mav
 
 
 def understood(raw: Any, *, bytewise: bool = False) -> Message | None:
-    """Return a message as plain values, None where it is none that is used."""
+    """Return a message as plain values, None if its type is not used."""
     read = _READERS.get(raw.get_msgId())
     if read is None:
         return None

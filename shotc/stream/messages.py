@@ -1,4 +1,4 @@
-"""What is heard of an autopilot, a gimbal or a target: MAVLink messages as plain values in SI units."""
+"""The MAVLink messages that are received from an autopilot, gimbal or target, as plain values in SI units."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import NamedTuple
 from shotc.geom.vec import Vec2, Vec3
 
 ACCEPTED, REJECTED_FOR_NOW, IN_PROGRESS = 0, 1, 5
-"""MAV_RESULT: what is accepted, what may be asked again, and what takes its time; any other is a refusal."""
+"""MAV_RESULT: accepted, may be requested again, and in progress; any other value is a refusal."""
 
 
 class Heartbeat(NamedTuple):
-    """Who is there. ``mode`` is custom_mode; kind, autopilot and status are MAVLink's numbers."""
+    """A heartbeat. ``mode`` is custom_mode; kind, autopilot and status are MAVLink's numbers."""
 
     system: int
     component: int
@@ -23,7 +23,7 @@ class Heartbeat(NamedTuple):
 
 
 class GlobeFix(NamedTuple):
-    """A place on the globe: degrees, degrees, metres above mean sea level."""
+    """A position on the globe: latitude and longitude in degrees, metres above mean sea level."""
 
     lat: float
     lon: float
@@ -31,46 +31,46 @@ class GlobeFix(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """A parameter, as the number that it means."""
+    """A parameter, with its numerical value."""
 
     name: str
     value: float
 
 
 class CommandResult(NamedTuple):
-    """What came of a command; result as MAV_RESULT."""
+    """The result of a command, as MAV_RESULT."""
 
     command: int
     result: int
 
 
 class Origin(NamedTuple):
-    """Where the autopilot's local frame has its origin."""
+    """The origin of the autopilot's local frame."""
 
     place: GlobeFix
 
 
 class Home(NamedTuple):
-    """Where the autopilot returns to."""
+    """The place to which the autopilot returns."""
 
     place: GlobeFix
 
 
 class LocalPosition(NamedTuple):
-    """Where the vehicle is in its local frame: North, East, Down, metres."""
+    """The vehicle's position in its local frame: North, East, Down, m."""
 
     position: Vec3
 
 
 class GlobalPosition(NamedTuple):
-    """Where a vehicle is on the globe."""
+    """A vehicle's position on the globe."""
 
     system: int
     place: GlobeFix
 
 
 class GimbalManager(NamedTuple):
-    """A gimbal manager: its component, its device, and what the gimbal reaches, rad."""
+    """A gimbal manager: its component, its device, and the gimbal's range of pitch and yaw, rad."""
 
     component: int
     device: int
@@ -79,7 +79,7 @@ class GimbalManager(NamedTuple):
 
 
 class StatusText(NamedTuple):
-    """What the autopilot says to its pilot; severity 0 is an emergency, 7 is for developers."""
+    """A text of the autopilot for its pilot; severity 0 is an emergency, 7 is for developers."""
 
     severity: int
     text: str

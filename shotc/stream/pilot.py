@@ -1,7 +1,8 @@
-"""One drone's way through a flight: from its pad into the air by the common clock, and back onto the pad.
+"""Leads one drone through a flight: lift-off from its pad by the common clock, the plan, and landing on the
+pad.
 
-Called at every tick; nothing here waits. A command is repeated until the vehicle's own heartbeat or position
-shows that it has been carried out.
+The methods are called at every tick and never wait. A command is repeated until the vehicle's heartbeat or
+position shows its effect.
 """
 
 from __future__ import annotations
@@ -20,26 +21,26 @@ from shotc.stream.setpoints import Aim, SetpointSeries
 from shotc.stream.vehicle import VehicleStatus
 
 AGAIN_TICKS = RATE_HZ // 2
-"""Ticks after which a command that had no effect is sent again."""
+"""Ticks after which a command without effect is sent again."""
 FLOWING_TICKS = RATE_HZ * 3 // 2
-"""Ticks of setpoints that PX4 has to have had before it follows them: more than a second."""
+"""Ticks of setpoints before PX4 is asked to follow them; it needs more than one second of them."""
 SPOOL = RATE_HZ
-"""Ticks that motors are given from arming to lift-off."""
+"""Ticks from arming to lift-off, in which the motors spin up."""
 SILENT_S = 2.0
-"""Seconds without a heartbeat after which a vehicle counts as vanished; they come once a second."""
+"""Time without a heartbeat after which a vehicle counts as vanished; heartbeats come once a second."""
 PAD_OFF_M = 2.0
-"""How far from its pad a vehicle may be when it arms: a metre, and as much drift while it waited."""
+"""How far from its pad a vehicle may be when it arms: 1 m, and 1 m of drift while it waits."""
 STRAY_M = 10.0
-"""A vehicle farther from its setpoint flies something else than the plan."""
+"""A vehicle farther from its setpoint than this does not fly the plan."""
 LIFTED_SHARE = 0.85
-"""Share of the height at which a vehicle that takes off by itself is taken over."""
+"""A vehicle that takes off by itself gets setpoints from this share of the take-off height on."""
 LANDING_S = 60.0
 SET_MODE, ARM_DISARM, TAKE_OFF, CLAIM = 176, 400, 22, 1001
 VIDEO_START, VIDEO_STOP = 2500, 2501
 
 
 class PilotStage(Enum):
-    """How far a drone has come; value : its order."""
+    """The stages of a flight; the value gives their order."""
 
     PARKED = 0
     MODE = 1
@@ -51,9 +52,9 @@ class PilotStage(Enum):
 
 
 FOLLOWING = (PilotStage.ARMING, PilotStage.LIFTING, PilotStage.FLYING)
-"""Stages in which a vehicle that has left its mode was taken over."""
+"""Stages in which a vehicle that leaves its mode has been taken over by somebody else."""
 AT_REST = (PilotStage.PARKED, PilotStage.LANDING, PilotStage.LANDED)
-"""Stages in which nothing has to be stopped: what comes down onto its pad goes on."""
+"""Stages in which nothing has to be stopped: a vehicle that lands on its pad continues."""
 DOINGS = {
     PilotStage.MODE: "gets ready",
     PilotStage.ARMING: "arms",
@@ -65,7 +66,7 @@ DOINGS = {
 
 
 class RecordingTick(NamedTuple):
-    """A tick at which the camera begins or ends to record a shot."""
+    """A tick at which the camera starts or stops recording a shot."""
 
     tick: int
     shot: str
@@ -73,7 +74,7 @@ class RecordingTick(NamedTuple):
 
 
 class Pilot:
-    """Sends one drone what its course and its stage ask for."""
+    """Sends one drone what its course and its stage require."""
 
     def __init__(
         self, vehicle: VehicleStatus, course: SetpointSeries, cuts: tuple[RecordingTick, ...]
@@ -100,17 +101,19 @@ class Pilot:
 
     @property
     def done(self) -> bool:
-        """Whether it stands on its pad again, motors off."""
+        """Whether the drone stands on its pad again, motors off."""
         return self.stage is PilotStage.LANDED
 
     def airborne(self, tick: int) -> bool:
-        """Tell whether the drone is off its pad, or may be, and follows or rises."""
+        """Tell whether the drone is off its pad, or may be, and follows the plan or takes off."""
         if self.stage is PilotStage.FLYING:
             return tick > self.course.lifts or self.vehicle.autopilot.lift > 0
         return self.stage is PilotStage.LIFTING
 
     def send(self, tick: int, aim: Aim) -> None:
-        """Send what belongs to a tick: the setpoint where the vehicle takes them, and the camera's angles."""
+        """Send the messages of a tick: the setpoint, if the vehicle accepts setpoints, and the
+        gimbal angles.
+        """
         follows = PilotStage.MODE if self.vehicle.autopilot.lift == 0 else PilotStage.FLYING
         if self.stage.value >= follows.value and self.stage.value <= PilotStage.FLYING.value:
             boot_ms = max(0, round((tick - self.begins) * PERIOD_S * 1000))
@@ -121,7 +124,7 @@ class Pilot:
             (link.attitude if attitudes else link.aim)(aim, self.vehicle.gimbal, pans=self.course.pans)
 
     def step(self, tick: int, now: float) -> Iterator[Diagnostic]:
-        """Go on to the next stage where this one has been reached; yield what makes flying on wrong."""
+        """Advance to the next stage when this one is complete; yield what is wrong."""
         if self.stage is PilotStage.LANDED or tick < self.begins:
             return
         if self.stage is not PilotStage.PARKED and now - self.vehicle.seen > SILENT_S:
@@ -146,7 +149,7 @@ class Pilot:
                 yield from self._land(tick)
 
     def hold(self, tick: int) -> Mode | None:
-        """Ask a drone in the air to hold, and one on the ground to disarm; return the mode asked for."""
+        """Order a drone in the air to hold and one on the ground to disarm; return the mode requested."""
         if self.stage in AT_REST:
             return None
         if self.airborne(tick):
@@ -157,7 +160,7 @@ class Pilot:
         return None
 
     def stopped(self, tick: int) -> bool:
-        """Tell whether it holds, comes down onto its pad, or stands with its motors off."""
+        """Tell whether the drone holds, lands on its pad, or stands with its motors off."""
         if self.stage in AT_REST or not self.vehicle.armed:
             return True
         return self.airborne(tick) and self.vehicle.mode == self.vehicle.autopilot.hold.custom
@@ -227,7 +230,7 @@ class Pilot:
             self.vehicle.link.set_mode(self.vehicle.autopilot.land)
 
     def _record(self, tick: int) -> Iterator[Diagnostic]:
-        """Begin and end recording; a camera that does not answer is told of, and the flight goes on."""
+        """Start and stop recording; if the camera does not answer, yield a warning and fly on."""
         cut = next((c for c in reversed(self.cuts) if c.tick <= tick), None)
         if cut is None:
             return
@@ -267,12 +270,12 @@ class Pilot:
         self.events.append(DOINGS[stage])
 
     def _height(self) -> float:
-        """Return how high the vehicle is above its pad, metres."""
+        """Return the vehicle's height above its pad, m."""
         assert self.vehicle.position is not None, "it was read before the flight"
         return float(self.course.position[0, 2] - self.vehicle.position[2])
 
     def _away(self, tick: int) -> float:
-        """Return how far the vehicle is from where the plan has it, from its pad before it flies, metres."""
+        """Return the distance from the vehicle's planned position, m; before the flight, from its pad."""
         assert self.vehicle.position is not None, "it was read before the flight"
         on_pad = self.stage is not PilotStage.FLYING
         planned = self.course.position[0].tolist() if on_pad else self.course.setpoint(tick).position

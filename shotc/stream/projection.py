@@ -1,8 +1,8 @@
-"""The local frames of autopilots: how each of them lays latitude and longitude out in metres.
+"""The local frames of autopilots: how each projects latitude and longitude to metres.
 
-An autopilot flies to a local setpoint by its own map, not by the ellipsoid. On a sphere of its own radius a
-metre to the East is up to 0.3 % off: 0.9 m at 300 m from the origin. So a setpoint is the plan's place on
-the globe, laid out as the autopilot itself does it.
+An autopilot flies to a local setpoint by its own projection, not on the ellipsoid. It uses a sphere, and on
+it an eastward distance is wrong by up to 0.3 %: 0.9 m at 300 m from the origin. Therefore the plan's
+positions are taken on the globe, and projected by the autopilot's own formula.
 """
 
 from __future__ import annotations
@@ -21,10 +21,11 @@ Layout = Callable[[Array, Array, GlobeFix], tuple[Array, Array]]
 
 
 def azimuthal(lat: Array, lon: Array, origin: GlobeFix) -> tuple[Array, Array]:
-    """Return North and East, metres, as PX4 does: azimuthal equidistant on a sphere.
+    """Return North and East as PX4 computes them: azimuthal equidistant on a sphere, shapes (N,), m.
 
-    lat, lon : degrees, shape (N,). PX4 ``MapProjection::project`` (lib/geo); the angle from the origin comes
-    of its sine here, which keeps millimetres where the arc cosine loses them.
+    lat, lon : degrees, shape (N,)
+    The formula is PX4's ``MapProjection::project`` (lib/geo), except that the angle from the origin comes
+    from its sine: this keeps millimetres, which the arc cosine loses.
     """
     phi, phi0 = np.radians(lat), np.radians(origin.lat)
     turn = np.radians(lon - origin.lon)
@@ -36,9 +37,10 @@ def azimuthal(lat: Array, lon: Array, origin: GlobeFix) -> tuple[Array, Array]:
 
 
 def equirectangular(lat: Array, lon: Array, origin: GlobeFix) -> tuple[Array, Array]:
-    """Return North and East, metres, as ArduPilot does: by the cosine of the mean latitude.
+    """Return North and East as ArduPilot computes them: by the cosine of the mean latitude, shapes (N,), m.
 
-    lat, lon : degrees, shape (N,). ArduPilot ``Location::get_distance_NE``.
+    lat, lon : degrees, shape (N,)
+    The formula is ArduPilot's ``Location::get_distance_NE``.
     """
     scale = np.cos(np.radians((lat + origin.lat) / 2))
     return (
@@ -50,8 +52,9 @@ def equirectangular(lat: Array, lon: Array, origin: GlobeFix) -> tuple[Array, Ar
 class LocalFrame(NamedTuple):
     """The local frame of one vehicle.
 
-    layout : of its autopilot; origin : of the frame
-    raised : metres that heights of the plan are raised by, for its pad to be as high as the vehicle's home
+    layout : the projection of its autopilot
+    origin : the frame's origin
+    raised : what is added to the plan's heights, so that the pad is as high as the vehicle's home, m
     """
 
     layout: Layout
@@ -59,6 +62,6 @@ class LocalFrame(NamedTuple):
     raised: float = 0.0
 
     def of_places(self, places: Array) -> Array:
-        """Return places (N, 3), degrees and metres, as North, East, Down, metres, shape (N, 3)."""
+        """Return places (N, 3) in degrees and metres as North, East, Down, m, shape (N, 3)."""
         north, east = self.layout(places[:, 0], places[:, 1], self.origin)
         return np.stack([north, east, self.origin.alt - places[:, 2] - self.raised], axis=-1)

@@ -1,7 +1,8 @@
-"""What a process does to be woken in time: real-time priority where it is granted, no garbage collection.
+"""Makes the process wake up on time: real-time priority if the system grants it, and no garbage collection.
 
-On a machine with as much to do as it has cores, a process that sleeps is woken up to a few milliseconds late.
-One of 99 levels of real-time priority is asked for; Linux grants it to those whom ``ulimit -r`` allows it.
+On a machine with as many busy processes as cores, a sleeping process wakes up to a few milliseconds late. The
+module requests one of the 99 levels of real-time priority; Linux grants it to users whom ``ulimit -r`` allows
+it.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ PRIORITY_LEVEL = 10
 
 @contextmanager
 def punctual() -> Iterator[bool]:
-    """Be woken in time inside of the block; gives whether the priority was granted.
+    """Wake up on time inside of the block; yields whether the priority was granted.
 
-    The flight makes no cycles of objects, and is over before what it does make is of any size.
+    Garbage collection is off: a flight makes no cycles of objects, and ends before other objects fill the
+    memory.
     """
     collects = gc.isenabled()
     gc.collect()
@@ -36,7 +38,7 @@ def punctual() -> Iterator[bool]:
 if hasattr(os, "sched_setscheduler"):
 
     def _raised() -> tuple[int, int] | None:
-        """Take real-time priority; return the policy and the level before, None where that is not allowed."""
+        """Take real-time priority; return the policy and the level before, None if the system refuses."""
         before = os.sched_getscheduler(0), os.sched_getparam(0).sched_priority
         try:
             os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(PRIORITY_LEVEL))
@@ -50,8 +52,8 @@ if hasattr(os, "sched_setscheduler"):
 else:
 
     def _raised() -> tuple[int, int] | None:
-        """Other systems have no such call."""
+        """Return None: other systems have no such call."""
         return None
 
     def _restore(before: tuple[int, int]) -> None:
-        """Leave all as it is."""
+        """Do nothing."""

@@ -1,4 +1,6 @@
-"""What is read of vehicles before anything is judged: who they are, and what they would do without a link."""
+"""Reads the vehicles before any check: which autopilot answers, where it is, and what it does on
+a lost link.
+"""
 
 from __future__ import annotations
 
@@ -9,13 +11,13 @@ from shotc.stream.messages import GimbalManager, Home, LocalPosition, Message, O
 from shotc.stream.vehicle import VehicleStatus
 
 HEARTBEAT_S = 10.0
-"""How long a vehicle is waited for."""
+"""How long to wait for a vehicle's first heartbeat."""
 READ_S = 6.0
-"""How long its answers are waited for, from its first heartbeat on."""
+"""How long to wait for its answers, from its first heartbeat on."""
 SOME_LACK_S = 2.0
-"""How long what only some versions have is waited for."""
+"""How long to wait for parameters that some versions lack."""
 AGAIN_S = 0.5
-"""After so long a question is put again: on a radio link one in ten is lost."""
+"""A request is repeated after this time: a radio link loses about one message in ten."""
 BEAT_S = 1.0
 POSITION_HZ = 10.0
 ASKED: tuple[tuple[type[Message], str, str], ...] = (
@@ -24,13 +26,13 @@ ASKED: tuple[tuple[type[Message], str, str], ...] = (
     (LocalPosition, "position", "LOCAL_POSITION_NED"),
     (GimbalManager, "gimbal", "GIMBAL_MANAGER_INFORMATION"),
 )
-"""Messages that are asked for: where a vehicle keeps what they say, and what MAVLink calls them."""
+"""The messages to request: the attribute of VehicleStatus that holds each, and its MAVLink name."""
 
 
 def read(
     vehicles: Sequence[VehicleStatus], clock: Clock, note: Callable[[str], None] = lambda _: None
 ) -> None:
-    """Wait for all vehicles, and read what they have to say; what does not come stays unknown."""
+    """Wait for all vehicles and read their answers; what does not arrive stays unknown."""
     start = now = clock.now()
     met: dict[str, float] = {}
     beat = asked = start - 60.0
@@ -52,7 +54,7 @@ def read(
 
 
 def missing(vehicle: VehicleStatus) -> Iterator[str]:
-    """Yield what a vehicle has not told, by MAVLink's names; what some versions lack is left out."""
+    """Yield the MAVLink names of missing answers, except those that some versions lack."""
     yield from (name for _, known, name in ASKED if known != "gimbal" and getattr(vehicle, known) is None)
     pilot = vehicle.autopilot
     yield from (n for n in pilot.parameters if n not in vehicle.parameters and not pilot.can_lack(n))
@@ -66,7 +68,7 @@ def _meet(vehicle: VehicleStatus, met: dict[str, float], now: float, note: Calla
 
 
 def _take_station(vehicle: VehicleStatus) -> None:
-    """Speak as the ground station whose silence the autopilot minds."""
+    """Use the system id of the ground station whose silence the autopilot monitors."""
     known = vehicle.parameters
     station = next((known[name] for name in vehicle.autopilot.station if name in known), 0.0)
     if 1 <= station <= 255:
@@ -79,7 +81,7 @@ def _ask(vehicle: VehicleStatus) -> None:
     for message, known, _ in ASKED:
         if getattr(vehicle, known) is None:
             vehicle.link.ask(message)
-    if not vehicle.parameters:  # nothing was asked of it before
+    if not vehicle.parameters:  # first request
         vehicle.link.stream(LocalPosition, POSITION_HZ)
     for name in vehicle.autopilot.parameters:
         if name not in vehicle.parameters:

@@ -1,4 +1,4 @@
-"""What came of a flight, in numbers: when setpoints were sent, and how the vehicles followed."""
+"""The send times of a flight in numbers."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ import numpy as np
 from shotc.stream.clock import PERIOD_S
 
 LATE_S = 0.005
-"""A setpoint sent later than this after its moment counts as late."""
+"""A setpoint sent more than this after its due time counts as late."""
 
 
 @dataclass(frozen=True, slots=True)
 class SendTimes:
-    """How long after their moments the setpoints of all drones were out, seconds.
+    """The delays from the due time of a tick until the setpoints of all drones were sent, s.
 
-    ticks : how many moments there were; skipped : how many passed before they could be served
-    late : how many were served later than LATE_S
+    ticks : the number of ticks sent
+    skipped : the number of ticks that passed before they could be sent
+    late : the number of ticks sent later than LATE_S
     """
 
     ticks: int
@@ -29,7 +30,7 @@ class SendTimes:
 
 
 def send_times(delays: list[float], skipped: int) -> SendTimes:
-    """Return the summary of all delays."""
+    """Return the summary of all delays (s)."""
     if not delays:
         return SendTimes(0, skipped, 0, 0.0, 0.0, 0.0)
     all_of = np.array(delays)
@@ -39,7 +40,7 @@ def send_times(delays: list[float], skipped: int) -> SendTimes:
 
 
 def told(times: SendTimes) -> str:
-    """Return the summary as a line."""
+    """Return the summary as one line of text."""
     numbers = (
         f"median {times.median * 1e3:.2f} ms, 99 % {times.p99 * 1e3:.2f} ms, worst {times.worst * 1e3:.2f} ms"
     )

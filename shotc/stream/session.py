@@ -1,4 +1,4 @@
-"""From a plan and the addresses of its vehicles to a flight: open, read, judge, and fly if it is meant."""
+"""Goes from a plan and the addresses of its vehicles to a flight: opens links, reads, checks, and flies."""
 
 from __future__ import annotations
 
@@ -30,18 +30,23 @@ from shotc.stream.reading import read
 from shotc.stream.setpoints import SetpointSeries, course_of
 from shotc.stream.vehicle import VehicleStatus
 
-if TYPE_CHECKING:  # the sockets come from outside, and MAVLink with them
+if TYPE_CHECKING:  # the sockets are passed in, and MAVLink with them
     from shotc.stream.link import Link
 
 CUT_TICKS = RATE_HZ // 10
-"""Ticks between the end of one recording and the begin of the next."""
+"""Ticks between the end of one recording and the start of the next."""
 SILENT_TARGET_S = 5.0
 SAME_HFOV_RAD = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
 class Doors:
-    """What opens sockets. link : to a vehicle; feed : of a target; both raise OSError where that fails."""
+    """The functions that open sockets.
+
+    link : opens the link to a vehicle
+    feed : opens the feed of a target
+    Both raise OSError if that fails.
+    """
 
     link: Callable[[Endpoint, Autopilot], Link]
     feed: Callable[[str, Endpoint, GeoOrigin], Feed]
@@ -49,7 +54,7 @@ class Doors:
 
 @dataclass(frozen=True, slots=True)
 class Aboard:
-    """One drone that has passed its checks: as it was read, and what is sent to it."""
+    """One drone that has passed its checks: what was read from it, and what is sent to it."""
 
     ready: Ready
     track: DroneTrajectory
@@ -57,10 +62,10 @@ class Aboard:
 
 
 class Session:
-    """One run: used in a ``with`` block, which closes its sockets."""
+    """One run, to be used in a ``with`` block, which closes its sockets."""
 
     def __init__(self, plan: VerifiedIR, doors: Doors, clock: Clock, note: Callable[[str], None]) -> None:
-        """Note : is told what happens, a line at a time."""
+        """Prepare a run; note : receives what happens, line by line."""
         self._plan = plan
         self._doors = doors
         self._clock = clock
@@ -83,9 +88,10 @@ class Session:
         return self._plan.trajectory.keyframes.mission
 
     def open(self, addresses: Mapping[str, Endpoint], targets: Mapping[str, Endpoint]) -> list[Diagnostic]:
-        """Open a link for every drone and a feed for every target; return what cannot be opened.
+        """Open a link for every drone and a feed for every target; return the errors.
 
-        addresses : by drone; targets : by target
+        addresses : by drone name
+        targets : by target name
         """
         found = [*unplaced(self.mission, self._plan), *unheard(self.mission, addresses)]
         if has_errors(found):
@@ -113,7 +119,7 @@ class Session:
             self._feeds.append(feed)
 
     def check(self) -> tuple[list[Aboard], list[Diagnostic]]:
-        """Read every vehicle and judge it; return those that may fly, and all that is wrong."""
+        """Read and check every vehicle; return those that may fly, and all diagnostics."""
         read(self.vehicles, self._clock, self._note)
         aboard: list[Aboard] = []
         found: list[Diagnostic] = []
@@ -172,7 +178,7 @@ class Session:
 
 
 def cuts_of(track: DroneTrajectory) -> tuple[RecordingTick, ...]:
-    """Return when a drone's camera begins and ends to record, in order of time."""
+    """Return when a drone's camera starts and stops recording, in order of time."""
     cuts: list[RecordingTick] = []
     for phase in track.phases:
         if phase.shot is not None:
@@ -187,7 +193,7 @@ def cuts_of(track: DroneTrajectory) -> tuple[RecordingTick, ...]:
 
 
 def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
-    """Yield what keeps a plan from being sent to anybody."""
+    """Yield what prevents a plan from being streamed at all."""
     names = ", ".join(f"`{fleet.fleet}`" for fleet in plan.trajectory.fleets)
     if names and plan.trajectory.drones:
         yield Diagnostic(
@@ -215,7 +221,7 @@ def unplaced(mission: MissionIR, plan: VerifiedIR) -> Iterator[Diagnostic]:
 
 
 def unheard(mission: MissionIR, names: Iterable[str]) -> Iterator[Diagnostic]:
-    """Yield the drones that take no setpoints from outside."""
+    """Yield an error for every drone whose autopilot accepts no setpoints."""
     for drone in map(mission.drone, names):
         if drone.autopilot not in AUTOPILOTS:
             yield Diagnostic(
@@ -245,7 +251,7 @@ def zoomed(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
 
 
 def filmed_instead(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagnostic]:
-    """Yield a warning for every shot that is to take photos."""
+    """Yield a warning for every shot that takes photos in the plan."""
     for phase in track.phases:
         if phase.shot is not None and mission.shot(phase.shot).photos is not None:
             shot = mission.shot(phase.shot)
@@ -259,7 +265,7 @@ def filmed_instead(mission: MissionIR, track: DroneTrajectory) -> Iterator[Diagn
 
 
 def summary(who: Aboard) -> list[tuple[str, str]]:
-    """Return what was read of a vehicle that may fly, as pairs of what and how."""
+    """Return what was read from a vehicle that may fly, as pairs of heading and text."""
     vehicle = who.ready.vehicle
     origin = who.ready.mission.origin
     assert origin is not None
@@ -283,7 +289,7 @@ def summary(who: Aboard) -> list[tuple[str, str]]:
 
 
 def left_alone(vehicle: VehicleStatus) -> str:
-    """Return what a vehicle in the air does when this program has ended, as the end of a sentence."""
+    """Return what a vehicle in the air does after this program has ended, as the end of a sentence."""
     rule = vehicle.autopilot.alone
     action = checks.actions_of(vehicle).get(rule)
     return "" if action is None else f"; left alone it will {action} ({rule})"

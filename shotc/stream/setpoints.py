@@ -1,7 +1,6 @@
-"""From a proved plan to what is sent: one setpoint for every tick of the common clock.
+"""Converts a verified plan to the setpoints that are sent, one for every tick of the common clock.
 
-Plain arithmetic over the plan's polynomials. All of a flight is worked out before it begins, so that sending
-is reading a row.
+It samples the plan's polynomials before the flight starts. Sending a setpoint is then only reading a row.
 """
 
 from __future__ import annotations
@@ -22,14 +21,16 @@ from shotc.stream.clock import RATE_HZ
 from shotc.stream.projection import LocalFrame
 
 TOGETHER_RAD = 1e-6
-"""A camera that never leaves its body's heading by more is on a gimbal that need not pan."""
+"""If the camera's yaw never differs from the body's by more than this, the gimbal need not pan."""
 
 
 STILL: Vec3 = (0.0, 0.0, 0.0)
 
 
 class LocalSetpoint(NamedTuple):
-    """Where a vehicle is to be: North, East, Down of its local frame, m, m/s, m/s^2; yaw from North, rad."""
+    """A setpoint in the vehicle's local frame: North, East, Down, m, m/s, m/s^2; yaw clockwise from North,
+    rad.
+    """
 
     position: Vec3
     velocity: Vec3
@@ -38,7 +39,7 @@ class LocalSetpoint(NamedTuple):
 
 
 class Aim(NamedTuple):
-    """Where a gimbal is to look: pitch up from the horizon, yaw clockwise from North, rad; rates, rad/s."""
+    """The gimbal angles: pitch up from the horizon, yaw clockwise from North, rad; rates, rad/s."""
 
     pitch: float
     yaw: float
@@ -50,12 +51,14 @@ class Aim(NamedTuple):
 class SetpointSeries:
     """All that is sent to one drone, at ticks k = 0 to N - 1 of mission time k / RATE_HZ.
 
-    position, velocity, acceleration : (N, 3), North, East, Down of the vehicle's local frame
-    yaw : (N,), rad from North; aims : (N, 4), as Aim
+    position, velocity, acceleration : shape (N, 3), North, East, Down of the vehicle's local frame, in m, s
+    yaw : shape (N,), clockwise from North, rad
+    aims : shape (N, 4), the fields of Aim
     lifts : the tick from which the drone is off its pad in the plan
-    first : the tick whose place it begins from, which is later for a vehicle that takes off by itself
-    height : of that place above the pad, metres
-    pans : whether the camera turns against the body
+    first : the tick at whose position the setpoints start; later than 0 for a vehicle that takes off by
+        itself
+    height : the height of that position above the pad, m
+    pans : whether the camera turns relative to the body
     """
 
     position: Array
@@ -74,7 +77,9 @@ class SetpointSeries:
         return len(self.yaw) - 1
 
     def setpoint(self, tick: int) -> LocalSetpoint:
-        """Return the setpoint of a tick; before the first and after the last the drone stands there."""
+        """Return the setpoint of a tick; before the first and after the last, the drone stands at that
+        position.
+        """
         at = min(max(tick, self.first), self.last)
         if at != tick:
             return LocalSetpoint(_three(self.position[at]), STILL, STILL, float(self.yaw[at]))
@@ -82,7 +87,7 @@ class SetpointSeries:
         return LocalSetpoint(_three(self.position[at]), velocity, acceleration, float(self.yaw[at]))
 
     def aim(self, tick: int) -> Aim:
-        """Return the gimbal's angles at a tick; before the first and after the last they do not turn."""
+        """Return the gimbal angles at a tick; before the first and after the last, the rates are zero."""
         at = min(max(tick, self.first), self.last)
         pitch, yaw, pitch_rate, yaw_rate = (float(value) for value in self.aims[at])
         return Aim(pitch, yaw, pitch_rate, yaw_rate) if at == tick else Aim(pitch, yaw, 0.0, 0.0)
@@ -91,8 +96,9 @@ class SetpointSeries:
 def course_of(track: DroneTrajectory, origin: GeoOrigin, frame: LocalFrame, lift: float) -> SetpointSeries:
     """Return what is sent to the drone of a track.
 
-    origin : of the plan's frame; frame : of the vehicle
-    lift : metres to which the vehicle takes off by itself, 0 where it follows setpoints from its pad
+    origin : of the plan's frame
+    frame : the vehicle's local frame
+    lift : height to which the vehicle takes off by itself, m; 0 if it follows setpoints from its pad
     """
     curve = track.curve
     times = np.minimum(np.arange(ceil(curve.end * RATE_HZ - 1e-9) + 1) / RATE_HZ, curve.end)
@@ -121,7 +127,7 @@ def course_of(track: DroneTrajectory, origin: GeoOrigin, frame: LocalFrame, lift
 
 
 def pans(curve: Piecewise) -> bool:
-    """Tell whether a camera ever looks elsewhere than its body does."""
+    """Tell whether the camera's yaw ever differs from the body's."""
     apart = curve.ctrl[..., CAM_YAW] - curve.ctrl[..., BODY_YAW]
     return bool(np.abs(wrapped(apart)).max() > TOGETHER_RAD)
 
@@ -140,13 +146,15 @@ def speeds(course: SetpointSeries) -> dict[str, float]:
 
 
 def _reaches(height: Array, lift: float) -> int:
-    """Return the first tick at which a drone is ``lift`` above its pad, or as high as it comes."""
+    """Return the first tick at which a drone is ``lift`` above its pad, or at its greatest height
+    if lower.
+    """
     above = height - height[0]
     return int(np.argmax(above >= min(lift, float(above.max()))))
 
 
 def _ned(rates: Array) -> Array:
-    """Return derivatives along East, North, Up as North, East, Down."""
+    """Convert derivatives (N, 3) from East, North, Up to North, East, Down."""
     return np.stack([rates[:, 1], rates[:, 0], -rates[:, 2]], axis=-1)
 
 

@@ -1,4 +1,4 @@
-"""The doors that a session opens in earnest: UDP and MAVLink."""
+"""Opens the real sockets of a session: UDP and MAVLink."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""UDP sockets that never wait."""
+"""Non-blocking UDP sockets."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ from shotc.stream.endpoint import Endpoint
 
 LARGEST_DATAGRAM_BYTES = 4096
 MOST_DATAGRAMS = 200
-"""At once: who sends more does not keep us from flying."""
+"""Read per call, so that a sender of too much data cannot delay the flight."""
 
 
 def opened(endpoint: Endpoint) -> socket.socket:
-    """Return a socket that listens where an address says so; OSError where it cannot be opened."""
+    """Return a socket, bound to the address unless the address is remote.
+
+    Raises OSError if it cannot be opened.
+    """
     made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     made.setblocking(False)
     try:
@@ -26,7 +29,9 @@ def opened(endpoint: Endpoint) -> socket.socket:
 
 
 def datagrams(of: socket.socket) -> Iterator[tuple[bytes, tuple[str, int]]]:
-    """Yield what has come and from where, until nothing is there or the other side's port is closed."""
+    """Yield the datagrams that have arrived, with their sender, until none is left or the remote port is
+    closed.
+    """
     for _ in range(MOST_DATAGRAMS):
         try:
             yield of.recvfrom(LARGEST_DATAGRAM_BYTES)

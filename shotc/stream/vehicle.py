@@ -1,4 +1,4 @@
-"""One vehicle as it is heard: the last of what it said of itself, and when."""
+"""One vehicle: the last of each message that it sent, and when."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from shotc.stream.messages import (
     StatusText,
 )
 
-if TYPE_CHECKING:  # MAVLink is an extra, and a vehicle is judged without it
+if TYPE_CHECKING:  # MAVLink is an extra, and the checks work without it
     from shotc.stream.link import Link
 
 AUTOPILOT_COMPONENT = 1
 CAMERA_MAV_TYPE = 30
-"""MAV_TYPE of a camera that has a heartbeat of its own."""
+"""MAV_TYPE of a camera that sends heartbeats of its own."""
 WARNING_SEVERITY = 4
-"""The severity from which on a text is of no concern before a flight."""
+"""The mildest MAV_SEVERITY whose texts are kept; higher numbers do not matter before a flight."""
 MOST_KEPT_TEXTS = 4
 
 
@@ -36,8 +36,10 @@ MOST_KEPT_TEXTS = 4
 class VehicleStatus:
     """What is known of one drone's vehicle.
 
-    drone : its name in the plan; autopilot : the one that the plan is made for
-    seen : when its last heartbeat came; camera : the component that records
+    drone : its name in the plan
+    autopilot : the autopilot that the plan is made for
+    seen : when its last heartbeat arrived, s
+    camera : the component that records
     answers : the last result of each command
     """
 
@@ -57,7 +59,7 @@ class VehicleStatus:
 
     @property
     def mode(self) -> int | None:
-        """The flight mode, as heartbeats say it."""
+        """The flight mode of the last heartbeat."""
         return None if self.heartbeat is None else self.heartbeat.mode
 
     @property
@@ -66,12 +68,12 @@ class VehicleStatus:
         return self.heartbeat is not None and self.heartbeat.armed
 
     def listen(self, now: float) -> None:
-        """Take in what has come."""
+        """Read all messages that have arrived."""
         for message in self.link.receive():
             self.hear(message, now)
 
     def hear(self, message: Message, now: float) -> None:
-        """Take in one message."""
+        """Store one message."""
         match message:
             case Heartbeat():
                 self._met(message, now)

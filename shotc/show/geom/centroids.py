@@ -175,9 +175,7 @@ class _Nearest:
 
     def follow(self, goals: Array, way: Array) -> Array:
         """Return the goals moved by steps of shape (n, D), and update the assignment."""
-        moves = np.append(
-            np.sqrt(np.einsum("nd,nd->n", way, way)), 0.0
-        )  # the last one represents missing neighbours
+        moves = np.append(np.sqrt(np.einsum("nd,nd->n", way, way)), 0.0)  # the last: missing neighbours
         near = moves[self._who].max(axis=1)[self.labels]
         far = np.maximum(self._other, self._far[self.labels] - self.own) - moves.max()
         bound = np.minimum(self._other - near, far)
