@@ -17,6 +17,10 @@ from shotc.simulation.vehicle import VehicleSetpoint
 PLACE = np.polynomial.Polynomial([1.0, 0.0, 0.0, -10.0, 15.0, -6.0])
 RATE = np.polynomial.Polynomial([0.0, 1.0, 0.0, -6.0, 8.0, -3.0])
 """Polynomials over a unit time from 1, or from a slope of 1, to rest at 0; no acceleration at both ends."""
+SLOWS_S = 4.0
+"""Least time in which a velocity beside the plan fades, seconds."""
+BRAKES_M_S2 = 0.6
+"""Mean deceleration of faster ones, m/s^2; a quintic brakes at up to four times its mean."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,28 +54,33 @@ class Fading:
     def setpoint(self, time: float) -> VehicleSetpoint:
         """Return the plan's setpoint plus the remaining offset."""
         plan = self.film.setpoint(self.film.step(time))
-        x = np.clip((time - self.start) / self.lasts, 0.0, 1.0)
-        if (x == 1.0).all():
+        if (time >= self.start + self.lasts).all():
             return plan
-        moved = [self._beside(x, n) for n in range(3)]
+        moved = [self._beside(time, order) for order in range(3)]
         return VehicleSetpoint(
             plan.position + moved[0], plan.velocity + moved[1], plan.acceleration + moved[2]
         )
 
     def places(self, run: int, times: Array) -> Array:
         """Return the positions of a run at times (M,), shape (M, 3), metres."""
-        x = np.clip((times - self.start[run]) / self.lasts[run], 0.0, 1.0)[:, None]
-        beside = PLACE(x) * self.off[run] + RATE(x) * self.lasts[run] * self.rate[run]
+        since, slows = times - self.start[run], self._slows[run]
+        x, y = (np.clip(since / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts[run], slows))
+        beside = PLACE(x) * self.off[run] + RATE(y) * slows * self.rate[run]
         return np.asarray(self.film.places(times) + beside)
 
-    def _beside(self, x: Array, order: int) -> Array:
-        """Return the offset or its derivative, (R, 3).
+    @property
+    def _slows(self) -> Array:
+        """Return the times in which the rates fade, (R,), s: who is far off does not fly on for long."""
+        speed = np.linalg.norm(self.rate, axis=1)
+        return np.asarray(np.minimum(self.lasts, np.maximum(SLOWS_S, speed / BRAKES_M_S2)))
 
-        x : share of the time, (R,)
-        """
-        along, seconds = x[:, None], self.lasts[:, None]
-        place, rate = PLACE.deriv(order)(along), RATE.deriv(order)(along)
-        return np.asarray((place * self.off + rate * seconds * self.rate) / seconds**order)
+    def _beside(self, time: float, order: int) -> Array:
+        """Return the offset or its derivative, (R, 3)."""
+        slows = self._slows
+        x, y = (np.clip((time - self.start) / seconds, 0.0, 1.0)[:, None] for seconds in (self.lasts, slows))
+        place = PLACE.deriv(order)(x) * self.off / self.lasts[:, None] ** order
+        rate = RATE.deriv(order)(y) * self.rate * slows[:, None] ** (1 - order)
+        return np.asarray(place + rate)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

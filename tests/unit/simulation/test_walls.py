@@ -133,3 +133,12 @@ def test_who_comes_back_begins_where_it_is_and_ends_on_its_plan(tmp_path: Path) 
     assert (c.position - a.position)[1] / (2 * h) == pytest.approx(b.velocity[1], abs=1e-3)
     assert (c.velocity - a.velocity)[1] / (2 * h) == pytest.approx(b.acceleration[1], abs=1e-3)
     assert back.setpoint(25.0).position == pytest.approx(film.position[film.step(25.0)][None])
+
+
+def test_who_is_far_off_and_fast_does_not_fly_on_for_long(tmp_path: Path) -> None:
+    ir = planned(tmp_path, MAST, "[-10, 10, 0]")
+    film = film_of(ir.keyframes.mission, ir.drones[0])
+    off, rate = np.array([200.0, 0.0, 0.0]), np.array([11.0, 0.0, 0.0])
+    times = np.arange(10.0, 40.0, 0.5)
+    away = Fading.none(film, 1).begun(0, 10.0, 400.0, (off, rate)).places(0, times) - film.places(times)
+    assert away[:, 0].max() < 250.0
