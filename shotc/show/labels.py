@@ -1,4 +1,4 @@
-"""Where a display's words stand in the mission, and what to write there instead, for diagnostics."""
+"""Source locations of a display's keys, and proposed values, for diagnostics."""
 
 from __future__ import annotations
 
@@ -22,38 +22,40 @@ KEYS = {
 
 
 def key_of(picture: Picture) -> KeyPath:
-    """Return the path of what a picture shows; a display may give the files of one animation alone."""
+    """Return the path of a picture's source; the frames of an animation may stand directly in a display."""
     alone = picture.path[-1] == "frames"
     return picture.path if alone else (*picture.path, word_of(picture))
 
 
 def word_of(picture: Picture) -> str:
-    """Return the word by which the mission says what a picture shows."""
+    """Return the mission's key for the kind of a picture's source."""
     return KEYS[type(picture.source)]
 
 
 def transition_label(mission: MissionIR, picture: Picture) -> Label:
-    """Return a label on how long the way to a picture takes, or on what says how it is gone."""
+    """Return a label on the duration of the move to a picture, or on its transition if no duration is
+    written.
+    """
     path = (*picture.path, "transition")
     longer = (*path, "duration")
     return mission.origins.value(longer if longer in mission.origins.values else path)
 
 
 def transition_key(mission: MissionIR, picture: Picture) -> str:
-    """Return the key under which the mission says how long the way to a picture takes."""
+    """Return the key that sets the duration of the move to a picture."""
     longer = (*picture.path, "transition", "duration")
     return "duration" if longer in mission.origins.values else "transition"
 
 
 def wave_key(mission: MissionIR, picture: Picture) -> KeyPath:
-    """Return the path of what says how long the wave to a picture lasts."""
+    """Return the path of the key that sets the duration of the wave to a picture."""
     path = (*picture.path, "transition", "wave")
     longer = (*path, "time")
     return longer if longer in mission.origins.values else path
 
 
 def moments(mission: MissionIR, earliest: float) -> str:
-    """Say when a picture may stand at the earliest, in seconds and in beats."""
+    """Describe the earliest possible time of a picture, in seconds and in beats."""
     possible, music = at_least(earliest), mission.music
     beat = None if music is None else music.next_beat(earliest)
     if music is None or beat is None:
@@ -68,7 +70,7 @@ def centre_label(mission: MissionIR, picture: Picture, text: str = "") -> Label:
 
 
 def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
-    """Say how the layout has its pads so far apart, metres."""
+    """Describe how to change the layout so that its pads are ``least`` metres apart."""
     path = (*fleet.path, "layout")
     if (*path, "grid") in mission.origins.keys:
         return f"give the grid a spacing of {at_least(least)} m or more"
@@ -79,7 +81,9 @@ def wider(mission: MissionIR, fleet: Fleet, least: float) -> str:
 
 
 def pads_path(mission: MissionIR, fleet: Fleet) -> KeyPath:
-    """Return where the mission says where the pads of a fleet are: a place, a file, or else the layout."""
+    """Return where the mission places the pads of a fleet: the path of an origin, a file, or else
+    the layout.
+    """
     path = (*fleet.path, "layout")
     ways = (("grid", "origin"), ("circle", "center"), ("file",))
     written = ((*path, *way) for way in ways if (*path, *way) in mission.origins.values)

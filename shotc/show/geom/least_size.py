@@ -1,26 +1,24 @@
-"""The least size of a formation on its way to another: upright cylinders, pair by pair.
+"""The least size of a formation during a move for drones that keep vertical cylinders free, pair by pair.
 
-On a common way p_i = c + a (x_i - c) + b (g_i - c) (``geom.arcs``) two drones at r0 from each other before
+On a common move p_i = c + a (x_i - c) + b (g_i - c) (``geom.arcs``) two drones at r0 from each other before
 and at r1 after are at (a + b) r(u), with the direction u = b / (a + b) and r(u) = (1 - u) r0 + u r1. They
-keep an upright cylinder of radius and half height 1 free as long as
+keep a vertical cylinder of radius and half height 1 free while
 
-    (a + b) M(u) >= 1,    M(u) = max(length of the level part of r(u), size of the upright part of r(u)).
+ (a + b) M(u) >= 1,    M(u) = max(length of the horizontal part of r(u), size of the vertical part of r(u)).
 
-So in the direction u a formation has to be of size a + b >= 1 / M(u), for the least M of all pairs. Where it
-is smaller some pair comes too near, so no common way is shorter than the shortest that is large enough. M is
-convex, as r is linear: its tangents at both ends of an interval bound it in between.
+So in the direction u a formation needs the size a + b >= 1 / M(u), with the least M of all pairs. Where it is
+smaller, some pair is too near, so no common move is shorter than the shortest with this size. M is convex,
+because r is linear. Its tangents at both ends of an interval bound it in between.
 
-Matched so that r0.r1 >= 0 (``solvers.match``), few pairs ask for more than a size of 1, which is that of
-straight ways: M^2 >= |r(u)|^2 / 2 >= ((1 - u)^2 |r0|^2 + u^2 |r1|^2) / 2, whose least is 1 or more where
-1 / |r0|^2 + 1 / |r1|^2 <= 1 / 2. Those pairs are left out; all others are nearer than 2 before or after.
+If the matching gives r0.r1 >= 0 (``solvers.match``), few pairs need a size above 1, which is that of straight
+paths: M^2 >= |r(u)|^2 / 2 >= ((1 - u)^2 |r0|^2 + u^2 |r1|^2) / 2, whose minimum is at least 1 if 1 / |r0|^2 +
+1 / |r1|^2 <= 1 / 2. Those pairs are left out; all others are nearer than 2 before or after.
 
-The shortest way in the plane of (a, b) from (1, 0) to (0, 1) that is nowhere smaller is a taut string: of the
-points of the bound those are left out where it would turn right. Two drones side by side before, and one
-above the other after, ask for a = 1 until b is 1, if both pictures are as dense as can be, and so do those
-for b that are the other way round: the string then goes by (1, 1) and is 2 long, straight ways sqrt 2. That
-is the least there is of common scalars for all three axes: moves between two such pictures take 1.45 to 1.6
-times as long as straight ones (``tests.experiments.dense``). Heights with scalars of their own might take
-less, for a = 1 and b = 1 are asked of one axis at a time.
+The shortest path in the plane of (a, b) from (1, 0) to (0, 1) that is nowhere smaller is a taut string:
+points of the bound at which it would turn right are left out. Two drones side by side before and one above
+the other after need a = 1 until b is 1, if both pictures are as dense as possible. The reverse holds for b.
+The string then passes through (1, 1) and has length 2, while straight paths have sqrt 2. This is the minimum
+for common scalars for all three axes.
 """
 
 from __future__ import annotations

@@ -33,12 +33,14 @@ Hold = Callable[[Array, Array], Array]
 def push_apart(
     goals: Array, shape: Array, least: float, hold: Hold, *, upright: bool = False
 ) -> Array | None:
-    """Return goals of which no two are nearer than ``least``, or None where so many do not fit.
+    """Return goals of which no two are nearer than ``least``, shape (n, D), or None if they do not fit.
 
-    goals : shape (n, 3); shape : points (M, 3) that are to be shown, as dense as k-means had them; in the
-    metric of the fleet, both; upright : whether distances are those of ``Close``. Every pair that is too
-    near parts along its own line, all pairs at once, each goal by half of what is missing; none goes farther
-    than ``SLACK_SHARE`` from the shape, or where ``hold`` does not let it.
+    Every pair that is too near is pushed apart along its own line, all pairs at once, each goal by half of
+    the lack. No goal goes farther than ``SLACK_SHARE`` from the shape, or where ``hold`` does not allow it.
+
+    goals : shape (n, D)
+    shape : points (M, D) to be shown, as dense as for k-means; both in the metric of the fleet
+    upright : whether distances are those of ``Close``
     """
     tree = cKDTree(shape)
     # A centroid that is off its shape at first, as inside a curved surface, may stay at that distance.

@@ -41,7 +41,7 @@ from shotc.show.goals.spaced import (
 )
 
 DENSE, THIN = 40, 20
-"""Points a goal: of few goals, and of more than ``MANY_DRONES``, where the tessellation costs most."""
+"""Points per goal: for few goals, and for more than ``MANY_DRONES``, where the tessellation is expensive."""
 MANY_DRONES = 2000
 LEAST_POINTS = 2000
 """Least points of a picture that is not flat."""

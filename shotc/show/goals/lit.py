@@ -96,7 +96,7 @@ def lit(strokes: Strokes) -> Lit:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Strokes:
-    """Where the lights of a flat picture may be. In its plane, heights in the metric of the fleet.
+    """The allowed places of a flat picture's lights, in its plane, with heights in the metric of the fleet.
 
     draw : gives points of it
     """
@@ -113,33 +113,32 @@ class Strokes:
         return np.array([1.0, self.setting.stretch])
 
     def placed(self, flat: Array) -> Array:
-        """Return places in W."""
+        """Return the positions in the world frame of places in the plane."""
         return self.body.standing(flat / self.scale)
 
     def even(self, number: int, factor: Array) -> Array:
-        """Return goals by right and up, (number, 2), even where these count by a factor each, (2,)."""
+        """Return goals by right and up, (number, 2), uniform in the plane scaled by a factor per axis.
+
+        factor : shape (2,)
+        """
         if self.fill == "outline":
             edges = [shape.edges * factor for shape in self.body.shapes]
             return along_edges(edges, number, self.setting.least, self.scale / factor) / factor
         return centroids(self.body.flat(self.goals.points) * factor, number).goals / factor
 
     def all_of(self, number: int, slack: float) -> Array | None:
-        """Return so many goals: evenly in space if that holds them, or else as even as the metric has it."""
+        """Return that many goals: uniform in space if they fit, else uniform in the metric of the fleet."""
         found = self._pushed(self._plain(number), slack)
         return self._pushed(self._stretched(number), slack) if found is None else found
 
     @property
     def crowded(self) -> bool:
-        """Tell whether a large fleet would hardly part: strokes of this area and length have not enough
-        room.
-        """
+        """Tell whether strokes of this area and length have too little room to push a large fleet apart."""
         number = self.setting.number
         return number > TRIED_DRONES and number > CROWDED_SHARE * sum(self._by_area_and_edges())
 
     def in_lattice(self) -> Lit | None:
-        """Return a large fleet in the widest lattice that has a place for each, or None where there is
-        none.
-        """
+        """Return a large fleet in the widest lattice with a place for each drone, or None."""
         if not self.crowded or self.fill == "outline":
             return None
         mould = self._mould(self._points(self.setting.number))
@@ -153,8 +152,8 @@ class Strokes:
     def most(self) -> tuple[Array, bool]:
         """Return as many goals as are found to fit, and whether they are in a lattice.
 
-        Either the worst placed are taken out, from as many as strokes of this area and length could hold, or
-        they are the places of a lattice within the strokes. Both know of no number of drones.
+        Either they are thinned out, from as many as strokes of this area and length could hold, or they are
+        the places of a lattice within the strokes. Neither depends on the number of drones.
         """
         slack = SLACK_SHARES[0] * self.setting.least
         if self.crowded and self.fill != "outline":
@@ -189,14 +188,12 @@ class Strokes:
         return centroids(self.body.flat(points) * self.scale, min(number, len(points))).goals
 
     def _held_at_most(self) -> int:
-        """Return a number of goals that strokes can hardly hold: by their area and their edges (Oler
-        1961).
-        """
+        """Return a number of goals, by area and edges, that strokes can hardly hold (Oler 1961)."""
         return ceil(SPARE_RATIO * sum(self._by_area_and_edges())) + 1
 
     @property
     def edges_share(self) -> float:
-        """Return the share of the goals that are held by edges, of those that strokes can hold at most."""
+        """Return the share of the edges in the goals that strokes can hold at most."""
         area, edges = self._by_area_and_edges()
         return edges / (area + edges)
 

@@ -1,4 +1,4 @@
-"""Meshes and point clouds in their place: points of their insides, of their surfaces, or their own."""
+"""Places meshes and point clouds: gives points of their volumes, of their surfaces, or the cloud's own."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ from shotc.show.goals.body import Fill
 from shotc.show.goals.model_file import ModelMesh
 
 COLUMNS_PER_POINT = 0.25
-"""Columns drawn for each point."""
+"""Vertical lines (columns) drawn for each point."""
 MOST_PAIRS = 20_000_000
-"""Pairs of a column and a face below whose box it runs, beyond which fewer columns are taken."""
+"""Most pairs of a column and a face whose bounding box it crosses; for more, fewer columns are drawn."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CloudBody:
-    """Points as a file has them."""
+    """A point cloud, as read from a file."""
 
     mesh: ModelMesh
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return its points, or as many of them as are wanted."""
+        """Return its points, or a random selection if there are more than ``count``."""
         points = self.mesh.corners
         if len(points) <= count:
             return points
         return points[np.sort(rng.choice(len(points), count, replace=False))]
 
     def encloses(self, place: Array) -> bool:
-        """Return no: nothing says what is inside."""
+        """Return False: a point cloud has no inside."""
         return False
 
     def colors(self, places: Array) -> Colors | None:
@@ -51,13 +51,15 @@ class CloudBody:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeshBody:
-    """Triangles; parity : that not all run round the same way, so that faces are only counted."""
+    """A triangle mesh; parity : whether its faces are not oriented consistently, so that crossings are only
+    counted.
+    """
 
     mesh: ModelMesh
     parity: bool
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return points of the inside or of the surface; a mesh has no edges that are meant."""
+        """Return points of the volume or of the surface, None for the outline: a mesh has no drawn edges."""
         if fill == "outline":
             return None
         corners = self.mesh.corners[self.mesh.triangles]
@@ -70,7 +72,7 @@ class MeshBody:
         return drawn(columns, inside, count, rng)
 
     def encloses(self, place: Array) -> bool:
-        """Tell whether a place is inside, as far as the mesh has an inside."""
+        """Tell whether a place is inside, if the mesh has an inside."""
         corners = self.mesh.corners[self.mesh.triangles]
         inside = spans(through_triangles(column_at(place[:2]), corners), self.parity)
         return bool(np.any((inside.low < place[2]) & (place[2] < inside.high)))
@@ -81,7 +83,7 @@ class MeshBody:
 
 
 def mesh_body(mesh: ModelMesh) -> MeshBody | CloudBody:
-    """Return a mesh, or a point cloud where there are no faces."""
+    """Return the body of a mesh, or of a point cloud if there are no faces."""
     if not len(mesh.triangles):
         return CloudBody(mesh)
     directed = _sides(mesh)
@@ -89,7 +91,7 @@ def mesh_body(mesh: ModelMesh) -> MeshBody | CloudBody:
 
 
 def open_edges(mesh: ModelMesh) -> int:
-    """Return how many edges have an odd number of faces: of a closed mesh none."""
+    """Return the number of edges with an odd number of faces: 0 for a closed mesh."""
     sides = np.sort(_sides(mesh), axis=1)
     return int((np.unique(sides, axis=0, return_counts=True)[1] % 2).sum())
 

@@ -1,4 +1,4 @@
-"""Meshes and point clouds that displays draw, from the bytes of PLY, OBJ, STL and GLB files."""
+"""Reads the meshes and point clouds of displays from PLY, OBJ, STL and GLB files."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from shotc.show.geom.columns import Numbers
 
 Axis = Literal["x", "y", "z"]
 UP: dict[str, Axis] = {"ply": "z", "obj": "y", "stl": "z", "glb": "y"}
-"""The axis that points up in each format that is read, as modellers write it."""
+"""The upward axis of each format, by the convention of modelling tools."""
 TURNED: dict[Axis, list[int]] = {"x": [1, 2, 0], "y": [0, 2, 1], "z": [0, 1, 2]}
-"""Which axis of a file becomes East, North and Up; where y is up, North is turned round."""
+"""The file's axes that become East, North and Up; if y is up, North is reversed."""
 LARGEST_COORDINATE = 1e9
-"""Coordinates beyond which a file is broken whatever its unit."""
+"""A file with larger coordinates is broken, whatever its unit."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModelMesh:
-    """Corners (V, 3), triangles (T, 3) as their numbers, of a point cloud none; colours (V, 3) or None."""
+    """Vertices (V, 3), triangles (T, 3) of their indices, none for a point cloud; colours (V, 3) or None."""
 
     corners: Array
     triangles: Numbers
@@ -33,16 +33,16 @@ class ModelMesh:
 
 @dataclass(frozen=True, slots=True)
 class UnreadableModel:
-    """Why a file is no model, and what helps."""
+    """Why a file is not a model, and what helps."""
 
     note: str
     help: str = "export it anew as binary PLY"
 
 
 def read_model(name: str, data: bytes, up: Axis | None = None) -> ModelMesh | UnreadableModel:
-    """Return what a file holds, in its own units, z up, with coinciding corners made one.
+    """Return a file's content in its own units, z up, with coinciding vertices merged.
 
-    up : the axis of the file that points up, None for that of its format
+    up : the upward axis of the file, None for that of its format
     """
     kind = name.rsplit(".", 1)[-1].lower()
     if kind not in UP:
@@ -61,7 +61,7 @@ def _unreadable(fault: ModelFault) -> UnreadableModel:
 
 
 def _together(parts: list[NodePart]) -> ModelMesh:
-    """Join the parts of a file, and what lies at one place; white where only some parts have colours."""
+    """Join the parts of a file; parts without colours are white if others have colours."""
     corners = np.concatenate([np.zeros((0, 3)), *(p.corners for p in parts)])
     offsets = np.cumsum([0, *(len(p.corners) for p in parts)])
     triangles = [p.triangles + offset for p, offset in zip(parts, offsets[:-1], strict=True)]
@@ -73,7 +73,7 @@ def _together(parts: list[NodePart]) -> ModelMesh:
 
 
 def _upright(mesh: ModelMesh, up: Axis) -> ModelMesh:
-    """Turn a file's coordinates so that z is up, its triangles still counter-clockwise from outside."""
+    """Turn a file's coordinates so that z is up; triangles stay counter-clockwise as seen from outside."""
     corners = mesh.corners[:, TURNED[up]]
     if up == "y":
         corners = corners * np.array([1.0, -1.0, 1.0])
@@ -87,7 +87,7 @@ def _checked(mesh: ModelMesh) -> ModelMesh | UnreadableModel:
 
 
 def _welded(mesh: ModelMesh) -> ModelMesh:
-    """Make corners at one place one, as in an STL each face has its own, and drop faces without area."""
+    """Merge vertices at the same place, because each face of an STL has its own; drop faces without area."""
     if not len(mesh.triangles):
         return mesh
     grain = 1e-8 * float(np.ptp(mesh.corners, axis=0).max())

@@ -1,4 +1,4 @@
-"""One picture of a display drawn: its goals frame by frame, or why it cannot be flown."""
+"""Draws one picture of a display: its goals frame by frame, or the reason why it cannot be flown."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WHITE = (255, 255, 255)
 
 
 class PictureResult(NamedTuple):
-    """A picture: its frames, none where it cannot be flown, and what is to be said."""
+    """The frames of a picture, none if it cannot be flown, and the diagnostics."""
 
     frames: tuple[Frame, ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -34,7 +34,7 @@ class PictureResult(NamedTuple):
 
 
 def draw_picture(task: PictureTask, setting: SpacingTask) -> PictureResult:
-    """Return a picture's frames, or all that keeps it from being flown."""
+    """Return a picture's frames, or all that prevents it from being flown."""
     bodies = bodies_of(task.picture, task.files)
     if isinstance(bodies, SourceFault):
         return PictureResult((), (of_source(task.mission, task.picture, bodies),))
@@ -57,7 +57,7 @@ def draw_picture(task: PictureTask, setting: SpacingTask) -> PictureResult:
 def _warnings(
     task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape], layout: GoalLayout
 ) -> list[Diagnostic]:
-    """Return what is to be said of a picture that can be flown."""
+    """Return the warnings about a picture that can be flown."""
     diagnostics = []
     if layout.bright < setting.number:
         ways = _remedies(task, setting, bodies, layout)
@@ -86,7 +86,7 @@ def _few(task: PictureTask, setting: SpacingTask, body: PlacedShape, layout: Goa
 def _remedies(
     task: PictureTask, setting: SpacingTask, bodies: Sequence[PlacedShape], layout: GoalLayout
 ) -> PictureRemedies:
-    """Find what would do."""
+    """Find the changes that would make all drones fit."""
     apart = task.fleet.apart
     touching = (2.0 * task.fleet.radius + apart.margin) / apart.across
     tall = float(np.ptp(layout.placed[0].points[:, 2]))
@@ -100,7 +100,7 @@ def _remedies(
 
 
 def _shows_all(task: PictureTask, setting: SpacingTask, picture: Picture) -> bool:
-    """Tell whether a picture written otherwise shows as many drones as there are: it is laid out."""
+    """Tell whether a changed picture shows all drones: it is laid out to find out."""
     pictures = list(task.display.pictures)
     pictures[task.index] = picture
     changed = replace(task, display=task.display._replace(pictures=tuple(pictures)))

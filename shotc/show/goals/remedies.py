@@ -1,4 +1,4 @@
-"""What would do where a picture has no room for a fleet: in closed form, and tried once as it would be
+"""Finds what helps if a picture has no room for a fleet: in closed form, then tried once as it would be
 written.
 """
 
@@ -12,17 +12,18 @@ from shotc.ir.show import Picture
 from shotc.show.geom.sizes import enlarged, size_words
 
 SPARE, MORE = 1.03, 1.08
-"""Factor beyond the growth that is reckoned, and what is added where a try with it does not do."""
+"""Factor on the calculated growth, and a further factor if a try with the first fails."""
 
 Fits = Callable[[Picture], bool]
 """Whether a picture shows all drones."""
 
 
 class PictureRemedies(NamedTuple):
-    """What does, each alone; None where nothing does.
+    """What helps, each change alone; None if a change does not help.
 
-    number : of drones; size : what to write of the picture, and how many times as large it is then
-    share : of the separation
+    number : number of drones
+    size : what to write for the picture's size, and the factor of its growth
+    share : share of the separation
     """
 
     number: int | None
@@ -31,8 +32,11 @@ class PictureRemedies(NamedTuple):
 
 
 class GoalCapacity(NamedTuple):
-    """How many goals a shape holds as it is: ``number``. Of these ``edges`` grow with its size, the others
-    with its size to a ``power``; edges : a share of them.
+    """How many goals a shape holds in its present size.
+
+    number : of goals
+    power : exponent with which the number grows with the size
+    edges : share of the goals that grow linearly with the size, as edges do
     """
 
     number: int
@@ -40,7 +44,7 @@ class GoalCapacity(NamedTuple):
     edges: float = 0.0
 
     def growth(self, number: int) -> float:
-        """Return how many times as large the shape holds another number."""
+        """Return the growth factor with which the shape holds another number of goals."""
         ratio = number / max(1, self.number)
         if self.power != 2:
             return float(ratio ** (1.0 / self.power))
@@ -51,11 +55,12 @@ class GoalCapacity(NamedTuple):
 def remedies(
     fits: Fits, picture: Picture, held: tuple[int, float], lowest: float, touching: float, tall: float
 ) -> PictureRemedies:
-    """Return what does.
+    """Return what helps.
 
-    held : how many drones it shows as it is, and how many times as large all of them should be shown
-    lowest : z that its drones may have; touching : share of the separation at which bodies touch
-    tall : height of a model as it is, metres
+    held : the number of drones that the picture shows now, and the growth factor to show all of them
+    lowest : least z of its drones, m
+    touching : share of the separation at which drone bodies touch
+    tall : height of a model in its present size, m
     """
     number, growth = held
     factor = SPARE * growth

@@ -1,4 +1,4 @@
-"""Where goals may be, and ways: clear of zones, of targets, of the ground, of scenes and of buildings."""
+"""The free space for goals and paths: clear of zones, targets, the ground, scenes and buildings."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from shotc.planning.clearances import ROUNDING_M, Clearance, clearances_of, outw
 from shotc.show.goals.surfaces import CLOSED_M, Standing, surfaces_of
 
 FAR_M = 1000.0
-"""Metres beyond which no shift is looked for."""
+"""Largest shift that is searched for."""
 SHIFT_ROUNDS = 60
 DIRECTION_COUNT = 16
 
 
 class RoomLack(NamedTuple):
-    """What a flight lacks most: metres; of : what stands there, or None for flat ground and the height."""
+    """The largest violation of a flight, m; of : the obstacle, None for flat ground and the height limit."""
 
     metres: float
     of: Clearance | Standing | None
@@ -33,9 +33,9 @@ class RoomLack(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DisplaySurroundings:
-    """What stands around.
+    """The obstacles around a display.
 
-    lowest : z that the centre of a drone may have over flat ground, metres; minus infinity over terrain
+    lowest : least z of a drone's centre over flat ground, m; minus infinity over terrain
     surfaces : terrain, scenes and buildings
     """
 
@@ -44,13 +44,15 @@ class DisplaySurroundings:
     surfaces: tuple[Standing, ...] = ()
 
     def lack(self, goals: Array) -> Array:
-        """Return by how many metres room is missing at each goal, (n,), at most 0 where there is enough."""
+        """Return the missing clearance at each goal, (n,), m; at most 0 where there is enough."""
         lacks = [self.lowest - goals[:, 2], *(lack_of(o, goals) for o in self.obstacles)]
         lacks += [surface.lack(goals) for surface in self.surfaces]
         return np.asarray(np.max(lacks, axis=0))
 
     def worst(self, flown: FleetPieces) -> RoomLack:
-        """Return what a flight lacks most, proved: of zones, targets and surfaces, not of flat ground."""
+        """Return a flight's largest violation, proved, of zones, targets and surfaces, but not of flat
+        ground.
+        """
         worst, bag = RoomLack(0.0, None), flown.bag()
         for obstacle in (*self.obstacles, *self.surfaces):
             metres = beside(obstacle, bag) if isinstance(obstacle, Clearance) else obstacle.worst(bag)
@@ -58,10 +60,10 @@ class DisplaySurroundings:
         return worst
 
     def up(self, p: Array, *, every: bool) -> Array:
-        """Return by how much places (n, 3) have to rise to be clear of what lies below them; metres, (n,).
+        """Return the rise that clears places (n, 3) of what is below them, (n,), m; infinite where none does.
 
-        every : whether they have to be above all that is near in the plan, or only of what they lack room
-        It is infinite where rising does not help.
+        every : whether they must be above all that is near in the horizontal plane, or only where clearance
+            is missing
         """
         rises = [np.maximum(self.lowest - p[:, 2], 0.0)]
         rises += [over(o, p, every=every) for o in self.obstacles if not o.inside]
@@ -69,7 +71,7 @@ class DisplaySurroundings:
         return np.asarray(np.max(rises, axis=0))
 
     def hold(self, before: Array, after: Array) -> Array:
-        """Return goals where a push takes them, or where they were if there is less room than needed."""
+        """Return pushed goals, but keep the old position of those whose clearance would become too small."""
         lacking = self.lack(after)
         if not (lacking > 0).any():
             return after
@@ -77,19 +79,19 @@ class DisplaySurroundings:
 
 
 def room_of(mission: MissionIR, fleet: Fleet) -> DisplaySurroundings:
-    """Return what a fleet's goals keep clear of."""
+    """Return the obstacles for a fleet's goals."""
     lowest = mission.rules.over_ground(fleet.radius) if mission.terrain is None else -inf
     return DisplaySurroundings(tuple(clearances_of(mission, fleet)), lowest, surfaces_of(mission, fleet))
 
 
 def lack_of(obstacle: Clearance, goals: Array) -> Array:
-    """Return by how many metres room is missing at goals (n, 3), negative where there is more."""
+    """Return the missing clearance at goals (n, 3), m; negative where there is more than needed."""
     gap = signed_distance(obstacle.solid, goals)
     return obstacle.metres + (gap if obstacle.inside else -gap)
 
 
 def over(obstacle: Clearance, p: Array, *, every: bool) -> Array:
-    """Return by how much places (n, 3) have to rise to be over an obstacle; as ``DisplaySurroundings.up``."""
+    """Return the rise that brings places (n, 3) above an obstacle; see ``DisplaySurroundings.up``."""
     solid = obstacle.solid
     beside_ = signed_distance(solid._replace(bottom=-inf, top=inf), p) < obstacle.metres
     asked = beside_ if every else beside_ & (lack_of(obstacle, p) > 0.0)
@@ -97,7 +99,7 @@ def over(obstacle: Clearance, p: Array, *, every: bool) -> Array:
 
 
 def beside(obstacle: Clearance, bag: Pieces) -> float:
-    """Return by how much anybody comes too near to what stands, proved; at most 0 where nobody does."""
+    """Return the proved largest lack of clearance to an obstacle, m; at most 0 if there is none."""
     if obstacle.inside:
         return sup_outside(bag, obstacle.solid, lambda _: CLOSED_M).proven + obstacle.metres
     near = box_gap(bag.ctrl, obstacle.solid) < obstacle.metres
@@ -107,10 +109,11 @@ def beside(obstacle: Clearance, bag: Pieces) -> float:
 
 
 def least_shift(goals: Array, room: DisplaySurroundings) -> Array | None:
-    """Return the shortest shift (3,) found that gives all goals room, rounded up to centimetres, or None.
+    """Return the shortest shift (3,) found that clears all goals, rounded up to centimetres, or None.
 
-    Along each of a number of directions the goals go on by what is missing; as no distance grows faster
-    than they move, no place with room is passed over. Heights over slopes do: there a nearer one may be.
+    Along each of several directions the goals move on by the missing clearance. Distances grow no faster than
+    the goals move, so no free place is passed over. Heights over slopes may grow faster: there a nearer place
+    may exist.
     """
     best: Array | None = None
     for way in _ways():
@@ -137,7 +140,9 @@ def _along(goals: Array, room: DisplaySurroundings, way: Array, most: float) -> 
 
 
 def _ways() -> Array:
-    """Return unit vectors: up and down, level all round, and half-way up and down between."""
+    """Return unit vectors: up, down, horizontal in all directions, and these tilted by 45 degrees up and
+    down.
+    """
     turns = 2.0 * np.pi * np.arange(DIRECTION_COUNT) / DIRECTION_COUNT
     level = np.round(np.column_stack([np.sin(turns), np.cos(turns), np.zeros(DIRECTION_COUNT)]), 12)
     slanted = [(level + np.array([0.0, 0.0, side])) / np.sqrt(2.0) for side in (1.0, -1.0)]

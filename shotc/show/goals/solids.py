@@ -15,13 +15,13 @@ from shotc.show.goals.body import Fill, upright_axes
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SolidBody:
-    """A solid whose points are drawn about its own centre along its own axes (3, 3), one a row."""
+    """A solid with its own axes, the rows of a (3, 3) matrix."""
 
     source: Sphere | Box | Torus
     axes: Array
 
     def draw(self, fill: Fill, count: int, rng: np.random.Generator) -> Array | None:
-        """Return points; only a box has edges."""
+        """Return points; None for the outline of a solid other than a box, which alone has edges."""
         local = _drawn(self.source, fill, count, rng)
         return None if local is None else np.array(self.source.centre) + local @ self.axes
 
@@ -35,7 +35,7 @@ class SolidBody:
         return bool(np.all(np.abs([x, y, z]) < np.array(self.source.size) / 2.0))
 
     def colors(self, places: Array) -> Colors | None:
-        """Return none: the mission says."""
+        """Return None: the mission sets the colour."""
         return None
 
 
@@ -64,7 +64,7 @@ def _drawn(source: Sphere | Box | Torus, fill: Fill, count: int, rng: np.random.
 
 
 def _of_box(size: Array, fill: Fill, count: int, rng: np.random.Generator) -> Array:
-    """Return points of all of it, of its faces by their areas, or of its edges by their lengths."""
+    """Return points of the volume, of the faces by their areas, or of the edges by their lengths."""
     points = rng.random((count, 3)) - 0.5
     if fill != "volume":
         fixed, weight = _sides(size, fill)
@@ -82,7 +82,9 @@ def _sides(size: Array, fill: Fill) -> tuple[Array, Array]:
 
 
 def _of_torus(source: Torus, fill: Fill, count: int, rng: np.random.Generator) -> Array:
-    """Return points of the ring: of all places round the tube, those farther out are more often kept."""
+    """Return points of the ring, uniform in volume or surface: of random places around the tube, outer ones
+    are kept more often.
+    """
     kept = np.zeros((0, 2))
     while len(kept) < count:
         round_tube = 2.0 * np.pi * rng.random(2 * count)

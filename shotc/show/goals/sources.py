@@ -1,4 +1,4 @@
-"""From a picture's source to the bodies of its frames."""
+"""Makes the bodies of a picture's frames from its source."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from shotc.show.goals.solids import solid_body
 
 
 def bodies_of(picture: Picture, files: Mapping[str, bytes]) -> Sequence[PlacedShape] | SourceFault:
-    """Return one body for each frame of a picture, or why its source cannot be drawn.
+    """Return one body for each frame of a picture, or the reason why its source cannot be drawn.
 
-    files : bytes of the mission's files by name; whatever the source names of them is there
+    files : content of the mission's files by name, including all that the source names
     """
     source = picture.source
     if isinstance(source, Model):
-        assert picture.fill != "legible"  # which is for texts
+        assert picture.fill != "legible"  # only texts have it
         return model_bodies(source, files, picture.fill)
     if isinstance(source, Drawing):
         body: PlacedShape | SourceFault = drawing_body(source, files[source.file])
     elif isinstance(source, Lettering):
         body = lettering_body(source, files)
     else:
-        assert not isinstance(source, RecordedFlight)  # which has tracks, and no shape
+        assert not isinstance(source, RecordedFlight)  # it has tracks, not a shape
         body = solid_body(source)
     return body if isinstance(body, SourceFault) else [body]

@@ -1,4 +1,6 @@
-"""Goals of one frame: centroids, adjusted for the audience, then apart; where it must be dense, a lattice."""
+"""Goals of one frame: centroids, adjusted for the viewpoint, then pushed apart; a lattice if it must be
+dense.
+"""
 
 from __future__ import annotations
 
@@ -18,29 +20,35 @@ from shotc.show.geom.push_apart import SLACK_SHARE, Hold, grain, push_apart
 from shotc.show.goals.room import DisplaySurroundings
 
 NEIGHBOUR_COUNT = 12
-"""Points that tell how a surface lies near a goal."""
+"""Points from which the surface near a goal is estimated."""
 CROWDED_SHARE = 0.9
-"""Mean distance of centroids, in the distance to be kept, below which pushing them apart is not tried."""
+"""Mean distance of centroids over the required distance, below which pushing them apart is not tried."""
 TRIED_DRONES = 300
-"""Drones up to which it is tried all the same: some fit where the shape is small."""
+"""Up to this number of drones it is tried nevertheless: some fit where the shape is small."""
 SPARE_RATIO = 1.15
-"""Goals with which thinning begins, for each that a shape should hold."""
+"""Goals at the start of thinning over the estimated number that a shape holds."""
 FEW_GOALS, FEW_POINTS, POINTS_EACH = 48, 4000, 20
-"""Centroids by which it is told how many a shape should hold, points of it for these, and for each it
-holds."""
+"""To estimate how many goals a shape holds: the number of centroids, of its points, and of points per goal
+held.
+"""
 
 Draw = Callable[[int], Array]
-"""From a number to about so many points of a shape, shape (M, 3)."""
+"""From a number to about that many points of a shape, shape (M, 3)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SpacingTask:
     """What the frames of one display have in common.
 
-    number : of drones; least : stretched distance of two goals, metres; stretch : factor for heights
-    upright : whether that is the distance of upright cylinders, the larger of the level and the upright one
-    straight : stretched distance at which straight moves need no proof, metres
-    viewpoint : (3,) or None; weight : the paper's c-bar; room : where goals may be
+    number : number of drones
+    least : required distance of two goals in the metric of the fleet, m
+    stretch : factor for heights in that metric
+    upright : whether the distance is that of vertical cylinders, the larger of the horizontal and the
+        vertical one
+    straight : distance above which straight moves need no proof, in the metric of the fleet, m
+    viewpoint : shape (3,), or None
+    weight : the paper's c-bar
+    room : the free space for goals
     """
 
     number: int
@@ -54,7 +62,7 @@ class SpacingTask:
 
     @property
     def roomy(self) -> SpacingTask:
-        """Return the same with goals so far apart that all moves between them are straight."""
+        """Return the same task with goals so far apart that all moves between them are straight."""
         return replace(self, least=self.straight, upright=False)
 
     @property
@@ -66,8 +74,9 @@ class SpacingTask:
 class PlacedGoals(NamedTuple):
     """Goals of a frame.
 
-    centroids : (n, 3), in space; shown : (n, 3), adjusted for the viewpoint
-    points : (M, 3), what they are to show
+    centroids : in space, shape (n, 3)
+    shown : adjusted for the viewpoint, shape (n, 3)
+    points : the shape to show, shape (M, 3)
     """
 
     centroids: Array
@@ -76,9 +85,10 @@ class PlacedGoals(NamedTuple):
 
 
 def placed(setting: SpacingTask, points: Array, before: PlacedGoals | None, on_surface: bool) -> PlacedGoals:
-    """Return the goals that show points (M, 3) best, spaced or not.
+    """Return the goals that show points (M, 3) best, not yet pushed apart.
 
-    before : the frame before, whose goals these follow; on_surface : that they stay in the points' surface
+    before : the goals of the frame before, which these follow
+    on_surface : whether goals stay in the surface of the points
     """
     start = None
     if before is not None:
@@ -91,9 +101,9 @@ def placed(setting: SpacingTask, points: Array, before: PlacedGoals | None, on_s
 
 
 def spaced(setting: SpacingTask, goals: PlacedGoals) -> Array | None:
-    """Return goals as they are shown, moved apart as little as it takes, or None where they do not fit.
+    """Return goals moved apart as little as necessary, (n, 3), or None if they do not fit.
 
-    Where room is short the cells of the tessellation are made as flat or tall as the drones need, too.
+    If room is short, the cells of the tessellation are also made as flat or tall as the drones need.
     """
     scale = setting.scale
     shape = goals.points * scale
@@ -111,9 +121,11 @@ def spaced(setting: SpacingTask, goals: PlacedGoals) -> Array | None:
 
 
 def in_lattice(setting: SpacingTask, draw: Draw) -> Array:
-    """Return goals of the widest lattice that has one a drone in a volume, shape (n, 3).
+    """Return goals of the widest lattice that has a place for each drone in a volume, shape (n, 3).
 
-    Where there is no such lattice, all places of the densest one. draw : gives points of the volume
+    If there is none, return all places of the densest lattice.
+
+    draw : gives points of the volume
     """
     mould = _mould(setting, drawn(setting, draw, 3))
     found = widest(mould, setting.number, setting.least)
@@ -123,10 +135,10 @@ def in_lattice(setting: SpacingTask, draw: Draw) -> Array:
 
 
 def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
-    """Return as many goals as find room on a surface or along edges, the worst placed taken out, shape (n,
-    3).
+    """Return as many goals as fit on a surface or along edges, the worst placed removed, shape (n, 3).
 
-    draw : gives points of it; power : 2 for surfaces, 1 for edges
+    draw : gives points of the shape
+    power : 2 for surfaces, 1 for edges
     """
     scale = setting.scale
     shape = drawn(setting, draw, power) * scale
@@ -137,34 +149,34 @@ def thinned_out(setting: SpacingTask, draw: Draw, power: int) -> Array:
 
 
 def evenly(goals: Array, number: int) -> Array:
-    """Return so many of goals in an order of places, or all where there are no more."""
+    """Return ``number`` of the ordered goals, evenly chosen, or all if there are no more."""
     if len(goals) <= number:
         return goals
     return np.asarray(goals[np.linspace(0, len(goals) - 1, number).round().astype(np.intp)])
 
 
 def drawn(setting: SpacingTask, draw: Draw, power: int) -> Array:
-    """Return points of a shape as dense as its goals can be, however many drones there are, shape (M, 3)."""
+    """Return points of a shape as dense as its goals can be, for any number of drones, shape (M, 3)."""
     few = draw(FEW_POINTS)
     return draw(max(FEW_POINTS, POINTS_EACH * _held_about(setting, few * setting.scale, power)))
 
 
 def places_held(setting: SpacingTask, points: Array, factor: float) -> int:
-    """Return how many places the densest lattice has in a volume made a number of times as large."""
+    """Return the number of places of the densest lattice in a volume enlarged by a factor."""
     mould = _mould(setting, points)
     rough = grain(mould.shape)
     return len(laid(mould._replace(slack=(mould.slack - rough) / factor + rough), setting.least / factor))
 
 
 def held_of(setting: SpacingTask, goals: PlacedGoals, power: int) -> int:
-    """Return about how many goals a shape holds, by how far apart these are that are not spaced yet."""
+    """Return about how many goals a shape holds, from the mean distance of goals not yet pushed apart."""
     gap = _mean_gap(goals.centroids * setting.scale) if len(goals.centroids) > 1 else setting.least
     return ceil(len(goals.centroids) * (gap / setting.least) ** power)
 
 
 def _held_about(setting: SpacingTask, shape: Array, power: int) -> int:
-    """Return about how many goals a shape holds, and some more, by how far apart a few centroids of it
-    are.
+    """Return slightly more than the number of goals that a shape holds, from the distances of a few
+    centroids.
     """
     gap = _mean_gap(centroids(shape, FEW_GOALS).goals)
     return ceil(SPARE_RATIO * FEW_GOALS * (gap / setting.least) ** power) + 1
@@ -189,7 +201,7 @@ def _mean_gap(goals: Array) -> float:
 
 
 def _onto(points: Array, goals: Array) -> Array:
-    """Draw goals along its normal into the surface of which points (M, 3) are given."""
+    """Move goals along the surface normal onto the surface given by points (M, 3)."""
     if len(points) < NEIGHBOUR_COUNT:
         return goals
     near = points[cKDTree(points).query(goals, k=NEIGHBOUR_COUNT)[1]]

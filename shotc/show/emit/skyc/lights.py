@@ -50,7 +50,7 @@ def _faded(lights: Lights) -> Iterator[bytes]:
 
 
 def kept_moments(flight: FleetTrajectory) -> Iterator[tuple[NDArray[np.intp], Colors]]:
-    """Yield of every drone the moments that are kept, numbers of ``LIGHT_RATE_HZ``, and its colours there."""
+    """Yield for every drone the kept ticks of ``LIGHT_RATE_HZ``, and its colours there."""
     last = ceil(float(flight.breaks[-1]) * LIGHT_RATE_HZ)
     thinning = _Thinning(tick_colors(flight, np.arange(1))[:, 0])
     for first in range(1, last + 1, BATCH_TIMES):
