@@ -14,7 +14,7 @@ from shotc.geom.apart import ROUNDING_RATIO, spacing
 from shotc.geom.pads import nearest_pair
 from shotc.ir.limits import Vec3
 from shotc.ir.show import Apart, Box, Lettering, Model, Picture, Source, Sphere, Torus
-from shotc.show.geom.fit import _round_box, most_drones
+from shotc.show.geom.fit import _on_face, _round_box, most_drones
 from shotc.show.geom.shape import balls, bounds, depth_in, highest, lowest
 
 coordinates = st.floats(-8, 8).map(lambda x: round(x, 3))
@@ -211,3 +211,13 @@ def test_what_is_within_reach_of_a_box_has_the_volume_of_its_faces_edges_and_cor
     sides: Vec3, reach: float, volume: float
 ) -> None:
     assert _round_box(*sides, reach) == pytest.approx(volume)
+
+
+def test_rows_of_triangles_come_near_the_bound_of_a_face_and_a_row_meets_it() -> None:
+    assert _on_face(6.0, 0.0, 2.0) == pytest.approx(4.0)
+    assert _on_face(0.0, 6.0, 2.0) == pytest.approx(4.0)
+    rows = 200
+    for gap in (0.5, 2.0):
+        count = rows * 101 - rows // 2  # 101 and 100 in turn
+        bound = _on_face(100 * gap, (rows - 1) * gap * sqrt(0.75), gap)
+        assert 0.99 * bound < count <= bound
