@@ -1,12 +1,13 @@
-"""The clock of a recorded flight, stretched where its drones would break a limit: for all drones alike.
+"""Slows down a recorded flight where its drones would exceed a limit, equally for all drones.
 
-The control points stay, and the time from break to break grows. A piece grows by what the drones that count
-on it need: a velocity's control point by its share of the limit, an acceleration's by the root of its own, a
-jerk's by the cube root, for so they fall with time. Where the clock slows down and comes back its logarithm
-changes by 1 in ``EASE_RATIO`` times the time that braking from full speed takes, evenly, corners rounded:
-so the clock's own acceleration is small, and what it adds falls as the pieces grow. That is repeated until no
-control point of any derivative breaks a limit, which proves all limits for all times. Stretching all pieces
-alike needs no repetition; the shorter of both is taken, so that the result is never longer than that.
+The control points stay, and the intervals between breaks grow. A piece grows by the need of the drones'
+control points on it: a velocity's by its ratio to the limit, an acceleration's by the square root of its
+ratio, a jerk's by the cube root, because derivatives decrease in this way with time. Before and after a slow
+part, the logarithm of the clock's rate changes linearly, by 1 in ``EASE_RATIO`` times the duration of braking
+from full speed, with rounded corners. So the clock's own acceleration is small, and its contribution
+decreases as pieces grow. This is repeated until no control point of any derivative exceeds a limit, which
+proves all limits for all times. Stretching all pieces equally needs no repetition. The shorter result of both
+is taken.
 """
 
 from __future__ import annotations
@@ -20,21 +21,21 @@ from shotc.geom.fleet_spline import DEGREE, knots
 from shotc.ir.limits import Limits
 
 EASE_RATIO = 0.5
-"""Times that braking from full speed takes, in which the clock's rate changes by a factor of e."""
+"""Time in which the clock's rate changes by a factor of e, over the time of braking from full speed."""
 SMOOTHED_PIECES = 2
-"""Pieces to either side over which the logarithm of a stretch is averaged."""
+"""Pieces on either side over which the logarithm of a stretch is averaged."""
 MOST_ROUNDS = 200
 SLACK_SHARE = 1e-9
-"""Share of a limit by which rounding may break it."""
+"""Share of a limit by which rounding may exceed it."""
 OVER_SHARE = 1e-4
-"""Share by which pieces grow beyond what they lack, so that rounds end."""
+"""Share by which pieces grow beyond their lack, so that the iterations end."""
 LEEWAY_SHARE = 0.05
-"""Share of a limit, at most, that is granted to the rounding of a file."""
+"""Largest share of a limit that is granted for the rounding of a file."""
 WORDS = ("speed", "climb", "descent", "acceleration", "jerk")
 
 
 class Need(NamedTuple):
-    """The drone that needs most time: its row, the limit in a word, its value there, the limit, the piece.
+    """The drone that needs most time: its row, the limit's name, its value there, the limit, the piece.
 
     factor : by which the piece would have to last longer
     """
@@ -48,16 +49,18 @@ class Need(NamedTuple):
 
 
 class FlightClock(NamedTuple):
-    """Breaks of the flight, s, and what asked for more time than the file has, None where nothing did."""
+    """The breaks of the flight, s, and what needed more time than the file has, or None."""
 
     breaks: Array
     need: Need | None
 
 
 def clocked(coef: Array, step: float, limits: Limits, rounding: float) -> FlightClock:
-    """Return the clock of a flight; step : s of every piece by the file's clock.
+    """Return the clock of a flight.
 
-    coef : control points, (n, K, 3); rounding : metres by which they may be rounded
+    coef : control points, shape (n, K, 3)
+    step : duration of every piece by the file's clock, s
+    rounding : how far the file's rounding may move positions, m
     """
     granted = _granted(limits, step, rounding)
     count = coef.shape[1] - DEGREE
@@ -76,7 +79,9 @@ def _breaks(widths: Array) -> Array:
 
 
 def _granted(limits: Limits, step: float, rounding: float) -> Limits:
-    """Return limits with what rounded places may add to them: theirs is the noise, not the flight's."""
+    """Return limits increased by what rounded positions may add: this is noise of the file, not of the
+    flight.
+    """
     noise = 2.0 * rounding / step
     share = [1.0 + min(noise / most, LEEWAY_SHARE) for most in (limits.speed, limits.climb, limits.descent)]
     bent = 1.0 + min(2.0 * noise / step / limits.usable_acceleration, LEEWAY_SHARE)
@@ -91,7 +96,7 @@ def _granted(limits: Limits, step: float, rounding: float) -> Limits:
 
 
 def _stretched(widths: Array, coef: Array, limits: Limits) -> Array | None:
-    """Return the pieces' widths, stretched here and there, or None where that does not come to an end."""
+    """Return the pieces' durations, stretched locally, or None if the iterations do not end."""
     slope = widths[0] / (EASE_RATIO * limits.speed / limits.usable_acceleration)
     grown = np.zeros(len(widths))
     for _ in range(MOST_ROUNDS):
@@ -104,9 +109,9 @@ def _stretched(widths: Array, coef: Array, limits: Limits) -> Array | None:
 
 
 def _eased(aim: Array, slope: float) -> Array:
-    """Return a curve over ``aim`` (P,) that changes by ``slope`` from piece to piece, its corners rounded.
+    """Return a curve above ``aim`` (P,) that changes by at most ``slope`` per piece, with rounded corners.
 
-    It is not below ``aim``: of the least such curve the largest values about each piece are averaged.
+    It is the moving average of local maxima of the least such curve, so it is not below ``aim``.
     """
     index = np.arange(len(aim)) * slope
     rising = np.maximum.accumulate(aim + index) - index
@@ -119,10 +124,10 @@ def _eased(aim: Array, slope: float) -> Array:
 
 
 def needs(widths: Array, coef: Array, limits: Limits) -> Array:
-    """Return by which factor every piece lacks time, (P,), 1 or less where it does not."""
+    """Return the factor by which every piece lacks time, (P,), at most 1 if it does not."""
     found = np.zeros(len(widths))
     for order, share in _shares(widths, coef, limits):
-        # Between k and k + 1 count pieces k - 2 to k; those in their middle are stretched.
+        # Pieces k - 2 to k affect the control point between k and k + 1; the middle ones are stretched.
         most = share.max(axis=0)
         for back in {1: (1,), 2: (1, 0), 3: (0,)}[order]:
             piece = np.clip(np.arange(len(most)) - back, 0, len(widths) - 1)
@@ -131,7 +136,7 @@ def needs(widths: Array, coef: Array, limits: Limits) -> Array:
 
 
 def worst(widths: Array, coef: Array, limits: Limits) -> Need:
-    """Return the drone and the limit that ask for most time."""
+    """Return the drone and the limit that need most time."""
     best = Need(0, "speed", 0.0, limits.speed, 0, 0.0)
     for order, share in _shares(widths, coef, limits):
         drone, k = (int(i) for i in np.unravel_index(int(np.argmax(share)), share.shape))
@@ -159,7 +164,7 @@ def _named(value: Array, order: int, limits: Limits) -> tuple[str, float, float]
 
 
 def _shares(widths: Array, coef: Array, limits: Limits) -> list[tuple[int, Array]]:
-    """Return of each derivative the factors by which its control points ask for more time, (n, R)."""
+    """Return, for each derivative, the factors of time that its control points need, (n, R)."""
     found = []
     for order in (1, 2, 3):
         values = _derivative(widths, coef, order)
@@ -175,7 +180,7 @@ def _shares(widths: Array, coef: Array, limits: Limits) -> list[tuple[int, Array
 
 
 def _derivative(widths: Array, coef: Array, order: int) -> Array:
-    """Return the control points of a derivative, (n, K - order, 3), as ``fleet_spline.differences`` does."""
+    """Return the control points of a derivative, (n, K - order, 3), like ``fleet_spline.differences``."""
     t, values = knots(np.concatenate([[0.0], np.cumsum(widths)])), coef
     for k in range(order):
         degree = DEGREE - k

@@ -1,4 +1,4 @@
-"""What is wrong with recorded flights, and what is to be said of those that are flown."""
+"""Errors of recorded flights, and warnings about those that are flown."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from shotc.show.recorded.stage import FitRequirements, Grounded, Leaned, Staged
 from shotc.show.recorded.tracks import RecordedTracks, UnreadableFlight
 
 LARGEST_RATIO = 20.0
-"""By which a piece may be too fast: beyond it a drone jumps, and the file is wrong."""
+"""Factor of a piece's lack of time, above which a drone jumps: the file is wrong."""
 UNITS = {"acceleration": "m/s^2", "jerk": "m/s^3"}
 LEAST_TOLD_S = 0.05
-"""Seconds by which a flight is longer from which on that is told."""
+"""Additional time of a flight from which on a warning is given."""
 
 
 def _file(mission: MissionIR, display: Display) -> tuple[str, Label]:
@@ -36,7 +36,7 @@ def unreadable(mission: MissionIR, display: Display, why: UnreadableFlight) -> D
 
 
 def other_count(mission: MissionIR, display: Display, fleet: Fleet, found: int) -> Diagnostic:
-    """Return D151: a file has not one track a drone."""
+    """Return D151: a file has not one track per drone."""
     file, label = _file(mission, display)
     count = len(fleet.pads)
     labels = (label, mission.origins.value((*fleet.path, "count"), "the fleet"))
@@ -48,7 +48,7 @@ def other_count(mission: MissionIR, display: Display, fleet: Fleet, found: int) 
 def grounded(
     mission: MissionIR, display: Display, tracks: RecordedTracks, why: Grounded, floor: float
 ) -> Diagnostic:
-    """Return D152: at no time all drones are clear of the ground."""
+    """Return D152: at no time are all drones clear of the ground."""
     file, label = _file(mission, display)
     one, other = (tracks.tracks[k].where for k in (why.rises, why.falls))
     if isinf(why.up):
@@ -64,7 +64,7 @@ def grounded(
 
 
 def jumps(mission: MissionIR, display: Display, tracks: RecordedTracks, found: Staged) -> Diagnostic | None:
-    """Return D153 if a drone jumps: no clock makes that a flight."""
+    """Return D153 if a drone jumps, which no clock makes flyable, else None."""
     need = found.need
     if need is None or need.factor <= LARGEST_RATIO:
         return None

@@ -1,17 +1,17 @@
-"""Control points taken from tracks, and how far the spline that they make is from these.
+"""Takes control points from tracks, and bounds the distance between their spline and the tracks.
 
-The control points c_k = p(s_k) of a cubic B-spline, p a track and s_k evenly rising times of its file, one
-set for all drones. Over even breaks its derivatives are means of the track's own, so that what keeps its
-limits keeps them (the variation-diminishing spline of Schoenberg; de Boor, *A Practical Guide to Splines*,
-ch. XI). Where a flight stops, three of them are equal.
+The control points of a cubic B-spline are c_k = p(s_k), with a track p and uniform times s_k of its file, the
+same for all drones. Over uniform breaks, derivatives of the spline are means of the track's own, so a track
+within the limits gives a spline within the limits (the variation-diminishing spline of Schoenberg; de Boor,
+*A Practical Guide to Splines*, ch. XI). Where a flight stops, three of the points are equal.
 
-How far it is off, proved for any breaks. With N_k(t) the basis, the common clock is s(t) = sum N_k(t) s_k.
-Let L be the polyline through (s_k, c_k). On one piece four control points count, s_0 to s_3, and L has
-corners at s_1 and s_2 only, whose slopes step by J_1, J_2. As sum N_k (s_k - s) = 0, a line is met exactly,
-and |q(t) - L(s(t))| <= |J_1| e_1(t) + |J_2| e_2(t), e_m = sum N_k (s_k - s_m)_+ - (s - s_m)_+, both terms of
-which do not fall in t: their values at the ends of short spans bound e_m from above. How far L is from the
-track follows from control points: on each span between breaks of either, the difference is a cubic. Where the
-clock is that of the file, so is q(t) - p(t), which is nearer.
+The distance is proved for any breaks. With the basis N_k(t), the common clock is s(t) = sum N_k(t) s_k. Let L
+be the polyline through (s_k, c_k). One piece depends on four control points, s_0 to s_3. L has corners only
+at s_1 and s_2, where its slope changes by J_1 and J_2. Because sum N_k (s_k - s) = 0, a line is reproduced
+exactly, and |q(t) - L(s(t))| <= |J_1| e_1(t) + |J_2| e_2(t), with e_m = sum N_k (s_k - s_m)_+ - (s - s_m)_+.
+Neither term decreases in t, so their values at the ends of short spans bound e_m from above. The distance of
+L from the track follows from control points: on each span between breaks of either, the difference is a
+cubic. If the clock is that of the file, q(t) - p(t) is a cubic as well, and this bound is smaller.
 """
 
 from __future__ import annotations
@@ -28,26 +28,27 @@ from shotc.geom.proof import norm
 from shotc.show.recorded.tracks import RecordedTrack
 
 PIECE_S = 0.25
-"""Seconds of the file's clock from control point to control point, at least."""
+"""Least time between control points by the file's clock."""
 PIECE_SPANS = 64
-"""Of a piece, in which the distance from the polyline is bounded."""
+"""Spans of a piece, in which the distance from the polyline is bounded."""
 TINY_S = 1e-9
 
 
 def step_of(step: float, slower: float = 1.0) -> float:
-    """Return seconds between control points for a file whose rows are a step apart, s: whole steps of it.
+    """Return the time between control points, s, a whole number of the file's row intervals.
 
-    slower : by how much the flight takes longer than the file
+    step : interval of the file's rows, s
+    slower : duration of the flight over that of the file
     """
     wanted = PIECE_S / slower
     return wanted if step <= 0.0 else step * max(1, round(wanted / step))
 
 
 def sources(start: float, end: float, step: float, rests: tuple[bool, bool]) -> Array:
-    """Return the times of a file that control points are taken from, (K,), rising.
+    """Return the times of a file from which control points are taken, (K,), non-decreasing.
 
-    rests : whether everybody rests at the start and at the end; then the clock of the flight is the file's.
-    Else the flight stops there, and its clock sets out one step later
+    rests : whether all drones rest at the start and at the end; then the flight has the file's clock there.
+        Else the flight stops there, and its clock starts one step later
     """
     count = max(ceil((end - start) / step - TINY_S), 1)
     first, last = (2 if rest else 1 for rest in rests)
@@ -56,14 +57,15 @@ def sources(start: float, end: float, step: float, rests: tuple[bool, bool]) -> 
 
 
 def points_of(tracks: Sequence[RecordedTrack], times: Array) -> Array:
-    """Return where all drones are at times of the file, (n, K, 3)."""
+    """Return the positions of all drones at times (K,) of the file, (n, K, 3)."""
     return np.stack([track.curve(times) for track in tracks])
 
 
 def bound(tracks: Sequence[RecordedTrack], times: Array, breaks: Array, coef: Array) -> tuple[float, int]:
-    """Return how far a flight is from the tracks at most, metres, and whose it is.
+    """Return the largest distance between a flight and its tracks, proved, m, and the drone's row.
 
-    times : of the file, of its control points; breaks, coef : of the flight
+    times : of the file, for its control points, shape (K,)
+    breaks, coef : of the flight, shapes (P + 1,) and (n, K, 3)
     """
     if np.allclose(times[DEGREE:-DEGREE], breaks[2:-2], rtol=0.0, atol=TINY_S):
         own = pieces(breaks, coef)
@@ -81,20 +83,22 @@ def bound(tracks: Sequence[RecordedTrack], times: Array, breaks: Array, coef: Ar
 
 
 def _off(curve: Piecewise, flown: Piecewise) -> float:
-    """Return how far a flight is from its track at the same time, at most, metres."""
+    """Return a bound of the distance between a flight and its track at the same time, m."""
     inner = curve.breaks[(curve.breaks > flown.start) & (curve.breaks < flown.end)]
     marks = _apart(np.concatenate([flown.breaks, inner]))
     return float(norm(between(curve, marks) - between(flown, marks)).max())
 
 
 def _apart(marks: Array) -> Array:
-    """Return times in their order, without those that are next to the same."""
+    """Return times in order, without near duplicates."""
     rising = np.unique(marks)
     return np.asarray(rising[np.concatenate([[True], np.diff(rising) > TINY_S])])
 
 
 def _from_polyline(times: Array, breaks: Array, coef: Array) -> Array:
-    """Return how far every drone is from its polyline at the same time of the file, at most, (n,), metres."""
+    """Return bounds of the distance of every drone from its polyline at the same time of the
+    file, (n,), m.
+    """
     share = np.linspace(0.0, 1.0, PIECE_SPANS + 1)
     at = breaks[:-1, None] + share * np.diff(breaks)[:, None]
     clock = _scalar(breaks, times, at)
@@ -117,7 +121,7 @@ def _scalar(breaks: Array, values: Array, at: Array) -> Array:
 
 
 def _excess(breaks: Array, times: Array, of: tuple[Array, Array], m: int) -> Array:
-    """Return on every piece and span an upper bound of e_m of the module's docstring, (P, SPANS), s."""
+    """Return an upper bound of e_m of the module's docstring for every piece and span, (P, SPANS), s."""
     at, clock = of
     share = np.linspace(0.0, 1.0, at.shape[1])
     four = np.lib.stride_tricks.sliding_window_view(times, 4)
@@ -129,7 +133,7 @@ def _excess(breaks: Array, times: Array, of: tuple[Array, Array], m: int) -> Arr
 
 
 def _basis(breaks: Array, share: Array) -> Array:
-    """Return the four basis functions of every piece at shares of it, (P, M, 4)."""
+    """Return the four basis functions of every piece at fractions of it, (P, M, 4)."""
     at = breaks[:-1, None] + share * np.diff(breaks)[:, None]
     inside = np.clip(at, breaks[:-1, None], np.nextafter(breaks[1:, None], -np.inf))
     matrix = BSpline.design_matrix(inside.ravel(), knots(breaks), DEGREE)
@@ -138,7 +142,9 @@ def _basis(breaks: Array, share: Array) -> Array:
 
 
 def _off_track(curve: Piecewise, times: Array, points: Array) -> float:
-    """Return how far the polyline of one drone is from its track at the same time of the file, metres."""
+    """Return a bound of the distance of one drone's polyline from its track at the same time of
+    the file, m.
+    """
     start, end = float(times[0]), float(times[-1])
     keys, first = np.unique(times, return_index=True)
     inner = curve.breaks[(curve.breaks > start) & (curve.breaks < end)]
@@ -149,9 +155,9 @@ def _off_track(curve: Piecewise, times: Array, points: Array) -> float:
 
 
 def between(curve: Piecewise, marks: Array) -> Array:
-    """Return the control points (M, 4, 3) of a cubic on the spans between marks, of which each is in a piece.
+    """Return the control points (M, 4, 3) of a cubic on the spans between marks, each inside a piece.
 
-    They are values of the blossom of the piece (Farin, *Curves and Surfaces for CAGD*, ch. 4); after its last
+    They are values of the piece's blossom (Farin, *Curves and Surfaces for CAGD*, ch. 4). After its last
     break a curve is constant.
     """
     low, high = np.minimum(marks[:-1], curve.end), np.minimum(marks[1:], curve.end)

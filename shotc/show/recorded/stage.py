@@ -1,8 +1,8 @@
-"""Which part of a recorded flight take-off and landing are, and the whole as a flight of ours.
+"""Finds the take-off and the landing of a recorded flight, and builds the flight to be flown.
 
-A fleet of ours rises and lands straight over its pads, all drones at once, and is clear of the ground
-between. Where the file has that, from the pads that the mission has, it is flown as recorded. Where it does
-not, the flight begins, or ends, where all are clear of the ground, and the fleet comes there by itself.
+A fleet takes off and lands vertically over its pads, all drones at once, and is clear of the ground in
+between. If the file does so, from the pads of the mission, it is flown as recorded. If not, the flight starts
+or ends where all drones are clear of the ground, and the fleet flies to and from there by itself.
 """
 
 from __future__ import annotations
@@ -24,23 +24,24 @@ from shotc.show.recorded.grid import bound, points_of, sources, step_of
 from shotc.show.recorded.tracks import RecordedTracks, colors_at
 
 ON_PAD_M = 0.05
-"""Metres from its pad within which a track begins or ends on it, and from the vertical that it may leave."""
+"""Largest distance of a track's end from its pad, and of a take-off from the vertical."""
 STILL_M = 2e-3
-"""Metres within which all drones stand: what a file's rounding makes of a stop."""
+"""Distance within which all drones count as standing: the effect of a file's rounding on a stop."""
 STOP_POINTS = 4
-"""Control points in a row that are a stop."""
+"""Consecutive equal control points that make a stop."""
 CONTROL_DECIMALS = 6
-"""Decimals of a metre that control points keep, as in ``assign-goals``."""
+"""Decimals of a metre in control points, as in ``assign-goals``."""
 FINEST_RATIO = 8.0
-"""By how much control points may be nearer to each other in the file."""
+"""Largest factor by which control points may be denser in the file's time."""
 SHOWN_TIMES = 9
-"""Moments of a recorded flight that stand for it, where pictures are shown."""
+"""Times of a recorded flight that represent it where pictures are shown."""
 
 
 class FitRequirements(NamedTuple):
-    """What a flight is to fit.
+    """What a flight must fit.
 
-    pads : (n, 3); floor : z from which on a drone is clear of the ground, m
+    pads : shape (n, 3), m
+    floor : the z from which on a drone is clear of the ground, m
     first, last : whether the fleet stands on its pads before it, and goes home after it
     """
 
@@ -52,9 +53,10 @@ class FitRequirements(NamedTuple):
 
 
 class Grounded(NamedTuple):
-    """Why no part of a flight is flown: a drone is not clear of the ground while all others are.
+    """Why no part of a flight can be flown: a drone is not clear of the ground while all others are.
 
-    rises, falls : the drone that is clear last, and the one that is clear no more first; times of the file, s
+    rises : the last drone to get clear; up : its time in the file, s
+    falls : the first drone that is no longer clear; down : its time in the file, s
     """
 
     rises: int
@@ -64,7 +66,9 @@ class Grounded(NamedTuple):
 
 
 class Leaned(NamedTuple):
-    """Why a take-off or a landing is not flown as recorded: who is how far from its pad's vertical, when."""
+    """Why a take-off or a landing is not flown as recorded: which drone is how far from its pad's vertical,
+    when.
+    """
 
     drone: int
     metres: float
@@ -73,11 +77,16 @@ class Leaned(NamedTuple):
 
 
 class Staged(NamedTuple):
-    """A flight, and what is to be told of it.
+    """A flight, and what is reported about it.
 
-    order : the tracks in the order of its rows; part : of the file's clock that is flown, s
-    off : how far it is from the tracks at most, m; whose : row of that
-    need : who needed more time, at which time of the file, None where nobody did; longer : s
+    order : the tracks in the order of its rows
+    part : the flown part by the file's clock, s
+    off : largest distance from the tracks, proved, m
+    whose : its row
+    need : the drone that needed more time, None if none did
+    at : the time of that in the file, s
+    longer : how much longer the flight is than the file, s
+    leaned : why take-off or landing are not flown as recorded
     """
 
     flight: Recorded
@@ -92,16 +101,17 @@ class Staged(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """Break numbers: from which on all are clear, and up to which; clear : (K,), at every control point."""
+    """The numbers of the breaks between which all drones are clear of the ground."""
 
     up: int
     down: int
 
 
 def staged(display: str, tracks: RecordedTracks, asked: FitRequirements) -> Staged | Grounded:
-    """Return the flight of a file with as many tracks as there are pads.
+    """Return the flight of a file that has as many tracks as there are pads.
 
-    One that takes longer than its file has control points as near in time as others: nearer in the file.
+    If it takes longer than its file, control points are denser in the file's time, so that they are as dense
+    as usual in the flight's time.
     """
     found = _staged(display, tracks, asked, step_of(tracks.step))
     if isinstance(found, Grounded) or found.longer <= 0.0:
@@ -158,7 +168,7 @@ def _staged(display: str, tracks: RecordedTracks, asked: FitRequirements, step: 
 
 
 def _order(tracks: RecordedTracks, asked: FitRequirements) -> tuple[NDArray[np.intp], bool]:
-    """Return the tracks in the order of the pads that they begin on, and whether each begins on one."""
+    """Return the tracks in the order of the pads where they start, and whether each starts on a pad."""
     starts = np.stack([track.curve.ctrl[0, 0] for track in tracks.tracks])
     away, nearest = cKDTree(starts).query(asked.pads)
     fits = asked.first and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
@@ -166,14 +176,14 @@ def _order(tracks: RecordedTracks, asked: FitRequirements) -> tuple[NDArray[np.i
 
 
 def _landed(ends: Array, asked: FitRequirements) -> Array | None:
-    """Return the pads (n, 3) that drones end on, if each ends on one of its own."""
+    """Return the pads (n, 3) on which drones end, if each ends on its own, else None."""
     away, nearest = cKDTree(asked.pads).query(ends)
     fits = asked.last and away.max() <= ON_PAD_M and len(np.unique(nearest)) == len(nearest)
     return asked.pads[nearest] if fits else None
 
 
 def _part(points: Array, times: Array, floor: float) -> _Part | Grounded:
-    """Return between which breaks all drones are clear of the ground; points : (n, K, 3)."""
+    """Return the breaks between which all drones are clear of the ground; points : (n, K, 3)."""
     clear = points[..., 2] >= floor
     count = clear.shape[1]
     rises = np.where(clear.any(axis=1), np.argmax(clear, axis=1), count)
@@ -187,9 +197,10 @@ def _part(points: Array, times: Array, floor: float) -> _Part | Grounded:
 
 
 def _upright(points: Array, times: Array, of: tuple[Array, int], leaned: list[Leaned]) -> bool:
-    """Tell whether all drones are over their pads at the first control points, or the last ones.
+    """Tell whether all drones are over their pads at the first or last control points; if not, append to
+    ``leaned``.
 
-    of : the pads, and how many control points, negative to count from the end; else it is told in ``leaned``
+    of : the pads, and the number of control points, negative to count from the end
     """
     pads, count = of
     part = slice(None, count) if count > 0 else slice(count, None)
@@ -204,14 +215,16 @@ def _upright(points: Array, times: Array, of: tuple[Array, int], leaned: list[Le
 
 
 def _over(points: Array, pads: Array, at_rest: int) -> None:
-    """Put control points straight over their pads, none below, and three at an end on them; in place."""
+    """Move control points vertically over their pads, none below, and three at one end onto them;
+    in place.
+    """
     points[..., :2] = pads[:, None, :2]
     points[..., 2] = np.maximum(points[..., 2], pads[:, None, 2])
     points[:, slice(-DEGREE, None) if at_rest else slice(DEGREE)] = pads[:, None]
 
 
 def _stood(points: Array) -> Array:
-    """Return control points that are equal where everybody stands, but for the rounding of a file."""
+    """Return control points made equal where all drones stand except for the rounding of a file."""
     found = points.copy()
     first = 0
     for k in range(1, found.shape[1] + 1):
@@ -224,7 +237,7 @@ def _stood(points: Array) -> Array:
 
 
 def _lights(tracks: RecordedTracks, times: Array, breaks: Array) -> Lights:
-    """Return the lights by the flight's clock; times : of the file, of its control points."""
+    """Return the lights by the flight's clock; times : of the file, for the control points, (K,)."""
     told, colors = colors_at(tracks, float(times[0]), float(times[-1]))
     inner = slice(DEGREE, -DEGREE)
     known = np.concatenate([times[:1], times[inner], times[-1:]])

@@ -1,4 +1,4 @@
-"""The tracks and lights of a file, in W."""
+"""Reads the tracks and lights of a file, in the world frame."""
 
 from __future__ import annotations
 
@@ -21,23 +21,25 @@ from shotc.ir.mission import GeoOrigin
 
 SHARES = np.linspace(0.0, 1.0, 4)[:, None]
 SHOW_ROUNDING_M = 5e-4
-"""Metres by which control points of shows may be rounded."""
+"""Largest rounding error of a show file's control points."""
 TABLE_ROUNDING_M = 5e-4
-"""The same of tables, which Skybrush writes to the millimetre."""
+"""Largest rounding error of tables, which Skybrush writes to the millimetre."""
 MOST_COLORS = 30_000_000
-"""Colours of all lights at all times that a plan holds: 90 MB. 1000 lights of five minutes change at 100 Hz,
-20,000 of them at 5 Hz."""
+"""Most colours in a plan, over all lights and times: 90 MB. 1000 lights can change for five minutes at 100
+Hz, 20,000 lights at 5 Hz.
+"""
 TOLERANCE_LEVELS = 2.0
-"""Levels, of 255, by which a light may be off for its times to be fewer."""
+"""Levels, of 255, by which a light may differ so that fewer times are kept."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecordedTrack:
     """One drone of a file.
 
-    name : as the file has it; where : it stands there, in words
-    curve : x, y, z of W, cubic, from 0 s; constant after its end
-    light : of the drone, None where the file has none
+    name : as in the file
+    where : a description of its place in the file
+    curve : x, y, z in the world frame, cubic, from 0 s; constant after its end
+    light : of the drone, None if the file has none
     """
 
     name: str
@@ -50,8 +52,8 @@ class RecordedTrack:
 class RecordedTracks:
     """All drones of a file.
 
-    step : seconds from row to row that most tables have, 0 of curves
-    rounding : metres by which places may be rounded; end : s, of the longest track
+    step : the usual interval between rows of tables, s; 0 for curves
+    rounding : how far the file's rounding may move positions, m
     """
 
     tracks: tuple[RecordedTrack, ...]
@@ -60,12 +62,14 @@ class RecordedTracks:
 
     @property
     def end(self) -> float:
-        """When the last of them ends, s."""
+        """The end of the longest track, s."""
         return max(track.curve.end for track in self.tracks)
 
 
 class UnreadableFlight(NamedTuple):
-    """Why a file is not read; member : of the archive, empty where it is about all of it; line from 1."""
+    """Why a file is not read; member : in the archive, empty if it concerns all of it; line :
+    counted from 1.
+    """
 
     code: str
     message: str
@@ -75,7 +79,10 @@ class UnreadableFlight(NamedTuple):
 
 
 def read_tracks(name: str, data: bytes, origin: GeoOrigin | None) -> RecordedTracks | UnreadableFlight:
-    """Return the tracks of a `.zip` of tables or of a `.skyc`; origin : of the mission."""
+    """Return the tracks of a `.zip` of tables or of a `.skyc`, or why they cannot be read.
+
+    origin : of the mission, None if it has none
+    """
     try:
         if suffix_of(PurePath(name).name) == TABLES:
             return _of_tables(zipped.tables(data))
@@ -119,8 +126,9 @@ def _of_show(show: skyc.SkycShow, origin: GeoOrigin | None) -> RecordedTracks:
 def colors_at(tracks: RecordedTracks, start: float, end: float) -> tuple[Array, Colors]:
     """Return times of the file's clock, (T,), and the colours of all lights, (n, T, 3), between two times.
 
-    The times are all those at which a light changes its course, but for those without which no light is more
-    than ``TOLERANCE_LEVELS`` off; of more than ``MOST_COLORS`` they are even, as many as that leaves.
+    The times are those at which a light changes its slope, except those that can be left out with an error of
+    at most ``TOLERANCE_LEVELS``. If there are more than ``MOST_COLORS``, the times are uniform, as many as
+    possible.
     """
     lights = [track.light or KeyedLight((0.0,), ((0, 0, 0),)) for track in tracks.tracks]
     every = np.unique(np.round(np.concatenate([light.times for light in lights]), 6))

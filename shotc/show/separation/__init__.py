@@ -1,10 +1,10 @@
 """keep-apart: ShowIR to TrajectoryIR.
 
-Takes flights within their limits. Proves for every fleet that no two of its drones ever come nearer than its
-separation, and that no two fleets meet; where that does not hold between two stops of a fleet, the drones
-concerned are pushed apart, all at once and as little as does, until the proof and all limits hold. What
-cannot be had is an error that names the two drones, the time, and how near they come. Waves of departure are
-proved where they are made (``show.assignment.waves``), so that none is bent here.
+Takes flights within their limits. Proves for every fleet that no two of its drones come nearer than its
+separation, and that no two fleets meet. If this fails between two stops of a fleet, the drones concerned are
+pushed apart, all at once and as little as necessary, until the proof and all limits hold. If that fails, the
+error names the two drones, the time and their distance. Waves of departure are proved where they are made
+(``show.assignment.waves``), so none is changed here.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ from shotc.show.separation.off_goals import farthest
 from shotc.show.separation.repair import Keeper
 
 MUCH_SHARE = 0.5
-"""Share of the goals' spacing beyond which being off a goal is told: the picture is not the one asked for."""
+"""Distance from a goal, as a share of the goals' spacing, above which a warning says that the picture is
+deformed.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +39,7 @@ class KeepApart:
     name: ClassVar[str] = "keep-apart"
 
     def run(self, ir: ShowIR, ctx: PassContext) -> Outcome[TrajectoryIR]:
-        """Prove every fleet's separation, mending what breaks it."""
+        """Prove every fleet's separation, and repair violations."""
         mission = ir.goals.keyframes.mission
         diagnostics: list[Diagnostic] = []
         warnings: list[Diagnostic] = []

@@ -1,9 +1,10 @@
-"""The separation of moves that all drones make alike, in closed form: what large fleets need no search for.
+"""Proves the separation of moves that all drones make in common, in closed form, without a search over pairs.
 
-Where every control point of every drone is m + a x' + b g', with x' and g' its places before and after about
-the middle of both and a, b >= 0 the same for all, any two keep a^2 d0^2 + b^2 d1^2 (``geom.arcs``) if no two
-would do better with each other's goals. Nothing is believed of who made the move: a and b are found by least
-squares from the control points, and what they miss counts against the distance.
+Let every control point of every drone be m + a x' + b g', with x' and g' its positions before and after
+relative to the mean of each, and a, b >= 0 common to all drones. Then the squared distance of any two is at
+least a^2 d0^2 + b^2 d1^2 (``geom.arcs``) if no two would have a smaller sum of squares with exchanged goals.
+Nothing is assumed about the origin of the move: a and b are found by least squares from the control points,
+and the residual is subtracted from the distance.
 """
 
 from __future__ import annotations
@@ -19,17 +20,19 @@ from shotc.show.geom.push_apart import nearest_pair
 from shotc.show.solvers.match import crossing
 
 PIECE_PARTS = 16
-"""Parts of a piece in each of which the least of a square is bounded by its control points."""
+"""Parts of a piece in each of which control points bound the least of a square."""
 TOGETHER_M = 1e-3
-"""Metres that drones go relative to each other at most where all go alike, as straight up."""
+"""Largest relative motion of drones that all move alike, as in a vertical climb."""
 NEGATIVE_TOLERANCE = -1e-9
-"""A scalar below zero by less is rounding."""
+"""A scalar below zero by less is a rounding error."""
 
 
 def common(coef: Array, apart: Distances) -> float:
-    """Return a distance that no two drones ever fall below, stretched, metres; 0 where none is proved.
+    """Return a distance below which no two drones come, in the metric of the fleet, m; 0 if none is proved.
 
-    coef : control points of a stretch of even pieces from stop to stop, shape (n, K, 3). Ellipsoids alone.
+    Only for ellipsoids.
+
+    coef : control points of a stretch of uniform pieces from stop to stop, shape (n, K, 3)
     """
     if apart.shape != "ellipsoid":
         return 0.0
@@ -46,14 +49,14 @@ def common(coef: Array, apart: Distances) -> float:
         return nearest_pair(before) - 2.0 * drifted
     missed = float(np.sqrt(np.einsum("nkd,nkd->nk", off, off)).max())
     nearest = np.array([nearest_pair(before), nearest_pair(after)])
-    # Places are rounded after they are matched, so products may be a little below zero.
+    # Positions are rounded after they are matched, so products may be slightly negative.
     lost = 2.0 * float(scalars.max(axis=1).prod()) * max(0.0, -crossing(before, after).product)
     kept = _least(scalars * nearest[:, None]) ** 2 - lost
     return max(sqrt(max(kept, 0.0)) - 2.0 * missed, 0.0)
 
 
 def _least(scalars: Array) -> float:
-    """Return a bound on how near (a d0, b d1) comes to 0; its control points, shape (2, K), are not
+    """Return a lower bound of the length of (a d0, b d1), from its control points (2, K); 0 if one is
     negative.
     """
     if (scalars < NEGATIVE_TOLERANCE).any():
@@ -62,7 +65,7 @@ def _least(scalars: Array) -> float:
     ends = np.linspace(0.0, 1.0, PIECE_PARTS + 1)
     least = np.inf
     for low, high in pairwise(ends.tolist()):
-        # A polynomial of degree three by its blossom: control points on a part, from those of the spline.
+        # The blossom of a cubic gives its control points on a part from those of the spline.
         ctrl = np.stack([windows @ _weights(*at) for at in _triples(low, high)], axis=-1)
         middle = ctrl.mean(axis=-1)
         size = np.sqrt((middle**2).sum(axis=0))
@@ -76,7 +79,7 @@ def _triples(low: float, high: float) -> list[tuple[float, float, float]]:
 
 
 def _weights(r: float, s: float, t: float) -> Array:
-    """Return the weights of four control points of an even cubic B-spline in its blossom at r, s, t."""
+    """Return the weights of four control points of a uniform cubic B-spline in its blossom at r, s, t."""
     rows = np.eye(4)
     for degree, u in zip((3, 2, 1), (r, s, t), strict=True):
         share = (u + np.arange(degree - 1, -1, -1)) / degree

@@ -1,4 +1,4 @@
-"""What cannot be kept apart, as diagnostics: which two drones, when, how near, and what would do."""
+"""Diagnostics of drones that cannot be kept apart: which two, when, how near, and what helps."""
 
 from __future__ import annotations
 
@@ -21,16 +21,17 @@ from shotc.show.separation.longer import MoveBetweenStops
 from shotc.show.separation.off_goals import Off
 
 STILL_M = 1e-6
-"""Metres by which a drone on its pad moves at most."""
+"""Largest movement of a drone that stands on its pad."""
 DEGREE = 3
-"""Of the splines: a control point acts from so many breaks before its own on."""
+"""Degree of the splines: a control point acts from that many breaks before its own on."""
 
 
 class Tried(NamedTuple):
-    """What was tried of a stretch in vain.
+    """What was tried for a stretch without success.
 
-    found : what comes nearest as its goals ask for; best : separation of the best flight found, metres
-    seconds : in which it could be flown, where any time is enough
+    found : the nearest pair of the flight that the goals ask for
+    best : separation of the best flight found, m
+    seconds : a duration in which it can be flown, None if none was found
     """
 
     found: Nearest
@@ -59,14 +60,14 @@ def standing_too_near(
 
 
 def recorded_in(mission: MissionIR, flight: FleetTrajectory, span: tuple[float, float]) -> Picture | None:
-    """Return the recorded flight that is flown between two times, s, None where none is."""
+    """Return the recorded flight that is flown between two times, s, or None."""
     shots = (p for p in flight.phases if p.shot is not None and p.start < span[1] and p.end > span[0])
     pictures = (mission.display(phase.shot or "").pictures[0] for phase in shots)
     return next((p for p in pictures if isinstance(p.source, RecordedFlight)), None)
 
 
 def recorded_too_near(mission: MissionIR, fleet: Fleet, picture: Picture, tried: Tried) -> Diagnostic:
-    """Return D156: two drones of a recorded flight come too near, and nothing was found that mends it."""
+    """Return D156: two drones of a recorded flight come too near, and no repair was found."""
     nearest, across = tried.found, fleet.apart.across
     notes = [_who(fleet, nearest)]
     if tried.best > 0.0:
@@ -100,7 +101,7 @@ def too_near(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried:
 
 
 def _remedies(mission: MissionIR, fleet: Fleet, stretch: MoveBetweenStops, tried: Tried) -> Iterator[str]:
-    """Yield what would do, as far as it is known: it was planned so, or straight ways cannot fail then."""
+    """Yield known remedies: verified by planning, or with spacing for which straight moves cannot fail."""
     if tried.seconds is not None:
         yield f"give it `{stretch.key}: {tried.seconds:.2f}`, with which they can be kept apart"
     if stretch.from_pads or stretch.shown is None:
@@ -116,7 +117,9 @@ def fleets_meet(
     across: float,
     later: str,
 ) -> Diagnostic:
-    """Return D087: drones of two fleets come too near; later : which start would do, if one was found."""
+    """Return D087: drones of two fleets come too near; later : the start that helps, empty if
+    none was found.
+    """
     fleets = mission.fleet(flights[0].fleet), mission.fleet(flights[1].fleet)
     first, second = (
         drone_names(f)[row] for f, row in zip(fleets, (nearest.first, nearest.second), strict=True)
@@ -136,7 +139,7 @@ def fleets_meet(
 
 
 def _in_turn(first: FleetTrajectory, second: FleetTrajectory) -> str:
-    """Say when the fleet that shows later could begin, to leave its pads once the other has landed."""
+    """Describe when the later fleet could start so that it leaves its pads after the other has landed."""
     if second.shown[0].start < first.shown[0].start:
         first, second = second, first
     moved = np.abs(second.coef - second.coef[:, :1]).max(axis=(0, 2)) > STILL_M
@@ -149,7 +152,7 @@ def _in_turn(first: FleetTrajectory, second: FleetTrajectory) -> str:
 
 
 def bent(mission: MissionIR, fleet: Fleet, off: Off) -> Diagnostic:
-    """Return D088: somebody is far from its goal when its frame is shown."""
+    """Return D088: a drone is far from its goal when its frame is shown."""
     limits = off.distance > 2.0 * off.smooth
     why = "its limits, or keeping apart," if limits else "the smooth way through the goals"
     return Diagnostic(
@@ -178,7 +181,7 @@ def _rule(mission: MissionIR, fleet: Fleet) -> tuple[Label, ...]:
 
 
 def _shown(flight: FleetTrajectory, time: float) -> FrameTimes | None:
-    """Return the frame that is shown at a time, or the next one; None on the way up and home."""
+    """Return the frame that is shown at a time, or the next one; None during take-off and the way home."""
     first, last = flight.phases[0].end, flight.phases[-2].start
     if time <= first or time > last:
         return None

@@ -1,4 +1,6 @@
-"""Which fleet could show all it shows later, and by how much, so that it meets nobody: tried, not guessed."""
+"""Finds which fleet could show all its pictures later, and by how much, so that it meets no
+other, by trying.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +15,15 @@ from shotc.ir.show import stricter
 from shotc.rounding import at_least
 
 LATER_S = (2.0, 4.0, 6.0, 8.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0, 100.0, 120.0)
-"""By how much later is tried, seconds."""
+"""The delays to try."""
 
 
 def later_start(
     mission: MissionIR, flights: Sequence[FleetTrajectory], pair: tuple[FleetTrajectory, FleetTrajectory]
 ) -> str:
-    """Say which of two fleets that meet could show all of it how much later; empty where none is found.
+    """Describe which of two fleets that meet could show everything how much later; empty if none is found.
 
-    A flight is the same at another time, so what is found here is what the mission gives with it.
+    A delayed flight keeps its shape, so the mission gives exactly this flight with the delay.
     """
     alone = [flight for flight in pair if not _waited_for(mission, flight)]
     for seconds in LATER_S:
@@ -46,7 +48,9 @@ def _words(flight: FleetTrajectory, seconds: float) -> str:
 
 
 def _waited_for(mission: MissionIR, flight: FleetTrajectory) -> bool:
-    """Tell whether a fleet waits for others, or others for it: more than its own times would change."""
+    """Tell whether a fleet waits for others, or others for it: a delay would then change other
+    flights too.
+    """
     own = {shown.display for shown in flight.shown}
     ties = ((d.id in own) != (d.timing.after in own) for d in mission.displays if d.timing.after is not None)
     return any(ties)

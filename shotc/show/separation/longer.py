@@ -1,7 +1,8 @@
-"""The least time in which drones that pass too near can be kept apart, found by planning the stretch anew.
+"""Finds the least duration in which drones that pass too near can be kept apart, by planning the stretch
+again.
 
-A stretch from stop to stop depends on nothing beyond it, so what is found here is what the mission gives
-with that time written into it.
+A stretch from stop to stop does not depend on the rest of the flight. So the mission gives exactly this
+result if that duration is written into it.
 """
 
 from __future__ import annotations
@@ -23,22 +24,24 @@ from shotc.show.separation.pushed import CONTROL_DECIMALS, ROUNDS, pushed
 from shotc.show.solvers.qcqp import DerivativeBounds, bounded, short
 
 FACTORS = (1.5, 2.5, 4.0)
-"""By which the time is stretched until it is enough; the last one not being enough, nothing is."""
+"""Factors on the duration, tried in order; if the last is not enough, the search fails."""
 
 MOST_HALVINGS = 4
-"""Times that are tried between one that is not enough and one that is."""
+"""Durations tried between one that is not enough and one that is."""
 
 MOST_ROUNDS = 3 * ROUNDS
-"""Rounds of all tries together: what three failures cost. Where there is room a try takes few of them."""
+"""Iterations of all tries together, the cost of three failures; a try with enough room needs few."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MoveBetweenStops:
-    """What is flown from one stop to the next.
+    """The flight from one stop to the next.
 
-    breaks : shape (P + 1,); wanted : control points that the goals ask for, shape (n, P + 3, 3)
-    shown : the picture that comes of it, None on the way home; key : of what says how long it takes
-    from_pads : whether it begins over the pads
+    breaks : shape (P + 1,)
+    wanted : control points that the goals ask for, shape (n, P + 3, 3)
+    shown : the picture at its end, None on the way home
+    key : the mission's key of its duration
+    from_pads : whether it starts over the pads
     """
 
     breaks: Array
@@ -49,7 +52,7 @@ class MoveBetweenStops:
 
     @staticmethod
     def of(flight: FleetTrajectory, breaks: Array, wanted: Array) -> MoveBetweenStops:
-        """Return what is flown between two stops of a flight."""
+        """Return the stretch between two stops of a flight."""
         start, end = float(breaks[0]) - 1e-9, float(breaks[-1]) + 1e-9
         inside = [shown for shown in flight.shown if start <= shown.start <= end]
         shown = inside[-1] if inside else None
@@ -63,19 +66,19 @@ class MoveBetweenStops:
 
     @property
     def pieces(self) -> int:
-        """Return how many pieces take the time that is written."""
+        """Return how many pieces share the written duration."""
         return 1 if self.key == "period" else len(self.breaks) - 1
 
     def lasting(self, seconds: float) -> Array:
-        """Return breaks for a time that is written, as ``assign-goals`` makes them."""
+        """Return breaks for a written duration, as ``assign-goals`` makes them."""
         piece = seconds / self.pieces
         return np.array([round(float(self.breaks[0]) + k * piece, 9) for k in range(len(self.breaks))])
 
 
 def longer(stretch: MoveBetweenStops, fleet: Fleet, ctx: PassContext) -> float | None:
-    """Return the least time found that is enough, seconds up to a hundredth; None where none is."""
+    """Return the least duration found that is enough, s, rounded up to a hundredth, or None."""
     if stretch.shown is None:
-        return None  # No mission says how long the way home takes.
+        return None  # No key sets the duration of the way home.
     now = float(stretch.breaks[stretch.pieces] - stretch.breaks[0])
     trial, low = _Trial(stretch, fleet, ctx), now
     for factor in FACTORS:
@@ -94,14 +97,14 @@ def longer(stretch: MoveBetweenStops, fleet: Fleet, ctx: PassContext) -> float |
 
 
 class _Trial:
-    """Plans a stretch with other times; left : rounds that this may still take."""
+    """Plans a stretch with other durations; left : remaining iterations."""
 
     def __init__(self, stretch: MoveBetweenStops, fleet: Fleet, ctx: PassContext) -> None:
         self.stretch, self.fleet, self.ctx = stretch, fleet, ctx
         self.left = MOST_ROUNDS
 
     def enough(self, seconds: float) -> bool:
-        """Tell whether the drones are kept apart when the stretch takes so long."""
+        """Tell whether the drones are kept apart if the stretch has this duration."""
         stretch, fleet, ctx = self.stretch, self.fleet, self.ctx
         ctx.progress(f"keeping fleet {fleet.name} apart: would `{stretch.key}: {seconds:.2f}` do")
         breaks, bounds = stretch.lasting(seconds), DerivativeBounds(fleet.limits)

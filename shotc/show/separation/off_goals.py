@@ -1,4 +1,4 @@
-"""How far the drones of a flight are from the goals that they show, at worst, and why."""
+"""The largest distance of a flight's drones from the goals that they show, and its cause."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from shotc.ir.fleet import FleetTrajectory, FrameTimes
 
 @dataclass(frozen=True, slots=True)
 class Off:
-    """The farthest that anybody is from its goal when a frame is shown, metres.
+    """The largest distance of a drone from its goal when a frame is shown, m.
 
-    smooth : how far the spline that the goals alone make is from that goal, which no longer period mends
-    drone : its row; shown : the frame
+    smooth : the part due to the spline through the goals, which a longer period does not reduce
+    drone : its row
+    shown : the frame
     """
 
     distance: float
@@ -25,17 +26,17 @@ class Off:
     shown: FrameTimes
 
     def stats(self, fleet: str) -> list[tuple[str, float | str]]:
-        """Return what is told of a fleet."""
+        """Return the statistics of a fleet."""
         frame = f"{self.shown.display}/{self.shown.picture + 1}, frame {self.shown.index + 1}"
         name = f"fleet {fleet} off goals"
         return [(f"{name}, largest m", self.distance), (f"{name}, where", frame)]
 
 
 def farthest(flight: FleetTrajectory, wanted: Array) -> Off:
-    """Return who is farthest from its goal, of all frames.
+    """Return the drone that is farthest from its goal, over all frames.
 
     wanted : control points that the goals ask for, shape (n, P + 3, 3). The goal of a frame is the control
-    point that stands for the break at which it is shown (``geom.fleet_spline.centres``).
+        point for the break at which it is shown (``geom.fleet_spline.centres``).
     """
     times = np.array([shown.start for shown in flight.shown])
     at = np.abs(flight.breaks[:, None] - times).argmin(axis=0)

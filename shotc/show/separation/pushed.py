@@ -1,4 +1,4 @@
-"""Pushing the drones of one stretch apart, round after round, until the separation is proved."""
+"""Pushes the drones of one stretch apart, iteration by iteration, until the separation is proved."""
 
 from __future__ import annotations
 
@@ -15,28 +15,34 @@ from shotc.show.solvers.qcqp import INNER, DerivativeBounds, bounded
 
 ROUNDS = 25
 WEIGHT_RATIO = 1.8
-"""By which the weight of being apart grows from round to round."""
+"""Growth of the weight of the separation from iteration to iteration."""
 
 APART_WEIGHT = 10.0
 MARGIN_SHARES = (0.02, 0.004)
-"""Share of the distance that is asked for beyond it: in the first round, and more in each that follows."""
+"""Additional share of the distance that is requested: in the first iteration, and the increase in each
+further one.
+"""
 
 NOISE_M = 0.01
-"""Shift by which two that fly at each other head-on are given a side, metres."""
+"""Random shift that gives two drones flying head-on at each other a side to pass."""
 
 CONTROL_DECIMALS = 6
-"""Decimals of a metre that control points keep, as in ``assign-goals``."""
+"""Decimals of a metre in control points, as in ``assign-goals``."""
 
 HOPELESS_SHARE = 0.05
-"""Share of the distance that is lacking when nobody asks for the limits yet, which takes longest."""
+"""Missing share of the distance above which the limits are not yet enforced, because this is the slowest
+step.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pushed:
-    """What came of it.
+    """The result of pushing.
 
-    coef : control points that keep the separation and the limits, shape (n, K, 3), or None after all rounds
-    rounds : how many were done; reached : separation of the best that keeps the limits, proved, metres
+    coef : control points that keep the separation and the limits, shape (n, K, 3), or None after all
+        iterations
+    rounds : the iterations done
+    reached : proved separation of the best result within the limits, m
     """
 
     coef: Array | None
@@ -49,9 +55,11 @@ def pushed(
 ) -> Pushed:
     """Push the drones of a stretch apart.
 
-    breaks : shape (P + 1,); wanted : control points within the limits, shape (n, P + 3, 3)
-    free : those of them that may change
-    What comes of fewer rounds than needed is nothing; more of them change nothing.
+    With too few iterations there is no result; additional ones change nothing.
+
+    breaks : shape (P + 1,)
+    wanted : control points within the limits, shape (n, P + 3, 3)
+    free : the control points that may change
     """
     bounds = DerivativeBounds(fleet.limits)
     pusher = Pusher(breaks, bounds.scaled(0.999), fleet.apart, free)
@@ -74,7 +82,9 @@ def pushed(
 
 
 def _shaken(coef: Array, rows: Index, free: slice, rng: np.random.Generator) -> Array:
-    """Shift the free control points of some drones a little, so that those head-on have a side to pass."""
+    """Shift the free control points of some drones slightly, so that those flying head-on have a side to
+    pass.
+    """
     coef = coef.copy()
     coef[rows, free] += rng.normal(scale=NOISE_M, size=coef[rows, free].shape)
     return coef

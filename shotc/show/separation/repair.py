@@ -1,4 +1,4 @@
-"""Keeping the drones of one fleet apart: what breaks its separation, and how it is mended."""
+"""Keeps the drones of one fleet apart: finds violations of its separation and repairs them."""
 
 from __future__ import annotations
 
@@ -24,15 +24,14 @@ from shotc.show.separation.longer import MoveBetweenStops, longer
 from shotc.show.separation.pushed import Pushed, pushed
 
 MANY_DRONES = 1000
-"""Drones beyond which moves that all make alike are proved in closed form; verification searches all
-pairs."""
+"""Above this number of drones, common moves are proved in closed form; verification searches all pairs."""
 
 NEAR_S = 1e-6
-"""Seconds by which times that are one differ at most."""
+"""Times that differ by less are equal."""
 
 
 class Keeper:
-    """Mends the flight of one fleet; wanted : control points that its goals ask for, as in ``ShowIR``."""
+    """Repairs the flight of one fleet; wanted : control points that its goals ask for, as in ``ShowIR``."""
 
     def __init__(
         self, mission: MissionIR, fleet: Fleet, flight: FleetTrajectory, wanted: Array, ctx: PassContext
@@ -46,7 +45,7 @@ class Keeper:
         self.proven = np.inf
 
     def keep(self) -> FleetTrajectory:
-        """Return the flight with its drones kept apart, or as it is where there are faults."""
+        """Return the flight with its drones kept apart, or as far as it was repaired if there are faults."""
         self.proven = self._alike()
         if not kept(self.proven, self.across):
             self.proven = self._closest().proven
@@ -55,30 +54,32 @@ class Keeper:
         for window in windows(self.coef):
             self._mend(window)
         if not self.faults:
-            # The windows were proved one by one; what is told is of the whole.
+            # Each window was proved separately; the reported value is that of the whole flight.
             self.proven = self._closest().proven
         return replace(self.flight, coef=self.coef)
 
     def _alike(self) -> float:
-        """Return the separation of a large fleet that moves alike all the time, proved; 0 where it is not."""
+        """Return the proved separation of a large fleet with only common moves; 0 if none is proved."""
         if len(self.coef) <= MANY_DRONES:
             return 0.0
         return min(map(self._apart_in, windows(self.coef)), default=0.0)
 
     def _apart_in(self, window: Window) -> float:
-        """Return the separation in a stretch, proved; 0 where that takes a search through all pairs."""
+        """Return the proved separation in a stretch; 0 if that needs a search over all pairs."""
         counted = self._aloft()
         if counted is not None and not counted[:, window.pieces].all():
             return self._closest(window).proven
         return common(self.coef[:, window.points], self.fleet.apart)
 
     def _aloft(self) -> Mask | None:
-        """Return who is in the air on each piece, where what stands on its pad keeps less; else None."""
+        """Return which drones are in the air on each piece, if drones on their pads are exempt; else None."""
         on_pads = standing(self.fleet, self.coef)
         return None if on_pads is None else ~on_pads
 
     def _closest(self, window: Window | None = None) -> Nearest:
-        """Return the nearest pair of those that keep the separation, in a stretch or all the time."""
+        """Return the nearest pair of drones that must keep the separation, in a stretch or in the whole
+        flight.
+        """
         counted, apart = self._aloft(), self.fleet.apart
         if window is None:
             return closest(self.flight.breaks, self.coef, apart, counted)
@@ -86,7 +87,7 @@ class Keeper:
         return closest(window.breaks(self.flight.breaks), self.coef[:, window.points], apart, counted)
 
     def stats(self) -> list[tuple[str, float | str]]:
-        """Return what was done."""
+        """Return the statistics of the repair."""
         shift = np.linalg.norm(self.coef - self.flight.coef, axis=2)
         name = f"fleet {self.fleet.name} apart"
         return [
@@ -125,9 +126,9 @@ class Keeper:
         self.coef[:, window.points] = done.coef
 
     def _free(self, breaks: Array) -> slice:
-        """Return which control points of a stretch may change.
+        """Return the control points of a stretch that may change.
 
-        A recorded flight may rise and land in one stretch with all the rest: there all stay over their pads.
+        A recorded flight may take off and land in the same stretch: there the drones stay over their pads.
         """
         ends = {p.name: p.end if p.name == "takeoff" else p.start for p in self.flight.phases}
         up, down = ends.get("takeoff", -np.inf), ends.get("land", np.inf)
@@ -144,7 +145,7 @@ class Keeper:
         return too_near(self.mission, self.fleet, stretch, Tried(nearest, best, seconds))
 
     def _standing(self, window: Window) -> Nearest | None:
-        """Return who is too near at one of its stops, where nothing can be mended."""
+        """Return the pair that is too near at one of its stops, where nothing can be repaired, or None."""
         for stop in (window.first, window.last):
             at = np.repeat(self.coef[:, stop : stop + 1], 4, axis=1)
             time = float(self.flight.breaks[stop])
