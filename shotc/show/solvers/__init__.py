@@ -1,1 +1,3 @@
-"""The programmes of fleets: matching, moves, separation; see ``shotc.solvers`` for what both routes use."""
+"""The optimisation problems of fleets: matching, moves, separation; ``shotc.solvers`` has what both routes
+use.
+"""

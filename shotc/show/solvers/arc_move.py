@@ -1,12 +1,11 @@
-"""Moves of a fleet on elliptic arcs (``geom.arcs``) on one clock: where on them when, and how fast that can
-be.
+"""Moves of a fleet on elliptic arcs (``geom.arcs``) with one common clock, as fast as the limits allow.
 
-Everybody is at c + a(t) (x_i - c) + b(t) (g_i - c). (a, b) is a cubic B-spline of even pieces whose control
-points lie on a way that is free (``geom.arcs``, ``geom.least_size``), pushed out. How far along it they are
-is a profile of ``solvers.move`` over a time of its own, which runs by what the busiest drone needs there: the
-root of the sum of the squares of its share of the speeds and of the time that its acceleration takes.
-Velocity, acceleration and jerk of every drone are linear in (a, b), so differences of control points bound
-them at every instant, as of straight moves.
+Every drone is at c + a(t) (x_i - c) + b(t) (g_i - c). (a, b) is a cubic B-spline of uniform pieces, whose
+control points are on a free path (``geom.arcs``, ``geom.least_size``), moved outwards. The position along the
+path is a profile of ``solvers.move`` over a time variable of its own. That variable advances by the need of
+the busiest drone at each point: the root of the sum of squares of its speed's share and of the time that its
+acceleration takes. Velocity, acceleration and jerk of every drone are linear in (a, b), so differences of
+control points bound them at every time, as for straight moves.
 """
 
 from __future__ import annotations
@@ -23,17 +22,17 @@ from shotc.show.geom.arcs import Free, angles
 from shotc.show.solvers.move import LEAST_PIECE_S, LIMIT_SHARE, TICK_S, WORTH_RATIO, family
 
 PIECES = (12, 16, 20, 24, 32, 40)
-"""Numbers of pieces that a move may have."""
+"""Possible numbers of pieces of a move."""
 PROFILE_STRIDE = 3
-"""Profiles of the family that are tried, one in so many."""
+"""Stride of the tried profiles in the family."""
 ASKED_SHARE = 1.5
-"""Acceleration that a place on the way is given, in shares of the limit: the profile has the rest."""
+"""Acceleration allowed to a point of the path, in shares of the limit; the profile takes the rest."""
 SMOOTHED_SHARE = 0.04
-"""Share of the way over which what is needed is smoothed, so that corners of it are not met in jerks."""
+"""Share of the path over which the need is smoothed, so that corners of the path do not cause jerk."""
 DIRECTION_COUNT = 16
-"""Directions of (a, b) by which the busiest drones are told from the others."""
+"""Directions of (a, b) in which the busiest drones are searched for."""
 LACK_SHARE = 1e-4
-"""Share of the distance that a spline may lack: a fifth of the margin with which moves are asked for."""
+"""Share of the distance that a spline may lack: a fifth of the margin with which moves are requested."""
 
 BINDS = ("speed", "climb", "descent", "acceleration", "jerk")
 
@@ -43,8 +42,10 @@ class ArcMove:
     """A common move on arcs.
 
     ctrl : control points of (a, b), shape (P + 3, 2), the first three (1, 0) and the last three (0, 1)
-    pivot : the point c, shape (3,), metres; piece : seconds that each of the P pieces takes
-    limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
+    pivot : the point c, shape (3,), m
+    piece : duration of each of the P pieces, s
+    limit : name in ``ir.limits.Limits`` of the active limit
+    drone : row of the drone for which it is active
     """
 
     ctrl: Array
@@ -55,7 +56,7 @@ class ArcMove:
 
     @property
     def duration(self) -> float:
-        """Return seconds from rest to rest."""
+        """Return the time from rest to rest, s."""
         return self.piece * self.pieces
 
     @property
@@ -77,10 +78,11 @@ def fastest_arc(
     pace: float,
     easing: Easing = "ease-in-out",
 ) -> ArcMove:
-    """Return the shortest move of an easing found, every limit times ``pace`` kept by all drones.
+    """Return the shortest move of an easing that is found, within every limit times ``pace`` for all drones.
 
-    ends : places before and after, shape (n, 3) each; pivot : the point c, shape (3,)
-    free : where (a, b) may be
+    ends : positions before and after, shape (n, 3) each
+    pivot : the point c, shape (3,)
+    free : the allowed region of (a, b)
     """
     drones = Drones.of(ends, pivot, limits, pace)
     busy = drones.busiest()
@@ -93,7 +95,7 @@ def fastest_arc(
 
 
 def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
-    """Return the control points of (a, b), shape (K, 2), with which the drones are there first."""
+    """Return the control points of (a, b), shape (K, 2), of the fastest move."""
     best, found = (1.0, inf), np.zeros((0, 2))
     for line in free.ways():
         at = times_of(busy, line)
@@ -106,7 +108,7 @@ def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
             ctrl = np.stack([np.interp(along, share, line[:, k]) for k in range(2)], axis=-1)
             ctrl = free.pushed_out(ctrl)
             seconds = pieces * busy.least_pieces(ctrl)
-            # What is not free counts only where nothing is: the one that lacks least.
+            # A move that is not free is used only if none is free: the one that lacks least.
             lacks = np.maximum(1.0 - LACK_SHARE - free.least_share(ctrl), 0.0)
             k = int(np.lexsort((seconds, lacks))[0])
             if (lacks[k], float(seconds[k]) * WORTH_RATIO) < best:
@@ -115,9 +117,9 @@ def _shortest(busy: Drones, free: Free, easing: Easing) -> Array:
 
 
 def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:
-    """Return the share of the time that the busiest drone needs up to each point of a way (N, 2).
+    """Return the share of the busiest drone's time up to each point of a path (N, 2), shape (N,).
 
-    height : by which all are higher there besides, shape (N,), metres
+    height : additional height of all drones, shape (N,), m
     """
     step = 1.0 / (len(line) - 1)
     whole = np.column_stack([line, np.zeros(len(line)) if height is None else height])
@@ -127,7 +129,7 @@ def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:
     needs = np.hypot(speeds, np.sqrt(busy.shares(bend[:, :2], 2, bend[:, 2]) / ASKED_SHARE))
     wide = max(1, round(SMOOTHED_SHARE * len(line)))
     padded = np.pad(needs, wide, mode="edge")
-    smooth = np.convolve(padded, np.ones(2 * wide + 1), mode="valid")  # only shares of it count
+    smooth = np.convolve(padded, np.ones(2 * wide + 1), mode="valid")  # only ratios matter
     smooth = np.maximum(smooth, 1e-9 + 1e-6 * float(smooth.max()))
     passed = np.concatenate([[0.0], np.cumsum(0.5 * (smooth[1:] + smooth[:-1]))])
     return np.asarray(passed / passed[-1])
@@ -135,7 +137,7 @@ def times_of(busy: Drones, line: Array, height: Array | None = None) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Drones:
-    """Drones by where they begin and end about the pivot, shape (n, 3) each, and what they may."""
+    """Drones by their start and end relative to the pivot, shape (n, 3) each, and their limits."""
 
     away: Array
     there: Array
@@ -143,14 +145,16 @@ class Drones:
 
     @staticmethod
     def of(ends: tuple[Array, Array], pivot: Array, limits: Limits, pace: float) -> Drones:
-        """Return drones of two formations, shape (n, 3) each, that use a share of every limit."""
+        """Return the drones of two formations, shape (n, 3) each, with a share of every limit."""
         scale = LIMIT_SHARE * pace
         most = (limits.speed, limits.climb, limits.descent, limits.usable_acceleration, limits.jerk)
         speed, climb, descent, acceleration, jerk = (scale * m for m in most)
         return Drones(ends[0] - pivot, ends[1] - pivot, (speed, climb, descent, acceleration, jerk))
 
     def busiest(self) -> Drones:
-        """Return those of whom one has the most to do, whatever the way: the others bind nothing."""
+        """Return the drones of which one is always the busiest, whatever the path; the others are never
+        limiting.
+        """
         kept: set[int] = set()
         for a, b in angles(DIRECTION_COUNT):
             rates = a * self.away + b * self.there
@@ -162,15 +166,17 @@ class Drones:
         return Drones(self.away[rows], self.there[rows], self.ceilings)
 
     def shares(self, rates: Array, order: int, rising: Array | None = None) -> Array:
-        """Return the largest share of a limit that a derivative of (a, b), shape (..., 2), asks of
-        anybody; rising : that of a height besides, shape (...).
+        """Return the largest share of a limit that a derivative of (a, b), shape (..., 2), needs for any
+        drone.
+
+        rising : the same derivative of an additional height, shape (...)
         """
         return np.asarray(self._shares(rates, order, rising).max(axis=(-2, -1)))
 
     def least_pieces(self, ctrl: Array, lift: Array | None = None) -> Array:
-        """Return the least length of a piece for control points (..., K, 2), seconds.
+        """Return the least duration of a piece for control points (..., K, 2), s.
 
-        lift : control points (..., K) of a height by which all are higher besides, metres
+        lift : control points (..., K) of an additional height of all drones, m
         """
         least = np.full(ctrl.shape[:-2], LEAST_PIECE_S)
         for order in (1, 2, 3):
@@ -181,7 +187,7 @@ class Drones:
         return np.asarray(least)
 
     def binding(self, ctrl: Array, lift: Array | None = None) -> tuple[float, int, str]:
-        """Return the least length of a piece for control points (K, 2), whom it binds, and by what.
+        """Return the least duration of a piece for control points (K, 2), the limiting drone and the limit.
 
         lift : as in ``least_pieces``, shape (K,)
         """
@@ -198,9 +204,9 @@ class Drones:
         return best
 
     def _shares(self, rates: Array, order: int, rising: Array | None = None) -> Array:
-        """Return shares of limits, shape (..., n, 3) of speeds and (..., n, 1) of what comes after them.
+        """Return shares of limits, shape (..., n, 3) for speeds and (..., n, 1) for higher derivatives.
 
-        rising : the same derivative of a height that all have besides, shape (...), metres
+        rising : the same derivative of an additional height of all drones, shape (...), m
         """
         moved = rates[..., None, :1] * self.away + rates[..., None, 1:] * self.there
         if rising is not None:

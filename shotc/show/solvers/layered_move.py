@@ -1,10 +1,10 @@
-"""Rising and sinking in layers: one after another, each layer a vertical separation from the next at least.
+"""Take-off and landing in layers, one after another, each at least a vertical separation from the next.
 
-All of them climb by the same profile of bounded speed, acceleration and jerk, the later ones later. Control
-points are places of that profile at even times: their differences are means of its derivatives, and so keep
-every bound at every instant. Where two layers are in the air their difference is a spline, too, and in the
-hull of the differences of its control points. A layer leaves its pads with the first piece from which on all
-of these are as large as is wanted. Coming down is the same, backwards in time.
+All layers climb with the same profile of bounded speed, acceleration and jerk, later layers later. Control
+points are samples of that profile at uniform times: their differences are means of its derivatives, and so
+keep every bound at all times. The difference of two layers in the air is a spline as well, in the convex hull
+of the differences of its control points. A layer leaves its pads with the first piece from which on all of
+these are at least the wanted distance. The landing is the same, backwards in time.
 """
 
 from __future__ import annotations
@@ -22,16 +22,19 @@ from shotc.planning.timing.straight import LineLimits
 from shotc.show.solvers.move import LIMIT_SHARE
 
 PIECE_S = 0.5
-"""Seconds of a piece. A layer leaves that long after it might, or more, which files of 4 Hz show."""
+"""Duration of a piece. A layer starts up to that long later than it could, so that files of 4 Hz
+can hold it.
+"""
 FIRST_POINT = 2
-"""The control point that stands for the beginning of a move, three being a stop."""
+"""The control point for the start of a move, because a stop is three of them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LayeredMove:
-    """A move in which everybody goes straight to his goal, the drones of a layer alike.
+    """A move in which every drone flies straight to its goal, the drones of a layer in common.
 
-    shares : of the way, by layer and control point, shape (K, P + 3); layer : of each drone, shape (n,)
+    shares : of the path, by layer and control point, shape (K, P + 3)
+    layer : of each drone, shape (n,)
     """
 
     shares: Array
@@ -39,7 +42,7 @@ class LayeredMove:
 
     @property
     def duration(self) -> float:
-        """Return seconds from the first that moves to the last that rests."""
+        """Return the time from the first movement until all rest, s."""
         return PIECE_S * self.pieces
 
     @property
@@ -54,12 +57,17 @@ class LayeredMove:
 
 
 def rising(heights: Sequence[float], step: float, layer: NDArray[np.intp], limits: Limits) -> LayeredMove:
-    """Return how layers rise, the first the highest; heights : falling, m; step : between two of them, m."""
+    """Return the take-off of layers, the first the highest.
+
+    heights : of the layers, decreasing, m
+    step : between two layers, m
+    layer : of each drone, shape (n,)
+    """
     return LayeredMove(_shares(heights, step, _bounds(limits, limits.climb)), layer)
 
 
 def sinking(heights: Sequence[float], step: float, layer: NDArray[np.intp], limits: Limits) -> LayeredMove:
-    """Return how they sink, the last, lowest one first; as in ``rising``."""
+    """Return the landing of layers, the last and lowest one first; arguments as for ``rising``."""
     up = _shares(heights, step, _bounds(limits, limits.descent))
     return LayeredMove(1.0 - up[:, ::-1], layer)
 
@@ -69,7 +77,7 @@ def _bounds(limits: Limits, speed: float) -> LineLimits:
 
 
 def _shares(heights: Sequence[float], step: float, bounds: LineLimits) -> Array:
-    """Return shares of the ways up, shape (K, P + 3)."""
+    """Return shares of the paths upwards, shape (K, P + 3)."""
     needed = [ceil(bounds.rest_to_rest(height) / PIECE_S) for height in heights]
     length = FIRST_POINT + sum(needed) + len(needed) + 1
     paths: list[Array] = []
@@ -91,7 +99,7 @@ def _shares(heights: Sequence[float], step: float, bounds: LineLimits) -> Array:
 
 
 def _climb(height: float, pieces: int, bounds: LineLimits) -> Array:
-    """Return the places of a climb from rest to rest at the ends of so many pieces, shape (pieces + 1,)."""
+    """Return the heights of a climb from rest to rest at the ends of its pieces, shape (pieces + 1,)."""
     profile = bounds.profile(0.0, height)
     times = np.minimum(PIECE_S * np.arange(pieces + 1), profile.duration)
     places = profile.curve()(times)[:, 0]

@@ -1,12 +1,12 @@
-"""Moves of a fleet on which all rise alike over what lies between two formations.
+"""Moves of a fleet on which all drones rise alike over obstacles between two formations.
 
-Everybody is at c + a(t) (x_i - c) + b(t) (g_i - c) + h(t) up: on straight ways (a + b = 1) or on arcs
-(``geom.arcs``), and h(t) higher. All rise by the same, so nobody comes nearer to anybody than without it. h
-is a cubic B-spline of even pieces that is, at every place on the way, as high as something asks for there.
+Every drone is at c + a(t) (x_i - c) + b(t) (g_i - c) + h(t) up: on straight paths (a + b = 1) or on arcs
+(``geom.arcs``), h(t) higher. All drones rise by the same height, so distances between them do not change. h
+is a cubic B-spline of uniform pieces, and everywhere on the path at least the required height.
 
-The height goes with the way: it follows the concave hull of what is needed there, and the way is passed in
-the time that the busiest drone needs, as on arcs. Of some that are smoothed more or less, and of some
-profiles of speed, the one is taken with which all are there first.
+The height is a function of the position on the path: it follows the concave hull of the required height. The
+path is passed in the time that the busiest drone needs, as on arcs. Several smoothings of the height and
+several speed profiles are tried, and the fastest is taken.
 """
 
 from __future__ import annotations
@@ -28,34 +28,35 @@ from shotc.show.solvers.arc_move import LACK_SHARE, Drones, times_of
 from shotc.show.solvers.move import LEAST_PIECE_S, TICK_S, family
 
 PIECES = (16, 24, 32, 40)
-"""Pieces that a move may have that is lifted."""
+"""Possible numbers of pieces of a lifted move."""
 EVERY = 12
-"""Profiles of the family that are tried, one in so many."""
+"""Stride of the tried profiles in the family."""
 STEP_M = 1.0
-"""Metres from place to place of the longest way at which it is asked how high the fleet has to be."""
+"""Step on the longest path at which the required height is evaluated."""
 FEWEST, MOST = 33, 257
-"""Places of a way at which that is asked, at least and at most."""
+"""Least and largest number of points of a path at which it is evaluated."""
 STEPS = 600
-"""Places of a way that its height goes with."""
+"""Points of a path at which its height is stored."""
 WIDTHS = (0.0, 0.02, 0.05, 0.1)
-"""Shares of the way on either side over which its height is smoothed."""
+"""Shares of the path on either side over which its height is smoothed."""
 SAMPLES = 4
-"""Places a piece at which the height is held to what is asked for there."""
+"""Points per piece at which the height is compared with the requirement."""
 LEAST_M = 1e-3
-"""Metres below which nobody has to rise: what is placed as low as it may be is there within a rounding."""
+"""Required rises below this are ignored: positions at the least height may be there only up to rounding."""
 BEYOND_M = 0.02
-"""By how much more than is asked for the fleet rises, metres."""
+"""Additional rise beyond the requirement."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LiftedMove:
-    """A common move on which all rise alike.
+    """A common move on which all drones rise alike.
 
     ctrl : control points of (a, b), shape (P + 3, 2), the first three (1, 0) and the last three (0, 1)
-    pivot : the point c, shape (3,), metres, of no account on straight ways
-    lift : control points of the height, shape (P + 3,), the first three and the last three 0, metres
-    piece : seconds that each of the P pieces takes
-    limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
+    pivot : the point c, shape (3,), m; irrelevant on straight paths
+    lift : control points of the height, shape (P + 3,), the first three and the last three 0, m
+    piece : duration of each of the P pieces, s
+    limit : name in ``ir.limits.Limits`` of the active limit
+    drone : row of the drone for which it is active
     """
 
     ctrl: Array
@@ -67,7 +68,7 @@ class LiftedMove:
 
     @property
     def duration(self) -> float:
-        """Return seconds from rest to rest."""
+        """Return the time from rest to rest, s."""
         return self.piece * self.pieces
 
     @property
@@ -77,7 +78,7 @@ class LiftedMove:
 
     @property
     def height(self) -> float:
-        """Return by how much the fleet rises at most, metres."""
+        """Return the largest rise of the fleet, m."""
         return float(self.lift.max())
 
     def between(self, starts: Array, goals: Array) -> list[Array]:
@@ -88,47 +89,51 @@ class LiftedMove:
 
 
 class Rise(NamedTuple):
-    """How much higher a fleet has to be along its way: need (T,), metres, at shares of it, (T,), rising."""
+    """The required rise of a fleet along its path.
+
+    share : increasing shares of the path, shape (T,)
+    need : the required rise there, shape (T,), m
+    """
 
     share: Array
     need: Array
 
     def at(self, share: Array) -> Array:
-        """Return what is needed at other shares, of any shape."""
+        """Return the required rise at other shares, of any shape."""
         return np.interp(share, self.share, self.need)
 
 
 class Course(NamedTuple):
-    """Where (a, b) of a move may go: about which point, and on which arcs, None for straight ways."""
+    """The allowed (a, b) of a move: about which pivot, and on which arcs, None for straight paths."""
 
     pivot: Array
     arcs: Free | None = None
 
     def ways(self) -> Iterator[Array]:
-        """Yield (a, b) along ways from (1, 0) to (0, 1), evenly spaced, (N, 2)."""
+        """Yield (a, b) along paths from (1, 0) to (0, 1), at uniform steps, (N, 2)."""
         if self.arcs is None:
             yield np.array([[1.0, 0.0], [0.0, 1.0]])
         else:
             yield from self.arcs.ways()
 
     def pushed_out(self, ctrl: Array) -> Array:
-        """Return control points (..., K, 2) of which splines are free, or nearly."""
+        """Return control points (..., K, 2) moved outwards so that their splines are free, or nearly so."""
         return ctrl if self.arcs is None else self.arcs.pushed_out(ctrl)
 
     def free(self, ctrl: Array) -> Mask:
-        """Tell of which control points (M, K, 2) the splines are free, or nearly, (M,)."""
+        """Tell for control points (M, K, 2) whether their splines are free, or nearly so, (M,)."""
         if self.arcs is None:
             return np.ones(len(ctrl), dtype=bool)
         return np.asarray(self.arcs.least_share(ctrl) >= 1.0 - LACK_SHARE)
 
     def kept(self, ctrl: Array) -> Array:
-        """Return control points (K, 2) of which the spline is free."""
+        """Return control points (K, 2) enlarged so that their spline is free."""
         least = 1.0 if self.arcs is None else float(self.arcs.least_share(ctrl))
         return ctrl if least >= 1.0 else np.concatenate([ctrl[:3], ctrl[3:-3] / least, ctrl[-3:]])
 
 
 def sampled(ctrl: Array) -> Array:
-    """Return a spline at even places of every piece, shape (P * SAMPLES,); ctrl : shape (P + 3,)."""
+    """Return a spline at uniform points of every piece, shape (P * SAMPLES,); ctrl : shape (P + 3,)."""
     windows = np.lib.stride_tricks.sliding_window_view(ctrl, 4)
     return np.asarray((windows @ _basis().T).ravel())
 
@@ -139,11 +144,12 @@ def lifted(
     need: Callable[[Array], Array],
     drive: tuple[Limits, float, Easing],
 ) -> LiftedMove | None:
-    """Return the shortest move found that rises as is needed; None where no height is enough.
+    """Return the shortest move found with the required rise, or None if no height is enough.
 
-    ends : places before and after, shape (n, 3) each; course : where (a, b) may go
-    need : from places (a, b), shape (T, 2), to how much higher the fleet has to be there, metres, shape (T,)
-    drive : the limits, the share of them that is used, and how the speed runs
+    ends : positions before and after, shape (n, 3) each
+    course : the allowed (a, b)
+    need : from (a, b), shape (T, 2), to the required rise of the fleet there, m, shape (T,)
+    drive : the limits, the used share of them, and the easing
     """
     limits, pace, easing = drive
     drones = Drones.of(ends, course.pivot, limits, pace)
@@ -167,7 +173,7 @@ def lifted(
 
 
 class LiftedShape(NamedTuple):
-    """Control points of (a, b), shape (K, 2), and of the height, (K,), and how many seconds they take."""
+    """Control points of (a, b), shape (K, 2), and of the height, (K,), and the duration, s."""
 
     ctrl: Array
     lift: Array
@@ -175,7 +181,7 @@ class LiftedShape(NamedTuple):
 
 
 def _fastest(busy: Drones, course: Course, of: tuple[Array, Array, Rise], easing: Easing) -> LiftedShape:
-    """Return the fastest move along a way; of : (a, b) at its shares, its line, and what is needed on it."""
+    """Return the fastest move along a path; of : (a, b) at its shares, its line, and the required rise."""
     at, line, rise = of
     along_way = np.column_stack([np.interp(line[:, 0], rise.share, at[:, k]) for k in range(2)])
     times = times_of(busy, along_way, line[:, 1])
@@ -202,10 +208,11 @@ def _fastest(busy: Drones, course: Course, of: tuple[Array, Array, Rise], easing
 
 
 def _lines(far: float, rise: Rise) -> Iterator[Array]:
-    """Yield shares of the way and heights, evenly along what is flown, shape (STEPS + 1, 2).
+    """Yield shares of the path and heights, at uniform steps of flown length, shape (STEPS + 1, 2).
 
-    far : metres that whoever goes farthest has to go
-    What goes down only to come up again takes longer than what stays up: the heights are concave.
+    The heights are concave, because going down and up again takes longer than staying up.
+
+    far : the longest distance of a drone, m
     """
     hull = _concave(rise.share, rise.need)
     passed = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(rise.share) * far, np.diff(hull)))])
@@ -217,15 +224,16 @@ def _lines(far: float, rise: Rise) -> Iterator[Array]:
         smooth = np.column_stack(
             [np.convolve(np.pad(c, half, mode="edge"), kernel, mode="valid") for c in (share, height)]
         )
-        # Smoothed, it still begins and ends where it did.
+        # The smoothed line keeps its ends.
         smooth[0], smooth[-1] = (0.0, 0.0), (1.0, 0.0)
         yield smooth
 
 
 def _enough(height: Array, need: Array) -> float:
-    """Return how many times as high control points (K,) have to be, infinite where that does not help.
+    """Return the factor on control points (K,) with which they reach the required rise, infinite if none
+    does.
 
-    need : at the places of ``sampled``, shape (T,), metres
+    need : at the points of ``sampled``, shape (T,), m
     """
     asked = need > LEAST_M
     if not asked.any():
@@ -235,7 +243,7 @@ def _enough(height: Array, need: Array) -> float:
 
 
 def _concave(at: Array, values: Array) -> Array:
-    """Return the least concave row, from 0 to 0, that is nowhere below values (Andrew 1979); all (T,)."""
+    """Return the least concave sequence from 0 to 0 that is nowhere below values (Andrew 1979); all (T,)."""
     row = values.copy()
     row[0] = row[-1] = 0.0
     corners: list[int] = []

@@ -1,13 +1,15 @@
-"""Which drone goes to which goal: least squared distance, or at least no pair that would do better swapped.
+"""Assigns drones to goals: with least squared distance, or at least with no pair that gains by a swap.
 
-Two drones whose straight moves start at x_i, x_j and end at g_i, g_j never come nearer than sqrt(1/2) of
-the lesser of their first and last distances if (x_i - x_j).(g_i - g_j) >= 0 (``geom.apart``). The least sum
-of squares has that for all pairs, for a negative one would do better swapped; so has any matching in which
-no pair would. Up to ``EXACT_DRONES`` the sum is the least (``scipy.optimize.linear_sum_assignment``); more
-are halved again and again, drones and goals alike, matched exactly within the parts, and then swapped until
-no pair of all is left. Drones wait in a queue to be held against all others. Who would do better with the
-goals of another swaps at once, and both wait again: of each pair the one who was looked at last has seen the
-other as it stands, so an empty queue is the proof that no pair is left.
+Two drones with straight moves from x_i, x_j to g_i, g_j never come nearer than sqrt(1/2) of the lesser of
+their first and last distances if (x_i - x_j).(g_i - g_j) >= 0 (``geom.apart``). The least sum of squares
+satisfies this for all pairs, because a pair with a negative product would gain by a swap. So does any
+matching in which no pair gains by a swap.
+
+Up to ``EXACT_DRONES`` the sum is the least (``scipy.optimize.linear_sum_assignment``). Larger fleets are
+halved repeatedly, drones and goals alike, matched exactly within the parts, and then improved by swaps until
+no pair gains. Drones wait in a queue to be compared with all others. A drone that gains by a swap swaps at
+once, and both wait again. In each pair, the drone that was compared last has seen the other's present goal.
+So an empty queue proves that no pair gains.
 """
 
 from __future__ import annotations
@@ -26,28 +28,29 @@ from shotc.geom.bernstein import Array
 Index = NDArray[np.intp]
 
 EXACT_DRONES = 300
-"""Drones up to which the sum of squares is the least there is. Of a ball that becomes a text it ends
-0.2 per cent above, in 0.02 s for 1000 drones (0.6 s for the least) and 0.3 s for 5000 (98 s)."""
+"""Up to this number of drones the sum of squares is the least. For a ball that becomes a text, the result is
+0.2 per cent above it, in 0.02 s for 1000 drones (0.6 s for the least) and 0.3 s for 5000 (98 s).
+"""
 
 PART_DRONES = 100
-"""Drones in a part of a larger fleet, at most."""
+"""Most drones in a part of a larger fleet."""
 
 BLOCK_DRONES = 256
-"""Drones whose pairs with all others are looked at together."""
+"""Drones whose pairs with all others are evaluated together."""
 
 TOLERANCE_SHARE = 1e-9
-"""Products above minus this share of the fleet's size squared count as rounding."""
+"""Products above minus this share of the fleet's squared size count as rounding."""
 
 
 def matched(starts: Array, goals: Array) -> Index:
-    """Return which goal each drone goes to.
+    """Return the goal of each drone.
 
-    starts, goals : shape (n, 3), metres, stretched (``geom.apart.stretch``); result : shape (n,), a
-    permutation: drone i goes to goals[result[i]]
+    starts, goals : shape (n, 3), m, in the metric of the fleet (``geom.apart.stretch``)
+    result : shape (n,), a permutation: drone i goes to goals[result[i]]
     """
     near = np.asarray(cKDTree(goals).query(starts)[1])
     if len(np.unique(near)) == len(near):
-        return near  # Each has the nearest of all: nothing is less.
+        return near  # each has its nearest goal, so the sum is the least
     if len(starts) <= EXACT_DRONES:
         return _least(starts, goals)
     order = np.empty(len(starts), dtype=np.intp)
@@ -58,7 +61,7 @@ def matched(starts: Array, goals: Array) -> Index:
 
 
 class Crossing(NamedTuple):
-    """The least product of two drones' ways, square metres, and these two."""
+    """The least product of two drones' displacements, m^2, and these two drones."""
 
     product: float
     first: int
@@ -66,7 +69,7 @@ class Crossing(NamedTuple):
 
 
 def crossing(starts: Array, goals: Array) -> Crossing:
-    """Return the least (x_i - x_j).(g_i - g_j) of all pairs, square metres, and the pair; inf for one drone.
+    """Return the least (x_i - x_j).(g_i - g_j) of all pairs, m^2, and the pair; infinite for a single drone.
 
     starts, goals : shape (n, 3), in the order of the drones
     """
@@ -81,7 +84,7 @@ def _least(starts: Array, goals: Array) -> Index:
 
 
 def _parts(starts: Array, goals: Array, drones: Index, places: Index) -> list[tuple[Index, Index]]:
-    """Halve drones and goals alike, across the way in which they are widest, into parts that match."""
+    """Halve drones and goals alike along their common principal axis, into parts that are matched."""
     if len(drones) <= PART_DRONES:
         return [(drones, places)]
     x, g = starts[drones] - starts[drones].mean(axis=0), goals[places] - goals[places].mean(axis=0)
@@ -95,14 +98,14 @@ def _parts(starts: Array, goals: Array, drones: Index, places: Index) -> list[tu
 
 
 def _untangled(starts: Array, goals: Array, order: Index) -> Index:
-    """Swap the goals of pairs that do better so, until there is none.
+    """Swap the goals of pairs that gain by it, until there is none.
 
-    Each swap makes the sum of squares less, so there is an end.
+    Each swap reduces the sum of squares, so the loop ends.
     """
     order = order.copy()
     scale = TOLERANCE_SHARE * float(np.ptp(starts, axis=0).max() * np.ptp(goals, axis=0).max() + 1e-9)
     own = np.einsum("nd,nd->n", starts, goals[order])
-    both = np.concatenate([starts.T, goals[order].T])  # one product a row
+    both = np.concatenate([starts.T, goals[order].T])  # one product per row
     waiting, queued = deque(range(len(starts))), np.ones(len(starts), dtype=bool)
     while waiting:
         i = waiting.popleft()
@@ -123,7 +126,7 @@ def _untangled(starts: Array, goals: Array, order: Index) -> Index:
 
 
 def _least_products(starts: Array, goals: Array, rows: Index) -> tuple[Array, Index]:
-    """Return for some drones the least product with any other drone, and which that is."""
+    """Return for some drones the least product with any other drone, and that drone."""
     own = np.einsum("nd,nd->n", starts, goals)
     least, other = np.empty(len(rows)), np.empty(len(rows), dtype=np.intp)
     for at in range(0, len(rows), BLOCK_DRONES):

@@ -1,11 +1,11 @@
-"""The moves of a fleet on one scalar clock s(t), from 0 to 1: how it is shaped, and how short it may be.
+"""The moves of a fleet with one scalar clock s(t), from 0 to 1: its shape, and its shortest duration.
 
-Everybody goes straight from x_i to g_i as x_i + s(t) (g_i - x_i), so a bound on s', s'' and s''' is a bound
-on every drone. s is the cubic B-spline of ``geom.fleet_spline`` over even pieces; its differences bound its
-derivatives at every instant. Its control points are samples of a profile whose third derivative is
-piecewise constant (seven stretches); of a family of these, and of numbers of pieces, the one is taken that
-is done first: for a shape the least length of a piece is in closed form. The easing that a mission asks for
-says which family: at what share of its time a move may have sped up, and begins to slow down.
+Every drone flies straight from x_i to g_i as x_i + s(t) (g_i - x_i), so a bound on s', s'' and s''' bounds
+every drone. s is the cubic B-spline of ``geom.fleet_spline`` over uniform pieces; its differences bound its
+derivatives at all times. Its control points are samples of a profile with piecewise constant third derivative
+(seven stretches). From a family of these, with several numbers of pieces, the fastest is taken: for a given
+shape the least duration of a piece has a closed form. The mission's easing selects the family: at which
+shares of its time a move has sped up, and starts to slow down.
 """
 
 from __future__ import annotations
@@ -23,28 +23,28 @@ from shotc.ir.limits import Limits
 from shotc.ir.show import Easing
 
 PIECES = (8, 12, 16, 20, 32)
-"""Numbers of pieces that a move may have."""
+"""Possible numbers of pieces of a move."""
 
 WORTH_RATIO = 1.02
-"""A move of more pieces has to be faster by this factor."""
+"""A move of more pieces must be faster by this factor."""
 
 LEAST_PIECE_S = 0.1
-"""Shortest piece, seconds: below it control points rounded to a micrometre would show in the jerk."""
+"""Shortest piece: below it, the rounding of control points to a micrometre would show in the jerk."""
 
 LIMIT_SHARE = 0.999
-"""Share of the limits that is used, so that rounding breaks none."""
+"""Used share of the limits, so that rounding exceeds none."""
 
 TICK_S = 1e-6
-"""Lengths of pieces are whole numbers of it, seconds, where nobody asked for a length."""
+"""Unit of the durations of pieces, unless a duration is written."""
 
 EVEN_SHARE = 0.85
-"""Mean speed of a linear move as a share of its greatest, at least."""
+"""Least mean speed of a linear move, as a share of its greatest."""
 LONG_SHARES = (0.6, 0.65, 0.7, 0.75, 0.8)
-"""Shares of its time in which a move speeds up (ease-in) or slows down (ease-out) slowly."""
+"""Shares of its time in which a move slowly speeds up (ease-in) or slows down (ease-out)."""
 SHORT_SHARES = (0.1, 0.15, 0.2)
-"""Shares of its time in which it then slows down, or has sped up."""
+"""Shares of its time for the other, fast ramp."""
 JERK_SHARES = (0.25, 0.5, 0.75, 1.0)
-"""Shares of either in which the acceleration sets in and goes."""
+"""Shares of a ramp in which the acceleration rises and falls."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,8 +52,9 @@ class CommonMove:
     """A common move.
 
     s : control points, shape (P + 3,), the first three 0 and the last three 1
-    piece : seconds that each of the P pieces takes
-    limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
+    piece : duration of each of the P pieces, s
+    limit : name in ``ir.limits.Limits`` of the active limit
+    drone : row of the drone for which it is active
     """
 
     s: Array
@@ -63,7 +64,7 @@ class CommonMove:
 
     @property
     def duration(self) -> float:
-        """Return seconds from rest to rest."""
+        """Return the time from rest to rest, s."""
         return self.piece * self.pieces
 
     @property
@@ -79,7 +80,7 @@ class CommonMove:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ceilings:
-    """For each drone what the limits leave of s', s'' and s''', shape (n,), and what binds s'."""
+    """The bounds that each drone's limits put on s', s'' and s''', shape (n,), and the limit of s'."""
 
     first: Array
     second: Array
@@ -88,7 +89,7 @@ class Ceilings:
 
     @staticmethod
     def of(ways: Array, limits: Limits, pace: float) -> Ceilings:
-        """Return what every limit times ``pace`` leaves of moves g - x, shape (n, 3), metres."""
+        """Return the bounds of every limit times ``pace`` for moves g - x, shape (n, 3), m."""
         across, far = np.hypot(ways[:, 0], ways[:, 1]), np.linalg.norm(ways, axis=1)
         with np.errstate(divide="ignore"):
             rates = np.stack(
@@ -108,9 +109,9 @@ class Ceilings:
             )
 
     def least(self, steps: Array) -> Array:
-        """Return how short the unit of time may be of each shape, seconds, for all drones together.
+        """Return the least unit of time of each shape for all drones together, s, shape (M,).
 
-        steps : (M, 3), its largest derivatives of order 1 to 3 by that unit, or differences that bound them
+        steps : (M, 3), its largest derivatives of order 1 to 3 in that unit, or differences that bound them
         """
         first, second, third = (float(c.min()) for c in (self.first, self.second, self.third))
         with np.errstate(divide="ignore"):
@@ -118,8 +119,10 @@ class Ceilings:
         return np.asarray(np.max(times, axis=0))
 
     def binding(self, steps: Array, unit: float) -> tuple[str, int]:
-        """Return which limit binds a shape, steps of shape (3,), whose unit lasts so many seconds, and
-        whom.
+        """Return the active limit of a shape, and the drone for which it is active.
+
+        steps : largest derivatives of the shape, shape (3,)
+        unit : its unit of time, s
         """
         kept = (self.first, self.second, self.third)
         tight = [steps[k] / unit ** (k + 1) / float(kept[k].min()) for k in range(3)]
@@ -129,9 +132,9 @@ class Ceilings:
 
 
 def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-out") -> CommonMove:
-    """Return the shortest move of an easing, every limit times ``pace`` kept by all drones.
+    """Return the shortest move of an easing that is found, within every limit times ``pace`` for all drones.
 
-    ways : g - x, shape (n, 3), metres
+    ways : g - x, shape (n, 3), m
     """
     ceilings = Ceilings.of(ways, limits, pace)
     best: tuple[float, Array] | None = None
@@ -140,7 +143,7 @@ def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-
         if not len(shapes):
             continue
         least = np.maximum(ceilings.least(steps), LEAST_PIECE_S)
-        # Of those that are as fast, the smoothest.
+        # Of equally fast shapes, take the smoothest.
         k = int(np.where(least <= 1.001 * least.min(), steps[:, 2], inf).argmin())
         if best is None or pieces * least[k] * WORTH_RATIO < best[0] * (len(best[1]) - 3):
             best = float(np.ceil(least[k] / TICK_S) * TICK_S), shapes[k]
@@ -149,7 +152,7 @@ def fastest(ways: Array, limits: Limits, pace: float, easing: Easing = "ease-in-
 
 
 def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
-    """Return the least length of one of so many pieces that everybody's straight move allows, seconds."""
+    """Return the least duration of one of ``pieces`` pieces for all straight moves ``ways`` (n, 3), s."""
     if pieces < 4:
         return inf if np.abs(ways).max(initial=0.0) > 0.0 else 0.0
     ceilings = Ceilings.of(ways, limits, 1.0)
@@ -157,7 +160,7 @@ def least_piece(pieces: int, ways: Array, limits: Limits) -> float:
 
 
 def least_pieces(pieces: int, ways: Array, limits: Limits) -> Array:
-    """Return for every drone alone what ``least_piece`` is for all of them together, shape (n,)."""
+    """Return the value of ``least_piece`` for every drone alone, s, shape (n,)."""
     if pieces < 4:
         return np.where(np.abs(ways).max(axis=1) > 0.0, inf, 0.0)
     ceilings, steps = Ceilings.of(ways, limits, 1.0), family(pieces)[1]
@@ -173,8 +176,9 @@ def _steps(shapes: Array) -> Array:
 
 
 class Ramps(NamedTuple):
-    """Shares of the time of a profile in which it speeds up and slows down, and of either of these the share
-    in which its acceleration sets in and goes.
+    """The shares of a profile's time in which it speeds up and slows down.
+
+    up_jerk, down_jerk : shares of each ramp in which the acceleration rises and falls
     """
 
     up: float
@@ -184,12 +188,14 @@ class Ramps(NamedTuple):
 
     @property
     def back(self) -> Ramps:
-        """Return those of the profile that is run from its end."""
+        """Return those of the reversed profile."""
         return Ramps(self.down, self.up, self.down_jerk, self.up_jerk)
 
     @property
     def peaks(self) -> tuple[float, float, float]:
-        """Return the largest size of each derivative of the profile, of order 1 to 3, over its time."""
+        """Return the largest absolute value of each derivative of the profile, of order 1 to 3, over its
+        time.
+        """
         sets_in, out = 0.5 * self.up * self.up_jerk, 0.5 * self.down * self.down_jerk
         speed = 1.0 / (1.0 - 0.5 * (self.up + self.down))
         up, down = speed / (self.up - sets_in), speed / (self.down - out)
@@ -198,7 +204,7 @@ class Ramps(NamedTuple):
 
 @cache
 def ramps_of(easing: Easing) -> tuple[Ramps, ...]:
-    """Return the profiles of an easing; of an even one those whose speed is, by themselves."""
+    """Return the profiles of an easing; for the linear one, those with sufficiently constant speed."""
     if easing in ("ease-in", "ease-out"):
         slow = tuple(Ramps(*r) for r in product(LONG_SHARES, SHORT_SHARES, JERK_SHARES, JERK_SHARES))
         return slow if easing == "ease-in" else tuple(ramps.back for ramps in slow)
@@ -213,9 +219,9 @@ def ramps_of(easing: Easing) -> tuple[Ramps, ...]:
 def family(pieces: int, easing: Easing = "ease-in-out") -> tuple[Array, Array]:
     """Return shapes of control points, shape (M, pieces + 3), and their largest differences, (M, 3).
 
-    There are none of an easing for which so many pieces are too few.
+    The result is empty if the easing needs more pieces.
     """
-    # The profile begins one piece late and ends one early, and rests outside: three equal points at each end.
+    # The profile starts one piece late, ends one early and rests outside: three equal points at each end.
     at = np.clip((np.arange(pieces + 3) - 2.0) / (pieces - 2.0), 0.0, 1.0)
     shapes = np.array([profile(at, ramps) for ramps in ramps_of(easing)])
     steps = _steps(shapes)
@@ -230,7 +236,7 @@ def profile(at: Array, ramps: Ramps) -> Array:
     up, down = ramps.up, ramps.down
     in_, out = 0.5 * up * ramps.up_jerk, 0.5 * down * ramps.down_jerk
     ends = np.array([in_, up - in_, up, 1.0 - down, 1.0 - down + out, 1.0 - out])
-    # Both ramps reach one speed: the third derivative of the first counts as 1.
+    # Both ramps reach one speed: the third derivative of the first is normalised to 1.
     back = (up - in_) * in_ / ((down - out) * out)
     signs = np.array([1.0, 0.0, -1.0, 0.0, -back, 0.0, back])
     jumps = np.diff(signs)

@@ -1,9 +1,9 @@
-"""Pushing splines of a fleet apart where they come too near: all drones concerned at once, by L-BFGS.
+"""Pushes splines of a fleet apart where they come too near: all drones concerned at once, by L-BFGS.
 
-Least is the sum of the splines' deviation from where they were (the integral of the squared distance), of the
-squares by which pairs are too near at samples of time, and of the squared distances of velocities,
-accelerations and jerks from what the limits allow. Nothing of it is proved: whoever calls it proves the
-outcome, and comes again with more weight and margin where it is not yet enough.
+The cost is the sum of three parts: the deviation of the splines from where they were (the integral of the
+squared distance), the squared lack of distance of pairs at samples of time, and the squared distances of
+velocities, accelerations and jerks from their bounds. Nothing is proved here. The caller proves the result,
+and repeats with more weight and margin if it is not enough.
 """
 
 from __future__ import annotations
@@ -25,22 +25,23 @@ from shotc.show.solvers.qcqp import INNER, DerivativeBounds, FleetProgramme
 Index = NDArray[np.intp]
 
 STEP_SHARE = 0.35
-"""Largest way of two drones relative to each other between samples, as a share of their distance."""
+"""Largest relative displacement of two drones between samples, as a share of their distance."""
 
 LONGEST_S = 0.25
-"""Longest time between samples, seconds."""
+"""Longest time between samples."""
 
 NEAR_SHARE = 0.15
-"""Pairs that are no nearer than this beyond what is wanted are not looked at, as a share of the distance."""
+"""Pairs are considered up to this share of the distance beyond the wanted one."""
 
 MOST_ITERATIONS = 60
 
 
 @dataclass(frozen=True, slots=True)
 class Push:
-    """How hard a round pushes.
+    """The strength of one iteration.
 
-    wanted : distance of pairs, metres across; weight : of squares of distances, against deviation
+    wanted : horizontal distance of pairs, m
+    weight : of the squared distances, relative to the deviation
     """
 
     wanted: float
@@ -50,7 +51,9 @@ class Push:
 class Pusher:
     """Pushes the drones of one window.
 
-    breaks : shape (P + 1,); apart, bounds : what is to hold; free : the control points that may change
+    breaks : shape (P + 1,)
+    bounds, apart : limits and distances to keep
+    free : the control points that may change
     """
 
     def __init__(
@@ -61,7 +64,7 @@ class Pusher:
         self.scale = np.array([1.0, 1.0, stretch(apart)])
 
     def samples(self, coef: Array) -> Array:
-        """Return times so close that nobody gets far between two of them."""
+        """Return times (T,) so dense that no drone moves far between two of them."""
         velocity = np.diff(places(self.breaks, coef, self.breaks), axis=1) / np.diff(self.breaks)[:, None]
         fastest = 2.0 * float(np.linalg.norm((velocity - velocity.mean(axis=0)) * self.scale, axis=2).max())
         step = min(LONGEST_S, STEP_SHARE * self.apart.across / max(fastest, 1e-9))
@@ -69,16 +72,18 @@ class Pusher:
         return np.linspace(self.breaks[0], self.breaks[-1], count + 1)
 
     def crowded(self, coef: Array, wanted: float) -> Index:
-        """Return the drones that come nearer to another one than wanted, at samples."""
+        """Return the drones that come nearer to another one than ``wanted`` at samples."""
         times = self.samples(coef)
         at = places(self.breaks, coef, times) * self.scale
         found = [self.pairs(at[:, k], wanted) for k in range(len(times))]
         return np.unique(np.concatenate(found))
 
     def push(self, start: Array, wanted: Array, movable: Index, push: Push) -> Array:
-        """Return better control points, shape (n, K, 3).
+        """Return improved control points, shape (n, K, 3).
 
-        start : where to begin; wanted : what deviation counts from; movable : whose points may change
+        start : control points to start from, shape (n, K, 3)
+        wanted : control points from which deviation is measured, shape (n, K, 3)
+        movable : the drones whose points may change
         """
         cost = _Cost(self, start, wanted, movable, push)
         found = minimize(
@@ -94,7 +99,9 @@ class Pusher:
         return result
 
     def pairs(self, at: Array, reach: float) -> Index:
-        """Return pairs that are nearer than a distance; at : stretched places, shape (n, 3)."""
+        """Return pairs nearer than a distance, shape (P, 2); at : positions in the metric of the fleet, (n,
+        3).
+        """
         upright = self.apart.shape == "cylinder"
         ball = reach * (np.sqrt(2.0) if upright else 1.0)
         pairs = np.asarray(cKDTree(at).query_pairs(ball, output_type="ndarray"))
@@ -104,14 +111,14 @@ class Pusher:
 
 
 def sizes(relative: Array, apart: Distances) -> Array:
-    """Return stretched distances in the sense of ``geom.separation``, (M,), of relative places (M, 3)."""
+    """Return distances as in ``geom.separation``, (M,), for relative positions (M, 3)."""
     if apart.shape == "cylinder":
         return np.asarray(np.maximum(np.hypot(relative[:, 0], relative[:, 1]), np.abs(relative[:, 2])))
     return np.asarray(np.sqrt(np.einsum("md,md->m", relative, relative)))
 
 
 def slopes(relative: Array, size: Array, apart: Distances) -> Array:
-    """Return the directions in which these distances grow, shape (M, 3)."""
+    """Return the gradients of these distances, shape (M, 3)."""
     slope = relative / np.maximum(size, 1e-12)[:, None]
     if apart.shape == "cylinder":
         flat = np.abs(relative[:, 2]) < size
@@ -120,7 +127,7 @@ def slopes(relative: Array, size: Array, apart: Distances) -> Array:
 
 
 class _Cost:
-    """The function that is made least, of the movable drones' free points, shape (F, m, 3)."""
+    """The cost as a function of the movable drones' free points, shape (F, m, 3)."""
 
     def __init__(self, pusher: Pusher, start: Array, wanted: Array, movable: Index, push: Push) -> None:
         self.pusher, self.push = pusher, push
@@ -149,7 +156,7 @@ class _Cost:
         self.step = float(times[1] - times[0])
         at = places(pusher.breaks, start, times) * pusher.scale
         reach = self.push.wanted + NEAR_SHARE * pusher.apart.across
-        # Rows of the movable drones; minus one is somebody who stays.
+        # Rows of the movable drones; -1 for fixed drones.
         row = np.full(len(start), -1, dtype=np.intp)
         row[movable] = np.arange(len(movable))
         found, fixed = [], []
@@ -161,7 +168,7 @@ class _Cost:
             fixed.append(at[pairs[:, 1], k])
         pairs, self.fixed = np.concatenate(found), np.concatenate(fixed)
         self.both = pairs[:, 2] >= 0
-        # Where the two stand in a flat list of all movable drones at all times; somebody fixed has no place.
+        # Indices of both drones in a flat list of all movable drones at all times; fixed drones have none.
         self.first = pairs[:, 0] * len(movable) + pairs[:, 1]
         self.second = np.where(self.both, pairs[:, 0] * len(movable) + pairs[:, 2], 0)
 
@@ -169,7 +176,7 @@ class _Cost:
         return np.ascontiguousarray(self.start[self.free]).ravel()
 
     def __call__(self, flat: Array) -> tuple[float, Array]:
-        """Return the cost and its slope."""
+        """Return the cost and its gradient."""
         x = flat.reshape(self.shape)
         programme = self.pusher.programme
         shift = x - self.wanted

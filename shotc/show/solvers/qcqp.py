@@ -1,14 +1,14 @@
-"""The quadratic programme of *display*, Sec. IV, for a whole fleet: the nearest splines that keep the limits.
+"""The quadratic programme of *display*, Sec. IV, for a whole fleet: the nearest splines within the limits.
 
-Of each drone the integral of the squared distance to the wanted spline is least (Eq. 7, 8) among splines
-with the same first and last three control points whose velocity, acceleration and jerk have all their
-control points within the limits, so that these hold for all t. The paper bounds the velocity at k samples of
-a piece (Eq. 11), which lets it pass between them, and the acceleration axis by axis (Eq. 9).
+For each drone the integral of the squared distance to the wanted spline is minimal (Eq. 7, 8) among splines
+with the same first and last three control points, whose velocity, acceleration and jerk have all control
+points within the limits. So the limits hold for all t. The paper bounds the velocity at k samples of a piece
+(Eq. 11), which does not bound it between them, and the acceleration per axis (Eq. 9).
 
-Alternating directions (ADMM; Boyd et al. 2011, over-relaxed as in Sec. 3.4.3, a step length for each drone
-from a fixed set, so that few matrices are inverted): the quadratic part is one dense matrix for all drones
-and axes, and the rest are projections onto balls, discs and intervals. Whoever keeps the limits already is
-left alone; whoever it is too slow for is solved by Clarabel.
+The method is ADMM (Boyd et al. 2011, over-relaxed as in Sec. 3.4.3). Each drone has a step length from a
+fixed set, so that few matrices are inverted. The quadratic part is one dense matrix for all drones and axes,
+and the rest are projections onto balls, discs and intervals. Drones within the limits are left alone. Drones
+for which the iteration is too slow are solved by Clarabel.
 """
 
 from __future__ import annotations
@@ -29,24 +29,26 @@ from shotc.solvers.conic import Status
 Index = NDArray[np.intp]
 
 FIXED_POINTS = 3
-"""Control points at each end that stay."""
+"""Fixed control points at each end."""
 
 INNER = slice(FIXED_POINTS, -FIXED_POINTS)
-"""All others, which are free where nothing else is said."""
+"""All others, which are free by default."""
 
 LIMIT_SHARE = 0.9998
-"""Of the limits, what the iteration aims at: its last violation, ``EXACT_SHARE`` of it, then breaks none."""
+"""Share of the limits that the iteration aims at: its remaining violation, ``EXACT_SHARE``, then exceeds
+none.
+"""
 
 EXACT_SHARE = 1.5e-4
 STATIONARY_SHARE = 5e-4
-"""Largest share of the objective's slope that may be left."""
+"""Largest remaining share of the objective's gradient."""
 
 RELAXATION_RATIO = 1.7
 STEP_RATIOS = 4.0 ** np.arange(-5, 6)
 """Step lengths relative to the mean curvature of the objective over that of the rows."""
 
 ROUND_ITERATIONS = 20
-"""Iterations between two looks at the residuals."""
+"""Iterations between two evaluations of the residuals."""
 
 MOST_ROUNDS = 60
 BLOCK_DRONES = 128
@@ -55,7 +57,9 @@ BLOCK_DRONES = 128
 
 @dataclass(frozen=True, slots=True)
 class DerivativeBounds:
-    """What the control points of the derivatives keep; per_axis : bound each axis' acceleration (Eq. 9)."""
+    """The bounds of the derivatives' control points; per_axis : bound the acceleration of each
+    axis (Eq. 9).
+    """
 
     limits: Limits
     per_axis: bool = False
@@ -77,11 +81,13 @@ class DerivativeBounds:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bounded:
-    """What came of a fleet.
+    """The result for a fleet.
 
-    coef : control points, shape (n, K, 3); failed : rows for which there is no spline within the limits
-    changed : how many drones were not left alone; iterations : of the slowest
-    exact : how many Clarabel solved
+    coef : control points, shape (n, K, 3)
+    failed : rows without a spline within the limits
+    changed : number of drones that were changed
+    iterations : of the slowest drone
+    exact : number of drones that Clarabel solved
     """
 
     coef: Array
@@ -92,7 +98,9 @@ class Bounded:
 
 
 def overdraft(breaks: Array, coef: Array, bounds: DerivativeBounds) -> Array:
-    """Return by which share each drone exceeds its limits, at the control points, shape (n,); 0 if none."""
+    """Return the largest share by which each drone's control points exceed its limits, shape (n,); 0 if none
+    do.
+    """
     worst = np.zeros(len(coef))
     for order in (1, 2, 3):
         values = np.matmul(differences(breaks, order), coef)
@@ -103,8 +111,11 @@ def overdraft(breaks: Array, coef: Array, bounds: DerivativeBounds) -> Array:
 def bounded(breaks: Array, wanted: Array, bounds: DerivativeBounds, free: slice = INNER) -> Bounded:
     """Return for every drone the nearest spline within its bounds.
 
-    breaks : shape (P + 1,); wanted : shape (n, P + 3, 3); free : the control points that may change
-    Drones within the bounds are returned as they are, bit for bit.
+    Drones within the bounds are returned unchanged, bit for bit.
+
+    breaks : shape (P + 1,)
+    wanted : control points, shape (n, P + 3, 3)
+    free : the control points that may change
     """
     bad = np.flatnonzero(overdraft(breaks, wanted, bounds) > 0.0)
     coef, failed, exact, most = wanted.copy(), [], 0, 0
@@ -126,7 +137,7 @@ def bounded(breaks: Array, wanted: Array, bounds: DerivativeBounds, free: slice 
 
 
 def short(breaks: Array, coef: Array, bounds: DerivativeBounds, digits: int) -> Array:
-    """Return control points with few digits, of those drones that keep the bounds with them."""
+    """Return control points (n, K, 3), rounded for those drones that stay within the bounds."""
     rounded = np.round(coef, digits)
     kept = overdraft(breaks, rounded, bounds) <= 0.0
     return np.where(kept[:, None, None], rounded, coef)
@@ -145,7 +156,7 @@ def deviation(breaks: Array) -> Array:
 
 
 def _excess(values: Array, order: int, bounds: DerivativeBounds) -> Array:
-    """Return how far derivatives of shape (n, R, 3) are beyond their limits, as a share of these, (n, R)."""
+    """Return the excess of derivatives of shape (n, R, 3) over their limits, as a share of these, (n, R)."""
     limits = bounds.limits
     if order == 1:
         across = np.hypot(values[..., 0], values[..., 1]) / limits.speed
@@ -159,7 +170,7 @@ def _excess(values: Array, order: int, bounds: DerivativeBounds) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Rows:
-    """Rows of one derivative; scale : by which each is multiplied to be of length 1, shape (R,)."""
+    """Rows of one derivative; scale : factor that normalises each, shape (R,)."""
 
     order: int
     span: slice
@@ -167,7 +178,7 @@ class _Rows:
 
 
 class Optimum(NamedTuple):
-    """Control points, which drones got to an optimum, (n,), and the slowest's iterations."""
+    """Control points, which drones reached an optimum, (n,), and the iterations of the slowest."""
 
     points: Array
     done: NDArray[np.bool_]
@@ -175,7 +186,7 @@ class Optimum(NamedTuple):
 
 
 class FleetProgramme:
-    """What all drones over the same breaks share; within : the control points that are free."""
+    """The data common to all drones with the same breaks; within : the control points that are free."""
 
     def __init__(self, breaks: Array, bounds: DerivativeBounds, within: slice = INNER) -> None:
         self.bounds, self.within = bounds, within
@@ -201,7 +212,9 @@ class FleetProgramme:
         self.inverses = [np.linalg.inv(self.inner + step * gram) for step in self.steps]
 
     def solve(self, wanted: Array) -> Optimum:
-        """Return control points near the optimum, which drones got there, and the slowest's iterations."""
+        """Return control points near the optimum, (n, K, 3), which drones reached it, and the slowest's
+        iterations.
+        """
         state = _State.of(self, wanted)
         done = np.zeros(len(wanted), dtype=bool)
         result, active, rounds = wanted.copy(), np.arange(len(wanted)), 0
@@ -224,7 +237,8 @@ class FleetProgramme:
         """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""
         root = np.linalg.cholesky(self.inner + 1e-12 * np.eye(len(self.inner)))
         count = len(root)
-        # Unknowns: the shifts of all free points, axis by axis, and as many roots of the objective.
+        # Unknowns: the shifts of all free points, axis by axis, and as many square roots of the objective's
+        # terms.
         rows = ConeRows(6 * count)
         for axis in range(3):
             terms: list[Term] = [
@@ -289,7 +303,9 @@ def _project(values: Array, part: _Rows, bounds: DerivativeBounds) -> None:
 
 @dataclass(slots=True, eq=False)
 class _State:
-    """The iterates of a block of drones: x (free points), z and u (rows), the drones on the middle axis."""
+    """The iterates of a block of drones: x (free points), z and u (rows), with the drones on the
+    middle axis.
+    """
 
     programme: FleetProgramme
     base: Array
@@ -301,7 +317,7 @@ class _State:
 
     @staticmethod
     def of(programme: FleetProgramme, wanted: Array) -> _State:
-        """Begin at the wanted splines; wanted : shape (n, K, 3)."""
+        """Start at the wanted splines; wanted : shape (n, K, 3)."""
         flat = np.ascontiguousarray(np.moveaxis(wanted, 1, 0))
         count = len(wanted)
         ends = np.delete(flat, programme.within, axis=0)
@@ -320,7 +336,7 @@ class _State:
     def iterate(self, some: Index, level: int) -> tuple[Array, Array]:
         """Iterate for some drones; return their residuals, feasible and stationary below 1, shape (m,) each.
 
-        u : multipliers of the rows, not scaled by the step, so that drones may change theirs
+        The multipliers u are stored without the step length, so that a drone's step length may change.
         """
         p, step, inverse = self.programme, self.programme.steps[level], self.programme.inverses[level]
         base, pull, z = self.base[:, some], self.pull[:, some], self.z[:, some]
@@ -337,7 +353,7 @@ class _State:
         return self._violation(rows, z), self._slope(x, u * step, some)
 
     def _violation(self, rows: Array, z: Array) -> Array:
-        """Return how far the rows are from what is within the bounds, as a share of these."""
+        """Return the distance of the rows from the bounded ones, as a share of the bounds."""
         limits, worst = self.programme.bounds.limits, np.zeros(rows.shape[1])
         least = min(limits.speed, limits.climb, limits.descent), limits.usable_acceleration, limits.jerk
         for part in self.programme.rows:

@@ -1,11 +1,12 @@
-"""The moves of a fleet whose drones set out one after another, each on one profile of its own time.
+"""The moves of a fleet whose drones start one after another, each with the same profile from its own start
+on.
 
-Drone i goes straight from x_i to g_i as x_i + s((t - tau_i) / L) (g_i - x_i), with a profile s of
-``solvers.move``, its length L, seconds, and tau_i when it sets out, a share of the time W of the wave. The
-control points of all are samples of that over Q even pieces of h seconds. Differences of samples are means
-of derivatives, so that the largest derivative of s over L bounds what everybody does at every instant,
-whenever it sets out. The spline begins a piece before the first sets out and ends a piece after the last
-has arrived: the whole takes T = L + W + 2 h with h = T / Q.
+Drone i flies straight from x_i to g_i as x_i + s((t - tau_i) / L) (g_i - x_i), with a profile s of
+``solvers.move``, its duration L, s, and the start tau_i, between 0 and the duration W of the wave. The
+control points of all drones are samples of that over Q uniform pieces of h seconds. Differences of samples
+are means of derivatives, so the largest derivative of s over L bounds every drone at all times, whatever its
+start. The spline starts one piece before the first drone and ends one piece after the last has arrived: the
+whole takes T = L + W + 2 h with h = T / Q.
 """
 
 from __future__ import annotations
@@ -21,19 +22,22 @@ from shotc.ir.show import Easing
 from shotc.show.solvers.move import LEAST_PIECE_S, TICK_S, Ceilings, Ramps, profile, ramps_of
 
 PIECES_PER_MOVE = 24
-"""Pieces that the move of one drone has."""
+"""Pieces of the move of one drone."""
 LEAST_PIECES = 12
 MOST_PIECES = 500
-"""Pieces of the whole, whatever the wave lasts."""
+"""Most pieces of the whole move, for any duration of the wave."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WaveMove:
-    """A common move with departures of its own.
+    """A common move with individual starts.
 
-    ramps : the profile of every drone; departs : when each sets out after the first, shape (n,), seconds
-    duration : from when the fleet rests to when it does again, seconds; pieces : even ones, all of that
-    limit : name in ``ir.limits.Limits`` of what binds; drone : whom it binds, a row
+    ramps : the profile of every drone
+    departs : start of each after the first, shape (n,), s
+    duration : from rest to rest of the fleet, s
+    pieces : number of uniform pieces of the duration
+    limit : name in ``ir.limits.Limits`` of the active limit
+    drone : row of the drone for which it is active
     """
 
     ramps: Ramps
@@ -45,21 +49,21 @@ class WaveMove:
 
     @property
     def piece(self) -> float:
-        """Return seconds that each piece takes."""
+        """Return the duration of each piece, s."""
         return self.duration / self.pieces
 
     @property
     def own(self) -> float:
-        """Return seconds that the way of one drone takes."""
+        """Return the duration of one drone's move, s."""
         return self.duration - 2.0 * self.piece - float(self.departs.max())
 
     def lasting(self, duration: float) -> WaveMove:
-        """Return the same wave in more seconds: each drone is slower, and sets out at the same time."""
+        """Return the same wave with another duration: each drone starts at the same time and is slower."""
         return replace(self, duration=duration)
 
     @property
     def s(self) -> Array:
-        """Return the control points of the shares of the ways, shape (n, pieces + 3)."""
+        """Return the control points of the shares of the paths, shape (n, pieces + 3)."""
         since = (np.arange(self.pieces + 3) - 2.0) * self.piece
         return profile(np.clip((since - self.departs[:, None]) / self.own, 0.0, 1.0), self.ramps)
 
@@ -70,15 +74,16 @@ class WaveMove:
 
 
 def fastest_wave(ways: Array, departs: Array, limits: Limits, pace: float, easing: Easing) -> WaveMove:
-    """Return the shortest move of an easing, every limit times ``pace`` kept by all drones.
+    """Return the shortest move of an easing that is found, within every limit times ``pace`` for all drones.
 
-    ways : g - x, shape (n, 3), metres; departs : when each sets out after the first, shape (n,), seconds
+    ways : g - x, shape (n, 3), m
+    departs : start of each after the first, shape (n,), s
     """
     ceilings = Ceilings.of(ways, limits, pace)
     every = ramps_of(easing)
     peaks = np.array([ramps.peaks for ramps in every])
     least = np.maximum(ceilings.least(peaks), LEAST_PIECE_S)
-    # Of those that are as fast, the smoothest.
+    # Of equally fast profiles, take the smoothest.
     k = int(np.where(least <= 1.001 * least.min(), peaks[:, 2], np.inf).argmin())
     own = float(least[k])
     whole = own + float(departs.max())

@@ -1,10 +1,10 @@
 """bound-splines: ShowIR to ShowIR.
 
-Takes flights whose animations may ask more than the drones can do. Gives every drone the nearest spline (in
-the integral of the squared distance, *display* Sec. IV) whose velocity, acceleration and jerk keep the
-limits for all t, with the same stops: the first and the last frame of an animation are reached exactly, and
-whoever keeps the limits is left alone. An animation that nobody could fly is an error with the period that
-would do.
+Takes flights whose animations may exceed the drones' limits. Gives every drone the nearest spline (in the
+integral of the squared distance, *display* Sec. IV) whose velocity, acceleration and jerk are within the
+limits for all t, with the same stops: the first and the last frame of an animation are reached exactly.
+Drones within the limits are not changed. If no drone can fly an animation, the error names a period that is
+enough.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from shotc.show.solvers.qcqp import Bounded, DerivativeBounds, bounded, overdraf
 from shotc.show.splines.faults import too_quick
 
 CONTROL_DECIMALS = 6
-"""Decimals of a metre that control points keep, as in ``assign-goals``."""
+"""Decimals of a metre in control points, as in ``assign-goals``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class _Fitter:
         self.done: list[Bounded] = []
 
     def fit(self, window: Window) -> None:
-        """Bring one window within the limits, or say that nothing does."""
+        """Bring one window within the limits, or add a fault."""
         breaks = window.breaks(self.flight.breaks)
         wanted = self.flight.coef[:, window.points]
         if not (overdraft(breaks, wanted, self.bounds) > 0.0).any():
@@ -80,7 +80,9 @@ class _Fitter:
         self.coef[:, window.points] = short(breaks, done.coef, self.bounds, CONTROL_DECIMALS)
 
     def _slowest(self, breaks: Array, wanted: Array) -> int | None:
-        """Return who could not even go straight from the first to the last place in time, if anybody."""
+        """Return a drone that could not even fly straight from the first to the last position in time, or
+        None.
+        """
         ways, pieces = wanted[:, -1] - wanted[:, 0], len(breaks) - 1
         least = least_pieces(pieces, ways, self.fleet.limits)
         slow = int(np.argmax(least))
@@ -93,7 +95,7 @@ class _Fitter:
         return too_quick(self.mission, self.fleet, (self.flight, float(breaks[0])), (drone, way), period)
 
     def stats(self) -> list[tuple[str, float | str]]:
-        """Return what was done."""
+        """Return the statistics of the fleet."""
         shift = np.linalg.norm(self.coef - self.flight.coef, axis=2)
         name = f"fleet {self.fleet.name} bound"
         return [

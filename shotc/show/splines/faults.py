@@ -1,4 +1,4 @@
-"""What is wrong with an animation that no drone can follow."""
+"""Diagnostics of an animation that drones cannot follow."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ def too_quick(
     who: tuple[int, float],
     period: float,
 ) -> Diagnostic:
-    """Return D084: an animation ends too far from where it begins for the time it takes.
+    """Return D084: an animation ends too far from its start for its duration.
 
-    at : the flight and when the animation begins; who : a drone's row and its way from first to last, metres
-    period : with which everybody gets there, seconds
+    at : the flight, and when the animation starts, s
+    who : a drone's row and its distance from first to last frame, m
+    period : a period with which every drone arrives, s
     """
     path = picture_at(mission, *at)
     enough = at_least(period)
@@ -34,7 +35,7 @@ def too_quick(
 
 
 def picture_at(mission: MissionIR, flight: FleetTrajectory, time: float) -> KeyPath:
-    """Return where the picture is written that is shown at a time or comes next, or else the fleet."""
+    """Return the path of the picture that is shown at a time or next, or else of the fleet."""
     for shown in flight.shown:
         if shown.end >= time - 1e-9:
             return mission.display(shown.display).pictures[shown.picture].path
