@@ -56,7 +56,7 @@ def _of(one: tuple[Condition, VerifiedIR], other: tuple[Condition, VerifiedIR]) 
 
 
 def _poses(plan: VerifiedIR, shot: ComparedShot) -> Array:
-    """Return x, y, z, yaw and pitch of a camera at uniform times of a shot, shape (STAGES + 1, 5)."""
+    """Return x, y, z, yaw and pitch of a camera at uniform times of a shot, shape (STAGE_COUNT + 1, 5)."""
     (track,) = (track for track in plan.trajectory.drones if track.drone == shot.drone)
     pose = track.curve(np.linspace(shot.start, shot.end, STAGE_COUNT + 1))
     return np.asarray(pose[:, [0, 1, 2, CAM_YAW, CAM_PITCH]])

@@ -200,7 +200,8 @@ def programme(
 ) -> SplineSolution:
     """Solve the cone programme with the objective in units of ``unit`` m^2.
 
-    squares : the objective; near : as in ``minimise``
+    squares : the objective
+    near : coefficients (size, 3), as in ``minimise``
     """
     priced = [cone for cone in problem.cones if cone.price is not None]
     slacks = sum(len(cone.bound) for cone in priced)

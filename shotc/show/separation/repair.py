@@ -72,7 +72,7 @@ class Keeper:
         return common(self.coef[:, window.points], self.fleet.apart)
 
     def _aloft(self) -> Mask | None:
-        """Return which drones are in the air on each piece, if drones on their pads are exempt; else None."""
+        """Return which drones are in the air on each piece, (n, P), if they take off in layers; else None."""
         on_pads = standing(self.fleet, self.coef)
         return None if on_pads is None else ~on_pads
 

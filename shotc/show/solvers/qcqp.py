@@ -237,8 +237,7 @@ class FleetProgramme:
         """Return one drone's optimum, shape (K, 3), by an interior-point method; None if there is none."""
         root = np.linalg.cholesky(self.inner + 1e-12 * np.eye(len(self.inner)))
         count = len(root)
-        # Unknowns: the shifts of all free points, axis by axis, and as many square roots of the objective's
-        # terms.
+        # Unknowns: the shifts of all free points, axis by axis, and their products with the matrix root.
         rows = ConeRows(6 * count)
         for axis in range(3):
             terms: list[Term] = [
